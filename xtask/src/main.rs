@@ -1,1 +1,66 @@
-fn main(){}
+//! Commands of the project: `cargo xtask help` lists them.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+mod archive;
+mod cargo;
+mod demo;
+mod describe;
+mod icon;
+mod package;
+mod process;
+mod python;
+mod simulate;
+mod table;
+mod test;
+
+#[derive(Parser)]
+#[command(name = "cargo xtask", about = "Commands of the Flexbody project")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Makes an FMU of a scene
+    Package {
+        /// The scene
+        #[arg(value_name = "SCENE.json")]
+        scene: PathBuf,
+        /// Where to write [default: target/fmu/<scene name>.fmu]
+        #[arg(long, value_name = "FILE.fmu")]
+        output: Option<PathBuf>,
+    },
+    /// Simulates a scene (natively) or an FMU (with fmpy) to a CSV file
+    Simulate(simulate::Arguments),
+    /// Packages the pendulum, simulates it with fmpy, compares and draws it
+    Demo,
+    /// Regenerates the committed modelDescription/ and scenes/scene.schema.json
+    Describe,
+    /// Runs every check: formatting, clippy, Rust tests, generated files, the FMUs under fmpy
+    Test,
+}
+
+fn main() -> ExitCode {
+    let command = Arguments::parse().command;
+    let result = cargo::Workspace::locate().and_then(|workspace| match command {
+        Command::Package { scene, output } => {
+            package::package(&workspace, &scene, output.as_deref()).map(drop)
+        }
+        Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
+        Command::Demo => demo::demo(&workspace),
+        Command::Describe => describe::regenerate(&workspace),
+        Command::Test => test::test(&workspace),
+    });
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,213 @@
+"""The claims that a case may make, checked against an FMU. One function a kind.
+
+A function raises `AssertionError` with what was expected and what was found. A key or a kind that
+is not known here is an error as well: a claim that nobody checks must not pass.
+"""
+
+import csv
+import math
+
+from instance import Instance
+
+# Two times nearer than this, relative to the later, are the same communication point.
+SAME_TIME = 1e-9
+# Below this relative error the order of convergence drowns in roundoff.
+ROUNDOFF = 1e-10
+# Halvings of a bracket that a root search may take.
+MOST_HALVINGS = 200
+
+CASE_KEYS = {"purpose", "source", "scene", "claims"}
+COMMON_KEYS = {"kind", "scene", "set", "note"}
+
+
+def check_case(case):
+    """Refuses a case that says too little or too much."""
+    for key in ("purpose", "source"):
+        if not isinstance(case.get(key), str) or not case[key].strip():
+            raise AssertionError(f"{key}: expected a sentence, found {case.get(key)!r}")
+    refuse_unknown("the case", case, CASE_KEYS)
+    if not case.get("claims"):
+        raise AssertionError("claims: expected at least one, found none")
+
+
+def check(claim, folder, fmu):
+    """Checks one claim of the case in a folder."""
+    if claim.get("kind") not in KINDS:
+        raise AssertionError(f"kind: expected one of {', '.join(KINDS)}, found {claim.get('kind')!r}")
+    function, required, optional = KINDS[claim["kind"]]
+    refuse_unknown("the claim", claim, required | optional | COMMON_KEYS)
+    missing = required - claim.keys()
+    if missing:
+        raise AssertionError(f"the claim lacks {', '.join(sorted(missing))}")
+    function(claim, folder, fmu)
+
+
+def series(claim, folder, fmu):
+    """Columns of a reference agree at every communication point that it has."""
+    reference = read_reference(folder / claim["reference"])
+    columns = claim["columns"]
+    found = {}
+    with started(fmu, claim) as instance:
+        found[0.0] = instance.get(columns)
+        for time in instance.steps(claim["stop_time"], claim["step"]):
+            found[time] = instance.get(columns)
+    errors = []
+    for row in reference:
+        time = next((t for t in found if abs(t - row["t"]) <= SAME_TIME * max(1.0, t)), None)
+        if time is None:
+            continue
+        differences = [value - row[column] for value, column in zip(found[time], columns.values())]
+        if claim.get("distance", False):
+            errors.append((math.hypot(*differences), time, " and ".join(columns)))
+        else:
+            errors += [(abs(d), time, name) for d, name in zip(differences, columns)]
+    if len({time for _, time, _ in errors}) < 2:
+        raise AssertionError(f"{claim['reference']}: expected at least two communication points of the run")
+    # NaN compares as no error at all, so it is looked for by name.
+    error, time, name = max(errors, key=lambda e: math.inf if math.isnan(e[0]) else e[0])
+    if not error <= claim["absolute"]:
+        raise AssertionError(f"{name} at t = {time:g}: {error:.3e} from the reference, allowed {claim['absolute']:g}")
+
+
+def values(claim, _folder, fmu):
+    """Variables have given values at the start or at a time."""
+    expected = claim["values"]
+    found = values_at(fmu, claim, claim.get("set", {}), expected)
+    for (name, wanted), value in zip(expected.items(), found):
+        allowed = claim["relative"] * max(claim.get("scale", 0.0), abs(wanted))
+        if not abs(value - wanted) <= allowed:
+            raise AssertionError(
+                f"{name}: expected {wanted!r}, found {value!r}; {abs(value - wanted):.3e} apart, allowed {allowed:.3e}"
+            )
+
+
+def order(claim, _folder, fmu):
+    """The error of a variable falls with the order that theory gives."""
+    numbers, exact = claim["over"], claim["value"]
+    errors = []
+    for number in numbers:
+        start = {**claim.get("set", {}), claim["vary"]: number}
+        (value,) = values_at(fmu, claim, start, [claim["variable"]])
+        errors.append(abs(value - exact) / (abs(exact) or 1.0))
+    listed = ", ".join(f"{number}: {error:.3e}" for number, error in zip(numbers, errors))
+    pairs = [
+        math.log(errors[i] / errors[i + 1]) / math.log(numbers[i + 1] / numbers[i])
+        for i in range(len(numbers) - 1)
+        if min(errors[i], errors[i + 1]) > ROUNDOFF
+    ]
+    if not pairs:
+        raise AssertionError(f"no two errors above roundoff in a row; {listed}")
+    low = claim["order"] - claim["within"]
+    high = math.inf if claim.get("at_least", False) else claim["order"] + claim["within"]
+    if not low <= pairs[-1] <= high:
+        raise AssertionError(f"expected an order from {low:g} to {high:g}, found {pairs[-1]:.3f}; relative errors {listed}")
+
+
+def critical(claim, _folder, fmu):
+    """A frequency vanishes at a given start value: buckling."""
+
+    def indicator(start):
+        changed = {**claim.get("set", {}), claim["vary"]: start}
+        (frequency,) = values_at(fmu, claim, changed, [claim["indicator"]])
+        # The eigenvalue itself crosses zero smoothly; its signed root does not.
+        return frequency * abs(frequency)
+
+    found = root(indicator, *claim["between"], 0.01 * claim["relative"] * abs(claim["value"]))
+    if not abs(found - claim["value"]) <= claim["relative"] * abs(claim["value"]):
+        raise AssertionError(
+            f"{claim['indicator']} vanishes at {claim['vary']} = {found!r}, expected {claim['value']!r}"
+            f" to {claim['relative']:g} relative"
+        )
+
+
+def drift(claim, _folder, fmu):
+    """A sum of variables keeps its start value over the whole run."""
+    with started(fmu, claim) as instance:
+        start = math.fsum(instance.get(claim["sum"]))
+        largest, when = 0.0, 0.0
+        for time in instance.steps(claim["stop_time"], claim["step"]):
+            change = abs(math.fsum(instance.get(claim["sum"])) - start)
+            if not change <= largest:
+                largest, when = change, time
+    if not largest <= claim["absolute"]:
+        raise AssertionError(
+            f"{' + '.join(claim['sum'])} drifts by {largest:.3e} (t = {when:g}), allowed {claim['absolute']:g};"
+            f" {largest / claim['scale']:.3e} of the scale"
+        )
+
+
+# Kind: function, keys that it needs, keys that it may have.
+KINDS = {
+    "series": (series, {"stop_time", "step", "reference", "columns", "absolute"}, {"distance"}),
+    "values": (values, {"values", "relative"}, {"time", "step", "scale"}),
+    "order": (order, {"vary", "over", "variable", "value", "order", "within"}, {"time", "step", "at_least"}),
+    "critical": (critical, {"vary", "between", "indicator", "value", "relative"}, set()),
+    "drift": (drift, {"stop_time", "step", "sum", "scale", "absolute"}, set()),
+}
+
+
+def refuse_unknown(place, item, known):
+    unknown = item.keys() - known
+    if unknown:
+        raise AssertionError(
+            f"{place}: expected only {', '.join(sorted(known))}, found {', '.join(sorted(unknown))}"
+        )
+
+
+class started:
+    """An instance with the claim's start values, ready for steps."""
+
+    def __init__(self, fmu, claim, start=None):
+        self.instance = Instance(fmu)
+        self.start = claim.get("set", {}) if start is None else start
+
+    def __enter__(self):
+        try:
+            return self.instance.initialize(self.start)
+        except Exception as error:
+            error.add_note("\n".join(["the FMU logged:", *self.instance.messages[-5:]]))
+            self.instance.__exit__()
+            raise
+
+    def __exit__(self, *exception):
+        self.instance.__exit__(*exception)
+
+
+def values_at(fmu, claim, start, names):
+    """Values of variables at the claim's time, by default the start."""
+    with started(fmu, claim, start) as instance:
+        if claim.get("time", 0.0) > 0.0:
+            for _ in instance.steps(claim["time"], claim["step"]):
+                pass
+        return instance.get(names)
+
+
+def root(function, low, high, tolerance):
+    """The root of a function between two arguments (Illinois variant of false position)."""
+    at_low, at_high = function(low), function(high)
+    if not at_low * at_high <= 0.0:
+        raise AssertionError(f"expected a change of sign, found {at_low:g} at {low:g} and {at_high:g} at {high:g}")
+    side = 0
+    for _ in range(MOST_HALVINGS):
+        if at_low == at_high:
+            return low
+        middle = (low * at_high - high * at_low) / (at_high - at_low)
+        value = function(middle)
+        if value == 0.0:
+            return middle
+        if (value > 0.0) == (at_high > 0.0):
+            moved, high, at_high = abs(high - middle), middle, value
+            at_low *= 0.5 if side > 0 else 1.0
+            side = 1
+        else:
+            moved, low, at_low = abs(middle - low), middle, value
+            at_high *= 0.5 if side < 0 else 1.0
+            side = -1
+        if min(moved, abs(high - low)) <= tolerance:
+            return middle
+    raise AssertionError(f"no root to {tolerance:g} after {MOST_HALVINGS} steps; it lies from {low!r} to {high!r}")
+
+
+def read_reference(path):
+    with path.open(newline="", encoding="utf-8") as file:
+        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]

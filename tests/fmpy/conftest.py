@@ -1,0 +1,86 @@
+"""FMUs for the tests, each packaged once a session by the project's own command."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+from instance import Fmu, Instance
+
+ROOT = Path(__file__).resolve().parents[2]
+SWING = Path(__file__).with_name("swing.json")
+
+
+def package(scene, output):
+    """Packages a scene with `cargo xtask package`."""
+    xtask = os.environ.get("FLEXBODY_XTASK")
+    command = [xtask] if xtask else ["cargo", "xtask"]
+    command += ["package", str(scene), "--output", str(output)]
+    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise AssertionError(f"{scene} was not packaged:\n{result.stdout}{result.stderr}")
+    return output
+
+
+class Library:
+    """FMUs by scene file."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.fmus = {}
+
+    def __call__(self, scene):
+        scene = Path(scene).resolve()
+        if scene not in self.fmus:
+            place = self.folder / str(len(self.fmus))
+            place.mkdir()
+            path = package(scene, place / f"{scene.stem}.fmu")
+            self.fmus[scene] = Fmu(path, place / "extracted")
+        return self.fmus[scene]
+
+
+@pytest.fixture(scope="session")
+def fmu_of(tmp_path_factory):
+    """The FMU of a scene file."""
+    return Library(tmp_path_factory.mktemp("fmus"))
+
+
+@pytest.fixture(scope="session")
+def swing(fmu_of):
+    """A pendulum with every kind of input and output, coarse and therefore quick."""
+    return fmu_of(SWING)
+
+
+@pytest.fixture
+def instance(swing):
+    """An instance of the swing, not yet initialized."""
+    with Instance(swing) as instance:
+        yield instance
+
+
+@pytest.fixture(scope="session")
+def variant(tmp_path_factory, fmu_of):
+    """The FMU of the swing with some keys of its scene replaced."""
+
+    def make(**changes):
+        scene = json.loads(SWING.read_text(encoding="utf-8"))
+        path = tmp_path_factory.mktemp("scene") / "variant.json"
+        path.write_text(json.dumps({**scene, **changes}), encoding="utf-8")
+        return fmu_of(path)
+
+    return make
+
+
+def case_files():
+    return sorted((ROOT / "tests" / "cases").glob("*/case.json"))
+
+
+def all_scenes():
+    """Every ready scene, every scene that a case or a claim of it names, and the swing."""
+    scenes = {path for path in (ROOT / "scenes").glob("*.json") if not path.name.endswith(".schema.json")}
+    for path in case_files():
+        case = json.loads(path.read_text(encoding="utf-8"))
+        named = [case, *case["claims"]]
+        scenes.update(path.with_name(item["scene"]).resolve() for item in named if "scene" in item)
+    return [*sorted(scenes), SWING]

@@ -1,0 +1,95 @@
+//! The zip archive of an FMU. Equal content gives equal bytes on every machine and every day.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, anyhow};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+use crate::process::shown;
+
+/// Packs every file below a folder.
+pub fn pack(folder: &Path, archive: &Path) -> Result<()> {
+    let mut entries = files(folder)?
+        .into_iter()
+        .map(|path| Ok((entry_name(folder, &path)?, path)))
+        .collect::<Result<Vec<_>>>()?;
+    entries.sort();
+    // Under another name first: a reader never meets half an archive.
+    let partial = archive.with_extension("fmu.partial");
+    write(&entries, &partial).with_context(|| format!("cannot write {}", shown(&partial)))?;
+    std::fs::rename(&partial, archive).with_context(|| format!("cannot write {}", shown(archive)))
+}
+
+/// Every file below a folder, in no order.
+pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let listing = std::fs::read_dir(&folder)
+            .with_context(|| format!("cannot read the folder {}", shown(&folder)))?;
+        for entry in listing {
+            let path = entry?.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.push(path);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The name of a file relative to a folder, with forward slashes.
+pub fn entry_name(folder: &Path, path: &Path) -> Result<String> {
+    let relative = path.strip_prefix(folder)?;
+    let parts = relative.iter().map(|part| {
+        part.to_str()
+            .ok_or_else(|| anyhow!("the file name {} is not UTF-8", relative.display()))
+    });
+    Ok(parts.collect::<Result<Vec<_>>>()?.join("/"))
+}
+
+fn write(entries: &[(String, PathBuf)], archive: &Path) -> Result<()> {
+    let mut zip = ZipWriter::new(BufWriter::new(File::create(archive)?));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(9))
+        .last_modified_time(DateTime::default())
+        .large_file(false);
+    for (name, path) in entries {
+        let is_binary = name.starts_with("binaries/");
+        let mode = if is_binary { 0o755 } else { 0o644 };
+        zip.start_file(name, options.unix_permissions(mode))?;
+        zip.write_all(&std::fs::read(path)?)?;
+    }
+    zip.finish()?.flush()?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_content_gives_equal_bytes() -> Result<()> {
+        let folder = std::env::temp_dir().join(format!("xtask-archive-{}", std::process::id()));
+        let content = folder.join("content");
+        std::fs::create_dir_all(content.join("b/c"))?;
+        for name in ["z.txt", "b/c/x.txt", "b/a.txt"] {
+            std::fs::write(content.join(name), name.repeat(1000))?;
+        }
+        let archives = ["first.fmu", "second.fmu"].map(|name| folder.join(name));
+        for archive in &archives {
+            pack(&content, archive)?;
+        }
+        assert_eq!(std::fs::read(&archives[0])?, std::fs::read(&archives[1])?);
+        let written = zip::ZipArchive::new(File::open(&archives[0])?)?;
+        let names = written.file_names().collect::<Result<Vec<_>, _>>()?;
+        assert_eq!(names, ["b/a.txt", "b/c/x.txt", "z.txt"]);
+        std::fs::remove_dir_all(&folder)?;
+        Ok(())
+    }
+}

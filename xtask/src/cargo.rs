@@ -1,0 +1,100 @@
+//! Cargo, and what it builds. Paths of products come from cargo's own messages, never from guesses.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+use serde_json::Value;
+
+use crate::process;
+
+/// Where the project lies and where its products go.
+pub struct Workspace {
+    root: PathBuf,
+    target: PathBuf,
+}
+
+impl Workspace {
+    /// Asks cargo for the folders of the workspace that xtask belongs to.
+    pub fn locate() -> Result<Self> {
+        let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+        let text = process::stdout(
+            cargo()
+                .args(["metadata", "--no-deps", "--format-version", "1"])
+                .arg("--manifest-path")
+                .arg(manifest),
+        )?;
+        let metadata: Value =
+            serde_json::from_str(&text).context("cargo metadata printed broken JSON")?;
+        let folder = |key: &str| {
+            let path = metadata[key].as_str();
+            path.map(PathBuf::from)
+                .with_context(|| format!("cargo metadata names no {key}"))
+        };
+        Ok(Self {
+            root: folder("workspace_root")?,
+            target: folder("target_directory")?,
+        })
+    }
+
+    /// A file or folder of the project.
+    pub fn path(&self, relative: &str) -> PathBuf {
+        self.root.join(relative)
+    }
+
+    /// A file or folder among the products.
+    pub fn target(&self, relative: &str) -> PathBuf {
+        self.target.join(relative)
+    }
+
+    /// A cargo command in the project's folder.
+    pub fn cargo(&self, subcommand: &str) -> Command {
+        let mut command = cargo();
+        command.arg(subcommand).current_dir(&self.root);
+        command
+    }
+
+    /// Builds the shared library of an FMU and returns where it is.
+    pub fn library(&self) -> Result<PathBuf> {
+        let mut command = self.cargo("rustc");
+        command.args(["--lib", "--crate-type", "cdylib"]);
+        built(&mut command, |artifact| {
+            let is_library = |file: &&str| file.ends_with(std::env::consts::DLL_SUFFIX);
+            let files = artifact["filenames"].as_array()?;
+            files.iter().filter_map(Value::as_str).find(is_library)
+        })
+        .context("building the shared library")
+    }
+
+    /// Builds the `flexbody` program and returns where it is.
+    pub fn binary(&self) -> Result<PathBuf> {
+        let mut command = self.cargo("build");
+        command.args(["--bin", "flexbody"]);
+        built(&mut command, |artifact| artifact["executable"].as_str())
+            .context("building the flexbody program")
+    }
+}
+
+fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// Builds the package `flexbody` in release and finds a product in cargo's messages.
+fn built(command: &mut Command, product: fn(&Value) -> Option<&str>) -> Result<PathBuf> {
+    let messages = process::stdout(command.args([
+        "--package",
+        "flexbody",
+        "--release",
+        "--message-format",
+        "json-render-diagnostics",
+    ]))?;
+    for line in messages.lines() {
+        let message: Value = serde_json::from_str(line)
+            .with_context(|| format!("expected a JSON message of cargo, found {line:?}"))?;
+        let is_ours = message["target"]["name"] == "flexbody";
+        if is_ours && let Some(path) = product(&message) {
+            return Ok(path.into());
+        }
+    }
+    bail!("cargo succeeded but names no product")
+}

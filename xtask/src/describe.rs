@@ -1,0 +1,90 @@
+//! `cargo xtask describe`: what the FMU of a scene holds besides the library, and the committed
+//! copy of it for the default scene.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+use crate::archive::{entry_name, files};
+use crate::cargo::Workspace;
+use crate::icon;
+use crate::package::Stage;
+use crate::process::{run, shown, stdout};
+
+/// The scene that stands for all in the repository.
+pub const DEFAULT_SCENE: &str = "scenes/pendulum.json";
+/// The committed picture of its FMU, without binaries.
+const COMMITTED: &str = "modelDescription";
+/// The committed JSON Schema of scenes.
+const SCHEMA: &str = "scenes/scene.schema.json";
+
+/// Writes everything an FMU of the scene holds besides the library.
+pub fn describe(binary: &Path, scene: &Path, folder: &Path) -> Result<()> {
+    run(Command::new(binary)
+        .arg("describe")
+        .arg(scene)
+        .arg("--output")
+        .arg(folder))
+    .with_context(|| format!("{} does not describe an FMU", scene.display()))?;
+    icon::render(
+        &folder.join("documentation").join("scene.svg"),
+        &folder.join("model.png"),
+    )
+}
+
+/// Regenerates the committed files.
+pub fn regenerate(workspace: &Workspace) -> Result<()> {
+    let binary = workspace.binary()?;
+    let committed = workspace.path(COMMITTED);
+    if committed.exists() {
+        std::fs::remove_dir_all(&committed)
+            .with_context(|| format!("cannot clear {}", shown(&committed)))?;
+    }
+    describe(&binary, &workspace.path(DEFAULT_SCENE), &committed)?;
+    println!("wrote {}", shown(&committed));
+    let schema = workspace.path(SCHEMA);
+    std::fs::write(&schema, schema_text(&binary)?)
+        .with_context(|| format!("cannot write {}", shown(&schema)))?;
+    println!("wrote {}", shown(&schema));
+    Ok(())
+}
+
+/// Refuses committed files that differ from what would be generated now.
+pub fn check(workspace: &Workspace) -> Result<()> {
+    let binary = workspace.binary()?;
+    let stage = Stage::new(workspace)?;
+    describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0)?;
+    let committed = workspace.path(COMMITTED);
+    let mut names = BTreeSet::new();
+    for folder in [&stage.0, &committed] {
+        for file in files(folder)? {
+            names.insert(entry_name(folder, &file)?);
+        }
+    }
+    let mut stale: Vec<String> = names
+        .into_iter()
+        .filter(|name| content(&stage.0.join(name)) != content(&committed.join(name)))
+        .map(|name| format!("{COMMITTED}/{name}"))
+        .collect();
+    if content(&workspace.path(SCHEMA)) != Some(schema_text(&binary)?.into_bytes()) {
+        stale.push(SCHEMA.to_owned());
+    }
+    if !stale.is_empty() {
+        bail!(
+            "not fresh: {}; run `cargo xtask describe`",
+            stale.join(", ")
+        );
+    }
+    Ok(())
+}
+
+fn schema_text(binary: &Path) -> Result<String> {
+    stdout(Command::new(binary).arg("schema"))
+}
+
+/// Content of a file, nothing where there is none.
+fn content(path: &Path) -> Option<Vec<u8>> {
+    std::fs::read(path).ok()
+}

@@ -1,0 +1,55 @@
+//! CSV files of numbers with a line of column names.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+
+use crate::process::shown;
+
+/// A table of numbers with named columns.
+pub struct Table {
+    place: String,
+    names: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// Reads a CSV file.
+    pub fn read(path: &Path) -> Result<Self> {
+        let place = shown(path);
+        let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {place}"))?;
+        let mut lines = text.lines();
+        let header = lines.next().unwrap_or_default();
+        let names: Vec<String> = header.split(',').map(str::to_owned).collect();
+        let mut rows = Vec::new();
+        for (index, line) in lines.enumerate() {
+            let row = line
+                .split(',')
+                .map(|field| field.trim().parse())
+                .collect::<Result<Vec<f64>, _>>()
+                .with_context(|| format!("{place}, line {}: expected numbers", index + 2))?;
+            if row.len() != names.len() {
+                bail!(
+                    "{place}, line {}: expected {} numbers, found {}",
+                    index + 2,
+                    names.len(),
+                    row.len()
+                );
+            }
+            rows.push(row);
+        }
+        Ok(Self { place, names, rows })
+    }
+
+    /// A column by name.
+    pub fn column(&self, name: &str) -> Result<Vec<f64>> {
+        let Some(index) = self.names.iter().position(|known| known == name) else {
+            bail!(
+                "{}: expected a column {name:?}, found {}",
+                self.place,
+                self.names.join(", ")
+            );
+        };
+        Ok(self.rows.iter().map(|row| row[index]).collect())
+    }
+}
