@@ -66,7 +66,9 @@ def series(claim, folder, fmu):
     # NaN compares as no error at all, so it is looked for by name.
     error, time, name = max(errors, key=lambda e: math.inf if math.isnan(e[0]) else e[0])
     if not error <= claim["absolute"]:
-        raise AssertionError(f"{name} at t = {time:g}: {error:.3e} from the reference, allowed {claim['absolute']:g}")
+        raise AssertionError(
+            f"{name} at t = {time:g}: {error:.3e} from the reference, allowed {claim['absolute']:g}"
+        )
 
 
 def values(claim, _folder, fmu):
@@ -100,7 +102,9 @@ def order(claim, _folder, fmu):
     low = claim["order"] - claim["within"]
     high = math.inf if claim.get("at_least", False) else claim["order"] + claim["within"]
     if not low <= pairs[-1] <= high:
-        raise AssertionError(f"expected an order from {low:g} to {high:g}, found {pairs[-1]:.3f}; relative errors {listed}")
+        raise AssertionError(
+            f"expected an order from {low:g} to {high:g}, found {pairs[-1]:.3f}; relative errors {listed}"
+        )
 
 
 def critical(claim, _folder, fmu):
@@ -186,7 +190,9 @@ def root(function, low, high, tolerance):
     """The root of a function between two arguments (Illinois variant of false position)."""
     at_low, at_high = function(low), function(high)
     if not at_low * at_high <= 0.0:
-        raise AssertionError(f"expected a change of sign, found {at_low:g} at {low:g} and {at_high:g} at {high:g}")
+        raise AssertionError(
+            f"expected a change of sign, found {at_low:g} at {low:g} and {at_high:g} at {high:g}"
+        )
     side = 0
     for _ in range(MOST_HALVINGS):
         if at_low == at_high:
@@ -205,7 +211,9 @@ def root(function, low, high, tolerance):
             side = -1
         if min(moved, abs(high - low)) <= tolerance:
             return middle
-    raise AssertionError(f"no root to {tolerance:g} after {MOST_HALVINGS} steps; it lies from {low!r} to {high!r}")
+    raise AssertionError(
+        f"no root to {tolerance:g} after {MOST_HALVINGS} steps; it lies from {low!r} to {high!r}"
+    )
 
 
 def read_reference(path):

@@ -131,9 +131,7 @@ def hermite(start, end, length, row):
     r0, r1 = (np.array([[x[row]], [y[row]]]) for x, y, _ in (start, end))
     if start[2] is None or end[2] is None:
         return r0 + (r1 - r0) * xi
-    t0, t1 = (
-        length * np.array([[np.cos(angle[row])], [np.sin(angle[row])]]) for *_, angle in (start, end)
-    )
+    t0, t1 = (length * np.array([[np.cos(angle[row])], [np.sin(angle[row])]]) for *_, angle in (start, end))
     return (
         r0 * (1 - 3 * xi**2 + 2 * xi**3)
         + t0 * (xi - 2 * xi**2 + xi**3)
@@ -153,8 +151,16 @@ def snapshots(figure, axes, run, bodies):
                 continue
             axes.plot(*body.curve(row), color=colour, linewidth=2.4, solid_capstyle="round")
             x, y = ([place[axis][row] for place in body.places] for axis in (1, 2))
-            axes.plot(x, y, linestyle="none", marker="o", markersize=2.2, color="white",
-                      markeredgecolor=colour, markeredgewidth=0.8)
+            axes.plot(
+                x,
+                y,
+                linestyle="none",
+                marker="o",
+                markersize=2.2,
+                color="white",
+                markeredgecolor=colour,
+                markeredgewidth=0.8,
+            )
     axes.set_title("Deformed body")
     metres(axes)
     bar = figure.colorbar(plt.cm.ScalarMappable(norm, COLOURS), ax=axes, shrink=0.75, pad=0.03)
@@ -169,8 +175,9 @@ def paths(_figure, axes, run, bodies, reference):
             continue
         _, x, y, _ = body.places[-1]
         points = np.stack([x, y], axis=1)
-        line = LineCollection(np.stack([points[:-1], points[1:]], axis=1), cmap=COLOURS,
-                              linewidths=2.0, capstyle="round")
+        line = LineCollection(
+            np.stack([points[:-1], points[1:]], axis=1), cmap=COLOURS, linewidths=2.0, capstyle="round"
+        )
         line.set_array(time[:-1])
         axes.add_collection(line)
         axes.plot(x[0], y[0], marker="o", markersize=4, color=COLOURS(0.0))
@@ -178,9 +185,17 @@ def paths(_figure, axes, run, bodies, reference):
     if reference is not None:
         tenths = reference["t"] / REFERENCE_STEP
         shown = (abs(tenths - tenths.round()) < 1e-9) & (reference["t"] <= time[-1] + 1e-9)
-        axes.plot(reference["x_tip"][shown], reference["y_tip"][shown], linestyle="none", marker="o",
-                  markersize=6.5, markerfacecolor="none", markeredgecolor=INK, markeredgewidth=1.1,
-                  label="independent reference")
+        axes.plot(
+            reference["x_tip"][shown],
+            reference["y_tip"][shown],
+            linestyle="none",
+            marker="o",
+            markersize=6.5,
+            markerfacecolor="none",
+            markeredgecolor=INK,
+            markeredgewidth=1.1,
+            label="independent reference",
+        )
         axes.legend(loc="upper center")
     axes.set_title("Path of " + ", ".join(body.last for body in bodies if body.last))
     metres(axes)

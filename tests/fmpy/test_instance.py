@@ -52,7 +52,9 @@ def test_parameters_may_be_set_during_initialization(swing):
         assert instance.run(STOP, STEP) == run(swing, values)
 
 
-@pytest.mark.parametrize("name", [name for name in PARAMETERS if "force" not in name and "moment" not in name.split(".")])
+@pytest.mark.parametrize(
+    "name", [name for name in PARAMETERS if "rod.tip" not in name and "rod.middle" not in name]
+)
 def test_parameters_may_not_be_set_afterwards(swing, instance, name):
     instance.initialize()
     with pytest.raises(FMICallException) as failure:
@@ -79,8 +81,9 @@ def test_what_was_set_can_be_read(instance):
 
 def test_plain_fmpy_gives_the_same_run(swing):
     values = {"rod.density": 5000.0, "rod.tip.force[2]": -1.0}
-    result = simulate_fmu(str(swing.path), stop_time=STOP, output_interval=STEP, start_values=values,
-                          relative_tolerance=1.0e-5)
+    result = simulate_fmu(
+        str(swing.path), stop_time=STOP, output_interval=STEP, start_values=values, relative_tolerance=1.0e-5
+    )
     names = swing.names("output")
     expected = run(swing, values)
     assert len(result) == len(expected) + 1
@@ -152,12 +155,14 @@ def test_a_step_past_the_stop_time_is_an_error(instance):
 
 
 def test_roundoff_in_the_stop_time_is_forgiven(instance):
-    instance.initialize(stop_time=STOP)
+    # Added up, three steps of 0.1 end past 0.3.
+    instance.initialize(stop_time=0.3)
     time = 0.0
-    for _ in range(10):
-        instance.slave.doStep(time, STEP)
-        time += STEP
-    assert time != STOP or time == pytest.approx(STOP)
+    for _ in range(3):
+        instance.slave.doStep(time, 0.1)
+        time += 0.1
+    assert time > 0.3
+    assert instance.get(["time"]) == pytest.approx([0.3])
 
 
 @pytest.mark.parametrize("step", [0.0, -STEP, float("nan"), float("inf")])
