@@ -1,6 +1,7 @@
 """One FMU and its instances, called through fmpy's plain FMI 2.0 interface."""
 
 from ctypes import byref
+from itertools import count
 from pathlib import Path
 
 from fmpy import calloc, extract, free, read_model_description
@@ -36,19 +37,39 @@ class Fmu:
         return [name for name, v in self.variables.items() if v.causality in causalities]
 
 
+# fmpy formats log messages in a library of its own that knows only one logger a process, the last
+# one it was given. So all instances share one, and the environment tells them apart.
+LIVING = {}
+KEYS = count(1)
+
+
+def log(environment, _name, _status, _category, message):
+    LIVING[environment].messages.append(message.decode())
+
+
+LOGGER = fmi2CallbackLoggerTYPE(log)
+
+
+def callbacks(environment, memory):
+    """Callbacks of one instance, with or without functions for memory."""
+    functions = fmi2CallbackFunctions()
+    functions.logger = LOGGER
+    functions.componentEnvironment = environment
+    if memory:
+        functions.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+        functions.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+    addLoggerProxy(byref(functions))
+    return functions
+
+
 class Instance:
     """An instance that records what it logs; a context manager that frees it."""
 
     def __init__(self, fmu, *, name="instance", guid=None, folder=None, logging=True, memory=True):
         self.fmu = fmu
         self.messages = []
-        self.statuses = []
-        callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(self._log)
-        if memory:
-            callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-            callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
-        addLoggerProxy(byref(callbacks))
+        self.key = next(KEYS)
+        LIVING[self.key] = self
         self.slave = FMU2Slave(
             guid=guid or fmu.description.guid,
             unzipDirectory=str(folder or fmu.folder),
@@ -56,20 +77,18 @@ class Instance:
             instanceName=name,
         )
         try:
-            self.slave.instantiate(callbacks=callbacks, loggingOn=logging)
+            self.slave.instantiate(callbacks=callbacks(self.key, memory), loggingOn=logging)
         except Exception as error:
             self.slave.freeLibrary()
+            del LIVING[self.key]
             raise InstantiationError("\n".join(self.messages)) from error
-
-    def _log(self, _environment, _name, status, _category, message):
-        self.statuses.append(status)
-        self.messages.append(message.decode())
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
         self.slave.freeInstance()
+        del LIVING[self.key]
 
     def initialize(self, values=None, *, start_time=0.0, stop_time=None):
         """From instantiated to ready for steps: parameters before initialization, inputs during it."""

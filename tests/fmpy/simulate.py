@@ -8,6 +8,7 @@ import csv
 import sys
 
 from fmpy import read_model_description, simulate_fmu
+from fmpy.fmi2 import fmi2OK
 from tqdm import tqdm
 
 
@@ -40,8 +41,9 @@ def simulate(arguments, messages):
         bar.update(time - bar.n)
         return True
 
-    def log(_environment, _name, _status, _category, text):
-        messages.append(text.decode())
+    def log(_environment, _name, status, _category, text):
+        if status != fmi2OK:
+            messages.append(text.decode())
 
     with bar:
         return simulate_fmu(

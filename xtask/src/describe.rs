@@ -11,7 +11,7 @@ use crate::archive::{entry_name, files};
 use crate::cargo::Workspace;
 use crate::icon;
 use crate::package::Stage;
-use crate::process::{run, shown, stdout};
+use crate::process::{prepared, run, shown, stdout};
 
 /// The scene that stands for all in the repository.
 pub const DEFAULT_SCENE: &str = "scenes/pendulum.json";
@@ -37,12 +37,18 @@ pub fn describe(binary: &Path, scene: &Path, folder: &Path) -> Result<()> {
 /// Regenerates the committed files.
 pub fn regenerate(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
+    let stage = Stage::new(workspace)?;
+    describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0)?;
+    // Only now: a scene that is refused leaves the committed files as they are.
     let committed = workspace.path(COMMITTED);
     if committed.exists() {
         std::fs::remove_dir_all(&committed)
             .with_context(|| format!("cannot clear {}", shown(&committed)))?;
     }
-    describe(&binary, &workspace.path(DEFAULT_SCENE), &committed)?;
+    for file in files(&stage.0)? {
+        let copy = prepared(&committed.join(entry_name(&stage.0, &file)?))?;
+        std::fs::copy(&file, &copy).with_context(|| format!("cannot write {}", shown(&copy)))?;
+    }
     println!("wrote {}", shown(&committed));
     let schema = workspace.path(SCHEMA);
     std::fs::write(&schema, schema_text(&binary)?)
