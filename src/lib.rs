@@ -1,1 +1,24 @@
-//! Flexbody.
+//! Flexbody: flexible bodies as FMI co-simulation units.
+//!
+//! A scene in JSON becomes a simulation, and a simulation becomes a unit that any FMI 2.0 master can
+//! load. Modules stand on floors; each imports only lower ones:
+//!
+//! | floor | module | holds |
+//! |---|---|---|
+//! | 0 | [`math`] | quadrature, structured solves, factorizations |
+//! | 1 | [`elements`] | mass, force and tangent of a finite element |
+//! | 2 | [`body`] | connectivity, elimination of constraints, markers |
+//! | 3 | [`system`] | the constant system, its state, joints and loads |
+//! | 4 | [`integrators`] | time stepping with error control |
+//! | 5 | [`scene`] | JSON to a validated scene to a system |
+//! | 6 | [`simulation`] | a scene with parameters and inputs, stepped in time |
+//! | 7 | [`fmi2`] | model description, documentation and C interface |
+
+pub mod body;
+pub mod elements;
+pub mod fmi2;
+pub mod integrators;
+pub mod math;
+pub mod scene;
+pub mod simulation;
+pub mod system;

@@ -1,0 +1,487 @@
+//! The C interface of FMI 2.0 for co-simulation: the only unsafe code.
+//!
+//! Every function does three things: it borrows what the master lends for the call, passes one
+//! guard (NULL instance, lifecycle, panic), and leaves the work to safe code in
+//! [`super::instance`].
+//!
+//! # Safety
+//! All functions rely on what the standard asks of a master: pointers are NULL or valid for the
+//! call with the stated number of entries; an instance is NULL or came from [`fmi2Instantiate`],
+//! has not been freed, and is not in another call at the same time; likewise a saved state came
+//! from this library. Enumerations arrive as plain integers, so that no value of theirs is
+//! undefined behaviour.
+#![allow(non_snake_case, reason = "the names are those of the standard")]
+#![allow(
+    clippy::missing_safety_doc,
+    reason = "one contract for all, stated above"
+)]
+
+use std::ffi::{CStr, CString};
+use std::mem::MaybeUninit;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr;
+use std::slice;
+use std::sync::atomic::{AtomicPtr, Ordering};
+
+use libc::{c_char, c_int, c_uint, c_void, size_t};
+
+use super::instance::{Instance, Request};
+use super::lifecycle::Function;
+use super::logger::{Logger, Sink};
+use super::state::SavedState;
+use super::status::Fault;
+pub use super::status::Status;
+
+/// `fmi2Component`.
+pub type Component = *mut c_void;
+/// `fmi2FMUstate`.
+pub type FmuState = *mut c_void;
+/// `fmi2CallbackLogger`.
+pub type LoggerCallback = unsafe extern "C" fn(
+    environment: *mut c_void,
+    instance_name: *const c_char,
+    status: Status,
+    category: *const c_char,
+    message: *const c_char,
+    ...
+);
+
+/// `fmi2CallbackFunctions`.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct CallbackFunctions {
+    /// Receives messages; may be NULL.
+    pub logger: Option<LoggerCallback>,
+    /// Not used: the library has its own allocator.
+    pub allocate_memory: Option<unsafe extern "C" fn(size_t, size_t) -> *mut c_void>,
+    /// Not used: the library has its own allocator.
+    pub free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
+    /// Not used: no step runs in the background.
+    pub step_finished: Option<unsafe extern "C" fn(*mut c_void, Status)>,
+    /// Passed back to the logger as it is.
+    pub component_environment: *mut c_void,
+}
+
+/// `fmi2CoSimulation` of `fmi2Type`.
+const CO_SIMULATION: c_int = 1;
+/// `fmi2LastSuccessfulTime` of `fmi2StatusKind`.
+const LAST_SUCCESSFUL_TIME: c_int = 2;
+/// `fmi2Terminated` of `fmi2StatusKind`.
+const TERMINATED: c_int = 3;
+
+/// The guard of every function on an instance.
+unsafe fn guard(
+    c: Component,
+    function: Function,
+    body: impl FnOnce(&mut Instance) -> Result<(), Fault>,
+) -> Status {
+    // SAFETY: NULL, or an instance that no other call uses (module contract).
+    match unsafe { c.cast::<Instance>().as_mut() } {
+        Some(instance) => instance.call(function, body),
+        None => Status::Error,
+    }
+}
+
+/// Whether a pointer may stand for an array of `count` entries.
+fn usable<T>(data: *const T, count: usize) -> bool {
+    !data.is_null() && count <= isize::MAX as usize / size_of::<T>()
+}
+
+/// An array that the master lends for reading.
+unsafe fn lent<'a, T>(name: &'static str, data: *const T, count: usize) -> Result<&'a [T], Fault> {
+    match count {
+        0 => Ok(&[]),
+        _ if !usable(data, count) => Err(Fault::Pointer(name)),
+        // SAFETY: not NULL, and valid for `count` entries (module contract).
+        _ => Ok(unsafe { slice::from_raw_parts(data, count) }),
+    }
+}
+
+/// An array that the master lends for writing; nobody says that it holds values yet.
+unsafe fn lent_mut<'a, T>(
+    name: &'static str,
+    data: *mut T,
+    count: usize,
+) -> Result<&'a mut [MaybeUninit<T>], Fault> {
+    match count {
+        0 => Ok(&mut []),
+        _ if !usable(data, count) => Err(Fault::Pointer(name)),
+        // SAFETY: not NULL, and valid for `count` entries (module contract).
+        _ => Ok(unsafe { slice::from_raw_parts_mut(data.cast(), count) }),
+    }
+}
+
+/// A place that the master lends for one result.
+unsafe fn place<'a, T>(name: &'static str, data: *mut T) -> Result<&'a mut MaybeUninit<T>, Fault> {
+    // SAFETY: NULL, or valid for one value (module contract).
+    unsafe { data.cast::<MaybeUninit<T>>().as_mut() }.ok_or(Fault::Pointer(name))
+}
+
+/// A text that the master lends; `None` for NULL.
+unsafe fn text<'a>(name: &'static str, data: *const c_char) -> Result<Option<&'a str>, Fault> {
+    if data.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: not NULL, and a C string (module contract).
+    let bytes = unsafe { CStr::from_ptr(data) };
+    bytes.to_str().map(Some).map_err(|_| Fault::Text(name))
+}
+
+/// A saved state that the master holds.
+unsafe fn saved<'a>(state: FmuState) -> Result<&'a SavedState, Fault> {
+    // SAFETY: NULL, or a state of this library (module contract).
+    unsafe { state.cast::<SavedState>().as_ref() }.ok_or(Fault::Pointer("FMUstate"))
+}
+
+/// The master's logger as a safe function.
+fn sink(callbacks: CallbackFunctions, instance_name: CString) -> Option<Sink> {
+    let logger = callbacks.logger?;
+    // An atomic pointer may move between threads, as a master's calls do; it is not followed here.
+    let environment = AtomicPtr::new(callbacks.component_environment);
+    Some(Box::new(move |status, category, message| {
+        let (name, category, text) = (instance_name.as_ptr(), category.as_ptr(), message.as_ptr());
+        let environment = environment.load(Ordering::Relaxed);
+        // SAFETY: the master's own function, with its own pointer and C strings that outlive the
+        // call. The text goes through "%s", because the logger takes a format.
+        unsafe { logger(environment, name, status, category, c"%s".as_ptr(), text) };
+    }))
+}
+
+/// `fmi2GetTypesPlatform`.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetTypesPlatform() -> *const c_char {
+    c"default".as_ptr()
+}
+
+/// `fmi2GetVersion`.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetVersion() -> *const c_char {
+    c"2.0".as_ptr()
+}
+
+/// `fmi2Instantiate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    instanceName: *const c_char,
+    fmuType: c_int,
+    fmuGUID: *const c_char,
+    fmuResourceLocation: *const c_char,
+    functions: *const CallbackFunctions,
+    _visible: c_int,
+    loggingOn: c_int,
+) -> Component {
+    let instantiate = || {
+        // SAFETY: all are NULL or valid for the call (module contract); the callbacks are copied,
+        // because they may be gone afterwards. Bytes that are not UTF-8 cannot be right anywhere
+        // and are treated like a missing text.
+        unsafe {
+            let read = |name, data| text(name, data).unwrap_or_default();
+            let name = read("instanceName", instanceName).unwrap_or_default();
+            let sink = functions.as_ref().map(|callbacks| {
+                let name = CString::new(name).unwrap_or_default();
+                sink(*callbacks, name)
+            });
+            let request = Request {
+                name,
+                co_simulation: fmuType == CO_SIMULATION,
+                guid: read("fmuGUID", fmuGUID).unwrap_or_default(),
+                location: read("fmuResourceLocation", fmuResourceLocation),
+            };
+            Instance::instantiate(&request, Logger::new(sink?, loggingOn != 0))
+        }
+    };
+    match catch_unwind(instantiate) {
+        Ok(Some(instance)) => Box::into_raw(Box::new(instance)).cast(),
+        _ => ptr::null_mut(),
+    }
+}
+
+/// `fmi2FreeInstance`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
+    if !c.is_null() {
+        // SAFETY: made by `Box::into_raw` in `fmi2Instantiate` and freed only here.
+        let instance = unsafe { Box::from_raw(c.cast::<Instance>()) };
+        // After a defect the instance may be half-changed, and dropping it may panic as well.
+        let _ = catch_unwind(AssertUnwindSafe(|| drop(instance)));
+    }
+}
+
+/// `fmi2SetDebugLogging`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetDebugLogging(
+    c: Component,
+    loggingOn: c_int,
+    nCategories: size_t,
+    categories: *const *const c_char,
+) -> Status {
+    // SAFETY: module contract, for all three.
+    unsafe {
+        guard(c, Function::SetDebugLogging, |instance| {
+            let category = |data: &*const c_char| {
+                text("categories", *data)?.ok_or(Fault::Pointer("categories"))
+            };
+            let names = lent("categories", categories, nCategories)?
+                .iter()
+                .map(category);
+            instance.set_debug_logging(loggingOn != 0, names)
+        })
+    }
+}
+
+/// `fmi2SetupExperiment`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetupExperiment(
+    c: Component,
+    toleranceDefined: c_int,
+    tolerance: f64,
+    startTime: f64,
+    stopTimeDefined: c_int,
+    stopTime: f64,
+) -> Status {
+    let tolerance = (toleranceDefined != 0).then_some(tolerance);
+    let stop = (stopTimeDefined != 0).then_some(stopTime);
+    let body = |instance: &mut Instance| instance.set_up_experiment(tolerance, startTime, stop);
+    // SAFETY: module contract.
+    unsafe { guard(c, Function::SetupExperiment, body) }
+}
+
+/// Functions that take nothing but the instance.
+macro_rules! transitions {
+    ($($name:ident: $function:ident, $body:expr;)*) => {$(
+        #[doc = concat!("`", stringify!($name), "`.")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(c: Component) -> Status {
+            // SAFETY: module contract.
+            unsafe { guard(c, Function::$function, $body) }
+        }
+    )*};
+}
+
+transitions! {
+    fmi2EnterInitializationMode: EnterInitializationMode, Instance::enter_initialization_mode;
+    fmi2ExitInitializationMode: ExitInitializationMode, Instance::exit_initialization_mode;
+    fmi2Terminate: Terminate, Instance::terminate;
+    fmi2Reset: Reset, Instance::reset;
+    fmi2CancelStep: CancelStep, |_| Ok(());
+}
+
+/// Functions that read variables of one type.
+macro_rules! getters {
+    ($($name:ident: $function:ident, $type:ty, $body:expr;)*) => {$(
+        #[doc = concat!("`", stringify!($name), "`.")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            c: Component,
+            vr: *const c_uint,
+            nvr: size_t,
+            value: *mut $type,
+        ) -> Status {
+            let body: fn(&mut Instance, &[u32], &mut [MaybeUninit<$type>]) -> _ = $body;
+            // SAFETY: module contract, for both arrays and the instance.
+            unsafe {
+                let (vr, value) = (lent("vr", vr, nvr), lent_mut("value", value, nvr));
+                guard(c, Function::$function, |instance| body(instance, vr?, value?))
+            }
+        }
+    )*};
+}
+
+getters! {
+    fmi2GetReal: GetReal, f64, Instance::get_real;
+    fmi2GetInteger: GetInteger, c_int, Instance::get_integer;
+    fmi2GetBoolean: GetBoolean, c_int, |instance, vr, _| instance.no_such_type(vr, "Boolean");
+    fmi2GetString: GetString, *const c_char, |instance, vr, _| instance.no_such_type(vr, "String");
+}
+
+/// Functions that set variables of one type.
+macro_rules! setters {
+    ($($name:ident: $function:ident, $type:ty, $body:expr;)*) => {$(
+        #[doc = concat!("`", stringify!($name), "`.")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            c: Component,
+            vr: *const c_uint,
+            nvr: size_t,
+            value: *const $type,
+        ) -> Status {
+            let body: fn(&mut Instance, &[u32], &[$type]) -> _ = $body;
+            // SAFETY: module contract, for both arrays and the instance.
+            unsafe {
+                let (vr, value) = (lent("vr", vr, nvr), lent("value", value, nvr));
+                guard(c, Function::$function, |instance| body(instance, vr?, value?))
+            }
+        }
+    )*};
+}
+
+setters! {
+    fmi2SetReal: SetReal, f64, Instance::set_real;
+    fmi2SetInteger: SetInteger, c_int, Instance::set_integer;
+    fmi2SetBoolean: SetBoolean, c_int, |instance, vr, _| instance.no_such_type(vr, "Boolean");
+    fmi2SetString: SetString, *const c_char, |instance, vr, _| instance.no_such_type(vr, "String");
+}
+
+/// `fmi2GetFMUstate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
+    // SAFETY: module contract; `*FMUstate` is NULL or a state of this library, which is reused.
+    unsafe {
+        guard(c, Function::GetFmuState, |instance| {
+            let place = FMUstate.as_mut().ok_or(Fault::Pointer("FMUstate"))?;
+            let state = instance.save();
+            match place.cast::<SavedState>().as_mut() {
+                Some(old) => *old = state,
+                None => *place = Box::into_raw(Box::new(state)).cast(),
+            }
+            Ok(())
+        })
+    }
+}
+
+/// `fmi2SetFMUstate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> Status {
+    // SAFETY: module contract.
+    unsafe {
+        guard(c, Function::SetFmuState, |instance| {
+            instance.restore(saved(FMUstate)?)
+        })
+    }
+}
+
+/// `fmi2FreeFMUstate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
+    // SAFETY: module contract; a state was made by `Box::into_raw`, and NULL takes its place.
+    unsafe {
+        guard(c, Function::FreeFmuState, |_| {
+            if let Some(place) = FMUstate.as_mut()
+                && !place.is_null()
+            {
+                drop(Box::from_raw(place.cast::<SavedState>()));
+                *place = ptr::null_mut();
+            }
+            Ok(())
+        })
+    }
+}
+
+/// `fmi2SerializedFMUstateSize`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
+    c: Component,
+    FMUstate: FmuState,
+    size: *mut size_t,
+) -> Status {
+    // SAFETY: module contract.
+    unsafe {
+        guard(c, Function::SerializedFmuStateSize, |_| {
+            place("size", size)?.write(saved(FMUstate)?.size());
+            Ok(())
+        })
+    }
+}
+
+/// `fmi2SerializeFMUstate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(
+    c: Component,
+    FMUstate: FmuState,
+    serializedState: *mut c_char,
+    size: size_t,
+) -> Status {
+    // SAFETY: module contract.
+    unsafe {
+        guard(c, Function::SerializeFmuState, |_| {
+            let target = lent_mut("serializedState", serializedState.cast::<u8>(), size)?;
+            saved(FMUstate)?.write_to(target)
+        })
+    }
+}
+
+/// `fmi2DeSerializeFMUstate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+    c: Component,
+    serializedState: *const c_char,
+    size: size_t,
+    FMUstate: *mut FmuState,
+) -> Status {
+    // SAFETY: module contract. A state that `*FMUstate` already holds stays the master's to free:
+    // the standard speaks of reuse only for `fmi2GetFMUstate`.
+    unsafe {
+        guard(c, Function::DeserializeFmuState, |instance| {
+            let place = place("FMUstate", FMUstate)?;
+            let bytes = lent("serializedState", serializedState.cast::<u8>(), size)?;
+            place.write(Box::into_raw(Box::new(instance.deserialize(bytes)?)).cast());
+            Ok(())
+        })
+    }
+}
+
+/// Functions of capabilities that the model description does not promise.
+macro_rules! not_offered {
+    ($($name:ident: $function:ident, $flag:literal, ($($type:ty),*);)*) => {$(
+        #[doc = concat!("`", stringify!($name), "`.")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(c: Component, $(_: $type),*) -> Status {
+            // SAFETY: module contract.
+            unsafe { guard(c, Function::$function, |_| Err(Fault::NotOffered($flag))) }
+        }
+    )*};
+}
+
+not_offered! {
+    fmi2GetDirectionalDerivative: GetDirectionalDerivative, "providesDirectionalDerivative",
+        (*const c_uint, size_t, *const c_uint, size_t, *const f64, *mut f64);
+    fmi2SetRealInputDerivatives: SetRealInputDerivatives, "canInterpolateInputs",
+        (*const c_uint, size_t, *const c_int, *const f64);
+    fmi2GetRealOutputDerivatives: GetRealOutputDerivatives, "maxOutputDerivativeOrder",
+        (*const c_uint, size_t, *const c_int, *mut f64);
+}
+
+/// `fmi2DoStep`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DoStep(
+    c: Component,
+    currentCommunicationPoint: f64,
+    communicationStepSize: f64,
+    _noSetFMUStatePriorToCurrentPoint: c_int,
+) -> Status {
+    let (current, step) = (currentCommunicationPoint, communicationStepSize);
+    // SAFETY: module contract.
+    unsafe {
+        guard(c, Function::DoStep, |instance| {
+            instance.do_step(current, step)
+        })
+    }
+}
+
+/// Functions that ask for a status of one type.
+macro_rules! statuses {
+    ($($name:ident: $function:ident, $type:ty, $body:expr;)*) => {$(
+        #[doc = concat!("`", stringify!($name), "`.")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(c: Component, s: c_int, value: *mut $type) -> Status {
+            let body: fn(&Instance, c_int) -> Option<$type> = $body;
+            // SAFETY: module contract.
+            unsafe {
+                guard(c, Function::$function, |instance| {
+                    let value = place("value", value)?;
+                    value.write(body(instance, s).ok_or(Fault::NoSuchStatus)?);
+                    Ok(())
+                })
+            }
+        }
+    )*};
+}
+
+statuses! {
+    fmi2GetStatus: GetStatus, Status, |_, _| None;
+    fmi2GetRealStatus: GetRealStatus, f64,
+        |instance, s| (s == LAST_SUCCESSFUL_TIME).then(|| instance.last_successful_time());
+    fmi2GetIntegerStatus: GetIntegerStatus, c_int, |_, _| None;
+    fmi2GetBooleanStatus: GetBooleanStatus, c_int, |_, s| (s == TERMINATED).then_some(0);
+    fmi2GetStringStatus: GetStringStatus, *const c_char, |_, _| None;
+}

@@ -1,0 +1,175 @@
+//! A minimal writer of SVG: plain shapes with presentation attributes, pixels to one decimal, so
+//! that any renderer reads it and equal scenes give equal bytes.
+
+use std::fmt::Write;
+
+/// A point or a direction in pixels, y downwards.
+pub type Point = [f64; 2];
+
+/// How a shape is drawn.
+#[derive(Clone, Copy)]
+pub struct Style {
+    /// Colour of the line.
+    pub stroke: &'static str,
+    /// Width of the line, pixels.
+    pub width: f64,
+    /// Colour of the inside.
+    pub fill: &'static str,
+}
+
+/// An SVG image in the making.
+pub struct Canvas {
+    width: f64,
+    height: f64,
+    body: String,
+}
+
+impl Canvas {
+    /// An empty image of this size in pixels.
+    pub fn new(width: f64, height: f64) -> Self {
+        Self {
+            width,
+            height,
+            body: String::new(),
+        }
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// The image as a document.
+    pub fn finish(self, title: &str) -> String {
+        let (width, height) = (pixels(self.width), pixels(self.height));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
+            escape(title),
+            self.body
+        )
+    }
+
+    /// An open line, or a closed one.
+    pub fn polyline(&mut self, points: &[Point], closed: bool, style: Style) {
+        let mut data = String::new();
+        for (index, point) in points.iter().enumerate() {
+            let letter = if index == 0 { "M" } else { " L" };
+            write(&mut data, format_args!("{letter}{}", pair(*point)));
+        }
+        if closed {
+            data.push_str(" Z");
+        }
+        let shape = format!("path d=\"{data}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
+        self.shape(&shape, style);
+    }
+
+    /// A circle.
+    pub fn circle(&mut self, centre: Point, radius: f64, style: Style) {
+        let [x, y] = centre.map(pixels);
+        self.shape(
+            &format!("circle cx=\"{x}\" cy=\"{y}\" r=\"{}\"", pixels(radius)),
+            style,
+        );
+    }
+
+    /// A straight arrow; its head ends at `to`.
+    pub fn arrow(&mut self, from: Point, to: Point, head: f64, style: Style) {
+        let along = direction([to[0] - from[0], to[1] - from[1]]);
+        self.polyline(&[from, moved(to, along, -head)], false, style);
+        self.head(to, along, head, style);
+    }
+
+    /// The head of an arrow that ends at `to`.
+    pub fn head(&mut self, to: Point, along: Point, size: f64, style: Style) {
+        let base = moved(to, along, -1.2 * size);
+        let corners = [0.5, -0.5].map(|side| moved(base, [-along[1], along[0]], side * size));
+        let solid = Style {
+            fill: style.stroke,
+            width: 0.0,
+            ..style
+        };
+        self.polyline(&[to, corners[0], corners[1]], true, solid);
+    }
+
+    /// Lines of text with their colours, beside the point `at` and away from it towards `side`.
+    pub fn texts(&mut self, at: Point, side: Point, lines: &[(&str, &str)]) {
+        let anchor = match side[0] {
+            x if x > 0.5 => "start",
+            x if x < -0.5 => "end",
+            _ => "middle",
+        };
+        // The block ends, begins or is centred at the point, as it lies above, below or beside.
+        let (spacing, last) = (16.0, lines.len() as f64 - 1.0);
+        let above = match anchor {
+            "middle" if side[1] < 0.0 => 1.0,
+            "middle" => 0.0,
+            _ => 0.5,
+        };
+        for (number, (text, colour)) in lines.iter().enumerate() {
+            // A third of its size lower, a letter is centred on the line.
+            let y = at[1] + spacing * (number as f64 - above * last) + 4.5;
+            let (x, y, text) = (pixels(at[0]), pixels(y), escape(text));
+            let line = format_args!(
+                "  <text x=\"{x}\" y=\"{y}\" font-family=\"sans-serif\" font-size=\"13\" \
+                 text-anchor=\"{anchor}\" fill=\"{colour}\">{text}</text>\n"
+            );
+            write(&mut self.body, line);
+        }
+    }
+
+    fn shape(&mut self, shape: &str, style: Style) {
+        let Style {
+            stroke,
+            width,
+            fill,
+        } = style;
+        let line = if width > 0.0 {
+            format!("stroke=\"{stroke}\" stroke-width=\"{}\"", pixels(width))
+        } else {
+            "stroke=\"none\"".into()
+        };
+        write(
+            &mut self.body,
+            format_args!("  <{shape} {line} fill=\"{fill}\"/>\n"),
+        );
+    }
+}
+
+/// `point` moved by `distance` along `direction`.
+pub fn moved(point: Point, direction: Point, distance: f64) -> Point {
+    [
+        point[0] + distance * direction[0],
+        point[1] + distance * direction[1],
+    ]
+}
+
+/// The vector with length one; downwards if it has none.
+pub fn direction(vector: Point) -> Point {
+    let length = vector[0].hypot(vector[1]);
+    if length > 0.0 {
+        vector.map(|component| component / length)
+    } else {
+        [0.0, 1.0]
+    }
+}
+
+/// Text for XML and HTML.
+pub fn escape(text: &str) -> String {
+    quick_xml::escape::escape(text).into_owned()
+}
+
+fn write(target: &mut String, text: std::fmt::Arguments<'_>) {
+    target
+        .write_fmt(text)
+        .expect("writing into memory cannot fail");
+}
+
+/// One decimal, without a negative zero.
+fn pixels(value: f64) -> String {
+    format!("{:.1}", (10.0 * value).round() / 10.0 + 0.0)
+}
+
+fn pair(point: Point) -> String {
+    format!("{} {}", pixels(point[0]), pixels(point[1]))
+}

@@ -1,0 +1,309 @@
+//! The page that comes with a unit: what it simulates, its interface, and how to use it.
+
+use super::canvas::escape;
+use super::drawing::drawing;
+use super::lifecycle::Causality;
+use super::logger::Category;
+use super::model_description::limits;
+use super::number::number;
+use crate::scene::{Body, Formulation, Initial, Integrator, Scene, Strain};
+use crate::simulation::{Variable, variables};
+
+const STYLE: &str = include_str!("documentation.css");
+
+/// The documentation of a scene as one HTML page. The same scene gives the same bytes.
+pub fn documentation(scene: &Scene) -> String {
+    let variables = variables(scene);
+    let sections = [
+        summary(scene),
+        format!("<figure>\n{}</figure>\n", drawing(scene)),
+        model(scene),
+        parameters(&variables),
+        inputs(&variables),
+        outputs(&variables),
+        usage(scene),
+        statuses(),
+        categories(),
+        format!(
+            "<h2>Scene</h2>\n<pre>{}</pre>\n",
+            escape(scene.to_json().trim_end())
+        ),
+    ];
+    let title = escape(&scene.name);
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}\
+         <footer>Written by Flexbody {}.</footer>\n</main>\n</body>\n</html>\n",
+        sections.concat(),
+        env!("CARGO_PKG_VERSION")
+    )
+}
+
+fn summary(scene: &Scene) -> String {
+    let bodies: Vec<String> = scene.bodies.iter().map(body_in_words).collect();
+    format!(
+        "<h1>{}</h1>\n<p>A co-simulation unit (FMI 2.0) of a planar scene: {}. All quantities are \
+         in SI units, angles in rad, vectors in global axes, x to the right and y upwards.</p>\n",
+        escape(&scene.name),
+        bodies.join("; ")
+    )
+}
+
+fn body_in_words(body: &Body) -> String {
+    let plural = if body.elements == 1 {
+        "element"
+    } else {
+        "elements"
+    };
+    format!(
+        "the flexible body <em>{}</em>, {} m long, of {} cable {plural}",
+        escape(&body.name),
+        // A length along an arc need not be a short number; four digits are enough to read.
+        number((body.shape.length() * 1e4).round() / 1e4),
+        body.elements
+    )
+}
+
+fn model(scene: &Scene) -> String {
+    let formulation = match scene.method.formulation {
+        Formulation::MassWeighted => {
+            "element coordinates joined by a QR factorization weighted with the square root of the \
+             mass: connectivity and joints hold exactly, and the inertia is the identity"
+        }
+        Formulation::AsPrinted => {
+            "report MBS97-2-UIC, Eqs. 23 to 34, as printed; for comparison only, because it does \
+             not hold the elements together"
+        }
+    };
+    let integrator = match scene.method.integrator {
+        Integrator::Auto => "chosen from the stiffness of the scene and the tolerance",
+        Integrator::Radau => "Radau IIA of order 5, implicit",
+        Integrator::Rk4 => "Runge-Kutta of order 4, explicit",
+    };
+    let initial = match scene.initial {
+        Initial::AsShaped => "the unstressed shape, with its rigid motion",
+        Initial::StaticEquilibrium => {
+            "the equilibrium under gravity and the inputs of initialization, at rest"
+        }
+    };
+    let strains = scene.bodies.iter().map(|body| strain_in_words(body.strain));
+    let mut rows = vec![
+        row(&[
+            "Elements",
+            "absolute nodal coordinates: positions and slopes, no rotations",
+        ]),
+        row(&["Formulation", formulation]),
+        row(&["Integrator", integrator]),
+        row(&["Start", initial]),
+    ];
+    rows.extend(strains.map(|strain| row(&["Strain measure", strain])));
+    format!(
+        "<h2>Model</h2>\n<table class=\"facts\">\n{}</table>\n",
+        rows.concat()
+    )
+}
+
+fn strain_in_words(strain: Strain) -> &'static str {
+    match strain {
+        Strain::ThetaPrime => {
+            "thetaPrime: stretch |r'| - 1 and rotation per reference length, as in geometrically \
+             exact beam theory"
+        }
+        Strain::GreenLagrangeFrenetKappa => {
+            "GreenLagrange_FrenetKappa: Green-Lagrange axial strain and curvature of the deformed \
+             line"
+        }
+        Strain::EngStrainFrenetKappa => {
+            "engStrain_FrenetKappa: stretch |r'| - 1 and curvature of the deformed line"
+        }
+    }
+}
+
+fn parameters(variables: &[Variable]) -> String {
+    let rows = of(variables, Causality::Parameter).map(|variable| {
+        let start = variable.start.map(number).unwrap_or_default();
+        row(&[
+            &code(variable),
+            unit(variable),
+            &start,
+            &range(variable),
+            &meaning(variable),
+        ])
+    });
+    let heads = ["Name", "Unit", "Start", "Range", "Meaning"];
+    table("Parameters", "", &heads, rows.collect())
+}
+
+fn inputs(variables: &[Variable]) -> String {
+    let rows = of(variables, Causality::Input).map(|variable| {
+        let start = variable.start.map(number).unwrap_or_default();
+        row(&[&code(variable), unit(variable), &start, &meaning(variable)])
+    });
+    let note = "<p>An input keeps its value during a communication step and may jump between two.\
+                </p>\n";
+    table(
+        "Inputs",
+        note,
+        &["Name", "Unit", "Start", "Meaning"],
+        rows.collect(),
+    )
+}
+
+fn outputs(variables: &[Variable]) -> String {
+    let rows = variables.iter().filter_map(|variable| {
+        let follows = match (Causality::of(variable), variable.depends_on_inputs()) {
+            (Causality::Output, true) => "state and inputs",
+            (Causality::Output, false) => "state",
+            (Causality::CalculatedParameter, _) => "parameters",
+            _ => return None,
+        };
+        Some(row(&[
+            &code(variable),
+            unit(variable),
+            follows,
+            &meaning(variable),
+        ]))
+    });
+    table(
+        "Outputs",
+        "",
+        &["Name", "Unit", "Follows from", "Meaning"],
+        rows.collect(),
+    )
+}
+
+fn usage(scene: &Scene) -> String {
+    let tolerance = number(scene.accuracy.relative_tolerance);
+    let (stop, step) = (
+        number(scene.experiment.stop_time),
+        number(scene.experiment.step),
+    );
+    format!(
+        "<h2>How to use it</h2>\n<ul>\n\
+         <li><strong>Accuracy is set by a tolerance, not by the step.</strong> \
+         <code>relative_tolerance</code> (here {tolerance}) bounds the error in time of a step of \
+         the solver, relative to the length of the body. A tolerance in \
+         <code>fmi2SetupExperiment</code> replaces it. The error of the mesh is another matter: it \
+         falls with <code>elements</code>.</li>\n\
+         <li><strong>A communication step may have any positive length.</strong> Within it the \
+         solver takes the steps that the tolerance asks for. The default experiment is {stop} s \
+         in steps of {step} s.</li>\n\
+         <li><strong>Parameters</strong> may be set until initialization ends, the number of \
+         elements included. <strong>Inputs</strong> may be set then and between steps; outputs \
+         answer to new inputs at once.</li>\n\
+         <li><strong>A state</strong> can be saved, restored and serialized at any time between \
+         two calls; the simulation goes on from it bit for bit. Bytes that are damaged, or of \
+         another model, are refused.</li>\n\
+         <li><strong>Instances</strong> are independent of each other: many of them may run in \
+         one process, each in a thread of its own.</li>\n</ul>\n"
+    )
+}
+
+fn statuses() -> String {
+    let rows = [
+        row(&[
+            "<code>fmi2Discard</code> from <code>fmi2DoStep</code>",
+            "the solver could do only a part of the step",
+            "ask <code>fmi2GetRealStatus(fmi2LastSuccessfulTime)</code>, restore a saved state and \
+             take a shorter step, or terminate",
+        ]),
+        row(&[
+            "<code>fmi2Error</code>",
+            "a call out of order, an unknown variable, a value out of range, a step past the stop \
+             time; the instance is as before",
+            "read the log, correct the call",
+        ]),
+        row(&[
+            "<code>fmi2Error</code> from initialization",
+            "there is no initial state, for instance no equilibrium",
+            "<code>fmi2Reset</code>, or restore a saved state; then other values",
+        ]),
+        row(&[
+            "<code>fmi2Fatal</code>",
+            "a defect of the library",
+            "free the instance; please report the message",
+        ]),
+    ];
+    table(
+        "When something fails",
+        "",
+        &["Status", "Meaning", "What to do"],
+        rows.to_vec(),
+    )
+}
+
+fn categories() -> String {
+    let rows = Category::ALL.into_iter().map(|category| {
+        let name = format!("<code>{}</code>", category.name().to_string_lossy());
+        row(&[&name, category.description()])
+    });
+    table("Log categories", "", &["Name", "Messages"], rows.collect())
+}
+
+fn of(variables: &[Variable], causality: Causality) -> impl Iterator<Item = &Variable> {
+    variables
+        .iter()
+        .filter(move |variable| Causality::of(variable) == causality)
+}
+
+fn code(variable: &Variable) -> String {
+    format!("<code>{}</code>", escape(&variable.name))
+}
+
+fn unit(variable: &Variable) -> &'static str {
+    variable.unit.map_or("", |unit| unit.name)
+}
+
+fn meaning(variable: &Variable) -> String {
+    escape(&variable.description)
+}
+
+fn range(variable: &Variable) -> String {
+    match limits(variable) {
+        (Some(min), Some(max)) => format!("{} to {}", number(min), number(max)),
+        (Some(min), None) => format!("from {}", number(min)),
+        _ => String::new(),
+    }
+}
+
+/// A section with a table; nothing where there are no rows.
+fn table(title: &str, note: &str, heads: &[&str], rows: Vec<String>) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let heads: String = heads
+        .iter()
+        .map(|head| format!("<th>{head}</th>"))
+        .collect();
+    let rows = rows.concat();
+    format!("<h2>{title}</h2>\n{note}<table>\n<tr>{heads}</tr>\n{rows}</table>\n")
+}
+
+fn row(cells: &[&str]) -> String {
+    let cells: String = cells
+        .iter()
+        .map(|cell| format!("<td>{cell}</td>"))
+        .collect();
+    format!("<tr>{cells}</tr>\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fmi2::example;
+
+    #[test]
+    fn the_page_names_every_variable_and_shows_the_scene() {
+        let scene = example();
+        let page = documentation(&scene);
+        for variable in variables(&scene)
+            .iter()
+            .filter(|variable| variable.name != "time")
+        {
+            assert!(page.contains(&code(variable)), "{}", variable.name);
+        }
+        assert!(page.contains("<svg") && page.contains("&quot;name&quot;: &quot;example&quot;"));
+        assert_eq!(page, documentation(&scene));
+    }
+}

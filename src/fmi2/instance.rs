@@ -1,0 +1,419 @@
+//! An instance of the unit: what the functions of the standard do, in safe code.
+
+use std::any::Any;
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+
+use super::guid::guid;
+use super::lifecycle::{Function, State};
+use super::location::{LocationError, directory};
+use super::logger::{Category, Logger};
+use super::state::SavedState;
+use super::status::{Fault, Status};
+use crate::scene::{self, Scene};
+use crate::simulation::{self, Parameter, Simulation, Source, Variable};
+
+/// Relative difference up to which two times are the same; masters add up their time in many ways.
+const SAME_TIME: f64 = 1e-5;
+
+/// One simulated scene in the hands of a master.
+pub struct Instance {
+    pub(super) logger: Logger,
+    pub(super) simulation: Simulation,
+    pub(super) state: State,
+    /// Parameters and inputs as last accepted: what a call that is refused goes back to.
+    pub(super) values: Vec<f64>,
+    guid: String,
+    start_time: f64,
+    stop_time: Option<f64>,
+}
+
+/// Instances move between the threads of a master.
+const _: () = {
+    const fn may_move_between_threads<T: Send>() {}
+    may_move_between_threads::<Instance>();
+};
+
+/// Arguments of `fmi2Instantiate`.
+pub struct Request<'a> {
+    /// Name of the instance.
+    pub name: &'a str,
+    /// Whether the master asks for co-simulation.
+    pub co_simulation: bool,
+    /// GUID of the model description that the master has read.
+    pub guid: &'a str,
+    /// URI of the directory `resources`.
+    pub location: Option<&'a str>,
+}
+
+/// Why an instance could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum Refusal {
+    /// An argument that must be given.
+    #[error("{0}: expected a text that is not empty")]
+    Missing(&'static str),
+    /// Model exchange.
+    #[error("fmuType: expected fmi2CoSimulation, the only kind that this unit offers")]
+    Kind,
+    /// A bad resource location.
+    #[error(transparent)]
+    Location(#[from] LocationError),
+    /// A scene file that cannot be read.
+    #[error("{path}: {error}", path = path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the operating system says.
+        error: std::io::Error,
+    },
+    /// A bad scene.
+    #[error("{path}: {error}", path = path.display())]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        error: scene::Error,
+    },
+    /// A description of another model.
+    #[error("fmuGUID: expected {expected}, which resources/scene.json stands for, found {found}")]
+    Guid {
+        /// GUID of the scene.
+        expected: String,
+        /// GUID that the master stated.
+        found: String,
+    },
+}
+
+impl Instance {
+    /// `fmi2Instantiate`. A refusal is logged even when logging is off.
+    pub fn instantiate(request: &Request<'_>, logger: Logger) -> Option<Self> {
+        match Self::build(request) {
+            Ok((simulation, guid)) => Some(Self::new(simulation, guid, logger)),
+            Err(refusal) => {
+                let message = format_args!("fmi2Instantiate: {refusal}");
+                logger.report(Status::Error, Category::Error, message);
+                None
+            }
+        }
+    }
+
+    fn build(request: &Request<'_>) -> Result<(Simulation, String), Refusal> {
+        if request.name.trim().is_empty() {
+            return Err(Refusal::Missing("instanceName"));
+        }
+        if !request.co_simulation {
+            return Err(Refusal::Kind);
+        }
+        let location = request
+            .location
+            .ok_or(Refusal::Missing("fmuResourceLocation"))?;
+        let path = directory(location)?.join("scene.json");
+        let text = fs::read_to_string(&path).map_err(|error| Refusal::Unreadable {
+            path: path.clone(),
+            error,
+        })?;
+        let scene = Scene::from_json(&text).map_err(|error| Refusal::Scene { path, error })?;
+        let simulation = Simulation::new(scene);
+        let expected = guid(simulation.scene(), simulation.variables());
+        if request.guid != expected {
+            let found = request.guid.into();
+            return Err(Refusal::Guid { expected, found });
+        }
+        Ok((simulation, expected))
+    }
+
+    fn new(simulation: Simulation, guid: String, logger: Logger) -> Self {
+        let message = format_args!("instantiated \"{}\"", simulation.scene().name);
+        logger.log(Status::Ok, Category::Events, message);
+        let mut instance = Self {
+            logger,
+            simulation,
+            state: State::Instantiated,
+            values: Vec::new(),
+            guid,
+            start_time: 0.0,
+            stop_time: None,
+        };
+        instance.copy_start_values();
+        instance
+    }
+
+    fn copy_start_values(&mut self) {
+        let starts = self
+            .simulation
+            .variables()
+            .iter()
+            .map(|v| v.start.unwrap_or(0.0));
+        self.values = starts.collect();
+    }
+
+    /// The guard around every function: lifecycle, then the panic boundary.
+    pub fn call(
+        &mut self,
+        function: Function,
+        body: impl FnOnce(&mut Self) -> Result<(), Fault>,
+    ) -> Status {
+        if self.state == State::Fatal {
+            return Status::Fatal;
+        }
+        let name = function.name();
+        if !function.allowed_in(self.state) {
+            let state = self.state.name();
+            let message = format_args!("{name}: not allowed in state {state}");
+            self.logger.log(Status::Error, Category::Error, message);
+            return Status::Error;
+        }
+        match catch_unwind(AssertUnwindSafe(|| body(self))) {
+            Ok(Ok(())) => Status::Ok,
+            Ok(Err(fault)) => {
+                self.logger.fault(name, &fault);
+                fault.status()
+            }
+            Err(panic) => {
+                // Nothing is known about the simulation any more.
+                self.state = State::Fatal;
+                let message = format_args!("{name}: defect of the library: {}", words(&*panic));
+                self.logger.log(Status::Fatal, Category::Error, message);
+                Status::Fatal
+            }
+        }
+    }
+
+    /// `fmi2SetupExperiment`.
+    pub(super) fn set_up_experiment(
+        &mut self,
+        tolerance: Option<f64>,
+        start_time: f64,
+        stop_time: Option<f64>,
+    ) -> Result<(), Fault> {
+        finite("startTime", start_time)?;
+        if let Some(found) = stop_time
+            && !(found.is_finite() && found > start_time)
+        {
+            let expected = "a finite number greater than startTime";
+            return Err(Fault::Argument {
+                name: "stopTime",
+                expected,
+                found,
+            });
+        }
+        if let Some(tolerance) = tolerance {
+            self.simulation.set_tolerance(tolerance)?;
+            let is_tolerance = |variable: &Variable| {
+                variable.source == Source::Parameter(Parameter::RelativeTolerance)
+            };
+            if let Some(index) = self.simulation.variables().iter().position(is_tolerance) {
+                self.values[index] = tolerance;
+            }
+        }
+        self.start_time = start_time;
+        self.stop_time = stop_time;
+        Ok(())
+    }
+
+    /// `fmi2EnterInitializationMode`.
+    pub(super) fn enter_initialization_mode(&mut self) -> Result<(), Fault> {
+        let outcome = self.simulation.initialize(self.start_time);
+        self.passed_on(outcome, State::Initialization)
+    }
+
+    /// `fmi2ExitInitializationMode`.
+    pub(super) fn exit_initialization_mode(&mut self) -> Result<(), Fault> {
+        let outcome = self.simulation.start();
+        self.passed_on(outcome, State::StepComplete)?;
+        let time = self.simulation.time();
+        self.log_event(format_args!("initialized at time {time} s"));
+        Ok(())
+    }
+
+    /// Moves to the next state after a computation, or to the error state if it failed.
+    fn passed_on(
+        &mut self,
+        outcome: Result<(), simulation::Error>,
+        next: State,
+    ) -> Result<(), Fault> {
+        self.state = if outcome.is_ok() { next } else { State::Error };
+        outcome.map_err(Fault::from)
+    }
+
+    /// `fmi2Terminate`.
+    pub(super) fn terminate(&mut self) -> Result<(), Fault> {
+        self.state = State::Terminated;
+        let time = self.simulation.time();
+        self.log_event(format_args!("terminated at time {time} s"));
+        Ok(())
+    }
+
+    /// `fmi2Reset`.
+    pub(super) fn reset(&mut self) -> Result<(), Fault> {
+        self.simulation = Simulation::new(self.simulation.scene().clone());
+        self.copy_start_values();
+        self.state = State::Instantiated;
+        self.start_time = 0.0;
+        self.stop_time = None;
+        self.log_event(format_args!("reset"));
+        Ok(())
+    }
+
+    /// `fmi2DoStep`.
+    pub(super) fn do_step(&mut self, current: f64, step: f64) -> Result<(), Fault> {
+        let until = self.end_of_step(current, step)?;
+        let outcome = self.simulation.step(until);
+        let report = self.simulation.report();
+        let message = format_args!(
+            "to time {} s: {}, {} steps, {} rejected, {} Newton iterations",
+            self.simulation.time(),
+            report.method,
+            report.steps,
+            report.rejected,
+            report.newton_iterations
+        );
+        self.logger.log(Status::Ok, Category::Solver, message);
+        outcome.map_err(|failure| {
+            self.state = State::StepFailed;
+            failure.into()
+        })
+    }
+
+    /// The time that a step leads to, if the step may be done.
+    fn end_of_step(&self, current: f64, step: f64) -> Result<f64, Fault> {
+        finite("currentCommunicationPoint", current)?;
+        if !(step.is_finite() && step > 0.0) {
+            let expected = "a finite number greater than zero";
+            return Err(Fault::Argument {
+                name: "communicationStepSize",
+                expected,
+                found: step,
+            });
+        }
+        let now = self.simulation.time();
+        let until = current + step;
+        if !same_time(current, now, step) {
+            return Err(Fault::CommunicationPoint {
+                expected: now,
+                found: current,
+            });
+        }
+        if !until.is_finite() || until <= now {
+            let expected = "a step that moves the time on";
+            return Err(Fault::Argument {
+                name: "communicationStepSize",
+                expected,
+                found: step,
+            });
+        }
+        match self.stop_time {
+            Some(stop) if until > stop && !same_time(until, stop, step) => {
+                Err(Fault::StopTime { until, stop })
+            }
+            _ => Ok(until),
+        }
+    }
+
+    /// `fmi2GetRealStatus(fmi2LastSuccessfulTime)`.
+    pub(super) fn last_successful_time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// `fmi2GetFMUstate`.
+    pub(super) fn save(&self) -> SavedState {
+        SavedState {
+            guid: self.guid.clone(),
+            lifecycle: self.state,
+            start_time: self.start_time,
+            stop_time: self.stop_time,
+            snapshot: self.simulation.snapshot(),
+        }
+    }
+
+    /// `fmi2SetFMUstate`.
+    pub(super) fn restore(&mut self, saved: &SavedState) -> Result<(), Fault> {
+        if saved.guid != self.guid {
+            let reason = format!(
+                "expected one of the model {}, found {}",
+                self.guid, saved.guid
+            );
+            return Err(Fault::SavedState(reason));
+        }
+        let refused = |error: simulation::Error| Fault::SavedState(error.to_string());
+        self.simulation.restore(&saved.snapshot).map_err(refused)?;
+        self.values.copy_from_slice(&saved.snapshot.values);
+        self.state = saved.lifecycle;
+        self.start_time = saved.start_time;
+        self.stop_time = saved.stop_time;
+        let time = self.simulation.time();
+        self.log_event(format_args!("state of time {time} s restored"));
+        Ok(())
+    }
+
+    /// `fmi2DeSerializeFMUstate`.
+    pub(super) fn deserialize(&self, bytes: &[u8]) -> Result<SavedState, Fault> {
+        SavedState::from_bytes(bytes, &self.guid)
+    }
+
+    /// `fmi2SetDebugLogging`.
+    pub(super) fn set_debug_logging<'a>(
+        &mut self,
+        on: bool,
+        categories: impl Iterator<Item = Result<&'a str, Fault>>,
+    ) -> Result<(), Fault> {
+        self.logger.enable(on, categories)
+    }
+
+    fn log_event(&self, message: std::fmt::Arguments<'_>) {
+        self.logger.log(Status::Ok, Category::Events, message);
+    }
+}
+
+fn finite(name: &'static str, found: f64) -> Result<(), Fault> {
+    if found.is_finite() {
+        return Ok(());
+    }
+    Err(Fault::Argument {
+        name,
+        expected: "a finite number",
+        found,
+    })
+}
+
+/// Whether two times are the same but for rounding. Half a step is the most that may be forgiven:
+/// in a long run with short steps the relative difference alone would skip whole steps.
+fn same_time(a: f64, b: f64, step: f64) -> bool {
+    let scale = a.abs().max(b.abs()).max(step);
+    (a - b).abs() <= (SAME_TIME * scale).min(0.5 * step)
+}
+
+fn words(panic: &(dyn Any + Send)) -> &str {
+    let owned = panic.downcast_ref::<String>().map(String::as_str);
+    owned
+        .or_else(|| panic.downcast_ref::<&str>().copied())
+        .unwrap_or("no message")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn after_a_panic_the_instance_answers_fatal_for_ever() {
+        let simulation = Simulation::new(crate::fmi2::example());
+        let mut instance = Instance::new(simulation, String::new(), Logger::new(None, false));
+        let panicked = instance.call(Function::SetReal, |_| panic!("planted"));
+        assert_eq!(panicked, Status::Fatal);
+        for function in Function::ALL {
+            let answer = instance.call(*function, |_| unreachable!("the body of a poisoned call"));
+            assert_eq!(answer, Status::Fatal, "{}", function.name());
+        }
+    }
+
+    #[test]
+    fn times_are_compared_with_a_relative_tolerance() {
+        assert!(same_time(0.1 + 0.2, 0.3, 0.1));
+        assert!(same_time(1e-17, 0.0, 1e-3));
+        assert!(same_time(1000.0, 1_000.000_001, 1e-3));
+        assert!(!same_time(1000.0, 1000.001, 1e-3));
+        assert!(!same_time(0.0, 0.01, 0.01));
+        assert!(!same_time(1.0, 1.1, 0.1));
+    }
+}

@@ -1,0 +1,182 @@
+//! Messages to the master's logger: filtered by category, silent when logging is off.
+
+use std::ffi::{CStr, CString};
+use std::fmt;
+
+use super::status::{Fault, Status};
+
+/// Where messages go: status, category, text. Built by the ABI around the master's callback.
+pub type Sink = Box<dyn Fn(Status, &CStr, &CStr) + Send>;
+
+/// Categories of messages, one bit each; the model description lists them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Category {
+    /// Refused calls and failed computations.
+    Error = 1,
+    /// Steps that were done only in part.
+    Warning = 2,
+    /// Course of a simulation.
+    Events = 4,
+    /// Work of the solver.
+    Solver = 8,
+}
+
+impl Category {
+    /// All categories, in the order of the model description.
+    pub const ALL: [Self; 4] = [Self::Error, Self::Warning, Self::Events, Self::Solver];
+
+    /// Name in the model description.
+    pub fn name(self) -> &'static CStr {
+        match self {
+            Self::Error => c"logStatusError",
+            Self::Warning => c"logStatusWarning",
+            Self::Events => c"logEvents",
+            Self::Solver => c"logSolver",
+        }
+    }
+
+    /// Description in the model description.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Error => "Calls that were refused and computations that failed, with the reason",
+            Self::Warning => "Steps that were done only in part, and statuses that do not exist",
+            Self::Events => "Course of the simulation: initialization, reset, restored states, end",
+            Self::Solver => {
+                "Each communication step: method, steps, rejected steps, Newton iterations"
+            }
+        }
+    }
+}
+
+const ALL: u8 = 15;
+
+/// The logger of one instance.
+pub struct Logger {
+    sink: Option<Sink>,
+    enabled: u8,
+}
+
+impl Logger {
+    /// A logger for `sink`, with all categories or none. A master without a logger gives no sink.
+    pub fn new(sink: Option<Sink>, on: bool) -> Self {
+        let enabled = if on { ALL } else { 0 };
+        Self { sink, enabled }
+    }
+
+    /// `fmi2SetDebugLogging`: only the named categories, all when none is named, none when off.
+    ///
+    /// # Errors
+    /// An unknown category; nothing changes then.
+    pub fn enable<'a>(
+        &mut self,
+        on: bool,
+        categories: impl Iterator<Item = Result<&'a str, Fault>>,
+    ) -> Result<(), Fault> {
+        let mut named = 0;
+        for name in categories {
+            let name = name?;
+            let known = |category: &Category| category.name().to_bytes() == name.as_bytes();
+            match Category::ALL.into_iter().find(known) {
+                Some(category) => named |= category as u8,
+                None => return Err(Fault::Category(name.into())),
+            }
+        }
+        self.enabled = match (on, named) {
+            (false, _) => 0,
+            (true, 0) => ALL,
+            (true, _) => named,
+        };
+        Ok(())
+    }
+
+    /// Passes a message on, if its category is enabled. Formats nothing otherwise, so that a
+    /// silent step does not allocate.
+    pub fn log(&self, status: Status, category: Category, message: fmt::Arguments<'_>) {
+        if self.enabled & category as u8 != 0 {
+            self.report(status, category, message);
+        }
+    }
+
+    /// Passes a message on even when logging is off: only for a failed `fmi2Instantiate`, for
+    /// which the standard promises the reason.
+    pub fn report(&self, status: Status, category: Category, message: fmt::Arguments<'_>) {
+        let Some(sink) = &self.sink else { return };
+        // In a message `#` introduces a value reference; NUL would end it.
+        let text = message.to_string().replace('#', "##").replace('\0', " ");
+        sink(
+            status,
+            category.name(),
+            &CString::new(text).unwrap_or_default(),
+        );
+    }
+
+    /// Logs why a call is not answered with OK.
+    pub fn fault(&self, function: &str, fault: &Fault) {
+        let category = match fault.status() {
+            Status::Discard => Category::Warning,
+            _ => Category::Error,
+        };
+        self.log(
+            fault.status(),
+            category,
+            format_args!("{function}: {fault}"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::{Arc, Mutex};
+
+    fn recorded(on: bool) -> (Logger, Arc<Mutex<Vec<String>>>) {
+        let lines = Arc::new(Mutex::new(Vec::new()));
+        let copy = Arc::clone(&lines);
+        let sink: Sink = Box::new(move |_, category, text| {
+            let line = format!("{}: {}", category.to_string_lossy(), text.to_string_lossy());
+            copy.lock().expect("no panic while locked").push(line);
+        });
+        (Logger::new(Some(sink), on), lines)
+    }
+
+    fn say(logger: &Logger) {
+        logger.log(Status::Ok, Category::Events, format_args!("100 % of #1\0"));
+        logger.log(Status::Ok, Category::Solver, format_args!("ten steps"));
+    }
+
+    #[test]
+    fn it_is_silent_when_off_and_filters_by_category() {
+        let (mut logger, lines) = recorded(false);
+        say(&logger);
+        assert!(lines.lock().expect("no panic").is_empty());
+        logger
+            .enable(true, std::iter::once(Ok("logEvents")))
+            .expect("a known category");
+        say(&logger);
+        assert_eq!(
+            *lines.lock().expect("no panic"),
+            ["logEvents: 100 % of ##1 "]
+        );
+        logger
+            .enable(true, std::iter::empty())
+            .expect("all categories");
+        say(&logger);
+        assert_eq!(lines.lock().expect("no panic").len(), 3);
+        logger
+            .enable(false, std::iter::once(Ok("logEvents")))
+            .expect("off");
+        say(&logger);
+        assert_eq!(lines.lock().expect("no panic").len(), 3);
+    }
+
+    #[test]
+    fn an_unknown_category_changes_nothing() {
+        let (mut logger, lines) = recorded(true);
+        let names = ["logEvents", "logNothing"].into_iter().map(Ok);
+        let answer = logger.enable(true, names);
+        assert_eq!(answer, Err(Fault::Category("logNothing".into())));
+        say(&logger);
+        assert_eq!(lines.lock().expect("no panic").len(), 2);
+    }
+}

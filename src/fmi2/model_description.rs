@@ -1,0 +1,315 @@
+//! `modelDescription.xml`: from the variables of a scene, and nothing else.
+
+use std::io;
+
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
+
+use super::MODEL_IDENTIFIER;
+use super::guid::guid;
+use super::lifecycle::Causality;
+use super::logger::Category;
+use super::number::number;
+use crate::scene::Scene;
+use crate::simulation::{Parameter, Source, Unit, Variable, variables};
+
+type Xml = Writer<Vec<u8>>;
+
+/// The model description of a scene. No date, no path: the same scene gives the same bytes.
+pub fn model_description(scene: &Scene) -> String {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    write_all(&mut xml, scene).expect("writing into memory cannot fail");
+    let mut bytes = xml.into_inner();
+    bytes.push(b'\n');
+    String::from_utf8(bytes).expect("written from texts")
+}
+
+fn write_all(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
+    let variables = variables(scene);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let guid = guid(scene, &variables);
+    xml.create_element("fmiModelDescription")
+        .with_attribute(("fmiVersion", "2.0"))
+        .with_attribute(("modelName", scene.name.as_str()))
+        .with_attribute(("guid", guid.as_str()))
+        .with_attribute((
+            "generationTool",
+            concat!("Flexbody ", env!("CARGO_PKG_VERSION")),
+        ))
+        .with_attribute(("variableNamingConvention", "structured"))
+        .write_inner_content(|xml| {
+            co_simulation(xml)?;
+            units(xml, &variables)?;
+            log_categories(xml)?;
+            default_experiment(xml, scene)?;
+            model_variables(xml, &variables)?;
+            model_structure(xml, &variables)
+        })?;
+    Ok(())
+}
+
+/// Only what is true is stated; the rest keeps the schema's default, false.
+fn co_simulation(xml: &mut Xml) -> io::Result<()> {
+    let flags = [
+        "canHandleVariableCommunicationStepSize",
+        "canNotUseMemoryManagementFunctions",
+        "canGetAndSetFMUstate",
+        "canSerializeFMUstate",
+    ];
+    xml.create_element("CoSimulation")
+        .with_attribute(("modelIdentifier", MODEL_IDENTIFIER))
+        .with_attributes(flags.map(|flag| (flag, "true")))
+        .write_empty()?;
+    Ok(())
+}
+
+fn units(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
+    let mut used: Vec<Unit> = Vec::new();
+    for unit in variables.iter().filter_map(|variable| variable.unit) {
+        if !used.contains(&unit) {
+            used.push(unit);
+        }
+    }
+    xml.create_element("UnitDefinitions")
+        .write_inner_content(|xml| used.iter().try_for_each(|unit| write_unit(xml, unit)))?;
+    Ok(())
+}
+
+fn write_unit(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
+    let bases = ["kg", "m", "s", "rad"].into_iter().zip(unit.exponents);
+    let exponents: Vec<(&str, String)> = bases
+        .filter(|(_, exponent)| *exponent != 0)
+        .map(|(base, exponent)| (base, exponent.to_string()))
+        .collect();
+    let attributes = exponents
+        .iter()
+        .map(|(base, exponent)| (*base, exponent.as_str()));
+    xml.create_element("Unit")
+        .with_attribute(("name", unit.name))
+        .write_inner_content(|xml| {
+            xml.create_element("BaseUnit")
+                .with_attributes(attributes)
+                .write_empty()?;
+            Ok(())
+        })?;
+    Ok(())
+}
+
+fn log_categories(xml: &mut Xml) -> io::Result<()> {
+    xml.create_element("LogCategories")
+        .write_inner_content(|xml| {
+            for category in Category::ALL {
+                xml.create_element("Category")
+                    .with_attribute(("name", category.name().to_str().unwrap_or_default()))
+                    .with_attribute(("description", category.description()))
+                    .write_empty()?;
+            }
+            Ok(())
+        })?;
+    Ok(())
+}
+
+fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
+    let values = [
+        ("startTime", 0.0),
+        ("stopTime", scene.experiment.stop_time),
+        ("tolerance", scene.accuracy.relative_tolerance),
+        ("stepSize", scene.experiment.step),
+    ];
+    let texts = values.map(|(name, value)| (name, number(value)));
+    xml.create_element("DefaultExperiment")
+        .with_attributes(texts.iter().map(|(name, text)| (*name, text.as_str())))
+        .write_empty()?;
+    Ok(())
+}
+
+fn model_variables(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
+    xml.create_element("ModelVariables")
+        .write_inner_content(|xml| {
+            for (reference, variable) in variables.iter().enumerate() {
+                write_variable(xml, reference, variable)?;
+            }
+            Ok(())
+        })?;
+    Ok(())
+}
+
+fn write_variable(xml: &mut Xml, reference: usize, variable: &Variable) -> io::Result<()> {
+    let (causality, variability, initial) = kind(variable);
+    let mut element = xml
+        .create_element("ScalarVariable")
+        .with_attribute(("name", variable.name.as_str()))
+        .with_attribute(("valueReference", reference.to_string().as_str()))
+        .with_attribute(("description", variable.description.as_str()))
+        .with_attribute(("causality", causality))
+        .with_attribute(("variability", variability));
+    if let Some(initial) = initial {
+        element = element.with_attribute(("initial", initial));
+    }
+    element.write_inner_content(|xml| write_type(xml, variable))?;
+    Ok(())
+}
+
+fn write_type(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
+    let name = if variable.is_integer() {
+        "Integer"
+    } else {
+        "Real"
+    };
+    let mut element = xml.create_element(name);
+    if let Some(unit) = variable.unit {
+        element = element.with_attribute(("unit", unit.name));
+    }
+    let (min, max) = limits(variable);
+    for (name, value) in [("min", min), ("max", max), ("start", variable.start)] {
+        if let Some(value) = value {
+            element = element.with_attribute((name, number(value).as_str()));
+        }
+    }
+    element.write_empty()?;
+    Ok(())
+}
+
+/// Causality, variability and initial of a variable.
+fn kind(variable: &Variable) -> (&'static str, &'static str, Option<&'static str>) {
+    match Causality::of(variable) {
+        Causality::Independent => ("independent", "continuous", None),
+        Causality::Parameter => ("parameter", "fixed", Some("exact")),
+        Causality::Input => ("input", "continuous", None),
+        Causality::Output => ("output", "continuous", Some("calculated")),
+        Causality::CalculatedParameter => ("calculatedParameter", "fixed", Some("calculated")),
+    }
+}
+
+/// Least and greatest value of a parameter, as far as the XML can say it: where zero itself is
+/// refused, setting the parameter says so.
+pub(super) fn limits(variable: &Variable) -> (Option<f64>, Option<f64>) {
+    let Source::Parameter(parameter) = variable.source else {
+        return (None, None);
+    };
+    match parameter {
+        Parameter::Gravity(_) => (None, None),
+        Parameter::Elements(_) => (Some(1.0), Some(100_000.0)),
+        Parameter::RelativeTolerance => (Some(1e-12), Some(0.1)),
+        Parameter::YoungsModulus(_)
+        | Parameter::Density(_)
+        | Parameter::DampingTime(_)
+        | Parameter::Area(_)
+        | Parameter::SecondMoment(_) => (Some(0.0), None),
+    }
+}
+
+/// Outputs with what they depend on: state-like ones on no input, so that masters see no loop
+/// where there is none; those with direct feedthrough on all inputs. An initial unknown without
+/// `dependencies` depends on everything, which is true after a change of any parameter.
+fn model_structure(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
+    let of = |causality: Causality| -> Vec<usize> {
+        let indexed = variables.iter().enumerate();
+        indexed
+            .filter(|(_, v)| Causality::of(v) == causality)
+            .map(|(i, _)| i)
+            .collect()
+    };
+    // The standard counts ScalarVariables from 1 here.
+    let index = |reference: &usize| (reference + 1).to_string();
+    let inputs: Vec<String> = of(Causality::Input).iter().map(index).collect();
+    let (inputs, outputs) = (inputs.join(" "), of(Causality::Output));
+    let mut unknowns = [outputs.clone(), of(Causality::CalculatedParameter)].concat();
+    unknowns.sort_unstable();
+    xml.create_element("ModelStructure")
+        .write_inner_content(|xml| {
+            list(xml, "Outputs", &outputs, |output| {
+                let feedthrough = variables[output].depends_on_inputs();
+                Some(if feedthrough { inputs.as_str() } else { "" })
+            })?;
+            list(xml, "InitialUnknowns", &unknowns, |_| None)
+        })?;
+    Ok(())
+}
+
+/// A list of unknowns; an empty one is left out, as the schema wants.
+fn list<'a>(
+    xml: &mut Xml,
+    name: &str,
+    unknowns: &[usize],
+    dependencies: impl Fn(usize) -> Option<&'a str>,
+) -> io::Result<()> {
+    if unknowns.is_empty() {
+        return Ok(());
+    }
+    xml.create_element(name).write_inner_content(|xml| {
+        for unknown in unknowns {
+            let mut element = xml
+                .create_element("Unknown")
+                .with_attribute(("index", (unknown + 1).to_string().as_str()));
+            if let Some(dependencies) = dependencies(*unknown) {
+                element = element.with_attribute(("dependencies", dependencies));
+            }
+            element.write_empty()?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fmi2::example;
+
+    #[test]
+    fn the_same_scene_gives_the_same_bytes() {
+        let scene = example();
+        assert_eq!(model_description(&scene), model_description(&scene));
+    }
+
+    #[test]
+    fn variables_stand_in_the_order_of_their_references() {
+        let scene = example();
+        let text = model_description(&scene);
+        let names: Vec<&str> = text
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix("<ScalarVariable name=\""))
+            .filter_map(|line| line.split('"').next())
+            .collect();
+        let expected = variables(&scene);
+        let expected: Vec<&str> = expected.iter().map(|v| v.name.as_str()).collect();
+        assert_eq!(names, expected);
+    }
+
+    #[test]
+    fn only_outputs_with_feedthrough_depend_on_inputs() {
+        let scene = example();
+        let list = variables(&scene);
+        let text = model_description(&scene);
+        let inputs: Vec<String> = (1..=list.len())
+            .filter(|index| Causality::of(&list[index - 1]) == Causality::Input)
+            .map(|index| index.to_string())
+            .collect();
+        for (reference, variable) in list.iter().enumerate() {
+            if Causality::of(variable) != Causality::Output {
+                continue;
+            }
+            let on = if variable.depends_on_inputs() {
+                inputs.join(" ")
+            } else {
+                String::new()
+            };
+            let line = format!(
+                "<Unknown index=\"{}\" dependencies=\"{on}\"/>",
+                reference + 1
+            );
+            assert!(text.contains(&line), "{}: {line}", variable.name);
+        }
+    }
+
+    #[test]
+    fn limits_admit_every_start_value() {
+        for variable in variables(&example()) {
+            let (min, max) = limits(&variable);
+            let start = variable.start.unwrap_or(0.0);
+            assert!(min.is_none_or(|min| min <= start), "{}", variable.name);
+            assert!(max.is_none_or(|max| start <= max), "{}", variable.name);
+        }
+    }
+}

@@ -1,0 +1,338 @@
+//! A saved FMU state, and its bytes: versioned, tied to one model, checksummed, without pointers.
+//!
+//! Layout, little-endian: magic, format version, GUID, lifecycle state, flags, start time, stop
+//! time, time, sub-step, five lengths, the numbers, SHA-256 of all before.
+
+use std::mem::MaybeUninit;
+
+use sha2::{Digest, Sha256};
+
+use super::lifecycle;
+use super::status::Fault;
+use crate::simulation::Snapshot;
+use crate::system::State;
+
+const MAGIC: &[u8; 8] = b"FLEXBODY";
+const VERSION: u32 = 1;
+const GUID_BYTES: usize = 38;
+const HASH_BYTES: usize = 32;
+const ARRAYS: usize = 5;
+/// Magic, version, GUID, two bytes, four numbers, five lengths.
+const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + 4 * 8 + ARRAYS * 8;
+const INITIALIZED: u8 = 1;
+const STARTED: u8 = 2;
+const STOP_DEFINED: u8 = 4;
+
+/// Everything that an instance needs to go on as if nothing had happened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SavedState {
+    /// GUID of the model that it belongs to.
+    pub guid: String,
+    /// Lifecycle state.
+    pub lifecycle: lifecycle::State,
+    /// Start time of the experiment.
+    pub start_time: f64,
+    /// Stop time of the experiment, where one is set.
+    pub stop_time: Option<f64>,
+    /// The numbers of the simulation.
+    pub snapshot: Snapshot,
+}
+
+impl SavedState {
+    /// Number of bytes of [`Self::to_bytes`].
+    pub fn size(&self) -> usize {
+        let numbers: usize = self.arrays().iter().map(|array| array.len()).sum();
+        HEADER_BYTES + 8 * numbers + HASH_BYTES
+    }
+
+    /// The state as bytes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(self.size());
+        bytes.extend(MAGIC);
+        bytes.extend(VERSION.to_le_bytes());
+        bytes.extend(self.guid.as_bytes());
+        let Snapshot {
+            initialized,
+            started,
+            state,
+            ..
+        } = &self.snapshot;
+        let flag = |set: bool, bit: u8| if set { bit } else { 0 };
+        let stop_defined = flag(self.stop_time.is_some(), STOP_DEFINED);
+        let flags = flag(*initialized, INITIALIZED) | flag(*started, STARTED) | stop_defined;
+        bytes.extend([self.lifecycle as u8, flags]);
+        let stop = self.stop_time.unwrap_or(0.0);
+        for number in [self.start_time, stop, state.time, state.step] {
+            bytes.extend(number.to_le_bytes());
+        }
+        for array in self.arrays() {
+            bytes.extend((array.len() as u64).to_le_bytes());
+        }
+        for number in self.arrays().into_iter().flatten() {
+            bytes.extend(number.to_le_bytes());
+        }
+        let hash = Sha256::digest(&bytes);
+        bytes.extend(hash);
+        bytes
+    }
+
+    /// Writes [`Self::to_bytes`] into `target`.
+    ///
+    /// # Errors
+    /// A target of another size; nothing is written then.
+    pub fn write_to(&self, target: &mut [MaybeUninit<u8>]) -> Result<(), Fault> {
+        let bytes = self.to_bytes();
+        if target.len() != bytes.len() {
+            let (expected, found) = (bytes.len(), target.len());
+            let reason = format!("expected room for {expected} bytes, found {found}");
+            return Err(Fault::SavedState(reason));
+        }
+        for (place, byte) in target.iter_mut().zip(bytes) {
+            place.write(byte);
+        }
+        Ok(())
+    }
+
+    /// Reads the bytes of a state of the model `guid`.
+    ///
+    /// # Errors
+    /// Bytes that are damaged, cut off, of another format or of another model.
+    pub fn from_bytes(bytes: &[u8], guid: &str) -> Result<Self, Fault> {
+        let body = checked(bytes, guid)?;
+        let mut reader = Reader(&body[8 + 4 + GUID_BYTES..]);
+        let [mode, flags] = reader.take()?;
+        let lifecycle = lifecycle::State::from_bit(mode)
+            .filter(|state| *state != lifecycle::State::Fatal && flags <= 7)
+            .ok_or_else(|| refused("names a lifecycle state that does not exist"))?;
+        let (initialized, started) = (flags & INITIALIZED != 0, flags & STARTED != 0);
+        if !fits_together(lifecycle, initialized, started) {
+            return Err(refused(
+                "names a lifecycle state that its numbers do not belong to",
+            ));
+        }
+        let [start_time, stop, time, step] = reader.numbers()?;
+        let mut lengths = [0; ARRAYS];
+        for length in &mut lengths {
+            *length = u64::from_le_bytes(reader.take()?);
+        }
+        let mut arrays = [const { Vec::new() }; ARRAYS];
+        for (array, length) in arrays.iter_mut().zip(lengths) {
+            *array = reader.array(length)?;
+        }
+        if !reader.0.is_empty() {
+            return Err(refused("is longer than it says"));
+        }
+        let [values, frequencies, coordinates, rates, angles] = arrays;
+        let state = State {
+            time,
+            step,
+            coordinates,
+            rates,
+            angles,
+        };
+        Ok(Self {
+            guid: guid.into(),
+            lifecycle,
+            start_time,
+            stop_time: (flags & STOP_DEFINED != 0).then_some(stop),
+            snapshot: Snapshot {
+                values,
+                initialized,
+                started,
+                frequencies,
+                state,
+            },
+        })
+    }
+
+    fn arrays(&self) -> [&[f64]; ARRAYS] {
+        let Snapshot {
+            values,
+            frequencies,
+            state,
+            ..
+        } = &self.snapshot;
+        [
+            values,
+            frequencies,
+            &state.coordinates,
+            &state.rates,
+            &state.angles,
+        ]
+    }
+}
+
+/// Whether a simulation can be that far in a lifecycle state.
+fn fits_together(lifecycle: lifecycle::State, initialized: bool, started: bool) -> bool {
+    use lifecycle::State::*;
+    match lifecycle {
+        Instantiated | Initialization => !started,
+        StepComplete | StepFailed | Terminated => initialized && started,
+        Error | Fatal => true,
+    }
+}
+
+fn refused(reason: &str) -> Fault {
+    Fault::SavedState(reason.into())
+}
+
+/// The bytes before the checksum, if they are whole and of this format and model.
+fn checked<'a>(bytes: &'a [u8], guid: &str) -> Result<&'a [u8], Fault> {
+    if !bytes.starts_with(MAGIC) {
+        return Err(refused("is not a state of a Flexbody unit"));
+    }
+    let body = bytes
+        .len()
+        .checked_sub(HASH_BYTES)
+        .filter(|length| *length >= HEADER_BYTES);
+    let (body, hash) = bytes.split_at(body.ok_or_else(|| refused("is cut off"))?);
+    if Sha256::digest(body)[..] != *hash {
+        return Err(refused("is damaged or cut off: its checksum does not fit"));
+    }
+    let mut reader = Reader(&body[MAGIC.len()..]);
+    let version = u32::from_le_bytes(reader.take()?);
+    if version != VERSION {
+        let reason = format!("expected format version {VERSION}, found {version}");
+        return Err(Fault::SavedState(reason));
+    }
+    if reader.0[..GUID_BYTES] != *guid.as_bytes() {
+        let found = String::from_utf8_lossy(&reader.0[..GUID_BYTES]);
+        let reason = format!("expected one of the model {guid}, found one of {found}");
+        return Err(Fault::SavedState(reason));
+    }
+    Ok(body)
+}
+
+/// Reads from the front of a slice.
+struct Reader<'a>(&'a [u8]);
+
+impl Reader<'_> {
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], Fault> {
+        let (head, tail) = self
+            .0
+            .split_first_chunk()
+            .ok_or_else(|| refused("is cut off"))?;
+        self.0 = tail;
+        Ok(*head)
+    }
+
+    fn number(&mut self) -> Result<f64, Fault> {
+        let number = f64::from_le_bytes(self.take()?);
+        if number.is_finite() {
+            return Ok(number);
+        }
+        Err(refused("contains a number that is not finite"))
+    }
+
+    fn numbers<const N: usize>(&mut self) -> Result<[f64; N], Fault> {
+        let mut numbers = [0.0; N];
+        for number in &mut numbers {
+            *number = self.number()?;
+        }
+        Ok(numbers)
+    }
+
+    fn array(&mut self, length: u64) -> Result<Vec<f64>, Fault> {
+        // Compared before anything is allocated: a hostile length must not exhaust the memory.
+        if length > self.0.len() as u64 / 8 {
+            return Err(refused("is cut off"));
+        }
+        (0..length).map(|_| self.number()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GUID: &str = "{00112233-4455-6677-8899-aabbccddeeff}";
+
+    fn example() -> SavedState {
+        SavedState {
+            guid: GUID.into(),
+            lifecycle: lifecycle::State::StepComplete,
+            start_time: -1.0,
+            stop_time: Some(3.5),
+            snapshot: Snapshot {
+                values: vec![1.0, -0.0, 1e-300],
+                initialized: true,
+                started: true,
+                frequencies: vec![],
+                state: State {
+                    time: 0.25,
+                    step: 1e-3,
+                    coordinates: vec![0.1, 0.2],
+                    rates: vec![0.3, 0.4],
+                    angles: vec![7.0],
+                },
+            },
+        }
+    }
+
+    /// Bytes with a checksum that fits again.
+    fn resealed(mut bytes: Vec<u8>) -> Vec<u8> {
+        bytes.truncate(bytes.len() - HASH_BYTES);
+        let hash = Sha256::digest(&bytes);
+        bytes.extend(hash);
+        bytes
+    }
+
+    #[test]
+    fn a_state_survives_its_bytes() {
+        let mut state = example();
+        for stop in [Some(3.5), None] {
+            state.stop_time = stop;
+            let bytes = state.to_bytes();
+            assert_eq!(bytes.len(), state.size());
+            let again = SavedState::from_bytes(&bytes, GUID).expect("its own bytes");
+            assert_eq!(again, state);
+            assert_eq!(again.snapshot.values[1].to_bits(), (-0.0f64).to_bits());
+        }
+    }
+
+    #[test]
+    fn every_flipped_bit_and_every_cut_is_refused() {
+        let bytes = example().to_bytes();
+        for at in 0..8 * bytes.len() {
+            let mut flipped = bytes.clone();
+            flipped[at / 8] ^= 1 << (at % 8);
+            assert!(SavedState::from_bytes(&flipped, GUID).is_err(), "bit {at}");
+        }
+        for length in 0..bytes.len() {
+            assert!(
+                SavedState::from_bytes(&bytes[..length], GUID).is_err(),
+                "{length} bytes"
+            );
+        }
+        let mut longer = bytes;
+        longer.push(0);
+        assert!(SavedState::from_bytes(&longer, GUID).is_err());
+    }
+
+    #[test]
+    fn another_model_another_version_and_forged_contents_are_refused() {
+        let reason = |bytes: Vec<u8>| {
+            let answer = SavedState::from_bytes(&resealed(bytes), GUID);
+            answer.expect_err("must be refused").to_string()
+        };
+        let bytes = example().to_bytes();
+        let mut other = example();
+        other.guid = GUID.replace('f', "0");
+        assert!(reason(other.to_bytes()).contains("expected one of the model"));
+        let mut version = bytes.clone();
+        version[8] = 2;
+        assert!(reason(version).contains("format version 1, found 2"));
+        let mut mode = bytes.clone();
+        mode[50] = 64;
+        assert!(reason(mode).contains("lifecycle"));
+        let mut flags = bytes.clone();
+        flags[51] = STARTED;
+        assert!(reason(flags).contains("lifecycle"));
+        let mut length = bytes.clone();
+        length[HEADER_BYTES - 1] = 0xff;
+        assert!(reason(length).contains("cut off"));
+        let mut state = example();
+        state.snapshot.state.rates[1] = f64::NAN;
+        assert!(reason(state.to_bytes()).contains("not finite"));
+    }
+}

@@ -1,0 +1,119 @@
+//! Symbols of joints and loads, as textbooks draw them. `unit` is the size of a symbol in pixels.
+
+use super::canvas::{Canvas, Point, Style, moved};
+
+const GROUND: &str = "#3a3f45";
+/// Colour of loads and of their names.
+pub const LOAD: &str = "#c2571a";
+
+fn line(width: f64) -> Style {
+    Style {
+        stroke: GROUND,
+        width,
+        fill: "none",
+    }
+}
+
+/// A line with hatching on the side of `behind`: ground.
+fn ground(canvas: &mut Canvas, centre: Point, along: Point, behind: Point, half: f64, unit: f64) {
+    let ends = [-half, half].map(|at| moved(centre, along, at));
+    canvas.polyline(&ends, false, line(0.16 * unit));
+    let count = (2.0 * half / (0.5 * unit)).round().max(2.0) as usize;
+    for number in 0..count {
+        let at = 2.0 * half * (number as f64 + 0.75) / count as f64 - half;
+        let top = moved(centre, along, at);
+        let bottom = moved(moved(top, behind, 0.5 * unit), along, -0.4 * unit);
+        canvas.polyline(&[top, bottom], false, line(0.09 * unit));
+    }
+}
+
+/// A pin on ground below.
+pub fn revolute(canvas: &mut Canvas, at: Point, unit: f64) {
+    let (right, down) = ([1.0, 0.0], [0.0, 1.0]);
+    let foot = moved(at, down, 1.6 * unit);
+    let corners = [-0.9, 0.9].map(|side| moved(foot, right, side * unit));
+    let style = Style {
+        fill: "#ffffff",
+        ..line(0.16 * unit)
+    };
+    canvas.polyline(&[at, corners[0], corners[1]], true, style);
+    ground(canvas, foot, right, down, 1.3 * unit, unit);
+    canvas.circle(at, 0.42 * unit, style);
+}
+
+/// A wall across the body; `outward` points from the body into the wall.
+pub fn weld(canvas: &mut Canvas, at: Point, outward: Point, unit: f64) {
+    let across = [-outward[1], outward[0]];
+    ground(canvas, at, across, outward, 1.7 * unit, unit);
+}
+
+/// A pin between two rails.
+pub fn slider(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
+    // Of the two normals the one that points down the page.
+    let sign = if along[0] >= 0.0 { 1.0 } else { -1.0 };
+    let below = [-sign * along[1], sign * along[0]];
+    let rails = [-0.6, 0.6].map(|side| moved(at, below, side * unit));
+    let ends = [-2.4, 2.4].map(|end| moved(rails[0], along, end * unit));
+    canvas.polyline(&ends, false, line(0.16 * unit));
+    ground(canvas, rails[1], along, below, 2.4 * unit, unit);
+    canvas.circle(
+        at,
+        0.42 * unit,
+        Style {
+            fill: "#ffffff",
+            ..line(0.16 * unit)
+        },
+    );
+}
+
+/// A block that may move but not turn.
+pub fn orientation(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
+    let across = [-along[1], along[0]];
+    let corner = |a: f64, b: f64| moved(moved(at, along, a * unit), across, b * unit);
+    let corners = [
+        corner(-0.8, -0.8),
+        corner(0.8, -0.8),
+        corner(0.8, 0.8),
+        corner(-0.8, 0.8),
+    ];
+    canvas.polyline(&corners, true, line(0.16 * unit));
+}
+
+/// A force that ends at the body; gives back where its arrow begins.
+pub fn force(canvas: &mut Canvas, at: Point, along: Point, unit: f64) -> Point {
+    let style = Style {
+        stroke: LOAD,
+        width: 0.2 * unit,
+        fill: "none",
+    };
+    let (tail, tip) = (moved(at, along, -3.6 * unit), moved(at, along, -0.5 * unit));
+    canvas.arrow(tail, tip, 0.7 * unit, style);
+    tail
+}
+
+/// A counter-clockwise moment.
+pub fn moment(canvas: &mut Canvas, at: Point, unit: f64) {
+    let style = Style {
+        stroke: LOAD,
+        width: 0.2 * unit,
+        fill: "none",
+    };
+    let radius = 1.5 * unit;
+    let points: Vec<Point> = (0..=24)
+        .map(|number| {
+            // From the lower right over the top to the lower left; y points down the page.
+            let angle = (-50.0 + 11.0 * f64::from(number)).to_radians();
+            [at[0] + radius * angle.cos(), at[1] - radius * angle.sin()]
+        })
+        .collect();
+    canvas.polyline(&points, false, style);
+    let end = 220.0f64.to_radians();
+    let (sine, cosine) = (end.sin(), end.cos());
+    let along = [-sine, -cosine];
+    let tip = moved(
+        [at[0] + radius * cosine, at[1] - radius * sine],
+        along,
+        0.3 * unit,
+    );
+    canvas.head(tip, along, 0.7 * unit, style);
+}

@@ -1,0 +1,149 @@
+//! Getting and setting variables by value reference.
+
+use std::mem::MaybeUninit;
+
+use super::instance::Instance;
+use super::lifecycle::Causality;
+use super::status::Fault;
+use crate::simulation::Variable;
+
+const REAL: &str = "Real";
+const INTEGER: &str = "Integer";
+
+impl Instance {
+    /// `fmi2GetReal`.
+    pub(super) fn get_real(
+        &mut self,
+        references: &[u32],
+        values: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Fault> {
+        for reference in references {
+            self.variable(*reference, REAL)?;
+        }
+        for (reference, value) in references.iter().zip(values) {
+            value.write(self.simulation.real(*reference as usize)?);
+        }
+        Ok(())
+    }
+
+    /// `fmi2GetInteger`.
+    pub(super) fn get_integer(
+        &mut self,
+        references: &[u32],
+        values: &mut [MaybeUninit<i32>],
+    ) -> Result<(), Fault> {
+        for reference in references {
+            self.variable(*reference, INTEGER)?;
+        }
+        for (reference, value) in references.iter().zip(values) {
+            value.write(self.simulation.integer(*reference as usize)?);
+        }
+        Ok(())
+    }
+
+    /// `fmi2SetReal`: all values or none.
+    pub(super) fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Fault> {
+        for (reference, value) in references.iter().zip(values) {
+            let variable = self.settable(*reference, REAL)?;
+            if !value.is_finite() {
+                let reason = format!("expected a finite number, found {value}");
+                return Err(Fault::Value {
+                    name: variable.name.clone(),
+                    reason,
+                });
+            }
+        }
+        for (done, (reference, value)) in references.iter().zip(values).enumerate() {
+            let index = *reference as usize;
+            if let Err(error) = self.simulation.set_real(index, *value) {
+                self.take_back(&references[..done]);
+                return Err(error.into());
+            }
+        }
+        for (reference, value) in references.iter().zip(values) {
+            self.values[*reference as usize] = *value;
+        }
+        Ok(())
+    }
+
+    /// `fmi2SetInteger`: all values or none.
+    pub(super) fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Fault> {
+        for reference in references {
+            self.settable(*reference, INTEGER)?;
+        }
+        for (done, (reference, value)) in references.iter().zip(values).enumerate() {
+            let index = *reference as usize;
+            if let Err(error) = self.simulation.set_integer(index, *value) {
+                self.take_back(&references[..done]);
+                return Err(error.into());
+            }
+        }
+        for (reference, value) in references.iter().zip(values) {
+            self.values[*reference as usize] = f64::from(*value);
+        }
+        Ok(())
+    }
+
+    /// Functions for a type that no variable has: nothing to do for no references.
+    pub(super) fn no_such_type(
+        &self,
+        references: &[u32],
+        asked: &'static str,
+    ) -> Result<(), Fault> {
+        references
+            .iter()
+            .try_for_each(|reference| self.variable(*reference, asked).map(drop))
+    }
+
+    /// The variable of a value reference, if it has the type that is asked for.
+    fn variable(&self, reference: u32, asked: &'static str) -> Result<&Variable, Fault> {
+        let variables = self.simulation.variables();
+        let count = variables.len();
+        let Some(variable) = variables.get(reference as usize) else {
+            return Err(Fault::Reference { reference, count });
+        };
+        let actual = if variable.is_integer() { INTEGER } else { REAL };
+        if actual != asked {
+            return Err(Fault::Type {
+                name: variable.name.clone(),
+                actual,
+                asked,
+            });
+        }
+        Ok(variable)
+    }
+
+    /// The variable of a value reference, if it may be set in the present state.
+    fn settable(&self, reference: u32, asked: &'static str) -> Result<&Variable, Fault> {
+        let variable = self.variable(reference, asked)?;
+        let causality = Causality::of(variable);
+        if causality.settable_in(self.state) {
+            return Ok(variable);
+        }
+        let (name, reason, state) = (variable.name.clone(), causality.rule(), self.state.name());
+        Err(Fault::NotSettable {
+            name,
+            reason,
+            state,
+        })
+    }
+
+    /// Sets variables back to the values before a call that was refused half-way. The simulation
+    /// accepted these values before, so it accepts them again.
+    fn take_back(&mut self, references: &[u32]) {
+        for reference in references {
+            let index = *reference as usize;
+            let value = self.values[index];
+            let accepted = if self.simulation.variables()[index].is_integer() {
+                // Written from an i32 in the first place.
+                self.simulation.set_integer(index, value as i32)
+            } else {
+                self.simulation.set_real(index, value)
+            };
+            assert!(
+                accepted.is_ok(),
+                "an accepted value is refused: {accepted:?}"
+            );
+        }
+    }
+}
