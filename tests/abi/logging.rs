@@ -1,0 +1,99 @@
+//! Messages: by category, as text and not as a format, and none when logging is off.
+
+use std::ffi::{CStr, c_char};
+use std::ptr;
+
+use crate::support::{Instance, Status, Unit, call};
+
+fn enable(instance: &Instance<'_>, on: bool, categories: &[&CStr]) -> Status {
+    let names: Vec<*const c_char> = categories.iter().map(|name| name.as_ptr()).collect();
+    let c = instance.component;
+    call!(
+        fmi2SetDebugLogging,
+        c,
+        i32::from(on),
+        names.len(),
+        names.as_ptr()
+    )
+}
+
+/// Something for every category but the warnings.
+fn work(instance: &Instance<'_>) -> Vec<String> {
+    assert_eq!(call!(fmi2Reset, instance.component), Status::Ok);
+    instance.start();
+    assert_eq!(instance.step(0.0, 0.01), Status::Ok);
+    assert_eq!(instance.step(-1.0, 0.01), Status::Error);
+    let mut categories: Vec<String> = instance
+        .record
+        .take()
+        .into_iter()
+        .map(|line| line.2)
+        .collect();
+    categories.dedup();
+    categories
+}
+
+#[test]
+fn categories_are_filtered() {
+    let unit = Unit::new();
+    let instance = Instance::new(&unit);
+    assert_eq!(
+        work(&instance),
+        ["logEvents", "logSolver", "logStatusError"]
+    );
+    assert_eq!(enable(&instance, true, &[c"logSolver"]), Status::Ok);
+    assert_eq!(work(&instance), ["logSolver"]);
+    assert_eq!(
+        enable(&instance, true, &[c"logEvents", c"logStatusError"]),
+        Status::Ok
+    );
+    assert_eq!(work(&instance), ["logEvents", "logStatusError"]);
+    assert_eq!(enable(&instance, false, &[]), Status::Ok);
+    assert!(work(&instance).is_empty());
+    assert_eq!(enable(&instance, true, &[]), Status::Ok);
+    assert_eq!(work(&instance).len(), 3);
+}
+
+#[test]
+fn unknown_categories_are_named_and_change_nothing() {
+    let unit = Unit::new();
+    let instance = Instance::new(&unit);
+    assert_eq!(enable(&instance, false, &[c"gossip"]), Status::Error);
+    assert!(instance.record.last().contains("gossip"));
+    assert_eq!(
+        enable(&instance, true, &[c"logEvents", c"\xff"]),
+        Status::Error
+    );
+    instance.record.take();
+    assert_eq!(work(&instance).len(), 3);
+}
+
+#[test]
+fn logging_off_is_silent() {
+    let unit = Unit::new();
+    let instance = Instance::with_logging(&unit, false);
+    assert!(work(&instance).is_empty());
+    assert_eq!(instance.set("rod.tip.force[1]", 1e300), Status::Ok);
+    assert_eq!(instance.step(0.01, 0.01), Status::Discard);
+    assert_eq!(
+        call!(fmi2GetFMUstate, instance.component, ptr::null_mut()),
+        Status::Error
+    );
+    assert!(instance.record.take().is_empty());
+}
+
+#[test]
+fn messages_carry_the_name_the_status_and_the_work_of_the_solver() {
+    let unit = Unit::new();
+    let instance = Instance::started(&unit);
+    instance.record.take();
+    assert_eq!(instance.step(0.0, 0.05), Status::Ok);
+    let (name, status, category, message) = instance.record.take().pop().expect("a message");
+    assert_eq!(
+        (name.as_str(), status, category.as_str()),
+        ("instance", Status::Ok, "logSolver")
+    );
+    for word in ["0.05", "steps", "rejected", "Newton"] {
+        assert!(message.contains(word), "{message}");
+    }
+}

@@ -1,0 +1,177 @@
+//! Saved states: the same bits again, in this instance or another; foreign bytes are refused.
+
+use std::ptr;
+
+use crate::support::{Instance, SCENE, State, Status, Unit, call};
+
+/// An instance at 0.1 s whose input has just jumped, with parameters of its own.
+fn travelled(unit: &Unit) -> Instance<'_> {
+    let instance = Instance::new(unit);
+    assert_eq!(instance.set_elements(6), Status::Ok);
+    assert_eq!(instance.set("rod.density", 4000.0), Status::Ok);
+    instance.start();
+    instance.run(0, 5);
+    assert_eq!(instance.set("rod.tip.force[2]", 3.0), Status::Ok);
+    instance
+}
+
+#[test]
+fn rollback_reproduces_every_bit() {
+    let unit = Unit::new();
+    let instance = travelled(&unit);
+    let undisturbed = travelled(&unit).run(5, 10);
+    let state = instance.save();
+    let outputs = instance.outputs();
+    let expected = instance.run(5, 10);
+    assert_eq!(expected, undisturbed, "saving has changed the run");
+    for _ in 0..2 {
+        assert_eq!(instance.restore(state), Status::Ok);
+        assert_eq!(instance.outputs(), outputs);
+        assert_eq!(instance.run(5, 10), expected);
+    }
+    instance.free(state);
+}
+
+#[test]
+fn an_instance_that_did_nothing_else_goes_on_from_the_bytes() {
+    let unit = Unit::new();
+    let instance = travelled(&unit);
+    let bytes = instance.fingerprint();
+    let outputs = instance.outputs();
+    let expected = instance.run(5, 10);
+    let fresh = Instance::new(&unit);
+    let state = fresh.deserialize(&bytes).expect("its own bytes");
+    assert_eq!(fresh.restore(state), Status::Ok, "{}", fresh.record.last());
+    fresh.free(state);
+    assert_eq!(fresh.fingerprint(), bytes);
+    assert_eq!(fresh.outputs(), outputs);
+    assert_eq!(fresh.run(5, 10), expected);
+}
+
+#[test]
+fn a_state_is_used_again_when_it_is_passed_in() {
+    let unit = Unit::new();
+    let instance = travelled(&unit);
+    let mut state = instance.save();
+    let first = state;
+    instance.run(5, 7);
+    assert_eq!(
+        call!(fmi2GetFMUstate, instance.component, &mut state),
+        Status::Ok
+    );
+    assert_eq!(state, first);
+    assert_eq!(instance.serialize(state), instance.fingerprint());
+    instance.free(state);
+}
+
+#[test]
+fn states_carry_the_lifecycle_and_the_experiment() {
+    let unit = Unit::new();
+    let instance = Instance::new(&unit);
+    let c = instance.component;
+    let early = instance.save();
+    assert_eq!(
+        call!(fmi2SetupExperiment, c, 0, 0.0, 0.0, 1, 0.1),
+        Status::Ok
+    );
+    assert_eq!(call!(fmi2EnterInitializationMode, c), Status::Ok);
+    let initializing = instance.save();
+    assert_eq!(call!(fmi2ExitInitializationMode, c), Status::Ok);
+    let started = instance.save();
+    let expected = instance.run(0, 5);
+    assert_eq!(
+        instance.step(0.1, 0.02),
+        Status::Error,
+        "past the stop time"
+    );
+    assert_eq!(instance.restore(initializing), Status::Ok);
+    assert_eq!(instance.set("rod.density", 100.0), Status::Ok);
+    assert_eq!(instance.set("rod.density", 5540.0), Status::Ok);
+    assert_eq!(call!(fmi2ExitInitializationMode, c), Status::Ok);
+    assert_eq!(instance.run(0, 5), expected);
+    assert_eq!(call!(fmi2Terminate, c), Status::Ok);
+    assert_eq!(instance.restore(started), Status::Ok);
+    assert_eq!(instance.run(0, 5), expected);
+    assert_eq!(
+        instance.step(0.1, 0.02),
+        Status::Error,
+        "past the stop time"
+    );
+    assert_eq!(instance.restore(early), Status::Ok);
+    instance.start();
+    assert_eq!(instance.run(0, 6)[..5], expected[..]);
+    for state in [early, initializing, started] {
+        instance.free(state);
+    }
+}
+
+#[test]
+fn a_saved_state_leads_out_of_failure() {
+    let unit = Unit::new();
+    for failed in [State::StepFailed, State::Error] {
+        let good = Instance::started(&unit);
+        let bytes = good.fingerprint();
+        let instance = Instance::in_state(&unit, failed);
+        let state = instance
+            .deserialize(&bytes)
+            .expect("bytes of the same model");
+        assert_eq!(instance.restore(state), Status::Ok);
+        instance.free(state);
+        assert_eq!(instance.run(0, 3), good.run(0, 3), "{}", failed.name());
+    }
+}
+
+#[test]
+fn damaged_cut_and_foreign_bytes_are_refused() {
+    let unit = Unit::new();
+    let instance = travelled(&unit);
+    let bytes = instance.fingerprint();
+    for at in 0..bytes.len() {
+        let mut damaged = bytes.clone();
+        damaged[at] ^= 0x10;
+        assert_eq!(instance.deserialize(&damaged), None, "byte {at}");
+        assert!(instance.record.last().contains("saved state"));
+        assert_eq!(instance.deserialize(&bytes[..at]), None, "{at} bytes");
+    }
+    let longer = [&bytes[..], &[0]].concat();
+    assert_eq!(instance.deserialize(&longer), None);
+    let other = Unit::of(&SCENE.replace("-9.81", "-1.62"));
+    let foreign = Instance::started(&other);
+    assert_eq!(instance.deserialize(&foreign.fingerprint()), None);
+    assert!(instance.record.last().contains("model"));
+    let state = foreign.save();
+    assert_eq!(instance.restore(state), Status::Error);
+    foreign.free(state);
+    assert_eq!(instance.fingerprint(), bytes);
+}
+
+#[test]
+fn room_of_the_wrong_size_is_refused() {
+    let unit = Unit::new();
+    let instance = Instance::started(&unit);
+    let state = instance.save();
+    let mut size = 0;
+    let c = instance.component;
+    assert_eq!(
+        call!(
+            fmi2SerializedFMUstateSize,
+            c,
+            state,
+            ptr::from_mut(&mut size)
+        ),
+        Status::Ok
+    );
+    let mut room = vec![7_u8; size + 1];
+    for wrong in [0, size - 1, size + 1] {
+        let target = room.as_mut_ptr().cast();
+        assert_eq!(
+            call!(fmi2SerializeFMUstate, c, state, target, wrong),
+            Status::Error
+        );
+        assert!(
+            room.iter().all(|byte| *byte == 7),
+            "written although refused"
+        );
+    }
+    instance.free(state);
+}
