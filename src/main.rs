@@ -40,10 +40,10 @@ struct Simulate {
     /// Scene file.
     scene: PathBuf,
     /// Time at which the simulation ends, s.
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     stop_time: f64,
     /// Time between communication points, s.
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     step: f64,
     /// Value of a parameter or input, e.g. `rod.density=7800`; may be repeated.
     #[arg(long = "set", value_name = "NAME=VALUE")]
@@ -101,9 +101,8 @@ fn simulate(arguments: &Simulate) -> Outcome<()> {
     for assignment in &arguments.set {
         assign(&mut simulation, assignment)?;
     }
-    simulation
-        .initialize(0.0)
-        .map_err(|error| at(&arguments.scene, error))?;
+    let started = simulation.initialize(0.0).and_then(|()| simulation.start());
+    started.map_err(|error| at(&arguments.scene, error))?;
     match &arguments.output {
         Some(path) => {
             let file = File::create(path).map_err(|error| at(path, error))?;
@@ -184,10 +183,10 @@ fn run(
                 .map_err(|failure| failure.to_string())?;
             bar.inc(1);
         }
-        write!(csv, "{}", simulation.time()).map_err(unwritten)?;
+        write!(csv, "{:?}", simulation.time()).map_err(unwritten)?;
         for index in &outputs {
             let value = simulation.real(*index).map_err(|error| error.to_string())?;
-            write!(csv, ",{value}").map_err(unwritten)?;
+            write!(csv, ",{value:?}").map_err(unwritten)?;
         }
         writeln!(csv).map_err(unwritten)?;
     }

@@ -2,7 +2,7 @@
 //!
 //! Every function does three things: it borrows what the master lends for the call, passes one
 //! guard (NULL instance, lifecycle, panic), and leaves the work to safe code in
-//! [`super::instance`].
+//! the rest of this folder.
 //!
 //! # Safety
 //! All functions rely on what the standard asks of a master: pointers are NULL or valid for the

@@ -88,14 +88,14 @@ pub enum Refusal {
 impl Instance {
     /// `fmi2Instantiate`. A refusal is logged even when logging is off.
     pub fn instantiate(request: &Request<'_>, logger: Logger) -> Option<Self> {
-        match Self::build(request) {
-            Ok((simulation, guid)) => Some(Self::new(simulation, guid, logger)),
-            Err(refusal) => {
-                let message = format_args!("fmi2Instantiate: {refusal}");
-                logger.report(Status::Error, Category::Error, message);
-                None
-            }
-        }
+        let reason = match catch_unwind(|| Self::build(request)) {
+            Ok(Ok((simulation, guid))) => return Some(Self::new(simulation, guid, logger)),
+            Ok(Err(refusal)) => refusal.to_string(),
+            Err(panic) => format!("defect of the library: {}", words(&*panic)),
+        };
+        let message = format_args!("fmi2Instantiate: {reason}");
+        logger.report(Status::Error, Category::Error, message);
+        None
     }
 
     fn build(request: &Request<'_>) -> Result<(Simulation, String), Refusal> {
