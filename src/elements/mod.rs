@@ -1,0 +1,53 @@
+//! Floor 1. Finite elements: parameters, mass, force and tangent of one element. An element knows
+//! neither nodes nor bodies; it sees its own coordinates `e` and their rates.
+//!
+//! Vectors are stored as the columns of a `D` x 4 matrix (position and slope at both ends), so that
+//! one file serves the plane and space. Mass is a scalar 4 x 4 matrix times the identity of space.
+
+pub mod cable;
+pub mod shape;
+
+use nalgebra::{SMatrix, SVector};
+
+/// Coordinates of an element, their rates, or forces on them: the columns are position and slope at
+/// the first end, position and slope at the second (report Eqs. 10-11).
+pub type Nodal<const D: usize> = SMatrix<f64, D, 4>;
+
+/// A symmetric matrix over the coordinates of an element, as 4 x 4 blocks of `D` x `D`.
+pub type Blocks<const D: usize> = [[SMatrix<f64, D, D>; 4]; 4];
+
+/// Strain measures. They agree only for small strains; the energy is half the integral of
+/// `EA axial^2 + EI bending^2` over the reference length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strain {
+    /// Axial `|r'| - 1`, bending: rotation per reference length (Gerstmayr & Irschik 2008).
+    ThetaPrime,
+    /// Axial `(r'.r' - 1) / 2`, bending: curvature of the deformed line (Berzeri & Shabana 2000).
+    GreenLagrangeFrenetKappa,
+    /// Axial `|r'| - 1`, bending: curvature of the deformed line.
+    EngStrainFrenetKappa,
+}
+
+/// What a body needs from an element.
+pub trait Element<const D: usize>: Clone + Send + Sync {
+    /// Reference length, m.
+    fn length(&self) -> f64;
+    /// Scalar mass matrix, kg (report Eq. 12); the full one is its Kronecker product with I.
+    fn mass(&self) -> SMatrix<f64, 4, 4>;
+    /// Forces on the coordinates per unit of uniform acceleration of space, kg: mass times the
+    /// integral of the shape functions.
+    fn weight(&self) -> SVector<f64, 4>;
+    /// Strain energy, J.
+    fn energy(&self, e: &Nodal<D>) -> f64;
+    /// Elastic and damping force on the coordinates, `-dU/de - R(e) de/dt`, N and N m.
+    fn force(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Nodal<D>;
+    /// Tangent stiffness `-d force / de`, symmetric; with damping its symmetric part that matters,
+    /// the rate of strain taken as given.
+    fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D>;
+    /// Damping matrix `R = -d force / d rate`, symmetric.
+    fn damping(&self, e: &Nodal<D>) -> Blocks<D>;
+    /// Whether the element dissipates.
+    fn is_damped(&self) -> bool;
+    /// Axial strain and curvature (1/m) at `xi` in [0, 1], in the strain measure of the element.
+    fn strain(&self, e: &Nodal<D>, xi: f64) -> (f64, f64);
+}

@@ -1,0 +1,56 @@
+//! Shape functions of elements with position and slope at both ends: cubic Hermite polynomials.
+//!
+//! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eqs. 5 and 9; the fourth function is misprinted
+//! there and reads `l (xi^3 - xi^2)`, which is what Eq. 12 integrates.
+
+use nalgebra::SVector;
+
+/// Shape functions `S` at `xi` in [0, 1] of an element of length `l` (m): `r = S e`.
+pub fn values(xi: f64, l: f64) -> SVector<f64, 4> {
+    let (x2, x3) = (xi * xi, xi * xi * xi);
+    [
+        1.0 - 3.0 * x2 + 2.0 * x3,
+        l * (xi - 2.0 * x2 + x3),
+        3.0 * x2 - 2.0 * x3,
+        l * (x3 - x2),
+    ]
+    .into()
+}
+
+/// Derivatives of the shape functions by the reference length: `r' = S' e`.
+pub fn slopes(xi: f64, l: f64) -> SVector<f64, 4> {
+    let x2 = xi * xi;
+    let rise = 6.0 * (xi - x2) / l;
+    [-rise, 1.0 - 4.0 * xi + 3.0 * x2, rise, 3.0 * x2 - 2.0 * xi].into()
+}
+
+/// Second derivatives of the shape functions by the reference length: `r'' = S'' e`.
+pub fn curvatures(xi: f64, l: f64) -> SVector<f64, 4> {
+    let bend = (6.0 - 12.0 * xi) / (l * l);
+    [-bend, (6.0 * xi - 4.0) / l, bend, (6.0 * xi - 2.0) / l].into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn interpolate_positions_and_slopes_at_both_ends() {
+        let l = 0.7;
+        assert_eq!(values(0.0, l), SVector::from([1.0, 0.0, 0.0, 0.0]));
+        assert_eq!(slopes(0.0, l), SVector::from([0.0, 1.0, 0.0, 0.0]));
+        assert_eq!(values(1.0, l), SVector::from([0.0, 0.0, 1.0, 0.0]));
+        assert_eq!(slopes(1.0, l), SVector::from([0.0, 0.0, 0.0, 1.0]));
+    }
+
+    #[test]
+    fn derivatives_match_central_differences() {
+        let (l, h) = (0.7, 1e-5);
+        for xi in [0.2, 0.5, 0.9] {
+            let slope = (values(xi + h, l) - values(xi - h, l)) / (2.0 * h * l);
+            let bend = (slopes(xi + h, l) - slopes(xi - h, l)) / (2.0 * h * l);
+            assert!((slope - slopes(xi, l)).norm() < 1e-9);
+            assert!((bend - curvatures(xi, l)).norm() < 1e-8);
+        }
+    }
+}

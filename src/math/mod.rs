@@ -1,0 +1,7 @@
+//! Floor 0. Numerics that know nothing of mechanics: quadrature, structured solves, eigenvalues.
+//! The only users of faer.
+
+pub mod block_tridiagonal;
+pub mod eigen;
+pub mod householder;
+pub mod quadrature;

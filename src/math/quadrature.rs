@@ -1,0 +1,57 @@
+//! Quadrature rules on [0, 1].
+
+/// A point and its weight.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// Coordinate in [0, 1].
+    pub at: f64,
+    /// Weight; the weights of a rule sum to 1.
+    pub weight: f64,
+}
+
+const fn point(at: f64, weight: f64) -> Point {
+    Point { at, weight }
+}
+
+/// sqrt(3) / 6.
+const SQRT_3_6: f64 = 0.288_675_134_594_812_9;
+/// sqrt(15) / 10.
+const SQRT_15_10: f64 = 0.387_298_334_620_741_7;
+
+/// Gauss-Legendre, exact to degree 3.
+pub const GAUSS_2: [Point; 2] = [point(0.5 - SQRT_3_6, 0.5), point(0.5 + SQRT_3_6, 0.5)];
+
+/// Gauss-Legendre, exact to degree 5.
+pub const GAUSS_3: [Point; 3] = [
+    point(0.5 - SQRT_15_10, 5.0 / 18.0),
+    point(0.5, 8.0 / 18.0),
+    point(0.5 + SQRT_15_10, 5.0 / 18.0),
+];
+
+/// Gauss-Lobatto, exact to degree 3, with both ends (Simpson's rule).
+pub const LOBATTO_3: [Point; 3] = [
+    point(0.0, 1.0 / 6.0),
+    point(0.5, 4.0 / 6.0),
+    point(1.0, 1.0 / 6.0),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn integrate(rule: &[Point], degree: i32) -> f64 {
+        rule.iter().map(|p| p.weight * p.at.powi(degree)).sum()
+    }
+
+    #[test]
+    fn rules_are_exact_to_their_degree_and_no_further() {
+        for (rule, degree) in [(&GAUSS_2[..], 3), (&GAUSS_3, 5), (&LOBATTO_3, 3)] {
+            for power in 0..=degree {
+                let exact = 1.0 / f64::from(power + 1);
+                assert!((integrate(rule, power) - exact).abs() < 1e-15);
+            }
+            let exact = 1.0 / f64::from(degree + 2);
+            assert!((integrate(rule, degree + 1) - exact).abs() > 1e-5);
+        }
+    }
+}
