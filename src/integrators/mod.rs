@@ -1,0 +1,183 @@
+//! Floor 4. Time integration of `q'' = a(q, q')` with identity inertia: one file a method, one trait,
+//! one error-controlled driver. An integrator knows no joints, loads or elements.
+//!
+//! Methods are one-step: nothing of the past survives a communication point but the proposed step, so
+//! that inputs may jump there and a restored state continues bit for bit.
+
+mod radau;
+mod rk4;
+
+pub use radau::Radau;
+pub use rk4::Rk4;
+
+use crate::system::{Dynamics, State};
+
+/// Error that a step may make, in the mass norm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Relative tolerance.
+    pub relative: f64,
+    /// Size of positions, m sqrt(kg): length of the body times the root of its mass.
+    pub position: f64,
+    /// Size of velocities, m sqrt(kg) / s.
+    pub velocity: f64,
+}
+
+impl Tolerance {
+    /// Size of an error; 1 is just tolerated. With identity inertia the Euclidean norm of `q` is the
+    /// mass norm of the displacement field.
+    pub fn norm(&self, position: &[f64], velocity: &[f64]) -> f64 {
+        let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let p = size(position) / self.position;
+        let v = size(velocity) / self.velocity;
+        // Not f64::max, which would hide a NaN.
+        (if p > v { p } else { v + 0.0 * p }) / self.relative
+    }
+}
+
+/// Outcome of one attempted step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Attempt {
+    /// Finished with this error in units of the tolerance.
+    Done(f64),
+    /// The stage equations were not solved; try this fraction of the step.
+    Failed(f64),
+}
+
+/// A one-step method of second-order systems.
+pub trait Method: Send {
+    /// Name in logs and charts.
+    fn name(&self) -> &'static str;
+    /// Longest step that stability allows, s.
+    fn longest_step(&self) -> f64;
+    /// Forgets history: inputs may have jumped.
+    fn begin(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64]);
+    /// Tries a step of length `h` from the state last begun with or accepted.
+    fn attempt(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        state: (&[f64], &[f64]),
+        h: f64,
+        tolerance: &Tolerance,
+    ) -> Attempt;
+    /// Takes over the result of the last attempt.
+    fn accept(&mut self, q: &mut [f64], v: &mut [f64]);
+    /// Acceleration at the state last begun with or accepted, for the first step's length.
+    fn acceleration(&self) -> &[f64];
+    /// Newton iterations since [`Method::begin`].
+    fn newton_iterations(&self) -> u64;
+}
+
+/// What a call of [`advance`] did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+}
+
+/// Why a step could not be finished.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The tolerance cannot be met: the step shrank to the roundoff of time.
+    StepTooSmall,
+    /// The state is no longer finite.
+    NotFinite,
+}
+
+/// The smallest and largest change of step length from one step to the next, and the safety factor.
+const SHRINK: f64 = 0.2;
+const GROW: f64 = 5.0;
+const SAFETY: f64 = 0.9;
+
+/// Advances the state to `until` in steps that each keep the tolerance; lands exactly. On failure the state is that of the last accepted step.
+///
+/// # Errors
+/// The reason, when no step however short succeeds.
+pub fn advance(
+    method: &mut dyn Method,
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+    until: f64,
+    tolerance: &Tolerance,
+) -> (Counts, Result<(), Stop>) {
+    let mut counts = Counts::default();
+    method.begin(dynamics, &state.coordinates, &state.rates);
+    if state.step <= 0.0 {
+        state.step = first_step(method.acceleration(), &state.rates, tolerance);
+    }
+    let shortest = 16.0 * f64::EPSILON * until.abs().max(state.time.abs());
+    let result = loop {
+        let remaining = until - state.time;
+        if remaining <= 0.0 {
+            break Ok(());
+        }
+        let wanted = state.step.min(method.longest_step());
+        // Whole steps to the end: a sliver left over would cost a step of its own.
+        let pieces = (remaining / wanted).ceil().max(1.0);
+        let h = if pieces < 4.0 {
+            remaining / pieces
+        } else {
+            wanted
+        };
+        let from = (&state.coordinates[..], &state.rates[..]);
+        let attempt = method.attempt(dynamics, from, h, tolerance);
+        match attempt {
+            Attempt::Done(error) if error <= 1.0 => {
+                method.accept(&mut state.coordinates, &mut state.rates);
+                state.time = if pieces <= 1.0 { until } else { state.time + h };
+                let next = h * (SAFETY * error.max(1e-10).powf(-0.25)).clamp(SHRINK, GROW);
+                // A step cut short by the communication point says nothing against the longer one.
+                state.step = if h < wanted {
+                    next.max(state.step)
+                } else {
+                    next
+                };
+                counts.steps += 1;
+                dynamics.accepted(state);
+            }
+            outcome => {
+                counts.rejected += 1;
+                let factor = match outcome {
+                    Attempt::Done(error) if error.is_finite() => {
+                        (SAFETY * error.powf(-0.25)).clamp(SHRINK, SAFETY)
+                    }
+                    Attempt::Done(_) => SHRINK,
+                    Attempt::Failed(factor) => factor,
+                };
+                state.step = h * factor;
+                if state.step <= shortest {
+                    break Err(reason(&state.rates, method.acceleration()));
+                }
+            }
+        }
+    };
+    counts.newton_iterations = method.newton_iterations();
+    (counts, result)
+}
+
+fn reason(v: &[f64], a: &[f64]) -> Stop {
+    if v.iter().chain(a).all(|x| x.is_finite()) {
+        Stop::StepTooSmall
+    } else {
+        Stop::NotFinite
+    }
+}
+
+/// A first step short enough to learn the right one from: the state changes by a hundredth of its
+/// size.
+fn first_step(a: &[f64], v: &[f64], tolerance: &Tolerance) -> f64 {
+    let relative = Tolerance {
+        relative: 1.0,
+        ..*tolerance
+    };
+    let rate = relative.norm(v, a);
+    if rate > 0.0 && rate.is_finite() {
+        1e-2 / rate
+    } else {
+        1e-3
+    }
+}

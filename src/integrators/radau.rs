@@ -1,0 +1,421 @@
+//! Radau IIA of order 5: implicit, L-stable, three stages, simplified Newton iteration with the stage
+//! equations transformed into one real and one complex system.
+//!
+//! For `q'' = a(q, q')` the stage positions follow linearly from the stage velocities, so that only
+//! velocities are iterated and a solve is one with `s^2 I + s R + K`, `s` the eigenvalues of the
+//! inverse Runge-Kutta matrix over the step.
+//!
+//! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8
+//! (method, transformation, stopping, error estimate Eqs. 8.19-8.20).
+
+use nalgebra::Complex;
+
+use super::{Attempt, Method, Tolerance};
+use crate::system::Dynamics;
+
+/// Nodes.
+const C: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+/// Real eigenvalue of the inverse Runge-Kutta matrix, and the complex pair.
+const GAMMA: f64 = 3.637_834_252_744_496;
+const ALPHA: f64 = 2.681_082_873_627_752;
+const BETA: f64 = 3.050_430_199_247_410_5;
+/// Transformation that makes the inverse Runge-Kutta matrix block diagonal: `z = T w`.
+const T: [[f64; 3]; 3] = [
+    [
+        0.091_232_394_870_892_94,
+        -0.141_255_295_020_954_2,
+        -0.030_029_194_105_147_424,
+    ],
+    [
+        0.241_717_932_707_107,
+        0.204_129_352_293_799_93,
+        0.382_942_112_757_261_9,
+    ],
+    [0.966_048_182_615_092_9, 1.0, 0.0],
+];
+/// Its inverse.
+const INVERSE: [[f64; 3]; 3] = [
+    [
+        4.325_579_890_063_155,
+        0.339_199_251_815_809_87,
+        0.541_770_539_935_874_9,
+    ],
+    [
+        -4.178_718_591_551_905,
+        -0.327_682_820_761_062_4,
+        0.476_623_554_500_550_45,
+    ],
+    [
+        -0.502_872_634_945_786_9,
+        2.571_926_949_855_605_4,
+        -0.596_039_204_828_224_9,
+    ],
+];
+/// Weights of the stages in the error estimate.
+const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_748_9, -1.0 / 3.0];
+/// Most Newton iterations.
+const ITERATIONS: i32 = 7;
+/// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
+const LARGEST_TURN: f64 = 1.5;
+/// Rate of convergence below which the tangent is kept for the next step.
+const FAST: f64 = 1e-3;
+
+/// Three stage vectors.
+type Stages = [Vec<f64>; 3];
+
+/// Scratch of the method.
+#[derive(Clone, Debug)]
+pub struct Radau {
+    a: Vec<f64>,
+    /// Stage increments of position and velocity.
+    zq: Stages,
+    zv: Stages,
+    /// Transformed velocity increments.
+    w: Stages,
+    /// Stage accelerations, then Newton corrections.
+    f: Stages,
+    stage_q: Vec<f64>,
+    stage_v: Vec<f64>,
+    error_q: Vec<f64>,
+    error_v: Vec<f64>,
+    /// Length of the last accepted step of this communication step, for the starting values.
+    last: Option<f64>,
+    /// Whether the tangent belongs to the current state or is good enough for it.
+    tangent: bool,
+    /// Step for which the factors were made.
+    factored: f64,
+    attempted: f64,
+    rate: f64,
+    rejected: bool,
+    iterations: u64,
+}
+
+impl Radau {
+    /// For `n` coordinates.
+    pub fn new(n: usize) -> Self {
+        let zero = vec![0.0; n];
+        let stages = || [zero.clone(), zero.clone(), zero.clone()];
+        Self {
+            a: zero.clone(),
+            zq: stages(),
+            zv: stages(),
+            w: stages(),
+            f: stages(),
+            stage_q: zero.clone(),
+            stage_v: zero.clone(),
+            error_q: zero.clone(),
+            error_v: zero.clone(),
+            last: None,
+            tangent: false,
+            factored: 0.0,
+            attempted: 0.0,
+            rate: 1.0,
+            rejected: false,
+            iterations: 0,
+        }
+    }
+
+    /// Starting values of the stage velocities: the last step's polynomial, or constant acceleration.
+    fn start(&mut self, v: &[f64], h: f64) {
+        match self.last {
+            Some(last) => {
+                let weights = C.map(|c| extrapolation(1.0 + c * h / last));
+                for i in 0..v.len() {
+                    let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
+                    for (stage, weights) in self.zv.iter_mut().zip(&weights) {
+                        stage[i] = product(weights, &z) - z[2];
+                    }
+                }
+            }
+            None => {
+                for (stage, c) in self.zv.iter_mut().zip(C) {
+                    stage
+                        .iter_mut()
+                        .zip(&self.a)
+                        .for_each(|(z, a)| *z = c * h * a);
+                }
+            }
+        }
+        for i in 0..v.len() {
+            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
+            for (w, row) in self.w.iter_mut().zip(&INVERSE) {
+                w[i] = product(row, &z);
+            }
+        }
+        self.back_transform(v, h);
+    }
+
+    /// Stage increments from the transformed velocities. Positions integrate velocities exactly in
+    /// the collocation: `s w_q = w_v + (T^-1 1) v`.
+    fn back_transform(&mut self, v: &[f64], h: f64) {
+        let one = INVERSE.map(|row| row[0] + row[1] + row[2]);
+        let real = h / GAMMA;
+        let complex = Complex::new(h, 0.0) / Complex::new(ALPHA, BETA);
+        for i in 0..v.len() {
+            let w = [self.w[0][i], self.w[1][i], self.w[2][i]];
+            let pair = complex * Complex::new(w[1] + one[1] * v[i], w[2] + one[2] * v[i]);
+            let wq = [real * (w[0] + one[0] * v[i]), pair.re, pair.im];
+            for (stage, row) in T.iter().enumerate() {
+                self.zv[stage][i] = product(row, &w);
+                self.zq[stage][i] = product(row, &wq);
+            }
+        }
+    }
+
+    /// One Newton iteration; returns the size of the correction in units of the tolerance.
+    fn iterate(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        (q, v): (&[f64], &[f64]),
+        h: f64,
+        tolerance: &Tolerance,
+    ) -> f64 {
+        for stage in 0..3 {
+            for i in 0..q.len() {
+                self.stage_q[i] = q[i] + self.zq[stage][i];
+                self.stage_v[i] = v[i] + self.zv[stage][i];
+            }
+            dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.f[stage]);
+        }
+        let (gamma, alpha, beta) = (GAMMA / h, ALPHA / h, BETA / h);
+        for i in 0..q.len() {
+            let f = [self.f[0][i], self.f[1][i], self.f[2][i]];
+            let w = [self.w[0][i], self.w[1][i], self.w[2][i]];
+            self.f[0][i] = product(&INVERSE[0], &f) - gamma * w[0];
+            self.f[1][i] = product(&INVERSE[1], &f) - (alpha * w[1] - beta * w[2]);
+            self.f[2][i] = product(&INVERSE[2], &f) - (alpha * w[2] + beta * w[1]);
+        }
+        let [real, re, im] = &mut self.f;
+        dynamics.solve(real);
+        dynamics.solve_complex(re, im);
+        let (mut positions, mut velocities) = (0.0, 0.0);
+        for i in 0..q.len() {
+            let x = [self.f[0][i], self.f[1][i], self.f[2][i]];
+            let dw = [
+                gamma * x[0],
+                alpha * x[1] - beta * x[2],
+                alpha * x[2] + beta * x[1],
+            ];
+            for (w, dw) in self.w.iter_mut().zip(dw) {
+                w[i] += dw;
+            }
+            positions += product(&x, &x);
+            velocities += product(&dw, &dw);
+        }
+        self.back_transform(v, h);
+        self.iterations += 1;
+        let sizes = (positions / 3.0).sqrt() / tolerance.position;
+        (sizes + (velocities / 3.0).sqrt() / tolerance.velocity) / tolerance.relative
+    }
+
+    /// Solves the stage equations. `Err` is the fraction of the step to try instead.
+    fn newton(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        state: (&[f64], &[f64]),
+        h: f64,
+        tolerance: &Tolerance,
+    ) -> Result<(), f64> {
+        let goal = tolerance
+            .relative
+            .sqrt()
+            .clamp(10.0 * f64::EPSILON / tolerance.relative, 0.03);
+        let (mut before, mut ratio_before, mut theta) = (0.0, 0.0, 0.0_f64);
+        for k in 0..ITERATIONS {
+            let size = self.iterate(dynamics, state, h, tolerance);
+            if !size.is_finite() {
+                return Err(0.25);
+            }
+            let mut factor = 1.0;
+            if k > 0 {
+                let ratio: f64 = size / before;
+                theta = if k == 1 {
+                    ratio
+                } else {
+                    (ratio * ratio_before).sqrt()
+                };
+                ratio_before = ratio;
+                if theta >= 0.99 {
+                    return Err(0.5);
+                }
+                factor = theta / (1.0 - theta);
+                let left = f64::from(ITERATIONS - 1 - k);
+                let predicted = factor * size * theta.powf(left) / goal;
+                if predicted >= 1.0 {
+                    let wanted = predicted.clamp(1e-4, 20.0);
+                    return Err(0.8 * wanted.powf(-1.0 / (4.0 + left)));
+                }
+            }
+            if factor * size <= goal {
+                self.rate = theta;
+                return Ok(());
+            }
+            before = size;
+        }
+        Err(0.5)
+    }
+
+    /// Error estimate of order 3 through the real system, so that stiff modes do not spoil it.
+    fn estimate(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        (q, v): (&[f64], &[f64]),
+        h: f64,
+        tolerance: &Tolerance,
+    ) -> f64 {
+        self.stage_v.copy_from_slice(v);
+        self.f[0].copy_from_slice(&self.a);
+        self.filter(dynamics, h);
+        let error = tolerance.norm(&self.error_q, &self.error_v);
+        if error < 1.0 || !error.is_finite() || !(self.rejected || self.last.is_none()) {
+            return error;
+        }
+        // After a rejection or at the start the estimate is filtered once more.
+        for i in 0..q.len() {
+            self.stage_q[i] = q[i] + self.error_q[i];
+            self.stage_v[i] = v[i] + self.error_v[i];
+        }
+        dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.f[0]);
+        self.filter(dynamics, h);
+        tolerance.norm(&self.error_q, &self.error_v)
+    }
+
+    /// `(g/h - J)^-1 (f + sum_i e_i z_i / h)` with `f` in `stage_v`, `f[0]`.
+    fn filter(&mut self, dynamics: &mut dyn Dynamics, h: f64) {
+        let gamma = GAMMA / h;
+        for i in 0..self.a.len() {
+            let z = [self.zq[0][i], self.zq[1][i], self.zq[2][i]];
+            self.error_v[i] = self.stage_v[i] + product(&ERROR, &z) / h;
+        }
+        self.error_q.copy_from_slice(&self.error_v);
+        dynamics.apply_damping(&mut self.error_q);
+        for i in 0..self.a.len() {
+            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
+            let acceleration = self.f[0][i] + product(&ERROR, &z) / h;
+            self.error_q[i] += acceleration + gamma * self.error_v[i];
+        }
+        dynamics.solve(&mut self.error_q);
+        for i in 0..self.a.len() {
+            self.error_v[i] = gamma * self.error_q[i] - self.error_v[i];
+        }
+    }
+
+    fn factor(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64], h: f64) -> bool {
+        if !self.tangent {
+            dynamics.linearize(q, v);
+            self.tangent = true;
+            self.factored = 0.0;
+        }
+        if self.factored != h {
+            self.factored = 0.0;
+            let complex = Complex::new(ALPHA / h, BETA / h);
+            if !dynamics.factor(GAMMA / h) || !dynamics.factor_complex(complex) {
+                return false;
+            }
+            self.factored = h;
+        }
+        true
+    }
+}
+
+impl Method for Radau {
+    fn name(&self) -> &'static str {
+        "radau"
+    }
+
+    fn longest_step(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn begin(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64]) {
+        dynamics.acceleration(q, v, &mut self.a);
+        self.last = None;
+        self.tangent = false;
+        self.factored = 0.0;
+        self.rejected = false;
+        self.iterations = 0;
+    }
+
+    fn attempt(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        state: (&[f64], &[f64]),
+        h: f64,
+        tolerance: &Tolerance,
+    ) -> Attempt {
+        let (q, v) = state;
+        self.attempted = h;
+        let fail = |this: &mut Self, factor: f64| {
+            // The stages no longer hold the last step's polynomial.
+            this.last = None;
+            this.rejected = true;
+            Attempt::Failed(factor)
+        };
+        if !self.factor(dynamics, q, v, h) {
+            return fail(self, 0.5);
+        }
+        self.start(v, h);
+        if let Err(factor) = self.newton(dynamics, state, h, tolerance) {
+            self.tangent = false;
+            return fail(self, factor);
+        }
+        for i in 0..q.len() {
+            self.stage_q[i] = q[i] + self.zq[2][i];
+        }
+        if dynamics.largest_turn(q, &self.stage_q) > LARGEST_TURN {
+            return fail(self, 0.5);
+        }
+        let error = self.estimate(dynamics, state, h, tolerance);
+        if error <= 1.0 {
+            dynamics_acceleration(self, dynamics, state);
+        } else {
+            self.last = None;
+            self.rejected = true;
+        }
+        Attempt::Done(error)
+    }
+
+    fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {
+        for i in 0..q.len() {
+            q[i] += self.zq[2][i];
+            v[i] += self.zv[2][i];
+        }
+        self.last = Some(self.attempted);
+        self.tangent = self.rate < FAST;
+        self.rejected = false;
+    }
+
+    fn acceleration(&self) -> &[f64] {
+        &self.a
+    }
+
+    fn newton_iterations(&self) -> u64 {
+        self.iterations
+    }
+}
+
+/// Acceleration at the end of a step about to be accepted: the next error estimate starts from it.
+fn dynamics_acceleration(
+    method: &mut Radau,
+    dynamics: &mut dyn Dynamics,
+    (q, v): (&[f64], &[f64]),
+) {
+    for i in 0..q.len() {
+        method.stage_q[i] = q[i] + method.zq[2][i];
+        method.stage_v[i] = v[i] + method.zv[2][i];
+    }
+    dynamics.acceleration(&method.stage_q, &method.stage_v, &mut method.a);
+}
+
+fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Weights of the stages in the value at `s` of the polynomial through zero at 0 and the stages at
+/// `C`.
+fn extrapolation(s: f64) -> [f64; 3] {
+    std::array::from_fn(|i| {
+        let others = (0..3).filter(|j| *j != i);
+        others.fold(s / C[i], |value, j| value * (s - C[j]) / (C[i] - C[j]))
+    })
+}

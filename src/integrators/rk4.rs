@@ -1,0 +1,113 @@
+//! The classical Runge-Kutta method of order 4 with an embedded order 3 that takes the derivative at
+//! the end of the step for its last stage; that derivative is the first of the next step.
+//!
+//! Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
+//! section II.1 (the method); the embedded weights 1/6, 1/3, 1/3, 0, 1/6 meet the conditions of order
+//! 3 (their Table II.2.1). Stable for undamped oscillations up to `h w = 2 sqrt(2)`, and for decay up
+//! to `h x = 2.785`.
+
+use super::{Attempt, Method, Tolerance};
+use crate::system::Dynamics;
+
+/// Part of the stability limit that is used: the bound on the frequency is that of the reference
+/// configuration.
+const MARGIN: f64 = 0.9;
+
+/// Scratch of the method.
+#[derive(Clone, Debug)]
+pub struct Rk4 {
+    longest_step: f64,
+    /// Acceleration at the start of the step and at its end.
+    a: Vec<f64>,
+    end: Vec<f64>,
+    stage_q: Vec<f64>,
+    stage_v: Vec<f64>,
+    stage_a: Vec<f64>,
+    sum_q: Vec<f64>,
+    sum_v: Vec<f64>,
+}
+
+impl Rk4 {
+    /// For `n` coordinates whose fastest oscillation is `frequency` (rad/s) and fastest decay `decay`
+    /// (1/s).
+    pub fn new(n: usize, frequency: f64, decay: f64) -> Self {
+        let limit = (8.0_f64.sqrt() / frequency).min(2.785 / decay);
+        let zero = vec![0.0; n];
+        Self {
+            longest_step: MARGIN * limit,
+            a: zero.clone(),
+            end: zero.clone(),
+            stage_q: zero.clone(),
+            stage_v: zero.clone(),
+            stage_a: zero.clone(),
+            sum_q: zero.clone(),
+            sum_v: zero,
+        }
+    }
+
+    /// Adds a stage to the sums and moves on to the next one at `step` from the start.
+    fn stage(&mut self, q: &[f64], v: &[f64], weight: f64, step: f64) {
+        for i in 0..q.len() {
+            let (dq, dv) = (self.stage_v[i], self.stage_a[i]);
+            self.sum_q[i] += weight * dq;
+            self.sum_v[i] += weight * dv;
+            self.stage_q[i] = q[i] + step * dq;
+            self.stage_v[i] = v[i] + step * dv;
+        }
+    }
+}
+
+impl Method for Rk4 {
+    fn name(&self) -> &'static str {
+        "rk4"
+    }
+
+    fn longest_step(&self) -> f64 {
+        self.longest_step
+    }
+
+    fn begin(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64]) {
+        dynamics.acceleration(q, v, &mut self.a);
+    }
+
+    fn attempt(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        (q, v): (&[f64], &[f64]),
+        h: f64,
+        tolerance: &Tolerance,
+    ) -> Attempt {
+        self.sum_q.copy_from_slice(q);
+        self.sum_v.copy_from_slice(v);
+        self.stage_v.copy_from_slice(v);
+        self.stage_a.copy_from_slice(&self.a);
+        for (weight, step) in [(h / 6.0, h / 2.0), (h / 3.0, h / 2.0), (h / 3.0, h)] {
+            self.stage(q, v, weight, step);
+            dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.stage_a);
+        }
+        for i in 0..q.len() {
+            self.sum_q[i] += h / 6.0 * self.stage_v[i];
+            self.sum_v[i] += h / 6.0 * self.stage_a[i];
+        }
+        dynamics.acceleration(&self.sum_q, &self.sum_v, &mut self.end);
+        for i in 0..q.len() {
+            self.stage_v[i] = h / 6.0 * (self.stage_v[i] - self.sum_v[i]);
+            self.stage_a[i] = h / 6.0 * (self.stage_a[i] - self.end[i]);
+        }
+        Attempt::Done(tolerance.norm(&self.stage_v, &self.stage_a))
+    }
+
+    fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {
+        q.copy_from_slice(&self.sum_q);
+        v.copy_from_slice(&self.sum_v);
+        std::mem::swap(&mut self.a, &mut self.end);
+    }
+
+    fn acceleration(&self) -> &[f64] {
+        &self.a
+    }
+
+    fn newton_iterations(&self) -> u64 {
+        0
+    }
+}

@@ -1,0 +1,162 @@
+//! Static equilibrium: a minimum of the potential by Newton's method with a shifted tangent
+//! (Levenberg-Marquardt in the mass norm), in load steps where the whole load at once fails.
+//!
+//! Only stable equilibria are found: the tangent there is positive definite.
+//!
+//! Source: J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed., sections 3.4 and 10.3.
+
+use super::{Dynamics, Model, System, Work};
+
+/// Iterations for one load step.
+const ITERATIONS: usize = 100;
+/// Smallest load step.
+const SMALLEST: f64 = 1.0 / 256.0;
+/// Largest turn of a slope in one iteration, rad.
+const LARGEST_TURN: f64 = 0.5;
+/// Correction, relative to the length of the body, below which Newton converges quadratically.
+const CLOSE: f64 = 1e-7;
+/// Correction at which it cannot get better.
+const EXACT: f64 = 1e-14;
+/// Change of the potential, relative to its terms, that roundoff hides.
+const NOISE: f64 = 1e-10;
+
+/// Why no equilibrium was found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "no stable static equilibrium found beyond {:.4} of the load: after {ITERATIONS} Newton \
+     iterations the correction is {correction:.1e} of the body's length; expected a body that is \
+     held against its loads",
+    reached
+)]
+pub struct NotFound {
+    /// Fraction of the load that was reached.
+    pub reached: f64,
+    /// Last Newton correction relative to the length of the body.
+    pub correction: f64,
+}
+
+/// Finds the equilibrium under gravity and the inputs, from the configuration `q`.
+///
+/// # Errors
+/// When the smallest load step does not converge; `q` is then that of the last one that did.
+pub fn find(
+    system: &System,
+    inputs: &[f64],
+    work: &mut Work,
+    q: &mut [f64],
+) -> Result<(), NotFound> {
+    let (mut reached, mut step) = (0.0, 1.0);
+    let mut from = q.to_vec();
+    while reached < 1.0 {
+        let target = f64::min(1.0, reached + step);
+        let scaled: Vec<f64> = inputs.iter().map(|input| target * input).collect();
+        let mut model = Model::new(system, &scaled, work);
+        model.gravity = target;
+        let mut outcome = relax(&mut model, q, Guard::Turns);
+        if outcome.is_err() {
+            q.copy_from_slice(&from);
+            outcome = relax(&mut model, q, Guard::Potential);
+        }
+        match outcome {
+            Ok(()) => {
+                reached = target;
+                step *= 2.0;
+                from.copy_from_slice(q);
+            }
+            Err(correction) => {
+                q.copy_from_slice(&from);
+                step /= 2.0;
+                if step < SMALLEST {
+                    return Err(NotFound {
+                        reached,
+                        correction,
+                    });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What a Newton iteration must respect.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Guard {
+    /// No slope turns too far: fast, and right for most loads.
+    Turns,
+    /// The potential decreases as well: slow in the narrow valleys of stiff bodies, but it gets there
+    /// from configurations without stiffness, such as a slack cable.
+    Potential,
+}
+
+/// Equilibrium under fixed loads; on failure the last correction.
+fn relax(model: &mut Model<'_>, q: &mut [f64], guard: Guard) -> Result<(), f64> {
+    let n = q.len();
+    let rest = vec![0.0; n];
+    let (mut force, mut x, mut trial) = (rest.clone(), rest.clone(), rest.clone());
+    let body = &model.system.body;
+    let size = body.mass().sqrt() * body.length();
+    let smallest_shift = 1e-8 * body.frequency_bound();
+    let (mut shift, mut before) = (0.0_f64, f64::INFINITY);
+    let mut correction = f64::INFINITY;
+    for _ in 0..ITERATIONS {
+        model.acceleration(q, &rest, &mut force);
+        if force.iter().all(|f| *f == 0.0) {
+            return Ok(());
+        }
+        model.linearize(q, &rest);
+        while !model.factor(shift) {
+            shift = (3.0 * shift).max(smallest_shift);
+            if !shift.is_finite() {
+                return Err(correction);
+            }
+        }
+        x.copy_from_slice(&force);
+        model.solve(&mut x);
+        correction = norm(&x) / size;
+        if shift == 0.0 && correction < CLOSE {
+            q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
+            if correction < EXACT || correction > 0.1 * before {
+                return Ok(());
+            }
+            before = correction;
+            continue;
+        }
+        before = f64::INFINITY;
+        let fraction = step_fraction(model, q, &x, &mut trial);
+        let accepted = guard == Guard::Turns || {
+            let predicted = fraction * force.iter().zip(&x).map(|(f, x)| f * x).sum::<f64>();
+            let (change, size) = model.potential_difference(q, &trial);
+            change <= -1e-4 * predicted || predicted <= NOISE * size
+        };
+        if accepted {
+            q.copy_from_slice(&trial);
+            shift = if shift > smallest_shift {
+                shift / 5.0
+            } else {
+                0.0
+            };
+        } else {
+            shift = (5.0 * shift).max(smallest_shift);
+        }
+    }
+    Err(correction)
+}
+
+/// Fraction of the step that turns no slope too far; leaves `q` plus that part in `trial`.
+fn step_fraction(model: &mut Model<'_>, q: &[f64], x: &[f64], trial: &mut [f64]) -> f64 {
+    let mut fraction = 1.0;
+    loop {
+        for i in 0..q.len() {
+            trial[i] = q[i] + fraction * x[i];
+        }
+        let turn = model.largest_turn(q, trial);
+        if turn <= LARGEST_TURN || fraction < 1e-12 {
+            return fraction;
+        }
+        fraction *= 0.5;
+    }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
