@@ -1,0 +1,426 @@
+//! Floor 6. A simulation: a scene with its parameters and inputs, stepped from communication point to
+//! communication point. What an FMU does, without FMI.
+
+mod engine;
+mod method;
+mod variables;
+
+pub use variables::{Parameter, Quantity, Source, Unit, Variable, variables};
+
+use crate::scene::{Error as SceneError, Scene};
+use crate::system::State;
+use engine::Engine;
+
+/// Why a simulation cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A parameter makes the scene invalid.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// No static equilibrium.
+    #[error("initial: {0}")]
+    Equilibrium(#[from] crate::system::equilibrium::NotFound),
+    /// A variable was asked for something that it is not, or set to something it cannot be.
+    #[error("{name}: {message}")]
+    Variable {
+        /// Name of the variable, or its index where there is none.
+        name: String,
+        /// What was expected and what was found.
+        message: String,
+    },
+    /// A snapshot of another simulation, or a broken one.
+    #[error("state: {0}")]
+    Snapshot(String),
+}
+
+/// Why a communication step was not finished.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{reason}; the last good time is {time} s")]
+pub struct StepFailure {
+    /// Time of the last accepted sub-step, where the simulation now stands, s.
+    pub time: f64,
+    /// What went wrong.
+    pub reason: String,
+}
+
+/// What the last call of [`Simulation::step`] did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Report {
+    /// Name of the integrator.
+    pub method: &'static str,
+    /// Accepted sub-steps.
+    pub steps: u64,
+    /// Rejected sub-steps.
+    pub rejected: u64,
+    /// Newton iterations.
+    pub newton_iterations: u64,
+}
+
+/// Everything that a simulation needs to go on from a point in time, as plain numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// Current parameters and inputs, one number per variable; 0 for all others.
+    pub values: Vec<f64>,
+    /// Whether the initial state has been computed.
+    pub initialized: bool,
+    /// Whether initialization has ended.
+    pub started: bool,
+    /// Natural frequencies about the initial configuration, rad/s.
+    pub frequencies: Vec<f64>,
+    /// State of the system.
+    pub state: State,
+}
+
+/// A scene in simulation.
+pub struct Simulation {
+    /// As packaged.
+    scene: Scene,
+    variables: Vec<Variable>,
+    /// Parameters and inputs, one per variable.
+    values: Vec<f64>,
+    /// Input components in the order of the system.
+    inputs: Vec<f64>,
+    engine: Option<Engine>,
+    state: State,
+    frequencies: Vec<f64>,
+    /// Initialization has ended: parameters are fixed.
+    started: bool,
+    /// The initial state belongs to the current parameters and inputs.
+    current: bool,
+    report: Report,
+}
+
+impl Simulation {
+    /// A simulation of a valid scene, with its start values.
+    pub fn new(scene: Scene) -> Self {
+        let variables = variables(&scene);
+        let values = variables.iter().map(|v| v.start.unwrap_or(0.0)).collect();
+        let mut simulation = Self {
+            scene,
+            variables,
+            values,
+            inputs: Vec::new(),
+            engine: None,
+            state: State::default(),
+            frequencies: Vec::new(),
+            started: false,
+            current: false,
+            report: Report {
+                method: "",
+                steps: 0,
+                rejected: 0,
+                newton_iterations: 0,
+            },
+        };
+        simulation.collect_inputs();
+        simulation
+    }
+
+    /// The scene as packaged.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The variables; an index into them is an FMI value reference.
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables
+    }
+
+    /// Current time, s.
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// What the last step did.
+    pub fn report(&self) -> Report {
+        self.report
+    }
+
+    /// Sets a real parameter or an input.
+    ///
+    /// # Errors
+    /// Not settable, not real, not finite, out of range; nothing has changed then.
+    pub fn set_real(&mut self, index: usize, value: f64) -> Result<(), Error> {
+        if self.variable(index)?.is_integer() {
+            return Err(self.refuse(index, "expected a call for integers, found one for reals"));
+        }
+        self.set(index, value)
+    }
+
+    /// Sets an integer parameter.
+    ///
+    /// # Errors
+    /// As [`Self::set_real`].
+    pub fn set_integer(&mut self, index: usize, value: i32) -> Result<(), Error> {
+        if !self.variable(index)?.is_integer() {
+            return Err(self.refuse(index, "expected a call for reals, found one for integers"));
+        }
+        self.set(index, f64::from(value))
+    }
+
+    /// Sets the relative tolerance.
+    ///
+    /// # Errors
+    /// Out of range, or initialization has ended.
+    pub fn set_tolerance(&mut self, value: f64) -> Result<(), Error> {
+        let tolerance = Source::Parameter(Parameter::RelativeTolerance);
+        match self.variables.iter().position(|v| v.source == tolerance) {
+            Some(index) => self.set(index, value),
+            None => Ok(()),
+        }
+    }
+
+    /// Value of a real variable now. Before the end of initialization it computes the initial state
+    /// anew where parameters or inputs have changed.
+    ///
+    /// # Errors
+    /// Not real, or the initial state cannot be computed.
+    pub fn real(&mut self, index: usize) -> Result<f64, Error> {
+        if self.variable(index)?.is_integer() {
+            return Err(self.refuse(index, "expected a call for integers, found one for reals"));
+        }
+        match self.variables[index].source {
+            Source::Time => Ok(self.state.time),
+            Source::Parameter(_) | Source::Input(..) => Ok(self.values[index]),
+            Source::NaturalFrequency(number) => {
+                self.refresh()?;
+                Ok(self.frequencies.get(number).copied().unwrap_or(0.0))
+            }
+            Source::Output(quantity) => {
+                self.refresh()?;
+                let value = self
+                    .engine
+                    .as_mut()
+                    .map(|engine| engine.output(index, quantity, &self.state, &self.inputs));
+                Ok(value.unwrap_or(0.0))
+            }
+        }
+    }
+
+    /// Value of an integer variable.
+    ///
+    /// # Errors
+    /// Not an integer.
+    pub fn integer(&self, index: usize) -> Result<i32, Error> {
+        if !self.variable(index)?.is_integer() {
+            return Err(self.refuse(index, "expected a call for reals, found one for integers"));
+        }
+        Ok(self.values[index] as i32)
+    }
+
+    /// Builds the system from the current parameters and computes the initial state. May be called
+    /// again until [`Self::start`].
+    ///
+    /// # Errors
+    /// Parameters that make no valid scene, no static equilibrium.
+    pub fn initialize(&mut self, start_time: f64) -> Result<(), Error> {
+        let mut engine = Engine::new(&self.parametrized()?, &self.variables)?;
+        let (state, frequencies) = engine.initial_state(start_time, &self.inputs)?;
+        (self.engine, self.state, self.frequencies) = (Some(engine), state, frequencies);
+        self.current = true;
+        Ok(())
+    }
+
+    /// Ends initialization: from now on parameters are fixed and inputs act on the motion only.
+    ///
+    /// # Errors
+    /// As [`Self::initialize`], where something changed since.
+    pub fn start(&mut self) -> Result<(), Error> {
+        self.refresh()?;
+        self.started = true;
+        Ok(())
+    }
+
+    /// Advances to `until` with the inputs held. Allocates nothing unless it fails.
+    ///
+    /// # Errors
+    /// When the tolerance cannot be met; the simulation then stands at the last accepted sub-step.
+    pub fn step(&mut self, until: f64) -> Result<(), StepFailure> {
+        if !self.started {
+            self.start().map_err(|error| StepFailure {
+                time: self.state.time,
+                reason: error.to_string(),
+            })?;
+        }
+        let Some(engine) = &mut self.engine else {
+            return Ok(());
+        };
+        self.report = engine.step(&mut self.state, &self.inputs, until)?;
+        Ok(())
+    }
+
+    /// A copy of everything that changes.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            values: self.values.clone(),
+            initialized: self.engine.is_some() && self.current,
+            started: self.started,
+            frequencies: self.frequencies.clone(),
+            state: self.state.clone(),
+        }
+    }
+
+    /// Goes back to a snapshot of a simulation of the same scene.
+    ///
+    /// # Errors
+    /// A snapshot with other sizes, with parameters out of range or with numbers that are not finite;
+    /// nothing has changed then.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        let numbers = [
+            &snapshot.values,
+            &snapshot.frequencies,
+            &snapshot.state.coordinates,
+            &snapshot.state.rates,
+            &snapshot.state.angles,
+        ];
+        let times = [snapshot.state.time, snapshot.state.step];
+        if !numbers
+            .into_iter()
+            .flatten()
+            .chain(&times)
+            .all(|x| x.is_finite())
+        {
+            return Err(Error::Snapshot("expected finite numbers".into()));
+        }
+        if snapshot.values.len() != self.variables.len() {
+            return Err(Error::Snapshot(format!(
+                "expected {} variables, found {}",
+                self.variables.len(),
+                snapshot.values.len()
+            )));
+        }
+        let before = std::mem::replace(&mut self.values, snapshot.values.clone());
+        match self.engine_for(snapshot, &before) {
+            Ok(rebuilt) => {
+                if let Some(engine) = rebuilt {
+                    self.engine = Some(engine);
+                }
+            }
+            Err(error) => {
+                self.values = before;
+                return Err(error);
+            }
+        }
+        self.collect_inputs();
+        self.state.clone_from(&snapshot.state);
+        self.frequencies.clone_from(&snapshot.frequencies);
+        self.started = snapshot.started;
+        self.current = snapshot.initialized;
+        if let Some(engine) = &mut self.engine {
+            engine.forget();
+        }
+        Ok(())
+    }
+
+    /// The engine that a snapshot needs, where the present one has other parameters.
+    fn engine_for(&self, snapshot: &Snapshot, before: &[f64]) -> Result<Option<Engine>, Error> {
+        let scene = self.parametrized()?;
+        if !snapshot.initialized {
+            return Ok(None);
+        }
+        let is_parameter = |v: &Variable| matches!(v.source, Source::Parameter(_));
+        let same = (self.variables.iter().zip(before.iter().zip(&self.values)))
+            .all(|(variable, (a, b))| !is_parameter(variable) || a == b);
+        let rebuilt = match &self.engine {
+            Some(_) if same && self.current => None,
+            _ => Some(Engine::new(&scene, &self.variables)?),
+        };
+        let engine = rebuilt.as_ref().or(self.engine.as_ref());
+        let found = &snapshot.state;
+        if engine.is_some_and(|engine| !engine.fits(found)) {
+            let sizes = (
+                found.coordinates.len(),
+                found.rates.len(),
+                found.angles.len(),
+            );
+            return Err(Error::Snapshot(format!(
+                "expected a state of this scene, found sizes {sizes:?}"
+            )));
+        }
+        Ok(rebuilt)
+    }
+
+    fn refresh(&mut self) -> Result<(), Error> {
+        if self.started || self.current {
+            return Ok(());
+        }
+        self.initialize(self.state.time)
+    }
+
+    fn set(&mut self, index: usize, value: f64) -> Result<(), Error> {
+        if !value.is_finite() {
+            return Err(self.refuse(index, &format!("expected a finite number, found {value}")));
+        }
+        let before = self.values[index];
+        match self.variables[index].source {
+            Source::Input(..) => {
+                self.values[index] = value;
+                self.collect_inputs();
+                if let Some(engine) = &mut self.engine {
+                    engine.inputs_changed();
+                }
+            }
+            Source::Parameter(_) if self.started => {
+                return Err(self.refuse(index, "parameters may be set until initialization ends"));
+            }
+            Source::Parameter(_) => {
+                self.values[index] = value;
+                if let Err(error) = self.parametrized() {
+                    self.values[index] = before;
+                    return Err(self.refuse(index, &error.message));
+                }
+            }
+            _ => return Err(self.refuse(index, "expected a parameter or an input")),
+        }
+        if value != before {
+            self.current = false;
+        }
+        Ok(())
+    }
+
+    /// The scene with the current parameters, validated.
+    fn parametrized(&self) -> Result<Scene, SceneError> {
+        let mut scene = self.scene.clone();
+        for (variable, value) in self.variables.iter().zip(&self.values) {
+            let Source::Parameter(parameter) = variable.source else {
+                continue;
+            };
+            match parameter {
+                Parameter::YoungsModulus(i) => scene.bodies[i].material.youngs_modulus = *value,
+                Parameter::Density(i) => scene.bodies[i].material.density = *value,
+                Parameter::DampingTime(i) => scene.bodies[i].material.damping_time = *value,
+                Parameter::Area(i) => scene.bodies[i].section.area = *value,
+                Parameter::SecondMoment(i) => scene.bodies[i].section.second_moment = *value,
+                Parameter::Elements(i) => scene.bodies[i].elements = value.max(0.0) as u32,
+                Parameter::Gravity(axis) => scene.gravity[axis] = *value,
+                Parameter::RelativeTolerance => scene.accuracy.relative_tolerance = *value,
+            }
+        }
+        scene.validate()?;
+        Ok(scene)
+    }
+
+    fn collect_inputs(&mut self) {
+        self.inputs.clear();
+        for (variable, value) in self.variables.iter().zip(&self.values) {
+            if matches!(variable.source, Source::Input(..)) {
+                self.inputs.push(*value);
+            }
+        }
+    }
+
+    fn variable(&self, index: usize) -> Result<&Variable, Error> {
+        self.variables.get(index).ok_or_else(|| Error::Variable {
+            name: format!("value reference {index}"),
+            message: format!("expected one below {}", self.variables.len()),
+        })
+    }
+
+    fn refuse(&self, index: usize, message: &str) -> Error {
+        let name = self.variables[index].name.clone();
+        Error::Variable {
+            name,
+            message: message.into(),
+        }
+    }
+}
