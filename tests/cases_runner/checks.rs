@@ -1,0 +1,317 @@
+//! The claims, checked against a simulation. One function a kind; `tests/fmpy/claims.py` has its twin.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use super::Measured;
+use super::claim::{Claim, Critical, Drift, Kind, Order, Series, Values};
+use super::run::Run;
+
+/// Two times nearer than this, relative to the later, are the same communication point.
+const SAME_TIME: f64 = 1e-9;
+/// Below this relative error the order of convergence drowns in roundoff.
+const ROUNDOFF: f64 = 1e-10;
+/// Steps that a root search may take.
+const MOST_HALVINGS: u32 = 200;
+
+type Set = BTreeMap<String, f64>;
+
+/// Checks one claim of the case in a folder. `Err` is a claim that could not be measured.
+pub fn check(claim: &Claim, folder: &Path, scene: &str) -> Result<Measured, String> {
+    let scene = folder.join(scene);
+    match &claim.kind {
+        Kind::Series(series) => check_series(series, folder, &scene, &claim.set),
+        Kind::Values(values) => check_values(values, &scene, &claim.set),
+        Kind::Order(order) => check_order(order, &scene, &claim.set),
+        Kind::Critical(critical) => check_critical(critical, &scene, &claim.set),
+        Kind::Drift(drift) => check_drift(drift, &scene, &claim.set),
+    }
+}
+
+fn measured(what: String, found: f64, allowed: f64, failure: String) -> Measured {
+    // NaN must fail.
+    let holds = found <= allowed;
+    Measured {
+        what,
+        found,
+        allowed: format!("<= {allowed:.3e}"),
+        failure: (!holds).then_some(failure),
+    }
+}
+
+fn check_series(
+    series: &Series,
+    folder: &Path,
+    scene: &Path,
+    set: &Set,
+) -> Result<Measured, String> {
+    let (times, columns) = read_reference(&folder.join(&series.reference), &series.columns)?;
+    let mut run = Run::start(scene, set)?;
+    let mut found = vec![(0.0, run.get(series.columns.keys())?)];
+    run.steps(series.stop_time, series.step, |run, time| {
+        found.push((time, run.get(series.columns.keys())?));
+        Ok(())
+    })?;
+    let mut errors: Vec<(f64, f64, String)> = Vec::new();
+    let mut points = 0;
+    for (row, t) in times.iter().enumerate() {
+        let same = |(time, _): &&(f64, Vec<f64>)| (time - t).abs() <= SAME_TIME * time.max(1.0);
+        let Some((time, values)) = found.iter().find(same) else {
+            continue;
+        };
+        points += 1;
+        let differences = values.iter().zip(&columns).map(|(v, c)| v - c[row]);
+        if series.distance {
+            let names: Vec<&str> = series.columns.keys().map(String::as_str).collect();
+            let squares: f64 = differences.map(|d| d * d).sum();
+            errors.push((squares.sqrt(), *time, names.join(" and ")));
+        } else {
+            let names = series.columns.keys();
+            errors.extend(
+                differences
+                    .zip(names)
+                    .map(|(d, n)| (d.abs(), *time, n.clone())),
+            );
+        }
+    }
+    if points < 2 {
+        return Err(format!(
+            "{}: expected at least two communication points of the run, found {points}",
+            series.reference
+        ));
+    }
+    // In the order of total_cmp a NaN without its sign is above all numbers.
+    let worst = errors.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((error, time, name)) = worst else {
+        return Err("columns: expected at least one, found none".into());
+    };
+    let failure = format!(
+        "{name} at t = {time}: {error:.3e} from the reference, allowed {}",
+        series.absolute
+    );
+    Ok(measured(name, error, series.absolute, failure))
+}
+
+fn check_values(values: &Values, scene: &Path, set: &Set) -> Result<Measured, String> {
+    let names: Vec<String> = values.values.keys().cloned().collect();
+    let found = values_at(scene, set, values.time, values.step, &names)?;
+    let mut worst: Option<(f64, Measured)> = None;
+    for ((name, wanted), value) in values.values.iter().zip(found) {
+        let allowed = values.relative * values.scale.max(wanted.abs());
+        let error = (value - wanted).abs();
+        let failure = format!(
+            "{name}: expected {wanted}, found {value}; {error:.3e} apart, allowed {allowed:.3e}"
+        );
+        // Nothing off by nothing is perfect, not 0 / 0.
+        let share = if error <= allowed && allowed == 0.0 {
+            0.0
+        } else {
+            error / allowed
+        };
+        let measured = measured(name.clone(), error, allowed, failure);
+        if worst
+            .as_ref()
+            .is_none_or(|(s, _)| share.total_cmp(s).is_gt())
+        {
+            worst = Some((share, measured));
+        }
+    }
+    worst
+        .map(|(_, measured)| measured)
+        .ok_or_else(|| "values: expected at least one, found none".into())
+}
+
+fn check_order(order: &Order, scene: &Path, set: &Set) -> Result<Measured, String> {
+    let mut errors = Vec::new();
+    for number in &order.over {
+        let mut start = set.clone();
+        start.insert(order.vary.clone(), *number);
+        let names = [order.variable.clone()];
+        let value = values_at(scene, &start, order.time, order.step, &names)?[0];
+        let scale = if order.value == 0.0 {
+            1.0
+        } else {
+            order.value.abs()
+        };
+        errors.push((value - order.value).abs() / scale);
+    }
+    let listed: Vec<String> = order
+        .over
+        .iter()
+        .zip(&errors)
+        .map(|(n, e)| format!("{n}: {e:.3e}"))
+        .collect();
+    let listed = listed.join(", ");
+    let pairs = errors.windows(2).zip(order.over.windows(2));
+    let observed = pairs
+        .filter(|(e, _)| e[0].min(e[1]) > ROUNDOFF && e.iter().all(|e| e.is_finite()))
+        .map(|(e, n)| (e[0] / e[1]).ln() / (n[1] / n[0]).ln());
+    let Some(found) = observed.last() else {
+        return Err(format!("no two errors above roundoff in a row; {listed}"));
+    };
+    let low = order.order - order.within;
+    let high = if order.at_least {
+        f64::INFINITY
+    } else {
+        order.order + order.within
+    };
+    let holds = (low..=high).contains(&found);
+    let failure = format!(
+        "expected an order from {low} to {high}, found {found:.3}; relative errors {listed}"
+    );
+    Ok(Measured {
+        what: format!("order of {}", order.variable),
+        found,
+        allowed: format!("{low:.2} to {high:.2}"),
+        failure: (!holds).then_some(failure),
+    })
+}
+
+fn check_critical(critical: &Critical, scene: &Path, set: &Set) -> Result<Measured, String> {
+    let names = [critical.indicator.clone()];
+    let indicator = |start: f64| {
+        let mut changed = set.clone();
+        changed.insert(critical.vary.clone(), start);
+        let frequency = values_at(scene, &changed, 0.0, None, &names)?[0];
+        // The eigenvalue itself crosses zero smoothly; its signed root does not.
+        Ok(frequency * frequency.abs())
+    };
+    let scale = critical.value.abs();
+    let found = root(
+        indicator,
+        critical.between,
+        0.01 * critical.relative * scale,
+    )?;
+    let error = (found - critical.value).abs() / scale;
+    let failure = format!(
+        "{} vanishes at {} = {found}, expected {} to {} relative",
+        critical.indicator, critical.vary, critical.value, critical.relative
+    );
+    let what = format!("critical {}", critical.vary);
+    Ok(measured(what, error, critical.relative, failure))
+}
+
+fn check_drift(drift: &Drift, scene: &Path, set: &Set) -> Result<Measured, String> {
+    let mut run = Run::start(scene, set)?;
+    let start: f64 = run.get(&drift.sum)?.iter().sum();
+    let (mut largest, mut when) = (0.0, 0.0);
+    run.steps(drift.stop_time, drift.step, |run, time| {
+        let change = (run.get(&drift.sum)?.iter().sum::<f64>() - start).abs();
+        if change.total_cmp(&largest).is_gt() {
+            (largest, when) = (change, time);
+        }
+        Ok(())
+    })?;
+    let what = drift.sum.join(" + ");
+    let failure = format!(
+        "{what} drifts by {largest:.3e} (t = {when}), allowed {}; {:.3e} of the scale",
+        drift.absolute,
+        largest / drift.scale
+    );
+    Ok(measured(what, largest, drift.absolute, failure))
+}
+
+/// Values of variables at a time, by default the start.
+fn values_at(
+    scene: &Path,
+    set: &Set,
+    time: f64,
+    step: Option<f64>,
+    names: &[String],
+) -> Result<Vec<f64>, String> {
+    let mut run = Run::start(scene, set)?;
+    if time > 0.0 {
+        let step = step.ok_or("step: expected one with a time, found nothing")?;
+        run.steps(time, step, |_, _| Ok(()))?;
+    }
+    run.get(names)
+}
+
+/// The root of a function between two arguments (Illinois variant of false position).
+fn root(
+    function: impl Fn(f64) -> Result<f64, String>,
+    [mut low, mut high]: [f64; 2],
+    tolerance: f64,
+) -> Result<f64, String> {
+    let (mut at_low, mut at_high) = (function(low)?, function(high)?);
+    let bracket = at_low * at_high;
+    if bracket.is_nan() || bracket > 0.0 {
+        return Err(format!(
+            "expected a change of sign, found {at_low:e} at {low} and {at_high:e} at {high}"
+        ));
+    }
+    let mut side = 0;
+    for _ in 0..MOST_HALVINGS {
+        if at_low == at_high {
+            return Ok(low);
+        }
+        let middle = (low * at_high - high * at_low) / (at_high - at_low);
+        let value = function(middle)?;
+        if value == 0.0 {
+            return Ok(middle);
+        }
+        let moved;
+        if (value > 0.0) == (at_high > 0.0) {
+            moved = (high - middle).abs();
+            (high, at_high) = (middle, value);
+            at_low *= if side > 0 { 0.5 } else { 1.0 };
+            side = 1;
+        } else {
+            moved = (middle - low).abs();
+            (low, at_low) = (middle, value);
+            at_high *= if side < 0 { 0.5 } else { 1.0 };
+            side = -1;
+        }
+        if moved.min((high - low).abs()) <= tolerance {
+            return Ok(middle);
+        }
+    }
+    Err(format!(
+        "no root to {tolerance:e} after {MOST_HALVINGS} steps; it lies from {low} to {high}"
+    ))
+}
+
+/// Times and the wanted columns of a CSV file.
+fn read_reference(
+    path: &Path,
+    columns: &BTreeMap<String, String>,
+) -> Result<(Vec<f64>, Vec<Vec<f64>>), String> {
+    let at = |message: String| format!("{}: {message}", path.display());
+    let text = fs::read_to_string(path).map_err(|error| at(error.to_string()))?;
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+    let header: Vec<&str> = lines
+        .next()
+        .unwrap_or_default()
+        .split(',')
+        .map(str::trim)
+        .collect();
+    let place = |name: &str| {
+        let found = header.iter().position(|h| *h == name);
+        found.ok_or_else(|| {
+            at(format!(
+                "expected a column \"{name}\", found {}",
+                header.join(", ")
+            ))
+        })
+    };
+    let time = place("t")?;
+    let places = columns
+        .values()
+        .map(|name| place(name))
+        .collect::<Result<Vec<_>, _>>()?;
+    let (mut times, mut values) = (Vec::new(), vec![Vec::new(); places.len()]);
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        let number = |place: usize| {
+            let cell = cells.get(place).copied().unwrap_or_default();
+            let wrong = |_| at(format!("expected a number, found \"{cell}\" in \"{line}\""));
+            cell.parse::<f64>().map_err(wrong)
+        };
+        times.push(number(time)?);
+        for (values, place) in values.iter_mut().zip(&places) {
+            values.push(number(*place)?);
+        }
+    }
+    Ok((times, values))
+}

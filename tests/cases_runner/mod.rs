@@ -1,0 +1,211 @@
+//! Cases and their claims: reading them strictly, checking them in parallel, reporting.
+
+mod checks;
+mod claim;
+mod run;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::Instant;
+
+use serde::Deserialize;
+
+use claim::Claim;
+
+/// A case as read.
+pub struct Case {
+    name: String,
+    folder: PathBuf,
+    scene: String,
+    claims: Vec<Result<Claim, String>>,
+}
+
+/// What came of a claim.
+pub struct Verdict {
+    place: String,
+    kind: &'static str,
+    outcome: Result<Measured, String>,
+    seconds: f64,
+}
+
+/// What a claim was about and how well it holds, in its own unit.
+pub struct Measured {
+    /// Of what.
+    pub what: String,
+    /// The error found.
+    pub found: f64,
+    /// The largest or smallest that is allowed, with its relation.
+    pub allowed: String,
+    /// What is wrong, if it fails.
+    pub failure: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Text {
+    #[serde(default)]
+    purpose: String,
+    #[serde(default)]
+    source: String,
+    #[serde(default = "default_scene")]
+    scene: String,
+    #[serde(default)]
+    claims: Vec<serde_json::Map<String, serde_json::Value>>,
+}
+
+fn default_scene() -> String {
+    "scene.json".into()
+}
+
+impl Case {
+    /// Reads the text of a `case.json`. A bad claim does not hide the others.
+    pub fn parse(name: &str, folder: &Path, text: &str) -> Result<Self, String> {
+        let text: Text =
+            serde_json::from_str(text).map_err(|error| format!("{name}/case.json: {error}"))?;
+        for (key, value) in [("purpose", &text.purpose), ("source", &text.source)] {
+            if value.trim().is_empty() {
+                return Err(format!("{name}: {key}: expected a sentence, found nothing"));
+            }
+        }
+        if text.claims.is_empty() {
+            return Err(format!("{name}: claims: expected at least one, found none"));
+        }
+        Ok(Self {
+            name: name.into(),
+            folder: folder.into(),
+            scene: text.scene,
+            claims: text.claims.into_iter().map(Claim::parse).collect(),
+        })
+    }
+}
+
+/// All cases with `filter` in their name, in order.
+pub fn find(filter: &str) -> Result<Vec<Case>, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    let at = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
+    let mut folders = Vec::new();
+    for entry in fs::read_dir(&root).map_err(|error| at(&root, error))? {
+        let folder = entry.map_err(|error| at(&root, error))?.path();
+        if folder.is_dir() {
+            folders.push(folder);
+        }
+    }
+    folders.sort();
+    let mut cases = Vec::new();
+    for folder in folders {
+        let name = folder
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        if name.contains(filter) {
+            // A folder without its case.json would be a case that nobody checks.
+            let path = folder.join("case.json");
+            let text = fs::read_to_string(&path).map_err(|error| at(&path, error))?;
+            cases.push(Case::parse(&name, &folder, &text)?);
+        }
+    }
+    Ok(cases)
+}
+
+/// Checks all claims on all cores, in the order of the cases.
+pub fn check_all(cases: &[Case]) -> Vec<Verdict> {
+    let jobs: Vec<(&Case, usize)> = cases
+        .iter()
+        .flat_map(|case| (0..case.claims.len()).map(move |index| (case, index)))
+        .collect();
+    let next = AtomicUsize::new(0);
+    let verdicts = Mutex::new(Vec::new());
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..threads.min(jobs.len()) {
+            scope.spawn(|| {
+                loop {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    let Some((case, index)) = jobs.get(number) else {
+                        break;
+                    };
+                    let verdict = check(case, *index);
+                    let mut verdicts = verdicts.lock().expect("no panic while locked");
+                    verdicts.push((number, verdict));
+                }
+            });
+        }
+    });
+    let mut verdicts = verdicts.into_inner().expect("no panic while locked");
+    verdicts.sort_by_key(|(number, _)| *number);
+    verdicts.into_iter().map(|(_, verdict)| verdict).collect()
+}
+
+fn check(case: &Case, index: usize) -> Verdict {
+    let started = Instant::now();
+    let (kind, outcome) = match &case.claims[index] {
+        Ok(claim) => {
+            let scene = claim.scene.as_deref().unwrap_or(&case.scene);
+            let outcome = checks::check(claim, &case.folder, scene);
+            (claim.kind.name(), outcome)
+        }
+        Err(message) => ("?", Err(message.clone())),
+    };
+    Verdict {
+        place: format!("{}[{index}]", case.name),
+        kind,
+        outcome,
+        seconds: started.elapsed().as_secs_f64(),
+    }
+}
+
+impl Verdict {
+    /// Why the claim fails, if it does.
+    pub fn failure(&self) -> Option<String> {
+        let message = match &self.outcome {
+            Ok(measured) => measured.failure.as_ref()?,
+            Err(message) => message,
+        };
+        Some(format!("{} {}: {message}", self.place, self.kind))
+    }
+}
+
+/// A table of all verdicts.
+pub fn table(verdicts: &[Verdict]) -> String {
+    let mut rows = vec![["claim", "kind", "of", "found", "allowed", "", "s"].map(String::from)];
+    for verdict in verdicts {
+        let (what, found, allowed) = match &verdict.outcome {
+            Ok(m) => (
+                m.what.clone(),
+                format!("{:.3e}", m.found),
+                m.allowed.clone(),
+            ),
+            Err(_) => (String::new(), String::new(), String::new()),
+        };
+        let holds = if verdict.failure().is_none() {
+            "holds"
+        } else {
+            "FAILS"
+        };
+        rows.push([
+            verdict.place.clone(),
+            verdict.kind.into(),
+            what,
+            found,
+            allowed,
+            holds.into(),
+            format!("{:.2}", verdict.seconds),
+        ]);
+    }
+    let widths: [usize; 7] = std::array::from_fn(|column| {
+        let lengths = rows.iter().map(|row| row[column].chars().count());
+        lengths.max().unwrap_or(0)
+    });
+    let line = |row: &[String; 7]| {
+        let cells = row.iter().zip(widths);
+        let cells: Vec<String> = cells
+            .map(|(cell, width)| format!("{cell:width$}"))
+            .collect();
+        cells.join("  ").trim_end().to_owned()
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}

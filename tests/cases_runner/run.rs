@@ -1,0 +1,108 @@
+//! A scene in simulation, driven the way the tests of the packaged FMU drive theirs.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use flexbody::scene::Scene;
+use flexbody::simulation::{Simulation, Source};
+
+/// A simulation by variable names.
+pub struct Run(Simulation);
+
+impl Run {
+    /// A simulation ready for steps: parameters are set before initialization, inputs during it.
+    pub fn start(path: &Path, set: &BTreeMap<String, f64>) -> Result<Self, String> {
+        let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        let text = fs::read_to_string(path).map_err(|error| at(&error))?;
+        let scene = Scene::from_json(&text).map_err(|error| at(&error))?;
+        let mut run = Self(Simulation::new(scene));
+        let mut inputs = Vec::new();
+        for (name, value) in set {
+            let index = run.index(name)?;
+            if matches!(run.0.variables()[index].source, Source::Input(..)) {
+                inputs.push((index, *value));
+            } else {
+                run.set(index, *value)?;
+            }
+        }
+        run.0.initialize(0.0).map_err(|error| at(&error))?;
+        for (index, value) in inputs {
+            run.set(index, value)?;
+        }
+        run.0.start().map_err(|error| at(&error))?;
+        Ok(run)
+    }
+
+    fn index(&self, name: &str) -> Result<usize, String> {
+        let variables = self.0.variables();
+        variables
+            .iter()
+            .position(|v| v.name == name)
+            .ok_or_else(|| {
+                let known: Vec<&str> = variables.iter().map(|v| v.name.as_str()).collect();
+                format!(
+                    "{name}: expected a variable; there are {}",
+                    known.join(", ")
+                )
+            })
+    }
+
+    fn set(&mut self, index: usize, value: f64) -> Result<(), String> {
+        let variable = &self.0.variables()[index];
+        if !variable.is_integer() {
+            return self.0.set_real(index, value).map_err(|e| e.to_string());
+        }
+        let integer = value as i32;
+        if f64::from(integer) != value {
+            return Err(format!(
+                "{}: expected an integer, found {value}",
+                variable.name
+            ));
+        }
+        self.0
+            .set_integer(index, integer)
+            .map_err(|e| e.to_string())
+    }
+
+    /// Values of real variables, in order.
+    pub fn get<'a>(
+        &mut self,
+        names: impl IntoIterator<Item = &'a String>,
+    ) -> Result<Vec<f64>, String> {
+        let value = |name: &String| {
+            let index = self.index(name)?;
+            self.0.real(index).map_err(|error| error.to_string())
+        };
+        names.into_iter().map(value).collect()
+    }
+
+    /// Steps to `stop_time` and calls `visit` with the time of every communication point reached.
+    pub fn steps(
+        &mut self,
+        stop_time: f64,
+        step: f64,
+        mut visit: impl FnMut(&mut Self, f64) -> Result<(), String>,
+    ) -> Result<(), String> {
+        if !(step.is_finite() && step > 0.0 && stop_time.is_finite()) {
+            return Err(format!(
+                "expected a finite stop_time and a positive step, found {stop_time} and {step}"
+            ));
+        }
+        let (mut time, mut count) = (0.0, 0_u32);
+        // The last communication point may be nearer than a step, but never by roundoff alone.
+        while time < stop_time - 1e-9 * step {
+            count += 1;
+            let mut following = (f64::from(count) * step).min(stop_time);
+            if stop_time - following < 1e-9 * step {
+                following = stop_time;
+            }
+            self.0
+                .step(following)
+                .map_err(|failure| failure.to_string())?;
+            time = following;
+            visit(self, time)?;
+        }
+        Ok(())
+    }
+}
