@@ -144,10 +144,10 @@ fn check_order(order: &Order, scene: &Path, set: &Set) -> Result<Measured, Strin
         .collect();
     let listed = listed.join(", ");
     let pairs = errors.windows(2).zip(order.over.windows(2));
-    let observed = pairs
+    let mut observed = pairs
         .filter(|(e, _)| e[0].min(e[1]) > ROUNDOFF && e.iter().all(|e| e.is_finite()))
         .map(|(e, n)| (e[0] / e[1]).ln() / (n[1] / n[0]).ln());
-    let Some(found) = observed.last() else {
+    let Some(found) = observed.next_back() else {
         return Err(format!("no two errors above roundoff in a row; {listed}"));
     };
     let low = order.order - order.within;
