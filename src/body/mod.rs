@@ -5,6 +5,7 @@ mod connectivity;
 mod elimination;
 mod marker;
 mod reaction;
+mod stages;
 mod tangent;
 
 pub use connectivity::{Constraint, Hold};

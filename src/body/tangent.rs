@@ -6,27 +6,29 @@
 use nalgebra::{Complex, SMatrix};
 
 use super::FlexibleBody;
+use super::stages::Stages;
 use crate::elements::{Blocks, Element, Nodal};
 use crate::math::block_tridiagonal::{Block, BlockTridiagonal, Number};
 
 /// Mass, damping and stiffness over the nodes, and the factors of a combination of them.
 #[derive(Clone, Debug)]
-pub struct Tangent<const B: usize> {
-    mass: BlockTridiagonal<f64, B>,
+pub struct Tangent<const D: usize, const B: usize> {
+    pub(super) mass: BlockTridiagonal<f64, B>,
     /// Stiffness `K`; what [`FlexibleBody::assemble`] made of it and loads added.
     pub stiffness: BlockTridiagonal<f64, B>,
     damping: BlockTridiagonal<f64, B>,
     is_damped: bool,
-    real: BlockTridiagonal<f64, B>,
-    complex: BlockTridiagonal<Complex<f64>, B>,
-    x: Vec<[f64; B]>,
-    y: Vec<[f64; B]>,
-    z: Vec<[Complex<f64>; B]>,
+    pub(super) real: BlockTridiagonal<f64, B>,
+    pub(super) complex: BlockTridiagonal<Complex<f64>, B>,
+    pub(super) x: Vec<[f64; B]>,
+    pub(super) y: Vec<[f64; B]>,
+    pub(super) z: Vec<[Complex<f64>; B]>,
+    pub(super) stages: Stages<D, B>,
 }
 
 impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     /// Storage for the tangent, with the mass in place.
-    pub fn tangent(&self) -> Tangent<B> {
+    pub fn tangent(&self) -> Tangent<D, B> {
         let nodes = self.elements.len() + 1;
         let zeros = BlockTridiagonal::zeros(nodes);
         let mut mass = zeros.clone();
@@ -46,11 +48,13 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
             x: vec![[0.0; B]; nodes],
             y: vec![[0.0; B]; nodes],
             z: vec![[Complex::new(0.0, 0.0); B]; nodes],
+            stages: Stages::new(nodes),
         }
     }
 
     /// Computes stiffness and damping at a configuration.
-    pub fn assemble(&self, e: &[Nodal<D>], rate: &[Nodal<D>], tangent: &mut Tangent<B>) {
+    pub fn assemble(&self, e: &[Nodal<D>], rate: &[Nodal<D>], tangent: &mut Tangent<D, B>) {
+        tangent.stages.set_base(e);
         clear(&mut tangent.stiffness);
         for (j, element) in self.elements.iter().enumerate() {
             add_element(
@@ -68,7 +72,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     }
 
     /// Factors `s^2 M + s R + K` for a real `s`. False when it is not positive definite.
-    pub fn factor(&self, s: f64, tangent: &mut Tangent<B>) -> bool {
+    pub fn factor(&self, s: f64, tangent: &mut Tangent<D, B>) -> bool {
         let Tangent {
             mass,
             stiffness,
@@ -83,7 +87,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     }
 
     /// Factors `s^2 M + s R + K` for a complex `s`. False at a vanishing pivot.
-    pub fn factor_complex(&self, s: Complex<f64>, tangent: &mut Tangent<B>) -> bool {
+    pub fn factor_complex(&self, s: Complex<f64>, tangent: &mut Tangent<D, B>) -> bool {
         let Tangent {
             mass,
             stiffness,
@@ -100,7 +104,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     /// Solves in place with the real factors, in the coordinates `q`.
     pub fn solve(
         &self,
-        tangent: &mut Tangent<B>,
+        tangent: &mut Tangent<D, B>,
         e: &mut [Nodal<D>],
         border: &mut [f64],
         q: &mut [f64],
@@ -110,37 +114,10 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
         self.from_nodes(tangent, e, border, q);
     }
 
-    /// Solves in place with the complex factors, in the coordinates `q`.
-    pub fn solve_complex(
-        &self,
-        tangent: &mut Tangent<B>,
-        e: &mut [Nodal<D>],
-        border: &mut [f64],
-        (re, im): (&mut [f64], &mut [f64]),
-    ) {
-        self.to_nodes(tangent, e, border, im);
-        for (z, x) in tangent.z.iter_mut().zip(&tangent.x) {
-            *z = x.map(|x| Complex::new(0.0, x));
-        }
-        self.to_nodes(tangent, e, border, re);
-        for (z, x) in tangent.z.iter_mut().zip(&tangent.x) {
-            z.iter_mut().zip(x).for_each(|(z, x)| z.re = *x);
-        }
-        tangent.complex.solve(&mut tangent.z);
-        for (x, z) in tangent.x.iter_mut().zip(&tangent.z) {
-            *x = z.map(|z| z.re);
-        }
-        self.from_nodes(tangent, e, border, re);
-        for (x, z) in tangent.x.iter_mut().zip(&tangent.z) {
-            *x = z.map(|z| z.im);
-        }
-        self.from_nodes(tangent, e, border, im);
-    }
-
     /// `T^T R T q`, in place; does nothing to an undamped body but set zero.
     pub fn apply_damping(
         &self,
-        tangent: &mut Tangent<B>,
+        tangent: &mut Tangent<D, B>,
         e: &mut [Nodal<D>],
         border: &mut [f64],
         q: &mut [f64],
@@ -157,7 +134,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     }
 
     /// Dense stiffness `T^T K T`, column by column: for natural frequencies at set-up.
-    pub fn reduced_stiffness(&self, tangent: &mut Tangent<B>) -> Vec<Vec<f64>> {
+    pub fn reduced_stiffness(&self, tangent: &mut Tangent<D, B>) -> Vec<Vec<f64>> {
         let mut scratch = self.scratch();
         (0..self.coordinates())
             .map(|column| {
@@ -174,9 +151,9 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     }
 
     /// `x = B^T M T q`.
-    fn to_nodes(
+    pub(super) fn to_nodes(
         &self,
-        tangent: &mut Tangent<B>,
+        tangent: &mut Tangent<D, B>,
         e: &mut [Nodal<D>],
         border: &mut [f64],
         q: &[f64],
@@ -184,16 +161,21 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
         self.rates(q, border, e);
         gather(e, &mut tangent.y);
         tangent.mass.multiply(&tangent.y, &mut tangent.x);
+        self.hold(&mut tangent.x);
+    }
+
+    /// Takes held directions out of nodal forces or displacements.
+    pub(super) fn hold(&self, x: &mut [[f64; B]]) {
         for support in &self.supports {
-            let x = &mut tangent.x[support.node];
+            let x = &mut x[support.node];
             *x = (support.free * nalgebra::SVector::from(*x)).into();
         }
     }
 
     /// `q = T^T M B x`.
-    fn from_nodes(
+    pub(super) fn from_nodes(
         &self,
-        tangent: &mut Tangent<B>,
+        tangent: &mut Tangent<D, B>,
         e: &mut [Nodal<D>],
         border: &mut [f64],
         q: &mut [f64],

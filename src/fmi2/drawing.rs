@@ -105,14 +105,15 @@ impl<'a> Picture<'a> {
             fill: "none",
         };
         self.canvas.polyline(&points, false, style);
-        if self.names && body.elements <= MOST_NODES && self.is_even(body) {
+        if self.names && body.elements <= MOST_NODES {
             let node = Style {
                 stroke: BODY,
                 width: 0.8,
                 fill: "#dce6f0",
             };
-            for number in 0..=body.elements {
-                let along = f64::from(number) / f64::from(body.elements);
+            let same = |other: &Body| other.name == body.name;
+            let index = self.scene.bodies.iter().position(same).unwrap_or(0);
+            for along in self.scene.nodes(index).unwrap_or_default() {
                 let centre = self.at(body.shape.point(along));
                 self.canvas.circle(centre, 0.26 * self.unit, node);
             }
@@ -123,20 +124,6 @@ impl<'a> Picture<'a> {
             let at = moved(self.at(body.shape.point(0.25)), side, 1.5 * self.unit);
             self.canvas.texts(at, side, &[(&body.name, BODY)]);
         }
-    }
-
-    /// Whether all elements of a body are equally long: nodes stand where loads and joints act.
-    fn is_even(&self, body: &Body) -> bool {
-        let index = self
-            .scene
-            .bodies
-            .iter()
-            .position(|other| other.name == body.name);
-        let held = self.scene.loaded_coordinates(index.unwrap_or(0));
-        held.iter().all(|at| {
-            let number = at * f64::from(body.elements);
-            (number - number.round()).abs() < 1e-9
-        })
     }
 
     /// The side of the body for names, in the image: above it, or to the right if it is upright.

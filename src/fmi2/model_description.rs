@@ -10,7 +10,7 @@ use super::guid::guid;
 use super::lifecycle::Causality;
 use super::logger::Category;
 use super::number::number;
-use crate::scene::Scene;
+use crate::scene::{ELEMENTS, Scene, TOLERANCE};
 use crate::simulation::{Parameter, Source, Unit, Variable, variables};
 
 type Xml = Writer<Vec<u8>>;
@@ -189,8 +189,11 @@ pub(super) fn limits(variable: &Variable) -> (Option<f64>, Option<f64>) {
     };
     match parameter {
         Parameter::Gravity(_) => (None, None),
-        Parameter::Elements(_) => (Some(1.0), Some(100_000.0)),
-        Parameter::RelativeTolerance => (Some(1e-12), Some(0.1)),
+        Parameter::Elements(_) => (
+            Some(f64::from(*ELEMENTS.start())),
+            Some(f64::from(*ELEMENTS.end())),
+        ),
+        Parameter::RelativeTolerance => (Some(*TOLERANCE.start()), Some(*TOLERANCE.end())),
         Parameter::YoungsModulus(_)
         | Parameter::Density(_)
         | Parameter::DampingTime(_)

@@ -19,20 +19,23 @@ pub struct Tolerance {
     pub relative: f64,
     /// Size of positions, m sqrt(kg): length of the body times the root of its mass.
     pub position: f64,
-    /// Size of velocities, m sqrt(kg) / s.
-    pub velocity: f64,
+    /// Time in which an error of velocity grows into one of position, s.
+    pub time: f64,
 }
 
 impl Tolerance {
     /// Size of an error; 1 is just tolerated. With identity inertia the Euclidean norm of `q` is the
     /// mass norm of the displacement field.
     pub fn norm(&self, position: &[f64], velocity: &[f64]) -> f64 {
-        let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let p = size(position) / self.position;
-        let v = size(velocity) / self.velocity;
+        let p = size(position);
+        let v = size(velocity) * self.time;
         // Not f64::max, which would hide a NaN.
-        (if p > v { p } else { v + 0.0 * p }) / self.relative
+        (if p > v { p } else { v + 0.0 * p }) / (self.position * self.relative)
     }
+}
+
+fn size(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Outcome of one attempted step.
@@ -105,6 +108,7 @@ pub fn advance(
     tolerance: &Tolerance,
 ) -> (Counts, Result<(), Stop>) {
     let mut counts = Counts::default();
+    let mut grow = GROW;
     method.begin(dynamics, &state.coordinates, &state.rates);
     if state.step <= 0.0 {
         state.step = first_step(method.acceleration(), &state.rates, tolerance);
@@ -129,7 +133,8 @@ pub fn advance(
             Attempt::Done(error) if error <= 1.0 => {
                 method.accept(&mut state.coordinates, &mut state.rates);
                 state.time = if pieces <= 1.0 { until } else { state.time + h };
-                let next = h * (SAFETY * error.max(1e-10).powf(-0.25)).clamp(SHRINK, GROW);
+                let next = h * (SAFETY * error.max(1e-10).powf(-0.25)).clamp(SHRINK, grow);
+                grow = GROW;
                 // A step cut short by the communication point says nothing against the longer one.
                 state.step = if h < wanted {
                     next.max(state.step)
@@ -141,6 +146,8 @@ pub fn advance(
             }
             outcome => {
                 counts.rejected += 1;
+                // What just failed at this length will not succeed at a longer one.
+                grow = 1.0;
                 let factor = match outcome {
                     Attempt::Done(error) if error.is_finite() => {
                         (SAFETY * error.powf(-0.25)).clamp(SHRINK, SAFETY)
@@ -170,11 +177,7 @@ fn reason(v: &[f64], a: &[f64]) -> Stop {
 /// A first step short enough to learn the right one from: the state changes by a hundredth of its
 /// size.
 fn first_step(a: &[f64], v: &[f64], tolerance: &Tolerance) -> f64 {
-    let relative = Tolerance {
-        relative: 1.0,
-        ..*tolerance
-    };
-    let rate = relative.norm(v, a);
+    let rate = (size(v) / tolerance.position).max((size(a) / tolerance.position).sqrt());
     if rate > 0.0 && rate.is_finite() {
         1e-2 / rate
     } else {

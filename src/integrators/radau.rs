@@ -1,8 +1,8 @@
 //! Radau IIA of order 5: implicit, L-stable, three stages, simplified Newton iteration with the stage
 //! equations transformed into one real and one complex system.
 //!
-//! For `q'' = a(q, q')` the stage positions follow linearly from the stage velocities, so that only
-//! velocities are iterated and a solve is one with `s^2 I + s R + K`, `s` the eigenvalues of the
+//! For `q'' = a(q, q')` the stage velocities follow linearly from the stage positions, so that only
+//! positions are iterated and a solve is one with `s^2 I + s R + K`, `s` the eigenvalues of the
 //! inverse Runge-Kutta matrix over the step.
 //!
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8
@@ -51,8 +51,24 @@ const INVERSE: [[f64; 3]; 3] = [
         -0.596_039_204_828_224_9,
     ],
 ];
+/// Inverse of the Runge-Kutta matrix.
+const A_INVERSE: [[f64; 3]; 3] = [
+    [
+        3.224_744_871_391_589,
+        1.167_840_084_690_405_5,
+        -0.253_197_264_742_180_8,
+    ],
+    [
+        -3.567_840_084_690_405_5,
+        0.775_255_128_608_411,
+        1.053_197_264_742_180_8,
+    ],
+    [5.531_972_647_421_809, -7.531_972_647_421_809, 5.0],
+];
 /// Weights of the stages in the error estimate.
 const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_748_9, -1.0 / 3.0];
+/// Size of the error that Newton's method leaves, in units of the tolerance.
+const NEWTON: f64 = 0.03;
 /// Most Newton iterations.
 const ITERATIONS: i32 = 7;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
@@ -70,8 +86,6 @@ pub struct Radau {
     /// Stage increments of position and velocity.
     zq: Stages,
     zv: Stages,
-    /// Transformed velocity increments.
-    w: Stages,
     /// Stage accelerations, then Newton corrections.
     f: Stages,
     stage_q: Vec<f64>,
@@ -99,7 +113,6 @@ impl Radau {
             a: zero.clone(),
             zq: stages(),
             zv: stages(),
-            w: stages(),
             f: stages(),
             stage_q: zero.clone(),
             stage_v: zero.clone(),
@@ -115,49 +128,36 @@ impl Radau {
         }
     }
 
-    /// Starting values of the stage velocities: the last step's polynomial, or constant acceleration.
+    /// Starting values of the stages: the last step's polynomial, or constant acceleration.
     fn start(&mut self, v: &[f64], h: f64) {
         match self.last {
             Some(last) => {
                 let weights = C.map(|c| extrapolation(1.0 + c * h / last));
                 for i in 0..v.len() {
-                    let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
-                    for (stage, weights) in self.zv.iter_mut().zip(&weights) {
+                    let z = [self.zq[0][i], self.zq[1][i], self.zq[2][i]];
+                    for (stage, weights) in self.zq.iter_mut().zip(&weights) {
                         stage[i] = product(weights, &z) - z[2];
                     }
                 }
             }
             None => {
-                for (stage, c) in self.zv.iter_mut().zip(C) {
-                    stage
-                        .iter_mut()
-                        .zip(&self.a)
-                        .for_each(|(z, a)| *z = c * h * a);
+                for (stage, c) in self.zq.iter_mut().zip(C) {
+                    let t = c * h;
+                    for i in 0..v.len() {
+                        stage[i] = t * (v[i] + 0.5 * t * self.a[i]);
+                    }
                 }
             }
         }
-        for i in 0..v.len() {
-            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
-            for (w, row) in self.w.iter_mut().zip(&INVERSE) {
-                w[i] = product(row, &z);
-            }
-        }
-        self.back_transform(v, h);
+        self.velocities(v, h);
     }
 
-    /// Stage increments from the transformed velocities. Positions integrate velocities exactly in
-    /// the collocation: `s w_q = w_v + (T^-1 1) v`.
-    fn back_transform(&mut self, v: &[f64], h: f64) {
-        let one = INVERSE.map(|row| row[0] + row[1] + row[2]);
-        let real = h / GAMMA;
-        let complex = Complex::new(h, 0.0) / Complex::new(ALPHA, BETA);
+    /// Velocity increments of the stages from the position increments: `A^-1 z_q / h = v + z_v`.
+    fn velocities(&mut self, v: &[f64], h: f64) {
         for i in 0..v.len() {
-            let w = [self.w[0][i], self.w[1][i], self.w[2][i]];
-            let pair = complex * Complex::new(w[1] + one[1] * v[i], w[2] + one[2] * v[i]);
-            let wq = [real * (w[0] + one[0] * v[i]), pair.re, pair.im];
-            for (stage, row) in T.iter().enumerate() {
-                self.zv[stage][i] = product(row, &w);
-                self.zq[stage][i] = product(row, &wq);
+            let z = [self.zq[0][i], self.zq[1][i], self.zq[2][i]];
+            for (stage, row) in self.zv.iter_mut().zip(&A_INVERSE) {
+                stage[i] = product(row, &z) / h - v[i];
             }
         }
     }
@@ -176,36 +176,29 @@ impl Radau {
                 self.stage_v[i] = v[i] + self.zv[stage][i];
             }
             dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.f[stage]);
+            dynamics.set_stage(stage);
         }
-        let (gamma, alpha, beta) = (GAMMA / h, ALPHA / h, BETA / h);
         for i in 0..q.len() {
-            let f = [self.f[0][i], self.f[1][i], self.f[2][i]];
-            let w = [self.w[0][i], self.w[1][i], self.w[2][i]];
-            self.f[0][i] = product(&INVERSE[0], &f) - gamma * w[0];
-            self.f[1][i] = product(&INVERSE[1], &f) - (alpha * w[1] - beta * w[2]);
-            self.f[2][i] = product(&INVERSE[2], &f) - (alpha * w[2] + beta * w[1]);
+            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
+            for (f, row) in self.f.iter_mut().zip(&A_INVERSE) {
+                f[i] -= product(row, &z) / h;
+            }
         }
-        let [real, re, im] = &mut self.f;
-        dynamics.solve(real);
-        dynamics.solve_complex(re, im);
+        dynamics.solve_stages(&INVERSE, &T, &mut self.f);
+        for (z, x) in self.zq.iter_mut().zip(&self.f) {
+            z.iter_mut().zip(x).for_each(|(z, x)| *z += x);
+        }
+        self.velocities(v, h);
+        self.iterations += 1;
         let (mut positions, mut velocities) = (0.0, 0.0);
         for i in 0..q.len() {
             let x = [self.f[0][i], self.f[1][i], self.f[2][i]];
-            let dw = [
-                gamma * x[0],
-                alpha * x[1] - beta * x[2],
-                alpha * x[2] + beta * x[1],
-            ];
-            for (w, dw) in self.w.iter_mut().zip(dw) {
-                w[i] += dw;
-            }
             positions += product(&x, &x);
-            velocities += product(&dw, &dw);
+            let dv = A_INVERSE.map(|row| product(&row, &x) / h);
+            velocities += product(&dv, &dv);
         }
-        self.back_transform(v, h);
-        self.iterations += 1;
-        let sizes = (positions / 3.0).sqrt() / tolerance.position;
-        (sizes + (velocities / 3.0).sqrt() / tolerance.velocity) / tolerance.relative
+        let size = positions.sqrt() + velocities.sqrt() * tolerance.time;
+        size / (tolerance.position * tolerance.relative)
     }
 
     /// Solves the stage equations. `Err` is the fraction of the step to try instead.
@@ -216,10 +209,7 @@ impl Radau {
         h: f64,
         tolerance: &Tolerance,
     ) -> Result<(), f64> {
-        let goal = tolerance
-            .relative
-            .sqrt()
-            .clamp(10.0 * f64::EPSILON / tolerance.relative, 0.03);
+        let goal = NEWTON.max(10.0 * f64::EPSILON / tolerance.relative);
         let (mut before, mut ratio_before, mut theta) = (0.0, 0.0, 0.0_f64);
         for k in 0..ITERATIONS {
             let size = self.iterate(dynamics, state, h, tolerance);

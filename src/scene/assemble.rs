@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::{Body, Error, Formulation, InputKind, JointKind, OutputKind, Scene, Strain, mesh};
+use super::{Body, Error, Formulation, InputKind, JointKind, OutputKind, Scene, Strain};
 use crate::body;
 use crate::elements::{self, Nodal, cable};
 use crate::system::joints::{self, Joint};
@@ -15,9 +15,7 @@ use crate::system::{PlanarBody, System};
 /// When the mesh is too coarse for the joints and loads inside the body.
 pub fn assemble(scene: &Scene) -> Result<System, Error> {
     let description = &scene.bodies[0];
-    let held = scene.loaded_coordinates(0);
-    let path = "bodies[0].elements";
-    let nodes = mesh::nodes(path, description.elements as usize, &held)?;
+    let nodes = scene.nodes(0)?;
     let joints = build_joints(scene, description, &nodes);
     let constraints: Vec<_> = joints
         .iter()

@@ -1,13 +1,22 @@
 //! Meshes: nodes where joints and loads act, the rest spread evenly.
 
-use super::Error;
+use super::{Error, Scene};
+
+impl Scene {
+    /// Material coordinates in [0, 1] of the nodes of a body, by its index.
+    ///
+    /// # Errors
+    /// When there are too few elements for the joints and loads inside the body.
+    pub fn nodes(&self, body: usize) -> Result<Vec<f64>, Error> {
+        let path = format!("bodies[{body}].elements");
+        let elements = self.bodies[body].elements as usize;
+        nodes(&path, elements, &self.loaded_coordinates(body))
+    }
+}
 
 /// Material coordinates in [0, 1] of the nodes of `elements` elements, with a node at every
 /// coordinate of `held`.
-///
-/// # Errors
-/// At `path`, when there are fewer elements than stretches between held nodes.
-pub(super) fn nodes(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error> {
+fn nodes(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error> {
     let inner = held.iter().copied().filter(|c| *c > 0.0 && *c < 1.0);
     let mut corners = vec![0.0];
     corners.extend(inner);

@@ -16,7 +16,7 @@ pub use description::{
     Accuracy, Body, Element, Experiment, Formulation, Initial, Input, InputKind, Integrator, Joint,
     JointKind, Material, Method, Motion, Output, OutputKind, Scene, Section, Shape, Strain,
 };
-pub use validate::MarkerReference;
+pub use validate::{ELEMENTS, MarkerReference, TOLERANCE};
 
 /// What is wrong with a scene, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,7 +47,12 @@ impl Scene {
         let mut json = serde_json::Deserializer::from_str(text);
         let scene: Self = serde_path_to_error::deserialize(&mut json).map_err(|error| {
             let path = error.path().to_string();
-            let path = if path == "." { "scene".into() } else { path };
+            // Broken JSON has no path.
+            let path = if path == "." || path == "?" {
+                "scene".into()
+            } else {
+                path
+            };
             Error::new(path, error.inner().to_string())
         })?;
         json.end()

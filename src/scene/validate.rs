@@ -2,14 +2,17 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Display;
+use std::ops::RangeInclusive;
 
 use super::{
     Body, Error, Formulation, Input, InputKind, Integrator, Joint, JointKind, Output, OutputKind,
     Scene, Shape,
 };
 
-/// Most elements of a body: a limit on memory, far beyond any use.
-const MOST_ELEMENTS: u32 = 100_000;
+/// Numbers of elements of a body: the limit on memory is far beyond any use.
+pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
+/// Relative tolerances: below, the error of a step drowns in roundoff; above, it is none at all.
+pub const TOLERANCE: RangeInclusive<f64> = 1e-12..=0.1;
 /// Most natural frequencies: they are computed with dense matrices.
 const MOST_FREQUENCIES: u32 = 100;
 /// Words that begin variable names of the scene itself.
@@ -222,8 +225,8 @@ impl Scene {
 impl Body {
     fn validate(&self, path: &str) -> Result<(), Error> {
         let elements = format!("{path}.elements");
-        if self.elements == 0 || self.elements > MOST_ELEMENTS {
-            let wanted = format!("an integer from 1 to {MOST_ELEMENTS}");
+        if !ELEMENTS.contains(&self.elements) {
+            let wanted = format!("an integer from {} to {}", ELEMENTS.start(), ELEMENTS.end());
             return Err(expected(&elements, &wanted, self.elements));
         }
         let material = format!("{path}.material");
@@ -393,11 +396,15 @@ fn not_negative(path: &str, unit: &str, value: f64) -> Result<(), Error> {
 }
 
 fn check_tolerance(path: &str, value: f64) -> Result<(), Error> {
-    // Below 1e-12 a step's error drowns in roundoff; above 0.1 it is no accuracy at all.
-    if (1e-12..=0.1).contains(&value) {
+    if TOLERANCE.contains(&value) {
         return Ok(());
     }
-    Err(expected(path, "a number from 1e-12 to 0.1", value))
+    let wanted = format!(
+        "a number from {:e} to {}",
+        TOLERANCE.start(),
+        TOLERANCE.end()
+    );
+    Err(expected(path, &wanted, value))
 }
 
 fn check_scene_name(name: &str) -> Result<(), Error> {

@@ -62,15 +62,16 @@ impl Engine {
         inputs: &[f64],
     ) -> Result<(State, Vec<f64>), Error> {
         let mut state = self.system.reference_state(time);
+        Model::new(&self.system, inputs, &mut self.work).accepted(&mut state);
         match self.scene.initial {
             Initial::AsShaped => {
-                method::rigid_motion(&self.scene, &self.system, &mut self.work, &mut state.rates)
+                let rates = &mut state.rates;
+                method::rigid_motion(&self.scene, &self.system, &mut self.work, rates);
             }
             Initial::StaticEquilibrium => {
-                equilibrium::find(&self.system, inputs, &mut self.work, &mut state.coordinates)?;
+                equilibrium::find(&self.system, inputs, &mut self.work, &mut state)?;
             }
         }
-        Model::new(&self.system, inputs, &mut self.work).accepted(&mut state);
         self.forget();
         let frequencies = self.natural_frequencies(&state, inputs);
         Ok((state, frequencies))

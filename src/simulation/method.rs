@@ -4,9 +4,10 @@ use crate::integrators::{Method, Radau, Rk4, Tolerance};
 use crate::scene::{Integrator, Scene};
 use crate::system::{System, Work};
 
-/// Cost of an implicit step in explicit ones at the same frequency: measured on soft and steel
-/// pendulums (docs/decisions/0004-integrators.md).
-const IMPLICIT_COST: f64 = 30.0;
+/// The explicit method pays up to a frequency of this many natural rates, times the cube root of the
+/// inverse tolerance: where both methods cost the same on soft, middling and steel pendulums
+/// (docs/decisions/0004-integrators.md).
+const EXPLICIT: f64 = 130.0;
 
 /// Tolerance and integrator for a scene.
 pub(super) fn choose(
@@ -21,7 +22,7 @@ pub(super) fn choose(
     let tolerance = Tolerance {
         relative,
         position: root_mass * length,
-        velocity: root_mass * length * rate,
+        time: 1.0 / rate,
     };
     let n = body.coordinates();
     let frequency = body.frequency_bound();
@@ -29,10 +30,7 @@ pub(super) fn choose(
     let explicit = match scene.method.integrator {
         Integrator::Radau => false,
         Integrator::Rk4 => true,
-        // The motion excites a mode visibly where its deflection under the loads, rate^2 / frequency^2
-        // of the body's length, exceeds the tolerance; stability makes an explicit method resolve all
-        // others as well.
-        Integrator::Auto => frequency.max(decay) <= IMPLICIT_COST * rate / relative.sqrt(),
+        Integrator::Auto => frequency.max(decay) <= EXPLICIT * rate / relative.cbrt(),
     };
     let method: Box<dyn Method> = if explicit {
         Box::new(Rk4::new(n, frequency, decay))

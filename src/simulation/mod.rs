@@ -242,9 +242,11 @@ impl Simulation {
                 reason: error.to_string(),
             })?;
         }
-        let Some(engine) = &mut self.engine else {
-            return Ok(());
-        };
+        let time = self.state.time;
+        let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
+            time,
+            reason: "expected a simulation that has been initialized".into(),
+        })?;
         self.report = engine.step(&mut self.state, &self.inputs, until)?;
         Ok(())
     }
@@ -281,6 +283,11 @@ impl Simulation {
             .all(|x| x.is_finite())
         {
             return Err(Error::Snapshot("expected finite numbers".into()));
+        }
+        if snapshot.started && !snapshot.initialized {
+            return Err(Error::Snapshot(
+                "expected an initial state before the start".into(),
+            ));
         }
         if snapshot.values.len() != self.variables.len() {
             return Err(Error::Snapshot(format!(
@@ -372,7 +379,7 @@ impl Simulation {
             }
             _ => return Err(self.refuse(index, "expected a parameter or an input")),
         }
-        if value != before {
+        if value != before && !self.started {
             self.current = false;
         }
         Ok(())

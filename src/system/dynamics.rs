@@ -22,8 +22,18 @@ pub trait Dynamics {
     fn factor_complex(&mut self, s: Complex<f64>) -> bool;
     /// Solves in place with the real factors.
     fn solve(&mut self, x: &mut [f64]);
-    /// Solves in place with the complex factors: real and imaginary part.
-    fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]);
+    /// Remembers the configuration of the last acceleration as that of one of three stages.
+    fn set_stage(&mut self, stage: usize);
+    /// Solves for three stages in place: `forward` takes the right-hand sides to one for the real
+    /// factors and two for the complex ones, `back` takes the solutions to the stages. The tangent may
+    /// be turned along to the configurations set before, so the result is exact only to first order in
+    /// the way from the linearization.
+    fn solve_stages(
+        &mut self,
+        forward: &[[f64; 3]; 3],
+        back: &[[f64; 3]; 3],
+        stages: &mut [Vec<f64>; 3],
+    );
     /// `R x`, in place.
     fn apply_damping(&mut self, x: &mut [f64]);
     /// Largest rotation of any slope, rad, and change of any stretch between two configurations.
@@ -135,14 +145,26 @@ impl Dynamics for Model<'_> {
             .solve(tangent, &mut scratch.e, &mut scratch.border, x);
     }
 
-    fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+    fn set_stage(&mut self, stage: usize) {
         let Work {
             scratch, tangent, ..
         } = self.work;
-        let parts = (re, im);
+        self.system.body.set_stage(stage, &scratch.e, tangent);
+    }
+
+    fn solve_stages(
+        &mut self,
+        forward: &[[f64; 3]; 3],
+        back: &[[f64; 3]; 3],
+        stages: &mut [Vec<f64>; 3],
+    ) {
+        let Work {
+            scratch, tangent, ..
+        } = self.work;
+        let space = (&mut scratch.e[..], &mut scratch.border[..]);
         self.system
             .body
-            .solve_complex(tangent, &mut scratch.e, &mut scratch.border, parts);
+            .solve_stages(tangent, space, (forward, back), stages);
     }
 
     fn apply_damping(&mut self, x: &mut [f64]) {

@@ -1,16 +1,19 @@
 //! Static equilibrium: a minimum of the potential by Newton's method with a shifted tangent
 //! (Levenberg-Marquardt in the mass norm), in load steps where the whole load at once fails.
 //!
-//! Only stable equilibria are found: the tangent there is positive definite.
+//! The shift makes it look for a stable equilibrium. An unstable one is found only where symmetry lets
+//! no force point away from it, as in a perfectly straight column beyond its buckling load.
 //!
 //! Source: J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed., sections 3.4 and 10.3.
 
-use super::{Dynamics, Model, System, Work};
+use super::{Dynamics, Model, State, System, Work};
 
 /// Iterations for one load step.
 const ITERATIONS: usize = 100;
 /// Smallest load step.
 const SMALLEST: f64 = 1.0 / 256.0;
+/// Largest turn of a slope in one load step, where smaller ones are left to try, rad.
+const BRANCH: f64 = 1.5;
 /// Largest turn of a slope in one iteration, rad.
 const LARGEST_TURN: f64 = 0.5;
 /// Correction, relative to the length of the body, below which Newton converges quadratically.
@@ -35,36 +38,42 @@ pub struct NotFound {
     pub correction: f64,
 }
 
-/// Finds the equilibrium under gravity and the inputs, from the configuration `q`.
+/// Finds the equilibrium under gravity and the inputs, from the configuration of `state`, and counts
+/// its angles on the way.
 ///
 /// # Errors
-/// When the smallest load step does not converge; `q` is then that of the last one that did.
+/// When the smallest load step does not converge; `state` is then that of the last one that did.
 pub fn find(
     system: &System,
     inputs: &[f64],
     work: &mut Work,
-    q: &mut [f64],
+    state: &mut State,
 ) -> Result<(), NotFound> {
     let (mut reached, mut step) = (0.0, 1.0);
-    let mut from = q.to_vec();
+    let mut from = state.clone();
     while reached < 1.0 {
         let target = f64::min(1.0, reached + step);
         let scaled: Vec<f64> = inputs.iter().map(|input| target * input).collect();
         let mut model = Model::new(system, &scaled, work);
         model.gravity = target;
-        let mut outcome = relax(&mut model, q, Guard::Turns);
+        let mut outcome = relax(&mut model, state, Guard::Turns);
         if outcome.is_err() {
-            q.copy_from_slice(&from);
-            outcome = relax(&mut model, q, Guard::Potential);
+            state.copy_from(&from);
+            outcome = relax(&mut model, state, Guard::Potential);
+        }
+        // Far from the last equilibrium there may be another one, with a turn more.
+        let turn = model.largest_turn(&from.coordinates, &state.coordinates);
+        if turn > BRANCH && step > SMALLEST.sqrt() {
+            outcome = Err(0.0);
         }
         match outcome {
             Ok(()) => {
                 reached = target;
                 step *= 2.0;
-                from.copy_from_slice(q);
+                from.copy_from(state);
             }
             Err(correction) => {
-                q.copy_from_slice(&from);
+                state.copy_from(&from);
                 step /= 2.0;
                 if step < SMALLEST {
                     return Err(NotFound {
@@ -89,8 +98,8 @@ enum Guard {
 }
 
 /// Equilibrium under fixed loads; on failure the last correction.
-fn relax(model: &mut Model<'_>, q: &mut [f64], guard: Guard) -> Result<(), f64> {
-    let n = q.len();
+fn relax(model: &mut Model<'_>, state: &mut State, guard: Guard) -> Result<(), f64> {
+    let n = state.coordinates.len();
     let rest = vec![0.0; n];
     let (mut force, mut x, mut trial) = (rest.clone(), rest.clone(), rest.clone());
     let body = &model.system.body;
@@ -99,6 +108,7 @@ fn relax(model: &mut Model<'_>, q: &mut [f64], guard: Guard) -> Result<(), f64> 
     let (mut shift, mut before) = (0.0_f64, f64::INFINITY);
     let mut correction = f64::INFINITY;
     for _ in 0..ITERATIONS {
+        let q = &mut state.coordinates;
         model.acceleration(q, &rest, &mut force);
         if force.iter().all(|f| *f == 0.0) {
             return Ok(());
@@ -115,6 +125,7 @@ fn relax(model: &mut Model<'_>, q: &mut [f64], guard: Guard) -> Result<(), f64> 
         correction = norm(&x) / size;
         if shift == 0.0 && correction < CLOSE {
             q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
+            model.accepted(state);
             if correction < EXACT || correction > 0.1 * before {
                 return Ok(());
             }
@@ -122,6 +133,9 @@ fn relax(model: &mut Model<'_>, q: &mut [f64], guard: Guard) -> Result<(), f64> 
             continue;
         }
         before = f64::INFINITY;
+        if correction < EXACT {
+            return Ok(());
+        }
         let fraction = step_fraction(model, q, &x, &mut trial);
         let accepted = guard == Guard::Turns || {
             let predicted = fraction * force.iter().zip(&x).map(|(f, x)| f * x).sum::<f64>();
@@ -130,6 +144,7 @@ fn relax(model: &mut Model<'_>, q: &mut [f64], guard: Guard) -> Result<(), f64> 
         };
         if accepted {
             q.copy_from_slice(&trial);
+            model.accepted(state);
             shift = if shift > smallest_shift {
                 shift / 5.0
             } else {

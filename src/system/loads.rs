@@ -50,7 +50,12 @@ impl Load {
     }
 
     /// Adds minus the derivative of the force by the node's slope; a dead force has none.
-    pub(super) fn add_stiffness(&self, inputs: &[f64], e: &[Nodal<2>], tangent: &mut Tangent<4>) {
+    pub(super) fn add_stiffness(
+        &self,
+        inputs: &[f64],
+        e: &[Nodal<2>],
+        tangent: &mut Tangent<2, 4>,
+    ) {
         if self.kind == LoadKind::Force {
             return;
         }

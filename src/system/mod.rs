@@ -40,7 +40,7 @@ pub struct System {
 #[derive(Clone, Debug)]
 pub struct Work {
     pub(crate) scratch: Scratch<2>,
-    pub(crate) tangent: Tangent<4>,
+    pub(crate) tangent: Tangent<2, 4>,
     /// A vector of generalized coordinates.
     pub(crate) q: Vec<f64>,
 }
