@@ -58,7 +58,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
         q: &mut [Vec<f64>; 3],
     ) {
         for (i, q) in q.iter().enumerate() {
-            self.to_nodes(tangent, e, border, q);
+            self.nodal_forces(tangent, e, border, q);
             let Stages { x, base, turned } = &mut tangent.stages;
             for (node, x) in tangent.x.iter_mut().enumerate() {
                 turn(&turned[i][node], &base[node], x);
@@ -92,7 +92,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
                 turn(&base[node], &turned[i][node], out);
             }
             self.hold(&mut tangent.x);
-            self.from_nodes(tangent, e, border, q);
+            self.reduce_displacements(tangent, e, border, q);
         }
     }
 }

@@ -109,9 +109,9 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
         border: &mut [f64],
         q: &mut [f64],
     ) {
-        self.to_nodes(tangent, e, border, q);
+        self.nodal_forces(tangent, e, border, q);
         tangent.real.solve(&mut tangent.x);
-        self.from_nodes(tangent, e, border, q);
+        self.reduce_displacements(tangent, e, border, q);
     }
 
     /// `T^T R T q`, in place; does nothing to an undamped body but set zero.
@@ -151,7 +151,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     }
 
     /// `x = B^T M T q`.
-    pub(super) fn to_nodes(
+    pub(super) fn nodal_forces(
         &self,
         tangent: &mut Tangent<D, B>,
         e: &mut [Nodal<D>],
@@ -173,7 +173,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     }
 
     /// `q = T^T M B x`.
-    pub(super) fn from_nodes(
+    pub(super) fn reduce_displacements(
         &self,
         tangent: &mut Tangent<D, B>,
         e: &mut [Nodal<D>],

@@ -31,7 +31,7 @@ const T: [[f64; 3]; 3] = [
         0.204_129_352_293_799_93,
         0.382_942_112_757_261_9,
     ],
-    [0.966_048_182_615_092_9, 1.0, 0.0],
+    [0.966_048_182_615_093, 1.0, 0.0],
 ];
 /// Its inverse.
 const INVERSE: [[f64; 3]; 3] = [
@@ -47,7 +47,7 @@ const INVERSE: [[f64; 3]; 3] = [
     ],
     [
         -0.502_872_634_945_786_9,
-        2.571_926_949_855_605_4,
+        2.571_926_949_855_605,
         -0.596_039_204_828_224_9,
     ],
 ];
@@ -66,7 +66,7 @@ const A_INVERSE: [[f64; 3]; 3] = [
     [5.531_972_647_421_809, -7.531_972_647_421_809, 5.0],
 ];
 /// Weights of the stages in the error estimate.
-const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_748_9, -1.0 / 3.0];
+const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_749, -1.0 / 3.0];
 /// Size of the error that Newton's method leaves, in units of the tolerance.
 const NEWTON: f64 = 0.03;
 /// Most Newton iterations.
@@ -290,6 +290,15 @@ impl Radau {
         }
     }
 
+    /// Acceleration at the end of a step about to be accepted: the next error estimate starts from it.
+    fn end_acceleration(&mut self, dynamics: &mut dyn Dynamics, (q, v): (&[f64], &[f64])) {
+        for i in 0..q.len() {
+            self.stage_q[i] = q[i] + self.zq[2][i];
+            self.stage_v[i] = v[i] + self.zv[2][i];
+        }
+        dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.a);
+    }
+
     fn factor(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64], h: f64) -> bool {
         if !self.tangent {
             dynamics.linearize(q, v);
@@ -357,7 +366,7 @@ impl Method for Radau {
         }
         let error = self.estimate(dynamics, state, h, tolerance);
         if error <= 1.0 {
-            dynamics_acceleration(self, dynamics, state);
+            self.end_acceleration(dynamics, state);
         } else {
             self.last = None;
             self.rejected = true;
@@ -382,19 +391,6 @@ impl Method for Radau {
     fn newton_iterations(&self) -> u64 {
         self.iterations
     }
-}
-
-/// Acceleration at the end of a step about to be accepted: the next error estimate starts from it.
-fn dynamics_acceleration(
-    method: &mut Radau,
-    dynamics: &mut dyn Dynamics,
-    (q, v): (&[f64], &[f64]),
-) {
-    for i in 0..q.len() {
-        method.stage_q[i] = q[i] + method.zq[2][i];
-        method.stage_v[i] = v[i] + method.zv[2][i];
-    }
-    dynamics.acceleration(&method.stage_q, &method.stage_v, &mut method.a);
 }
 
 fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
