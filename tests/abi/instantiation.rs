@@ -1,7 +1,7 @@
 //! What `fmi2Instantiate` refuses, and that it says why.
 
 use flexbody::fmi2::abi;
-use std::ffi::{CString, c_char, c_int};
+use std::ffi::{c_char, c_int};
 use std::ptr;
 
 use crate::support::{CO_SIMULATION, Instance, Record, SCENE, Unit, call, text};
