@@ -26,6 +26,8 @@ pub(super) struct Support<const B: usize> {
     multipliers: Vec<SVector<f64, B>>,
     /// Projector on the node's free directions.
     pub(super) free: SMatrix<f64, B, B>,
+    /// Orthonormal directions that are held.
+    pub(super) held: Vec<SVector<f64, B>>,
 }
 
 impl<const B: usize> Support<B> {
@@ -46,7 +48,7 @@ impl<const B: usize> Support<B> {
             .filter(|c| c.vector_row().is_some())
             .chain(here().filter(|c| c.vector_row().is_none()));
         let mut free = SMatrix::<f64, B, B>::identity();
-        let mut rows = Vec::new();
+        let (mut rows, mut held) = (Vec::new(), Vec::new());
         for constraint in ordered {
             for [position, slope] in constraint.component_rows() {
                 let row =
@@ -57,6 +59,7 @@ impl<const B: usize> Support<B> {
                 }
                 let unit = rest.normalize();
                 free -= unit * unit.transpose();
+                held.push(unit);
                 rows.push((constraint.joint, row));
             }
         }
@@ -72,6 +75,7 @@ impl<const B: usize> Support<B> {
             rows,
             multipliers,
             free,
+            held,
         }
     }
 }

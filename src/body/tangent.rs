@@ -185,16 +185,23 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
         self.reduce(e, border, q);
     }
 
-    /// Takes held directions out: `P A P + (I - P)` at every held node.
+    /// Takes held directions out: `P A P` plus, along every held direction, a pivot as large as its
+    /// neighbours, which would drown in their roundoff otherwise.
     fn constrain<T: Number>(&self, a: &mut BlockTridiagonal<T, B>) {
         for support in &self.supports {
             let (node, p) = (support.node, &support.free);
-            a.diagonal[node] = right(&left(p, &a.diagonal[node]), p);
-            for r in 0..B {
-                for c in 0..B {
-                    let identity = if r == c { 1.0 } else { 0.0 };
-                    let value = T::from(identity - p[(r, c)]);
-                    a.diagonal[node][r][c] = a.diagonal[node][r][c] + value;
+            let before = a.diagonal[node];
+            a.diagonal[node] = right(&left(p, &before), p);
+            for unit in &support.held {
+                let size: f64 = (0..B)
+                    .map(|i| unit[i] * unit[i] * before[i][i].size())
+                    .sum();
+                let size = if size > 0.0 { size } else { 1.0 };
+                for r in 0..B {
+                    for c in 0..B {
+                        let value = T::from(size * unit[r] * unit[c]);
+                        a.diagonal[node][r][c] = a.diagonal[node][r][c] + value;
+                    }
                 }
             }
             if let Some(l) = a.lower.get_mut(node) {

@@ -14,11 +14,17 @@ pub trait Number:
 {
     /// Whether a pivot keeps the matrix positive definite (real) or usable (complex).
     fn is_pivot(self) -> bool;
+    /// Absolute value.
+    fn size(self) -> f64;
 }
 
 impl Number for f64 {
     fn is_pivot(self) -> bool {
         self > 0.0 && self.is_finite()
+    }
+
+    fn size(self) -> f64 {
+        self.abs()
     }
 }
 
@@ -26,6 +32,10 @@ impl Number for nalgebra::Complex<f64> {
     fn is_pivot(self) -> bool {
         let size = self.norm_sqr();
         size > 0.0 && size.is_finite()
+    }
+
+    fn size(self) -> f64 {
+        self.norm()
     }
 }
 
