@@ -6,11 +6,15 @@
 //! stage are turned back, node by node, to where the tangent was made, and displacements are turned
 //! forth again. Mass is isotropic and hardly notices; what is left of the turn only slows convergence
 //! down in proportion (docs/decisions/0005-corotated-newton.md).
+//!
+//! Turning every node by itself changes sums over nodes. The translation of a free body is therefore
+//! put right before and after, so that momentum is kept exactly however far the iteration goes.
 
 use nalgebra::{Complex, SVector};
 
 use super::{FlexibleBody, Tangent};
 use crate::elements::{Element, Nodal};
+use crate::math::block_tridiagonal::BlockTridiagonal;
 
 /// Nodal vectors of three stages and how far their slopes have turned.
 #[derive(Clone, Debug)]
@@ -20,16 +24,77 @@ pub(super) struct Stages<const D: usize, const B: usize> {
     base: Vec<SVector<f64, D>>,
     /// Unit slopes at the stages.
     turned: [Vec<SVector<f64, D>>; 3],
+    /// Mass times a unit translation: what positions and slopes of a node carry of the momentum, kg.
+    /// Empty where the body is held.
+    carried: Vec<[f64; 2]>,
+    mass: f64,
 }
 
 impl<const D: usize, const B: usize> Stages<D, B> {
-    pub(super) fn new(nodes: usize) -> Self {
+    pub(super) fn new(mass: &BlockTridiagonal<f64, B>, is_free: bool) -> Self {
+        let nodes = mass.diagonal.len();
         let slopes = || vec![SVector::zeros(); nodes];
         let vectors = || vec![[0.0; B]; nodes];
+        let (mut unit, mut product) = (vectors(), vectors());
+        unit.iter_mut().for_each(|x| x[0] = 1.0);
+        mass.multiply(&unit, &mut product);
+        let mut carried: Vec<[f64; 2]> = product.iter().map(|y| [y[0], y[D]]).collect();
+        let total = carried.iter().map(|[position, _]| position).sum();
+        if !is_free {
+            carried.clear();
+        }
         Self {
+            carried,
+            mass: total,
             x: [vectors(), vectors(), vectors()],
             base: slopes(),
             turned: [slopes(), slopes(), slopes()],
+        }
+    }
+
+    /// Mean translation of nodal displacements, weighted by mass, m.
+    fn translation(&self, x: &[[f64; B]]) -> SVector<f64, D> {
+        let mut sum = SVector::zeros();
+        for ([position, slope], x) in self.carried.iter().zip(x) {
+            for axis in 0..D {
+                sum[axis] += position * x[axis] + slope * x[D + axis];
+            }
+        }
+        sum / self.mass
+    }
+
+    /// Adds the nodal forces of a uniform acceleration, m/s^2.
+    fn accelerate(&self, acceleration: &SVector<f64, D>, x: &mut [[f64; B]]) {
+        for ([position, slope], x) in self.carried.iter().zip(x) {
+            for axis in 0..D {
+                x[axis] += position * acceleration[axis];
+                x[D + axis] += slope * acceleration[axis];
+            }
+        }
+    }
+
+    /// Turns the forces on a stage back to where the tangent was made; their sum stays.
+    fn turn_back(&self, stage: usize, x: &mut [[f64; B]]) {
+        let before = total(x);
+        for (node, x) in x.iter_mut().enumerate() {
+            turn(&self.turned[stage][node], &self.base[node], x);
+        }
+        self.accelerate(&((before - total(x)) / self.mass), x);
+    }
+
+    /// Turns displacements forth to a stage; their mean translation stays.
+    fn turn_forth(&self, stage: usize, x: &mut [[f64; B]]) {
+        let before = self.translation(x);
+        for (node, x) in x.iter_mut().enumerate() {
+            turn(&self.base[node], &self.turned[stage][node], x);
+        }
+        if !self.carried.is_empty() {
+            let change = before - self.translation(x);
+            for x in x {
+                for axis in 0..D {
+                    x[axis] += change[axis];
+                }
+            }
         }
     }
 
@@ -59,12 +124,9 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     ) {
         for (i, q) in q.iter().enumerate() {
             self.nodal_forces(tangent, e, border, q);
-            let Stages { x, base, turned } = &mut tangent.stages;
-            for (node, x) in tangent.x.iter_mut().enumerate() {
-                turn(&turned[i][node], &base[node], x);
-            }
+            tangent.stages.turn_back(i, &mut tangent.x);
             self.hold(&mut tangent.x);
-            x[i].copy_from_slice(&tangent.x);
+            tangent.stages.x[i].copy_from_slice(&tangent.x);
         }
         let stages = &mut tangent.stages.x;
         for node in 0..tangent.x.len() {
@@ -86,15 +148,19 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
             }
         }
         for (i, q) in q.iter_mut().enumerate() {
-            let Stages { x, base, turned } = &mut tangent.stages;
-            for (node, out) in tangent.x.iter_mut().enumerate() {
-                *out = x[i][node];
-                turn(&base[node], &turned[i][node], out);
-            }
+            tangent.x.copy_from_slice(&tangent.stages.x[i]);
+            tangent.stages.turn_forth(i, &mut tangent.x);
             self.hold(&mut tangent.x);
             self.reduce_displacements(tangent, e, border, q);
         }
     }
+}
+
+/// Sum of nodal forces.
+fn total<const D: usize, const B: usize>(x: &[[f64; B]]) -> SVector<f64, D> {
+    x.iter()
+        .map(|x| SVector::<f64, D>::from_column_slice(&x[..D]))
+        .sum()
 }
 
 fn unit_slopes<const D: usize>(e: &[Nodal<D>], slopes: &mut [SVector<f64, D>]) {

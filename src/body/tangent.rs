@@ -39,6 +39,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
             add_element(&mut mass, j, &blocks);
         }
         Tangent {
+            stages: Stages::new(&mass, self.supports.is_empty()),
             mass,
             stiffness: zeros.clone(),
             damping: zeros.clone(),
@@ -48,7 +49,6 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
             x: vec![[0.0; B]; nodes],
             y: vec![[0.0; B]; nodes],
             z: vec![[Complex::new(0.0, 0.0); B]; nodes],
-            stages: Stages::new(nodes),
         }
     }
 
