@@ -1,0 +1,191 @@
+//! Nothing allocates once a simulation has started: neither a step, nor setting inputs, nor reading
+//! outputs, natively and through the C interface.
+
+#[path = "abi/support.rs"]
+#[allow(dead_code, reason = "shared with the tests of the C interface")]
+mod support;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use flexbody::scene::Scene;
+use flexbody::simulation::{Simulation, Source};
+use support::{Instance, Status, Unit, call};
+
+/// The system's allocator, counting what each thread asks of it.
+struct Counting;
+
+thread_local! {
+    static REQUESTS: Cell<u64> = const { Cell::new(0) };
+}
+
+fn count() {
+    // A thread that is ending has no counter any more, and nobody looks.
+    let _ = REQUESTS.try_with(|requests| requests.set(requests.get() + 1));
+}
+
+// SAFETY: every call is passed on to the system's allocator as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: as the caller promises.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: as the caller promises.
+        unsafe { System.alloc_zeroed(layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: as the caller promises.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // Giving back is work as well, and a sign of what was taken.
+        count();
+        // SAFETY: as the caller promises.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Requests to the allocator that this thread makes during `action`.
+fn requests(action: impl FnOnce()) -> u64 {
+    let before = REQUESTS.get();
+    action();
+    REQUESTS.get() - before
+}
+
+/// A scene with every kind of input and output; `holder` is a joint that transmits a moment.
+fn scene(integrator: &str, damping_time: f64, (joints, holder): (&str, &str)) -> String {
+    let moment = match holder {
+        "" => String::new(),
+        holder => format!(r#"{{ "kind": "reaction_moment", "joint": "{holder}" }},"#),
+    };
+    format!(
+        r#"{{ "name": "all", "dimension": 2, "gravity": [0.0, -9.81],
+          "bodies": [ {{ "name": "rod", "element": "cable", "elements": 6,
+            "material": {{ "youngs_modulus": 7.0e5, "density": 5540.0, "damping_time": {damping_time} }},
+            "section": {{ "area": 1.8e-3, "second_moment": 1.215e-8 }},
+            "shape": {{ "arc": {{ "from": [0.0, 0.0], "to": [1.0, 0.1], "length": 1.2 }} }},
+            "markers": {{ "root": 0.0, "middle": 0.5, "tip": 1.0 }} }} ],
+          "joints": [ {joints} ],
+          "inputs": [ {{ "kind": "force", "marker": "rod.tip" }},
+                      {{ "kind": "moment", "marker": "rod.middle" }} ],
+          "outputs": [
+            {{ "kind": "position", "marker": "rod.tip" }}, {{ "kind": "velocity", "marker": "rod.tip" }},
+            {{ "kind": "acceleration", "marker": "rod.tip" }}, {{ "kind": "angle", "marker": "rod.tip" }},
+            {{ "kind": "angle", "marker": "rod.middle" }},
+            {{ "kind": "angular_velocity", "marker": "rod.tip" }},
+            {{ "kind": "strain", "marker": "rod.middle" }}, {{ "kind": "curvature", "marker": "rod.middle" }},
+            {{ "kind": "reaction", "joint": "joint" }}, {moment}
+            {{ "kind": "energy" }}, {{ "kind": "natural_frequency", "body": "rod", "count": 3 }} ],
+          "accuracy": {{ "relative_tolerance": 1.0e-4 }},
+          "method": {{ "integrator": "{integrator}" }} }}"#
+    )
+}
+
+const PIN: &str = r#"{ "name": "joint", "kind": "revolute", "markers": ["ground", "rod.root"] }"#;
+const CLAMP: &str = r#"{ "name": "joint", "kind": "weld", "markers": ["ground", "rod.root"] }"#;
+const SLIDERS: &str = r#"
+    { "name": "joint", "kind": "slider", "markers": ["ground", "rod.root"], "direction": [1.0, 0.5] },
+    { "name": "other", "kind": "slider", "markers": ["ground", "rod.middle"], "direction": [0.0, 1.0] },
+    { "name": "third", "kind": "orientation", "markers": ["ground", "rod.root"] },
+    { "name": "fourth", "kind": "slider", "markers": ["ground", "rod.root"], "direction": [1.0, 0.5] }"#;
+
+fn scenes() -> Vec<String> {
+    let mut scenes = Vec::new();
+    for integrator in ["radau", "rk4", "auto"] {
+        for damping_time in [0.0, 1e-4] {
+            for joints in [(PIN, ""), (CLAMP, "joint"), (SLIDERS, "third")] {
+                scenes.push(scene(integrator, damping_time, joints));
+            }
+        }
+    }
+    scenes
+}
+
+#[test]
+fn the_counter_counts() {
+    assert!(requests(|| drop(std::hint::black_box(vec![1_u8; 100]))) >= 2);
+    assert_eq!(requests(|| ()), 0);
+}
+
+#[test]
+fn a_started_simulation_allocates_nothing() {
+    for text in scenes() {
+        let scene = Scene::from_json(&text).expect("a valid scene");
+        let mut simulation = Simulation::new(scene);
+        simulation.initialize(0.0).expect("a valid scene");
+        simulation.start().expect("a valid scene");
+        let variables = simulation.variables().to_vec();
+        let mut sum = 0.0;
+        let found = requests(|| {
+            for step in 1..=20 {
+                for (index, variable) in variables.iter().enumerate() {
+                    if matches!(variable.source, Source::Input(..)) {
+                        let value = 0.3 * f64::from(step % 5 - 2);
+                        simulation.set_real(index, value).expect("an input");
+                    }
+                    if !variable.is_integer() {
+                        // Before the step and after it, with the inputs just set.
+                        sum += simulation.real(index).expect("a real variable");
+                    }
+                }
+                simulation.step(0.02 * f64::from(step)).expect("a step");
+                for (index, variable) in variables.iter().enumerate() {
+                    if !variable.is_integer() {
+                        sum += simulation.real(index).expect("a real variable");
+                    }
+                }
+            }
+        });
+        assert!(sum.is_finite());
+        assert_eq!(found, 0, "requests in {text}");
+    }
+}
+
+#[test]
+fn a_started_instance_allocates_nothing() {
+    for text in scenes() {
+        let unit = Unit::of(&text);
+        let instance = Instance::with_logging(&unit, false);
+        instance.start();
+        let reals: Vec<u32> = (0_u32..)
+            .zip(&unit.variables)
+            .filter(|(_, variable)| !variable.is_integer())
+            .map(|(reference, _)| reference)
+            .collect();
+        let inputs: Vec<u32> = (0_u32..)
+            .zip(&unit.variables)
+            .filter(|(_, variable)| matches!(variable.source, Source::Input(..)))
+            .map(|(reference, _)| reference)
+            .collect();
+        let mut values = vec![0.0; reals.len()];
+        let mut forces = vec![0.0; inputs.len()];
+        let (c, mut last) = (instance.component, 0.0);
+        let found = requests(|| {
+            for step in 0..20 {
+                forces.fill(0.3 * f64::from(step % 5 - 2));
+                let (vr, n) = (inputs.as_ptr(), inputs.len());
+                assert_eq!(call!(fmi2SetReal, c, vr, n, forces.as_ptr()), Status::Ok);
+                let time = 0.02 * f64::from(step);
+                assert_eq!(call!(fmi2DoStep, c, time, 0.02, 1), Status::Ok);
+                let (vr, n) = (reals.as_ptr(), reals.len());
+                assert_eq!(
+                    call!(fmi2GetReal, c, vr, n, values.as_mut_ptr()),
+                    Status::Ok
+                );
+                assert_eq!(call!(fmi2GetRealStatus, c, 2, &mut last), Status::Ok);
+            }
+        });
+        assert!((last - 0.4).abs() < 1e-12 && values.iter().all(|v| v.is_finite()));
+        assert_eq!(found, 0, "requests in {text}");
+    }
+}
