@@ -351,13 +351,8 @@ fn factor_front(
     };
     for output in 0..free + handed_on {
         // Free coordinates first, then what is handed on.
-        let row = if output < free {
-            rank + handed_on + output
-        } else {
-            rank + output - free
-        };
         let mut q = [0.0; ROWS];
-        q[row] = 1.0;
+        q[rank + (output + handed_on) % (free + handed_on)] = 1.0;
         for (v, tau, at) in reflectors.iter().rev() {
             reflect(&v[*at..rows], *tau, &mut q[*at..rows]);
         }

@@ -1,7 +1,7 @@
 //! The one list of variables that a scene gives rise to. A variable's index is its FMI value
 //! reference; the XML, get and set, axis labels, the GUID and the documentation derive from it.
 
-use crate::scene::{Input, InputKind, Output, OutputKind, Scene};
+use crate::scene::{Body, Input, InputKind, Output, OutputKind, Scene};
 
 /// A scalar variable of a simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -201,59 +201,7 @@ impl List {
 
 fn add_parameters(list: &mut List, scene: &Scene) {
     for (i, body) in scene.bodies.iter().enumerate() {
-        let name = &body.name;
-        let (material, section) = (&body.material, &body.section);
-        let mut add = |key: &str, what: &str, unit, parameter, start| {
-            list.parameter(
-                format!("{name}.{key}"),
-                format!("{what} of {name}"),
-                unit,
-                parameter,
-                start,
-            );
-        };
-        add(
-            "youngs_modulus",
-            "Young's modulus",
-            Some(PASCAL),
-            Parameter::YoungsModulus(i),
-            material.youngs_modulus,
-        );
-        add(
-            "density",
-            "Density",
-            Some(DENSITY),
-            Parameter::Density(i),
-            material.density,
-        );
-        add(
-            "damping_time",
-            "Kelvin-Voigt damping time",
-            Some(SECOND),
-            Parameter::DampingTime(i),
-            material.damping_time,
-        );
-        add(
-            "area",
-            "Area of the cross section",
-            Some(SQUARE_METRE),
-            Parameter::Area(i),
-            section.area,
-        );
-        add(
-            "second_moment",
-            "Second moment of area",
-            Some(METRE_4),
-            Parameter::SecondMoment(i),
-            section.second_moment,
-        );
-        add(
-            "elements",
-            "Number of elements",
-            None,
-            Parameter::Elements(i),
-            f64::from(body.elements),
-        );
+        add_body_parameters(list, i, body);
     }
     for axis in 0..2 {
         let what = format!("Gravitational acceleration, component {}", ["x", "y"][axis]);
@@ -275,6 +223,62 @@ fn add_parameters(list: &mut List, scene: &Scene) {
         Parameter::RelativeTolerance,
         start,
     );
+}
+
+fn add_body_parameters(list: &mut List, i: usize, body: &Body) {
+    use Parameter::*;
+    let (material, section) = (&body.material, &body.section);
+    let elements = f64::from(body.elements);
+    for (key, what, unit, parameter, start) in [
+        (
+            "youngs_modulus",
+            "Young's modulus",
+            Some(PASCAL),
+            YoungsModulus(i),
+            material.youngs_modulus,
+        ),
+        (
+            "density",
+            "Density",
+            Some(DENSITY),
+            Density(i),
+            material.density,
+        ),
+        (
+            "damping_time",
+            "Kelvin-Voigt damping time",
+            Some(SECOND),
+            DampingTime(i),
+            material.damping_time,
+        ),
+        (
+            "area",
+            "Area of the cross section",
+            Some(SQUARE_METRE),
+            Area(i),
+            section.area,
+        ),
+        (
+            "second_moment",
+            "Second moment of area",
+            Some(METRE_4),
+            SecondMoment(i),
+            section.second_moment,
+        ),
+        (
+            "elements",
+            "Number of elements",
+            None,
+            Elements(i),
+            elements,
+        ),
+    ] {
+        let (name, what) = (
+            format!("{}.{key}", body.name),
+            format!("{what} of {}", body.name),
+        );
+        list.parameter(name, what, unit, parameter, start);
+    }
 }
 
 fn add_input(list: &mut List, index: usize, input: &Input) {
@@ -304,14 +308,23 @@ fn add_input(list: &mut List, index: usize, input: &Input) {
 }
 
 fn add_output(list: &mut List, scene: &Scene, output: &Output, angles: &mut usize) {
+    match output.kind {
+        OutputKind::Position
+        | OutputKind::Velocity
+        | OutputKind::Acceleration
+        | OutputKind::Angle
+        | OutputKind::AngularVelocity
+        | OutputKind::Strain
+        | OutputKind::Curvature => add_marker_output(list, scene, output, angles),
+        OutputKind::Reaction | OutputKind::ReactionMoment => add_joint_output(list, scene, output),
+        OutputKind::Energy => add_energies(list),
+        OutputKind::NaturalFrequency => add_frequencies(list, output),
+    }
+}
+
+fn add_marker_output(list: &mut List, scene: &Scene, output: &Output, angles: &mut usize) {
     let marker = output.marker.as_deref().unwrap_or_default();
     let at = scene.marker(marker).map_or(0.0, |marker| marker.coordinate);
-    let joint_name = output.joint.as_deref().unwrap_or_default();
-    let joint = scene
-        .joints
-        .iter()
-        .position(|j| j.name == joint_name)
-        .unwrap_or(0);
     match output.kind {
         OutputKind::Position => list.vector(
             &format!("{marker}.position"),
@@ -358,53 +371,71 @@ fn add_output(list: &mut List, scene: &Scene, output: &Output, angles: &mut usiz
             Some(PER_METRE),
             Quantity::Curvature(at),
         ),
-        OutputKind::Reaction => list.vector(
-            &format!("{joint_name}.reaction"),
-            &format!("Force of {joint_name} on its second marker"),
+        OutputKind::Reaction
+        | OutputKind::ReactionMoment
+        | OutputKind::Energy
+        | OutputKind::NaturalFrequency => {}
+    }
+}
+
+fn add_joint_output(list: &mut List, scene: &Scene, output: &Output) {
+    let name = output.joint.as_deref().unwrap_or_default();
+    let joint = scene
+        .joints
+        .iter()
+        .position(|j| j.name == name)
+        .unwrap_or(0);
+    if output.kind == OutputKind::Reaction {
+        list.vector(
+            &format!("{name}.reaction"),
+            &format!("Force of {name} on its second marker"),
             NEWTON,
             |axis| Quantity::Reaction(joint, axis),
-        ),
-        OutputKind::ReactionMoment => list.scalar(
-            &format!("{joint_name}.reaction_moment"),
-            &format!("Moment of {joint_name} on its second marker"),
+        );
+    } else {
+        list.scalar(
+            &format!("{name}.reaction_moment"),
+            &format!("Moment of {name} on its second marker"),
             Some(NEWTON_METRE),
             Quantity::ReactionMoment(joint),
-        ),
-        OutputKind::Energy => {
-            list.scalar(
-                "energy.kinetic",
-                "Kinetic energy",
-                Some(JOULE),
-                Quantity::KineticEnergy,
-            );
-            list.scalar(
-                "energy.strain",
-                "Strain energy",
-                Some(JOULE),
-                Quantity::StrainEnergy,
-            );
-            list.scalar(
-                "energy.gravity",
-                "Potential energy of gravity, zero at the origin",
-                Some(JOULE),
-                Quantity::GravityEnergy,
-            );
-        }
-        OutputKind::NaturalFrequency => {
-            let body = output.body.as_deref().unwrap_or_default();
-            for number in 0..output.count.unwrap_or(0) as usize {
-                let what = format!(
-                    "Natural frequency {} about the initial configuration; an unstable one is negative",
-                    number + 1
-                );
-                list.add(
-                    format!("{body}.natural_frequency[{}]", number + 1),
-                    what,
-                    Some(RADIAN_PER_SECOND),
-                    Source::NaturalFrequency(number),
-                    None,
-                );
-            }
-        }
+        );
+    }
+}
+
+fn add_energies(list: &mut List) {
+    list.scalar(
+        "energy.kinetic",
+        "Kinetic energy",
+        Some(JOULE),
+        Quantity::KineticEnergy,
+    );
+    list.scalar(
+        "energy.strain",
+        "Strain energy",
+        Some(JOULE),
+        Quantity::StrainEnergy,
+    );
+    list.scalar(
+        "energy.gravity",
+        "Potential energy of gravity, zero at the origin",
+        Some(JOULE),
+        Quantity::GravityEnergy,
+    );
+}
+
+fn add_frequencies(list: &mut List, output: &Output) {
+    let body = output.body.as_deref().unwrap_or_default();
+    for number in 0..output.count.unwrap_or(0) as usize {
+        let what = format!(
+            "Natural frequency {} about the initial configuration; an unstable one is negative",
+            number + 1
+        );
+        list.add(
+            format!("{body}.natural_frequency[{}]", number + 1),
+            what,
+            Some(RADIAN_PER_SECOND),
+            Source::NaturalFrequency(number),
+            None,
+        );
     }
 }
