@@ -1,0 +1,8 @@
+//! The rules of the house, as checks that read the project's own text (`ARCHITECTURE.md` lists them).
+
+mod generated;
+mod manifests;
+mod rooms;
+mod sizes;
+mod source;
+mod unsafety;

@@ -1,0 +1,109 @@
+//! What the manifests must and must not say.
+
+use std::fs;
+
+use crate::source::{files, name, no_complaints, root};
+
+/// Lines of a manifest without comments, with the section that each stands in.
+fn lines(path: &str) -> Vec<(String, String)> {
+    let text = fs::read_to_string(root().join(path)).expect("a manifest");
+    let mut section = String::new();
+    let mut found = Vec::new();
+    for line in text.lines() {
+        let line = line.split('#').next().unwrap_or_default().trim();
+        if let Some(header) = line.strip_prefix('[') {
+            section = header.trim_end_matches(']').into();
+        }
+        if !line.is_empty() {
+            found.push((section.clone(), line.to_owned()));
+        }
+    }
+    found
+}
+
+/// Names of dependencies of all kinds.
+fn dependencies(path: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (section, line) in lines(path) {
+        match section.split_once("dependencies.") {
+            Some((_, name)) if line.starts_with('[') => found.push(name.into()),
+            None if section.ends_with("dependencies") && !line.starts_with('[') => {
+                let name = line.split(['=', '.']).next().unwrap_or_default();
+                found.push(name.trim().trim_matches('"').into());
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+#[test]
+fn xtask_never_depends_on_the_library() {
+    let found = dependencies("xtask/Cargo.toml");
+    assert!(found.iter().any(|name| name == "clap"), "{found:?}");
+    assert!(found.iter().all(|name| name != "flexbody"), "{found:?}");
+    let path = lines("xtask/Cargo.toml")
+        .into_iter()
+        .find(|(_, line)| line.contains("path ="));
+    assert_eq!(path, None);
+}
+
+#[test]
+fn there_are_no_features_and_no_crate_types() {
+    for path in ["Cargo.toml", "xtask/Cargo.toml"] {
+        for (section, line) in lines(path) {
+            assert!(section != "features", "{path}: [features]");
+            assert!(!line.starts_with("crate-type"), "{path}: {line}");
+            assert!(!line.contains("optional = true"), "{path}: {line}");
+        }
+    }
+}
+
+#[test]
+fn panics_unwind() {
+    // A panic must reach the guard of the C interface, not abort the master.
+    for (_, line) in lines("Cargo.toml") {
+        assert!(!line.starts_with("panic"), "{line}");
+    }
+}
+
+#[test]
+fn every_dependency_is_a_recorded_decision() {
+    let decisions: Vec<String> = files("docs/decisions")
+        .iter()
+        .map(|path| fs::read_to_string(path).expect("a readable decision"))
+        .collect();
+    let is_name = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    let mut complaints = Vec::new();
+    for dependency in dependencies("Cargo.toml") {
+        let named = |text: &String| text.split(|c: char| !is_name(c)).any(|w| w == dependency);
+        if !decisions.iter().any(named) {
+            complaints.push(format!("{dependency}: named nowhere in docs/decisions"));
+        }
+    }
+    no_complaints(&complaints);
+}
+
+#[test]
+fn cited_decisions_exist() {
+    let decisions: Vec<String> = files("docs/decisions")
+        .iter()
+        .map(|path| name(path))
+        .collect();
+    let mut complaints = Vec::new();
+    for folder in ["src", "tests", "xtask/src", "docs"] {
+        for path in files(folder) {
+            let Ok(text) = fs::read_to_string(&path) else {
+                continue;
+            };
+            for (at, _) in text.match_indices(concat!("docs/decisions", "/0")) {
+                let is_path = |c: char| c.is_ascii_alphanumeric() || "/-_.".contains(c);
+                let cited: String = text[at..].chars().take_while(|c| is_path(*c)).collect();
+                if !decisions.contains(&cited.trim_end_matches('.').to_owned()) {
+                    complaints.push(format!("{}: {cited} does not exist", name(&path)));
+                }
+            }
+        }
+    }
+    no_complaints(&complaints);
+}

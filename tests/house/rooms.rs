@@ -1,0 +1,241 @@
+//! What may know what.
+
+use crate::source::{Source, no_complaints, sources, words};
+
+/// Rooms from the ground up; a file imports lower floors or its own room.
+const FLOORS: [&str; 8] = [
+    "math",
+    "elements",
+    "body",
+    "system",
+    "integrators",
+    "scene",
+    "simulation",
+    "fmi2",
+];
+
+fn floor(room: &str) -> Option<usize> {
+    FLOORS.iter().position(|name| *name == room)
+}
+
+/// First segments of all paths that start at `crate`.
+fn imports(source: &Source) -> Vec<(usize, String)> {
+    let mut found = Vec::new();
+    for (at, _) in source.code.match_indices("crate::") {
+        let rest = &source.code[at + "crate::".len()..];
+        let names = match rest.strip_prefix('{') {
+            Some(list) => first_segments(list),
+            None => vec![identifier(rest)],
+        };
+        found.extend(names.into_iter().map(|name| (source.line(at), name)));
+    }
+    found
+}
+
+fn identifier(text: &str) -> String {
+    text.chars()
+        .take_while(|c| c.is_alphanumeric() || *c == '_')
+        .collect()
+}
+
+/// First segments of a braced list, without what is nested in it.
+fn first_segments(list: &str) -> Vec<String> {
+    let (mut depth, mut item, mut items) = (1, String::new(), Vec::new());
+    for c in list.chars() {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 1 => items.push(std::mem::take(&mut item)),
+            c if depth == 1 => item.push(c),
+            _ => {}
+        }
+        if depth == 0 {
+            break;
+        }
+    }
+    items.push(item);
+    let names = items.iter().map(|item| identifier(item.trim()));
+    names.filter(|name| !name.is_empty()).collect()
+}
+
+#[test]
+fn a_file_imports_lower_floors_or_its_own_room() {
+    let mut complaints = Vec::new();
+    for source in sources(&["src"]) {
+        let Some(room) = source.room() else {
+            continue;
+        };
+        let own = floor(room);
+        if own.is_none() {
+            complaints.push(format!("{}: no floor for the room {room}", source.path));
+        }
+        for (line, name) in imports(&source) {
+            let allowed = name == room || floor(&name).is_some_and(|f| Some(f) < own);
+            if !allowed {
+                complaints.push(format!(
+                    "{}:{line}: {room} imports crate::{name}",
+                    source.path
+                ));
+            }
+        }
+        // A way around the check above.
+        for (at, _) in source.code.match_indices("super::super") {
+            let line = source.line(at);
+            complaints.push(format!(
+                "{}:{line}: write crate:: for super::super",
+                source.path
+            ));
+        }
+    }
+    no_complaints(&complaints);
+}
+
+#[test]
+fn lists_of_imports_are_understood() {
+    let source = Source {
+        path: "src/body/planted.rs".into(),
+        text: String::new(),
+        code: "use crate::{elements::{Element, Nodal}, math};\nuse crate::fmi2::abi;".into(),
+    };
+    let names: Vec<String> = imports(&source).into_iter().map(|(_, name)| name).collect();
+    assert_eq!(names, ["elements", "math", "fmi2"]);
+}
+
+/// Words that only some files may use: word, files by prefix below `src/`.
+const OWNERS: [(&str, &[&str]); 8] = [
+    ("faer", &["math/"]),
+    ("serde", &["scene/"]),
+    ("serde_json", &["scene/"]),
+    ("serde_path_to_error", &["scene/"]),
+    ("schemars", &["scene/"]),
+    ("libc", &["fmi2/abi.rs"]),
+    ("clap", &["main.rs"]),
+    ("indicatif", &["main.rs"]),
+];
+
+#[test]
+fn libraries_are_used_in_their_own_room_only() {
+    let mut complaints = Vec::new();
+    for source in sources(&["src"]) {
+        let inside = source.inside().unwrap_or_default();
+        for (word, owners) in OWNERS {
+            if owners.iter().any(|owner| inside.starts_with(owner)) {
+                continue;
+            }
+            if let Some(at) = words(source.product(), word).next() {
+                let line = source.line(at);
+                complaints.push(format!(
+                    "{}:{line}: {word} belongs to {owners:?}",
+                    source.path
+                ));
+            }
+        }
+    }
+    no_complaints(&complaints);
+}
+
+/// What a step must not do: talk to the world, look at clocks, keep anything global.
+const WORLD: [&str; 14] = [
+    "std::fs",
+    "std::io",
+    "std::env",
+    "std::time",
+    "std::net",
+    "std::process",
+    "std::thread",
+    "println!",
+    "eprintln!",
+    "static mut",
+    "thread_local!",
+    "OnceLock",
+    "LazyLock",
+    "HashMap",
+];
+
+#[test]
+fn below_the_scene_and_in_the_simulation_nothing_sees_the_world() {
+    let rooms = [
+        "math",
+        "elements",
+        "body",
+        "system",
+        "integrators",
+        "simulation",
+    ];
+    let mut complaints = Vec::new();
+    for source in sources(&["src"]) {
+        if !source.room().is_some_and(|room| rooms.contains(&room)) {
+            continue;
+        }
+        for word in WORLD {
+            if let Some(at) = source.product().find(word) {
+                complaints.push(format!("{}:{}: {word}", source.path, source.line(at)));
+            }
+        }
+        // The same in the form of a grouped import.
+        for word in ["fs", "io", "env", "time", "net", "process", "thread"] {
+            let lines = source.product().lines();
+            let mut imports = lines.filter(|line| line.trim_start().starts_with("use std::{"));
+            if imports.any(|line| words(line, word).next().is_some()) {
+                complaints.push(format!("{}: use std::{{{word}}}", source.path));
+            }
+        }
+    }
+    no_complaints(&complaints);
+}
+
+/// Files by prefix below `src/`, with rooms that they must not know although those are below them.
+const STRANGERS: [(&str, &[&str]); 3] = [
+    ("system/joints/", &["elements"]),
+    ("integrators/", &["body", "elements", "joints", "loads"]),
+    ("elements/", &["node", "nodes", "joint", "body"]),
+];
+
+#[test]
+fn no_element_knows_nodes_no_joint_elements_no_integrator_joints() {
+    let mut complaints = Vec::new();
+    for source in sources(&["src"]) {
+        let inside = source.inside().unwrap_or_default();
+        for (place, strangers) in STRANGERS {
+            for stranger in strangers {
+                let mut found = words(source.product(), stranger);
+                if let Some(at) = found.next().filter(|_| inside.starts_with(place)) {
+                    let line = source.line(at);
+                    complaints.push(format!("{}:{line}: knows {stranger}", source.path));
+                }
+            }
+        }
+    }
+    no_complaints(&complaints);
+}
+
+#[test]
+fn every_element_and_integrator_names_its_source() {
+    let mut complaints = Vec::new();
+    for source in sources(&["src/elements", "src/integrators"]) {
+        let docs = source
+            .text
+            .lines()
+            .take_while(|line| line.starts_with("//!"));
+        let named = docs.map(|line| line.trim_start_matches("//!").trim_start());
+        let has_source = { named }.any(|line| line.starts_with("Source:"));
+        if !source.path.ends_with("/mod.rs") && !has_source {
+            complaints.push(format!("{}: no line \"//! Source: ...\"", source.path));
+        }
+    }
+    no_complaints(&complaints);
+}
+
+#[test]
+fn every_integrator_has_its_row_in_the_test_of_order() {
+    let order = Source::read("tests/order.rs").text;
+    for source in sources(&["src/integrators"]) {
+        let file = source.path.rsplit('/').next().unwrap_or_default();
+        let name = file.trim_end_matches(".rs");
+        let row = format!("name: \"{name}\"");
+        assert!(
+            name == "mod" || order.contains(&row),
+            "{name}: no row in tests/order.rs"
+        );
+    }
+}

@@ -1,0 +1,75 @@
+//! Unsafe code stands in one file, and every exported function passes one guard.
+
+use crate::source::{Source, no_complaints, sources, words};
+
+const ABI: &str = "src/fmi2/abi.rs";
+
+#[test]
+fn unsafe_code_is_in_the_interface_only() {
+    let mut complaints = Vec::new();
+    for source in sources(&["src", "xtask/src"]) {
+        if source.path != ABI {
+            let found = words(&source.code, "unsafe");
+            complaints.extend(found.map(|at| format!("{}:{}", source.path, source.line(at))));
+        }
+    }
+    no_complaints(&complaints);
+}
+
+/// Functions that have no instance to guard: two constants, the making and the end of an instance.
+const UNGUARDED: [(&str, &str); 4] = [
+    ("fmi2GetTypesPlatform", "c"),
+    ("fmi2GetVersion", "c"),
+    ("fmi2Instantiate", "catch_unwind"),
+    ("fmi2FreeInstance", "catch_unwind"),
+];
+/// Lines of a guarded function, signature included.
+const SHORT: usize = 25;
+
+/// Name and text of every exported function.
+fn exported(source: &Source) -> Vec<(String, &str)> {
+    let mut found = Vec::new();
+    for (at, _) in source.code.match_indices("#[unsafe(no_mangle)]") {
+        let rest = &source.code[at..];
+        let start = words(rest, "fn").next().expect("an exported function");
+        let name = rest[start + 2..].trim_start();
+        let end = name.find('(').expect("a list of parameters");
+        let body = rest.find('{').expect("a body");
+        let mut depth = 0;
+        let close = rest[body..].char_indices().find(|(_, c)| {
+            depth += i32::from(*c == '{') - i32::from(*c == '}');
+            depth == 0
+        });
+        let close = body + close.expect("balanced braces").0;
+        found.push((name[..end].to_owned(), &rest[start..=close]));
+    }
+    found
+}
+
+#[test]
+fn every_exported_function_is_short_and_guarded() {
+    let source = Source::read(ABI);
+    let functions = exported(&source);
+    assert!(functions.len() > 15, "only {} functions", functions.len());
+    let mut complaints = Vec::new();
+    for (name, text) in functions {
+        let unguarded = UNGUARDED.iter().find(|(exception, _)| *exception == name);
+        let passes = unguarded.map_or("guard(", |(_, word)| *word);
+        if !text.contains(passes) {
+            complaints.push(format!("{name}: does not pass {passes}"));
+        }
+        let lines = text.lines().count();
+        if unguarded.is_none() && lines > SHORT {
+            complaints.push(format!("{name}: {lines} lines"));
+        }
+    }
+    no_complaints(&complaints);
+}
+
+#[test]
+fn exported_functions_are_nowhere_else() {
+    for source in sources(&["src", "xtask/src"]) {
+        let exports = source.code.contains("no_mangle") || source.code.contains("export_name");
+        assert!(!exports || source.path == ABI, "{}", source.path);
+    }
+}
