@@ -1,0 +1,251 @@
+//! Every integrator has the order, the stability and the error control that it claims. Row by row for
+//! each method; a new one is a new row.
+
+mod control;
+mod problem;
+
+use flexbody::integrators::{Attempt, Method, Radau, Rk4, Tolerance};
+use nalgebra::{Matrix2, Vector2};
+use problem::Problem;
+
+/// A method with its name, order and a sequence of numbers of steps fine enough to show it.
+struct Row {
+    name: &'static str,
+    order: f64,
+    make: fn() -> Box<dyn Method>,
+    steps: [u32; 3],
+}
+
+const ROWS: [Row; 2] = [
+    Row {
+        name: "rk4",
+        order: 4.0,
+        make: || Box::new(Rk4::new(2, 1.0, 0.0)),
+        steps: [40, 80, 160],
+    },
+    Row {
+        name: "radau",
+        order: 5.0,
+        make: || Box::new(Radau::new(2)),
+        steps: [8, 16, 32],
+    },
+];
+
+const TIGHT: Tolerance = Tolerance {
+    relative: 1e-12,
+    position: 1.0,
+    time: 1.0,
+};
+
+/// The solution of [`driven`].
+fn exact(t: f64) -> [f64; 2] {
+    [1.2 + 0.5 * (2.0 * t).sin(), (2.0 * t).cos()]
+}
+
+/// A driven Duffing oscillator with damping that depends on the position; the second coordinate is
+/// time, so that the equation knows it.
+fn driven() -> Problem {
+    fn drive(t: f64) -> f64 {
+        let [x, v] = exact(t);
+        -2.0 * (2.0 * t).sin() + x * x * x + 0.3 * x * v
+    }
+    fn drive_rate(t: f64) -> f64 {
+        let ([x, v], a) = (exact(t), -2.0 * (2.0 * t).sin());
+        -4.0 * (2.0 * t).cos() + 3.0 * x * x * v + 0.3 * (v * v + x * a)
+    }
+    Problem::new(
+        |q, v| Vector2::new(drive(q.y) - q.x.powi(3) - 0.3 * q.x * v.x, 0.0),
+        |q, v| {
+            let by_x = 3.0 * q.x * q.x + 0.3 * v.x;
+            [
+                Matrix2::new(by_x, -drive_rate(q.y), 0.0, 0.0),
+                Matrix2::new(0.3 * q.x, 0.0, 0.0, 0.0),
+            ]
+        },
+    )
+}
+
+/// One step of a given length, whatever its error; returns the estimate of it.
+fn force(method: &mut dyn Method, problem: &mut Problem, state: &mut [Vec<f64>; 2], h: f64) -> f64 {
+    let [q, v] = state;
+    method.begin(problem, q, v);
+    match method.attempt(problem, (q, v), h, &TIGHT) {
+        Attempt::Done(error) => {
+            method.accept(q, v);
+            error * TIGHT.relative
+        }
+        Attempt::Failed(factor) => panic!("the step failed with {factor}"),
+    }
+}
+
+/// Error after steps of equal length, and the estimate of the first.
+fn run(
+    row: &Row,
+    mut problem: Problem,
+    time: f64,
+    steps: u32,
+    exact: fn(f64) -> [f64; 2],
+) -> [f64; 2] {
+    let mut method = (row.make)();
+    let [x, v] = exact(0.0);
+    let mut state = [vec![x, 0.0], vec![v, 1.0]];
+    let h = time / f64::from(steps);
+    let mut first = None;
+    for _ in 0..steps {
+        let estimate = force(&mut *method, &mut problem, &mut state, h);
+        first.get_or_insert(estimate);
+    }
+    let [x, v] = exact(time);
+    let error = (state[0][0] - x).hypot(state[1][0] - v);
+    [error, first.unwrap_or(f64::NAN)]
+}
+
+/// Observed order of the last halving, of errors and of estimates.
+fn orders(row: &Row, problem: fn() -> Problem, exact: fn(f64) -> [f64; 2]) -> [f64; 2] {
+    let runs = row
+        .steps
+        .map(|steps| run(row, problem(), 2.0, steps, exact));
+    println!("{}: errors and estimates {runs:?}", row.name);
+    [0, 1].map(|what| (runs[1][what] / runs[2][what]).log2())
+}
+
+#[test]
+fn methods_converge_with_their_order() {
+    for row in &ROWS {
+        let [observed, _] = orders(row, driven, exact);
+        println!("{}: order {observed:.2}", row.name);
+        assert!(
+            (observed - row.order).abs() < 0.3,
+            "{}: order {observed}",
+            row.name
+        );
+    }
+}
+
+#[test]
+fn estimates_have_order_three_at_least() {
+    for row in &ROWS {
+        let [_, observed] = orders(row, driven, exact);
+        println!("{}: local estimate of order {observed:.2}", row.name);
+        // The error of one step is of one order more than that of the run.
+        assert!(observed > 3.7, "{}: order {observed}", row.name);
+    }
+}
+
+/// Growth of the largest deflection of a linear oscillator `q'' = -w^2 q - 2 z w v` over many steps of
+/// `h` = 1, from its first to its second half.
+fn growth(method: &mut dyn Method, frequency: f64, ratio: f64) -> f64 {
+    thread_local! {
+        static LINEAR: std::cell::Cell<[f64; 2]> = const { std::cell::Cell::new([0.0; 2]) };
+    }
+    LINEAR.set([frequency * frequency, 2.0 * ratio * frequency]);
+    let mut problem = Problem::new(
+        |q, v| {
+            let [k, r] = LINEAR.get();
+            -q * k - v * r
+        },
+        |_, _| LINEAR.get().map(Matrix2::from_diagonal_element),
+    );
+    let mut state = [vec![1.0, 0.0], vec![0.0, 0.0]];
+    let mut largest = [0.0_f64; 2];
+    for step in 0..400 {
+        force(method, &mut problem, &mut state, 1.0);
+        let size = (state[0][0].powi(2) + (state[1][0] / frequency).powi(2)).sqrt();
+        largest[step / 200] = largest[step / 200].max(size);
+    }
+    largest[1] / largest[0]
+}
+
+#[test]
+fn rk4_is_stable_exactly_as_far_as_it_says() {
+    let limit = 8.0_f64.sqrt();
+    let mut method = Rk4::new(2, limit, 0.0);
+    assert!(
+        (method.longest_step() - 0.9).abs() < 1e-12,
+        "0.9 of the limit"
+    );
+    assert!(growth(&mut method, 0.999 * limit, 0.0) < 1.0);
+    assert!(growth(&mut method, 1.001 * limit, 0.0) > 1.0);
+    // Damped modes at the longest step that the method allows itself.
+    for number in 0..=60 {
+        let ratio = 0.05 * f64::from(number);
+        let (frequency, decay) = (1.0, 2.0 * ratio);
+        let h = Rk4::new(2, frequency, decay).longest_step();
+        let grown = growth(&mut method, h * frequency, ratio);
+        assert!(grown < 1.0, "damping ratio {ratio}: {grown}");
+    }
+}
+
+#[test]
+fn radau_damps_what_is_too_fast_for_the_step() {
+    let mut method = Radau::new(2);
+    for frequency in [1e2, 1e4, 1e7] {
+        for ratio in [0.0, 0.1, 2.0] {
+            let grown = growth(&mut method, frequency, ratio);
+            assert!(
+                grown < 1e-10,
+                "h w = {frequency:e}, damping {ratio}: {grown:e}"
+            );
+        }
+    }
+    assert_eq!(method.longest_step(), f64::INFINITY);
+}
+
+/// A slow oscillation and a stiff mode, turned against each other; it starts on the slow one.
+fn stiff() -> Problem {
+    const SLOW: f64 = 1.0;
+    const FAST: f64 = 1e6;
+    fn stiffness() -> Matrix2<f64> {
+        let (sin, cos) = 0.6_f64.sin_cos();
+        let turn = Matrix2::new(cos, -sin, sin, cos);
+        turn * Matrix2::new(SLOW, 0.0, 0.0, FAST) * turn.transpose()
+    }
+    Problem::new(
+        |q, _| -(stiffness() * q),
+        |_, _| [stiffness(), Matrix2::zeros()],
+    )
+}
+
+#[test]
+fn radau_keeps_its_order_beside_a_stiff_mode() {
+    let (sin, cos) = 0.6_f64.sin_cos();
+    let errors = [4_u32, 8, 16].map(|steps| {
+        let (mut method, mut problem) = (Radau::new(2), stiff());
+        let mut state = [vec![cos, sin], vec![0.0, 0.0]];
+        for _ in 0..steps {
+            force(
+                &mut method,
+                &mut problem,
+                &mut state,
+                2.0 / f64::from(steps),
+            );
+        }
+        let slow = state[0][0] * cos + state[0][1] * sin;
+        let fast = state[0][1] * cos - state[0][0] * sin;
+        assert!(fast.abs() < 1e-12, "the stiff mode is excited by {fast:e}");
+        (slow - 2.0_f64.cos()).abs()
+    });
+    let order = (errors[1] / errors[2]).log2();
+    println!("radau beside a stiff mode: errors {errors:?}, order {order:.2}");
+    assert!((order - 5.0).abs() < 0.3, "order {order}");
+}
+
+#[test]
+fn radau_follows_a_driven_stiff_spring() {
+    // q'' = -w^2 (q - sin t) - sin t: Prothero and Robinson's problem of second order.
+    let problem = || {
+        Problem::new(
+            |q, _| Vector2::new(-1e8 * (q.x - q.y.sin()) - q.y.sin(), 0.0),
+            |q, _| {
+                let by_time = -1e8 * q.y.cos() + q.y.cos();
+                [Matrix2::new(1e8, by_time, 0.0, 0.0), Matrix2::zeros()]
+            },
+        )
+    };
+    let row = &ROWS[1];
+    let [coarse, fine] =
+        [10, 20].map(|steps| run(row, problem(), 2.0, steps, |t| [t.sin(), t.cos()])[0]);
+    println!("radau on a driven stiff spring: {coarse:e}, {fine:e}");
+    assert!(fine < coarse / 6.0, "order {}", (coarse / fine).log2());
+    assert!(coarse < 1e-3);
+}

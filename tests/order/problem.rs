@@ -1,0 +1,111 @@
+//! Small problems with the face of a mechanical system.
+
+use flexbody::system::{Dynamics, State};
+use nalgebra::{Complex, Matrix2, Vector2};
+
+/// `q'' = a(q, v)` in two coordinates with `K = -da/dq` and `R = -da/dv`.
+pub struct Problem {
+    acceleration: fn(Vector2<f64>, Vector2<f64>) -> Vector2<f64>,
+    tangent: fn(Vector2<f64>, Vector2<f64>) -> [Matrix2<f64>; 2],
+    stiffness: Matrix2<f64>,
+    damping: Matrix2<f64>,
+    real: Matrix2<f64>,
+    complex: Matrix2<Complex<f64>>,
+    /// Calls of `acceleration`, and accepted steps.
+    calls: u32,
+    pub steps: u32,
+}
+
+impl Problem {
+    pub fn new(
+        acceleration: fn(Vector2<f64>, Vector2<f64>) -> Vector2<f64>,
+        tangent: fn(Vector2<f64>, Vector2<f64>) -> [Matrix2<f64>; 2],
+    ) -> Self {
+        Self {
+            acceleration,
+            tangent,
+            stiffness: Matrix2::zeros(),
+            damping: Matrix2::zeros(),
+            real: Matrix2::zeros(),
+            complex: Matrix2::zeros(),
+            calls: 0,
+            steps: 0,
+        }
+    }
+}
+
+fn pair(x: &[f64]) -> Vector2<f64> {
+    Vector2::from_column_slice(x)
+}
+
+impl Dynamics for Problem {
+    fn coordinates(&self) -> usize {
+        2
+    }
+
+    fn acceleration(&mut self, q: &[f64], v: &[f64], a: &mut [f64]) {
+        self.calls += 1;
+        assert!(self.calls < 1_000_000, "an endless crawl at {q:?}");
+        a.copy_from_slice((self.acceleration)(pair(q), pair(v)).as_slice());
+    }
+
+    fn linearize(&mut self, q: &[f64], v: &[f64]) {
+        [self.stiffness, self.damping] = (self.tangent)(pair(q), pair(v));
+    }
+
+    fn factor(&mut self, s: f64) -> bool {
+        let a = Matrix2::identity() * (s * s) + self.damping * s + self.stiffness;
+        a.try_inverse().is_some_and(|inverse| {
+            self.real = inverse;
+            true
+        })
+    }
+
+    fn factor_complex(&mut self, s: Complex<f64>) -> bool {
+        let complex = |m: Matrix2<f64>| m.map(|x| Complex::new(x, 0.0));
+        let shift = Matrix2::from_diagonal_element(s * s);
+        let a = shift + complex(self.damping) * s + complex(self.stiffness);
+        a.try_inverse().is_some_and(|inverse| {
+            self.complex = inverse;
+            true
+        })
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        let y = self.real * pair(x);
+        x.copy_from_slice(y.as_slice());
+    }
+
+    // All stages share the tangent here.
+    fn set_stage(&mut self, _stage: usize) {}
+
+    fn solve_stages(
+        &mut self,
+        forward: &[[f64; 3]; 3],
+        back: &[[f64; 3]; 3],
+        stages: &mut [Vec<f64>; 3],
+    ) {
+        let mix = |rows: &[[f64; 3]; 3], x: [Vector2<f64>; 3]| {
+            rows.map(|row| x[0] * row[0] + x[1] * row[1] + x[2] * row[2])
+        };
+        let [real, re, im] = mix(forward, [0, 1, 2].map(|i| pair(&stages[i])));
+        let z = self.complex * re.zip_map(&im, Complex::new);
+        let solved = mix(back, [self.real * real, z.map(|z| z.re), z.map(|z| z.im)]);
+        for (stage, x) in stages.iter_mut().zip(solved) {
+            stage.copy_from_slice(x.as_slice());
+        }
+    }
+
+    fn apply_damping(&mut self, x: &mut [f64]) {
+        let y = self.damping * pair(x);
+        x.copy_from_slice(y.as_slice());
+    }
+
+    fn largest_turn(&mut self, _from: &[f64], _to: &[f64]) -> f64 {
+        0.0
+    }
+
+    fn accepted(&mut self, _state: &mut State) {
+        self.steps += 1;
+    }
+}
