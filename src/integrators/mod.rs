@@ -89,7 +89,12 @@ pub enum Stop {
     StepTooSmall,
     /// The state is no longer finite.
     NotFinite,
+    /// The way to the communication point takes more than [`MOST_STEPS`].
+    TooManySteps,
 }
+
+/// Most attempted steps of one call: a master should hear of it before a night has passed.
+pub const MOST_STEPS: u64 = 10_000_000;
 
 /// The smallest and largest change of step length from one step to the next, and the safety factor.
 const SHRINK: f64 = 0.2;
@@ -118,6 +123,9 @@ pub fn advance(
         let remaining = until - state.time;
         if remaining <= 0.0 {
             break Ok(());
+        }
+        if counts.steps + counts.rejected >= MOST_STEPS {
+            break Err(Stop::TooManySteps);
         }
         let wanted = state.step.min(method.longest_step());
         // Whole steps to the end: a sliver left over would cost a step of its own.

@@ -2,7 +2,7 @@
 
 use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
 use crate::body::Marker;
-use crate::integrators::{Method, Stop, Tolerance, advance};
+use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
 use crate::math::eigen::symmetric_eigenvalues;
 use crate::scene::{Initial, Scene, assemble};
 use crate::system::{Dynamics, Evaluation, Model, State, System, Work, equilibrium};
@@ -127,6 +127,9 @@ impl Engine {
         match stop {
             Stop::StepTooSmall => format!(
                 "{method}: no step however short meets the relative tolerance {tolerance:e}"
+            ),
+            Stop::TooManySteps => format!(
+                "{method}: the relative tolerance {tolerance:e} takes more than {MOST_STEPS} steps"
             ),
             Stop::NotFinite => {
                 format!("{method}: velocities or accelerations are no longer finite")
