@@ -5,11 +5,13 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::{Parser, Subcommand};
+use cpu_time::ThreadTime;
 use flexbody::fmi2::{self, Causality};
 use flexbody::scene::Scene;
-use flexbody::simulation::Simulation;
+use flexbody::simulation::{Report, Simulation};
 use indicatif::{ProgressBar, ProgressStyle};
 
 #[derive(Parser)]
@@ -51,6 +53,46 @@ struct Simulate {
     /// CSV file; standard output if it is not given.
     #[arg(long)]
     output: Option<PathBuf>,
+    /// JSON file for the natural frequencies and for what the steps took: integrator, sub-steps,
+    /// Newton iterations, CPU time (s).
+    #[arg(long)]
+    report: Option<PathBuf>,
+}
+
+/// What all communication steps of a run took together; set-up and output do not count.
+#[derive(Default)]
+struct Cost {
+    method: &'static str,
+    steps: u64,
+    rejected: u64,
+    newton_iterations: u64,
+    cpu_time: Duration,
+}
+
+impl Cost {
+    fn add(&mut self, report: Report, cpu_time: Duration) {
+        self.method = report.method;
+        self.steps += report.steps;
+        self.rejected += report.rejected;
+        self.newton_iterations += report.newton_iterations;
+        self.cpu_time += cpu_time;
+    }
+
+    /// One line of JSON; CPU time in seconds. Names of variables need no escapes.
+    fn json(&self, calculated: &[(String, f64)]) -> String {
+        let pair = |(name, value): &(String, f64)| format!("\"{name}\": {value:?}");
+        let calculated: Vec<String> = calculated.iter().map(pair).collect();
+        format!(
+            "{{\"method\": \"{}\", \"steps\": {}, \"rejected\": {}, \"newton_iterations\": {}, \
+             \"cpu_time\": {:?}, \"calculated\": {{{}}}}}\n",
+            self.method,
+            self.steps,
+            self.rejected,
+            self.newton_iterations,
+            self.cpu_time.as_secs_f64(),
+            calculated.join(", ")
+        )
+    }
 }
 
 type Outcome<T> = Result<T, String>;
@@ -103,7 +145,7 @@ fn simulate(arguments: &Simulate) -> Outcome<()> {
     }
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
-    match &arguments.output {
+    let cost = match &arguments.output {
         Some(path) => {
             let file = File::create(path).map_err(|error| at(path, error))?;
             run(&mut simulation, arguments, points, BufWriter::new(file))
@@ -114,7 +156,26 @@ fn simulate(arguments: &Simulate) -> Outcome<()> {
             points,
             BufWriter::new(io::stdout().lock()),
         ),
+    }?;
+    match &arguments.report {
+        Some(path) => {
+            let json = cost.json(&calculated(&mut simulation)?);
+            fs::write(path, json).map_err(|error| at(path, error))
+        }
+        None => Ok(()),
     }
+}
+
+/// Calculated parameters and their values.
+fn calculated(simulation: &mut Simulation) -> Outcome<Vec<(String, f64)>> {
+    let mut found = Vec::new();
+    for index in 0..simulation.variables().len() {
+        if Causality::of(&simulation.variables()[index]) == Causality::CalculatedParameter {
+            let value = simulation.real(index).map_err(|error| error.to_string())?;
+            found.push((simulation.variables()[index].name.clone(), value));
+        }
+    }
+    Ok(found)
 }
 
 /// The number of communication steps up to the stop time.
@@ -158,7 +219,7 @@ fn run(
     arguments: &Simulate,
     steps: u64,
     mut csv: impl Write,
-) -> Outcome<()> {
+) -> Outcome<Cost> {
     let is_output =
         |index: &usize| Causality::of(&simulation.variables()[*index]) == Causality::Output;
     let outputs: Vec<usize> = (0..simulation.variables().len())
@@ -174,13 +235,16 @@ fn run(
     let header: Vec<&str> = std::iter::once("time").chain(names).collect();
     writeln!(csv, "{}", header.join(",")).map_err(unwritten)?;
     let bar = progress_bar(steps);
+    let mut cost = Cost::default();
     for number in 0..=steps {
         if number > 0 {
             // A multiple rather than a sum, so that rounding does not add up.
             let until = (number as f64 * arguments.step).min(arguments.stop_time);
-            simulation
-                .step(until)
-                .map_err(|failure| failure.to_string())?;
+            let started = ThreadTime::now();
+            let outcome = simulation.step(until);
+            let cpu_time = started.elapsed();
+            outcome.map_err(|failure| failure.to_string())?;
+            cost.add(simulation.report(), cpu_time);
             bar.inc(1);
         }
         write!(csv, "{:?}", simulation.time()).map_err(unwritten)?;
@@ -192,7 +256,7 @@ fn run(
     }
     csv.flush().map_err(unwritten)?;
     bar.finish_and_clear();
-    Ok(())
+    Ok(cost)
 }
 
 /// A progress bar on standard error; invisible where that is no terminal.
