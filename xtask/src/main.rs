@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand};
 
 mod archive;
 mod cargo;
+mod chart;
 mod demo;
 mod describe;
 mod icon;
@@ -41,6 +42,12 @@ enum Command {
     Demo,
     /// Regenerates the committed modelDescription/ and scenes/scene.schema.json
     Describe,
+    /// Regenerates docs/charts: pictures, CSV files and the page that explains them
+    Chart {
+        /// Which charts [default: all]
+        #[arg(value_name = "NAME")]
+        charts: Vec<chart::Chart>,
+    },
     /// Runs every check: formatting, clippy, Rust tests, generated files, the FMUs under fmpy
     Test,
 }
@@ -54,6 +61,7 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),
+        Command::Chart { charts } => chart::chart(&workspace, &charts),
         Command::Test => test::test(&workspace),
     });
     match result {

@@ -1,0 +1,78 @@
+//! `cargo xtask chart`: what the product measurably does, as CSV, SVG and one generated page.
+
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+
+use crate::cargo::Workspace;
+
+mod as_printed;
+mod bench;
+mod cost;
+mod drift;
+mod machine;
+mod mesh;
+mod numbers;
+mod page;
+mod plot;
+mod time;
+
+use bench::Bench;
+
+/// Charts by name, in the order of the page.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum Chart {
+    /// Error against the number of elements
+    Mesh,
+    /// Error in time against CPU time
+    Time,
+    /// Energy drift over a hundred swings
+    Drift,
+    /// CPU time of a step against the number of elements
+    Cost,
+    /// What the report's equations do as printed
+    AsPrinted,
+}
+
+impl Chart {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::Time => "time",
+            Self::Drift => "drift",
+            Self::Cost => "cost",
+            Self::AsPrinted => "as_printed",
+        }
+    }
+
+    /// Measures, writes CSV and SVG, and returns the text of the page's section.
+    fn make(self, bench: &Bench) -> Result<String> {
+        match self {
+            Self::Mesh => mesh::chart(bench),
+            Self::Time => time::chart(bench),
+            Self::Drift => drift::chart(bench),
+            Self::Cost => cost::chart(bench),
+            Self::AsPrinted => as_printed::chart(bench),
+        }
+    }
+}
+
+/// Makes the named charts, or all, and says where they are.
+pub fn chart(workspace: &Workspace, charts: &[Chart]) -> Result<()> {
+    let bench = Bench::new(workspace)?;
+    let machine = machine::describe();
+    let wanted = |chart: &&Chart| charts.is_empty() || charts.contains(chart);
+    for chart in Chart::value_variants().iter().filter(wanted) {
+        let name = chart.name();
+        let section = chart
+            .make(&bench)
+            .with_context(|| format!("the chart {name} was not made"))?;
+        let names: Vec<&str> = Chart::value_variants().iter().map(|c| c.name()).collect();
+        page::update(&bench.output("README.md"), &names, name, &section, &machine)?;
+    }
+    println!(
+        "wrote {}",
+        crate::process::shown(&bench.output("README.md"))
+    );
+    Ok(())
+}
