@@ -287,7 +287,7 @@ Both references agree to, in m: {}; errors near that are not resolved. The order
 
 {}
 rk4 on steel is one point: stability sets the step, whatever the tolerance, and the same holds for rk4 on the middling pendulum.
-Steps that adapt blur the order: with uniform steps on a smooth motion it is 4 for rk4 and 5 for radau (tests/order.rs). On the stiff pendulums radau's is reduced, as theory has it where the fastest vibrations are shorter than a step.
+Steps that adapt blur the order: with uniform steps on a smooth motion it is 4 for rk4 and 5 for radau (tests/order/). On the stiff pendulums radau's is reduced, as theory has it where the fastest vibrations are shorter than a step.
 
 What `auto` picks, and its CPU time over that of the better method at the same error (1.00 = nothing to gain):
 
