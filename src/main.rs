@@ -145,6 +145,9 @@ fn simulate(arguments: &Simulate) -> Outcome<()> {
     }
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
+    for joint in simulation.redundant_joints() {
+        eprintln!("flexbody: joint {joint} holds what others hold already");
+    }
     let cost = match &arguments.output {
         Some(path) => {
             let file = File::create(path).map_err(|error| at(path, error))?;

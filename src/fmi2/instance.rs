@@ -224,6 +224,12 @@ impl Instance {
         self.passed_on(outcome, State::StepComplete)?;
         let time = self.simulation.time();
         self.log_event(format_args!("initialized at time {time} s"));
+        let redundant = self.simulation.redundant_joints();
+        if !redundant.is_empty() {
+            let names = redundant.join(", ");
+            let message = format_args!("joints that hold what others hold already: {names}");
+            self.logger.log(Status::Ok, Category::Warning, message);
+        }
         Ok(())
     }
 

@@ -5,8 +5,8 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 
 use super::{
-    Body, Error, Formulation, Input, InputKind, Integrator, Joint, JointKind, Output, OutputKind,
-    Scene, Shape,
+    Body, Error, Formulation, Initial, Input, InputKind, Integrator, Joint, JointKind, Motion,
+    Output, OutputKind, Scene, Shape,
 };
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
@@ -46,6 +46,15 @@ impl Scene {
             let path = format!("bodies[{index}]");
             check_name(&format!("{path}.name"), &body.name, &mut names)?;
             body.validate(&path)?;
+            let moves = body.motion != Motion::default();
+            if moves && self.initial == Initial::StaticEquilibrium {
+                let place = format!("{path}.motion");
+                return Err(expected(
+                    &place,
+                    "no motion at static equilibrium",
+                    "a motion",
+                ));
+            }
         }
         for (index, joint) in self.joints.iter().enumerate() {
             let path = format!("joints[{index}]");

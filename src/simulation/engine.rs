@@ -97,6 +97,15 @@ impl Engine {
         frequencies
     }
 
+    /// Names of the joints that hold, at least in part, what others hold already.
+    pub(super) fn redundant_joints(&self) -> Vec<String> {
+        let mut joints = self.system.body().redundant().to_vec();
+        joints.sort_unstable();
+        joints.dedup();
+        let name = |joint: usize| self.scene.joints[joint].name.clone();
+        joints.into_iter().map(name).collect()
+    }
+
     /// Advances the state to `until`.
     pub(super) fn step(
         &mut self,

@@ -136,6 +136,13 @@ impl Simulation {
         self.report
     }
 
+    /// Names of the joints that hold, at least in part, what others hold already; empty before
+    /// [`Self::initialize`]. They do no harm: what is held twice is held once.
+    pub fn redundant_joints(&self) -> Vec<String> {
+        let engine = self.engine.as_ref();
+        engine.map(Engine::redundant_joints).unwrap_or_default()
+    }
+
     /// Sets a real parameter or an input.
     ///
     /// # Errors

@@ -1,0 +1,142 @@
+//! What a scene may not say, and how it is told: the place, what was expected, what was found.
+
+use flexbody::scene::Scene;
+use flexbody::simulation::Simulation;
+use serde_json::{Value, json};
+
+const SCENE: &str = include_str!("../scenes/cantilever.json");
+
+/// Where, what stands there instead, and how the message begins.
+const BAD: [(&str, &str, &str); 20] = [
+    (
+        "/bodies/0/material/density",
+        "-1",
+        "bodies[0].material.density: expected a positive number (kg/m^3), found -1",
+    ),
+    (
+        "/bodies/0/section/second_moment",
+        "-1e-9",
+        "bodies[0].section.second_moment: expected zero or a positive number",
+    ),
+    (
+        "/bodies/0/markers/tip",
+        "1.5",
+        "bodies[0].markers.tip: expected a number from 0 to 1, found 1.5",
+    ),
+    (
+        "/bodies/0/elements",
+        "0",
+        "bodies[0].elements: expected an integer from 1 to 100000, found 0",
+    ),
+    (
+        "/bodies/0/elements",
+        "2.5",
+        "bodies[0].elements: invalid type",
+    ),
+    (
+        "/bodies/0/colour",
+        "\"red\"",
+        "bodies[0].colour: unknown field",
+    ),
+    (
+        "/bodies/0/shape",
+        "{\"arc\": {\"from\": [0, 0], \"to\": [1, 0], \"length\": 0.5}}",
+        "bodies[0].shape.arc.length: expected more than the distance",
+    ),
+    (
+        "/bodies/0/motion",
+        "{\"spin\": 1.0}",
+        "bodies[0].motion: expected no motion at static equilibrium",
+    ),
+    (
+        "/joints/0/kind",
+        "\"ball\"",
+        "joints[0].kind: unknown variant",
+    ),
+    (
+        "/joints/0/markers",
+        "[\"ground\", \"beam.top\"]",
+        "joints[0].markers[1]: expected a marker of this scene (beam.root, beam.tip), found \"beam.top\"",
+    ),
+    (
+        "/joints/0/direction",
+        "[1, 0]",
+        "joints[0].direction: expected nothing for this kind",
+    ),
+    (
+        "/joints/0/name",
+        "\"beam\"",
+        "joints[0].name: expected a name not used yet",
+    ),
+    (
+        "/inputs/0/start",
+        "[1.0]",
+        "inputs[0].start: expected 2 component(s), found 1",
+    ),
+    (
+        "/outputs/0",
+        "{\"kind\": \"position\"}",
+        "outputs[0].marker: expected a name, found nothing",
+    ),
+    (
+        "/outputs/4/joint",
+        "\"hinge\"",
+        "outputs[4].joint: expected a joint of this scene",
+    ),
+    ("/gravity", "[0, 0, -9.81]", "gravity: "),
+    ("/dimension", "3", "dimension: expected 2 (planar), found 3"),
+    (
+        "/accuracy/relative_tolerance",
+        "0",
+        "accuracy.relative_tolerance: expected a number from",
+    ),
+    (
+        "/method",
+        "{\"formulation\": \"as_printed\"}",
+        "method.integrator: expected \"rk4\"",
+    ),
+    ("/name", "\"a/b\"", "name: expected letters"),
+];
+
+/// The message about the cantilever with one value changed.
+fn told(pointer: &str, value: Value) -> String {
+    let mut scene: Value = serde_json::from_str(SCENE).expect("a shipped scene");
+    let (parent, key) = pointer.rsplit_once('/').expect("a pointer");
+    match scene.pointer_mut(parent).expect("a place in the scene") {
+        Value::Array(list) => list[key.parse::<usize>().expect("an index")] = value,
+        place => place[key] = value,
+    }
+    match Scene::from_json(&scene.to_string()) {
+        Ok(_) => "accepted".into(),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn every_bad_value_is_named_with_its_place() {
+    for (pointer, value, expected) in BAD {
+        let value = serde_json::from_str(value).expect("JSON");
+        let told = told(pointer, value);
+        assert!(told.starts_with(expected), "{pointer}: {told}");
+    }
+    assert_eq!(told("/bodies/0/elements", json!(20)), "accepted");
+}
+
+#[test]
+fn broken_json_is_a_message() {
+    for text in ["", "{", "[]", "{\"name\": \"a\"} x", "nul"] {
+        let error = Scene::from_json(text).expect_err("no scene");
+        assert!(error.to_string().starts_with("scene: "), "{text}: {error}");
+    }
+}
+
+#[test]
+fn what_is_held_twice_is_reported_and_held_once() {
+    let mut scene: Value = serde_json::from_str(SCENE).expect("a shipped scene");
+    let again = json!({"name": "again", "kind": "revolute", "markers": ["ground", "beam.root"]});
+    scene["joints"].as_array_mut().expect("joints").push(again);
+    let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+    let mut simulation = Simulation::new(scene);
+    simulation.initialize(0.0).expect("an equilibrium");
+    assert_eq!(simulation.redundant_joints(), ["again"]);
+}
