@@ -20,6 +20,11 @@ pub struct Marker {
 }
 
 impl Marker {
+    /// The node nearest to it; joints and loads act on nodes.
+    pub fn node(&self) -> usize {
+        self.element + usize::from(self.xi > 0.5)
+    }
+
     /// Position, or velocity or acceleration where `e` holds rates.
     pub fn position<const D: usize>(&self, e: &[Nodal<D>]) -> SVector<f64, D> {
         e[self.element] * self.values
@@ -57,11 +62,5 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
             values: shape::values(xi, length),
             slopes: shape::slopes(xi, length),
         }
-    }
-
-    /// The node at a material coordinate; the mesh has one at every joint and load.
-    pub fn node(&self, coordinate: f64) -> usize {
-        let marker = self.marker(coordinate);
-        marker.element + usize::from(marker.xi > 0.5)
     }
 }

@@ -31,6 +31,7 @@ pub struct FlexibleBody<E, const D: usize, const B: usize> {
     reference: Vec<Nodal<D>>,
     elimination: Elimination<D>,
     supports: Vec<Support<B>>,
+    is_damped: bool,
 }
 
 /// Scratch of a body: as long as its elements, never allocated in a step.
@@ -63,6 +64,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
         let elimination = Elimination::new(&masses, constraints, formulation);
         let supports = Support::collect(constraints);
         Self {
+            is_damped: elements.iter().any(Element::is_damped),
             elements,
             reference,
             elimination,
@@ -160,7 +162,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
 
     /// Whether any element dissipates.
     pub fn is_damped(&self) -> bool {
-        self.elements.iter().any(Element::is_damped)
+        self.is_damped
     }
 
     /// Upper bound of the natural frequencies in the reference configuration, rad/s: the largest of

@@ -17,7 +17,6 @@ pub struct Tangent<const D: usize, const B: usize> {
     /// Stiffness `K`; what [`FlexibleBody::assemble`] made of it and loads added.
     pub stiffness: BlockTridiagonal<f64, B>,
     damping: BlockTridiagonal<f64, B>,
-    is_damped: bool,
     pub(super) real: BlockTridiagonal<f64, B>,
     pub(super) complex: BlockTridiagonal<Complex<f64>, B>,
     pub(super) x: Vec<[f64; B]>,
@@ -43,7 +42,6 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
             mass,
             stiffness: zeros.clone(),
             damping: zeros.clone(),
-            is_damped: self.is_damped(),
             real: zeros,
             complex: BlockTridiagonal::zeros(nodes),
             x: vec![[0.0; B]; nodes],
@@ -63,7 +61,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
                 &element.stiffness(&e[j], &rate[j]),
             );
         }
-        if tangent.is_damped {
+        if self.is_damped() {
             clear(&mut tangent.damping);
             for (j, element) in self.elements.iter().enumerate() {
                 add_element(&mut tangent.damping, j, &element.damping(&e[j]));
@@ -80,7 +78,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
             real,
             ..
         } = tangent;
-        let damping = tangent.is_damped.then_some(&*damping);
+        let damping = self.is_damped().then_some(&*damping);
         combine(mass, damping, stiffness, s, real);
         self.constrain(real);
         tangent.real.factor()
@@ -95,7 +93,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
             complex,
             ..
         } = tangent;
-        let damping = tangent.is_damped.then_some(&*damping);
+        let damping = self.is_damped().then_some(&*damping);
         combine(mass, damping, stiffness, s, complex);
         self.constrain(complex);
         tangent.complex.factor()
@@ -122,7 +120,7 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
         border: &mut [f64],
         q: &mut [f64],
     ) {
-        if !tangent.is_damped {
+        if !self.is_damped() {
             q.fill(0.0);
             return;
         }

@@ -101,7 +101,8 @@ const SHRINK: f64 = 0.2;
 const GROW: f64 = 5.0;
 const SAFETY: f64 = 0.9;
 
-/// Advances the state to `until` in steps that each keep the tolerance; lands exactly. On failure the state is that of the last accepted step.
+/// Advances the state to `until` in steps that each keep the tolerance; lands exactly. On failure
+/// the state is that of the last accepted step.
 ///
 /// # Errors
 /// The reason, when no step however short succeeds.

@@ -69,6 +69,8 @@ const A_INVERSE: [[f64; 3]; 3] = [
 const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_749, -1.0 / 3.0];
 /// Size of the error that Newton's method leaves, in units of the tolerance.
 const NEWTON: f64 = 0.03;
+/// The last stage is the end of the step.
+const END: usize = 2;
 /// Most Newton iterations.
 const ITERATIONS: i32 = 7;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
@@ -162,6 +164,14 @@ impl Radau {
         }
     }
 
+    /// State of a stage.
+    fn place(&mut self, stage: usize, q: &[f64], v: &[f64]) {
+        for i in 0..q.len() {
+            self.stage_q[i] = q[i] + self.zq[stage][i];
+            self.stage_v[i] = v[i] + self.zv[stage][i];
+        }
+    }
+
     /// One Newton iteration; returns the size of the correction in units of the tolerance.
     fn iterate(
         &mut self,
@@ -171,10 +181,7 @@ impl Radau {
         tolerance: &Tolerance,
     ) -> f64 {
         for stage in 0..3 {
-            for i in 0..q.len() {
-                self.stage_q[i] = q[i] + self.zq[stage][i];
-                self.stage_v[i] = v[i] + self.zv[stage][i];
-            }
+            self.place(stage, q, v);
             dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.f[stage]);
             dynamics.set_stage(stage);
         }
@@ -290,15 +297,6 @@ impl Radau {
         }
     }
 
-    /// Acceleration at the end of a step about to be accepted: the next error estimate starts from it.
-    fn end_acceleration(&mut self, dynamics: &mut dyn Dynamics, (q, v): (&[f64], &[f64])) {
-        for i in 0..q.len() {
-            self.stage_q[i] = q[i] + self.zq[2][i];
-            self.stage_v[i] = v[i] + self.zv[2][i];
-        }
-        dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.a);
-    }
-
     fn factor(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64], h: f64) -> bool {
         if !self.tangent {
             dynamics.linearize(q, v);
@@ -358,15 +356,15 @@ impl Method for Radau {
             self.tangent = false;
             return fail(self, factor);
         }
-        for i in 0..q.len() {
-            self.stage_q[i] = q[i] + self.zq[2][i];
-        }
+        self.place(END, q, v);
         if dynamics.largest_turn(q, &self.stage_q) > LARGEST_TURN {
             return fail(self, 0.5);
         }
         let error = self.estimate(dynamics, state, h, tolerance);
         if error <= 1.0 {
-            self.end_acceleration(dynamics, state);
+            // The next error estimate starts from the acceleration at the end.
+            self.place(END, q, v);
+            dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.a);
         } else {
             self.last = None;
             self.rejected = true;

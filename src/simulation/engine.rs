@@ -148,9 +148,7 @@ impl Engine {
 
     /// Whether a state has the sizes of this system.
     pub(super) fn fits(&self, state: &State) -> bool {
-        let own = self.system.reference_state(0.0);
-        (own.coordinates.len(), own.angles.len()) == (state.coordinates.len(), state.angles.len())
-            && state.rates.len() == state.coordinates.len()
+        self.system.fits(state)
     }
 
     /// The state has changed.

@@ -10,8 +10,6 @@ use crate::elements::Element;
 /// A second-order system with identity inertia, `q'' = a(q, q')`, with `K = -da/dq` and
 /// `R = -da/dq'`.
 pub trait Dynamics {
-    /// Number of coordinates.
-    fn coordinates(&self) -> usize;
     /// Acceleration `a(q, v)`.
     fn acceleration(&mut self, q: &[f64], v: &[f64], a: &mut [f64]);
     /// Computes `K` and `R` at a state, for the calls below.
@@ -110,10 +108,6 @@ impl<'a> Model<'a> {
 }
 
 impl Dynamics for Model<'_> {
-    fn coordinates(&self) -> usize {
-        self.system.body.coordinates()
-    }
-
     fn acceleration(&mut self, q: &[f64], v: &[f64], a: &mut [f64]) {
         self.place(q, v);
         self.system.forces(self.inputs, self.gravity, self.work);

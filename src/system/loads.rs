@@ -64,8 +64,7 @@ impl Load {
         let turned = Vector2::new(-u.y, u.x);
         let turn = Matrix2::new(0.0, -1.0, 1.0, 0.0);
         let k = (turned * u.transpose() * (2.0 / a) - turn) * (inputs[0] / a);
-        let node = self.marker.element + usize::from(self.marker.xi > 0.5);
-        let block = &mut tangent.stiffness.diagonal[node];
+        let block = &mut tangent.stiffness.diagonal[self.marker.node()];
         for r in 0..2 {
             for c in 0..2 {
                 block[2 + r][2 + c] += k[(r, c)];

@@ -105,6 +105,17 @@ impl System {
         }
     }
 
+    /// Whether a state has the sizes of this system.
+    pub fn fits(&self, state: &State) -> bool {
+        let n = self.body.coordinates();
+        let found = (
+            state.coordinates.len(),
+            state.rates.len(),
+            state.angles.len(),
+        );
+        found == (n, n, self.angles.len())
+    }
+
     /// Rates of a rigid motion: `velocity` of the first end and `spin` about it, as close as the
     /// constraints allow in the mass norm.
     pub fn rigid_rates(

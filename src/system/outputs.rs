@@ -55,13 +55,7 @@ impl Evaluation {
             .subtract_inertia(&self.acceleration, &mut self.lack);
     }
 
-    /// Direction of the slope at a marker, in (-pi, pi].
-    pub fn angle(&self, marker: &Marker) -> f64 {
-        let u = marker.slope(&self.e);
-        u.y.atan2(u.x)
-    }
-
-    /// Rate of that direction, rad/s.
+    /// Rate of the direction of the slope at a marker, rad/s.
     pub fn angular_velocity(&self, marker: &Marker) -> f64 {
         let (u, du) = (marker.slope(&self.e), marker.slope(&self.rate));
         u.perp(&du) / u.norm_squared()

@@ -39,10 +39,6 @@ fn pair(x: &[f64]) -> Vector2<f64> {
 }
 
 impl Dynamics for Problem {
-    fn coordinates(&self) -> usize {
-        2
-    }
-
     fn acceleration(&mut self, q: &[f64], v: &[f64], a: &mut [f64]) {
         self.calls += 1;
         assert!(self.calls < 1_000_000, "an endless crawl at {q:?}");
