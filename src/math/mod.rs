@@ -5,3 +5,4 @@ pub mod block_tridiagonal;
 pub mod eigen;
 pub mod householder;
 pub mod quadrature;
+pub mod sparse;

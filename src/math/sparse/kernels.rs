@@ -1,0 +1,295 @@
+//! The loops over stored blocks. A column of `size` variables is one matrix of `size` numbers per
+//! row: its diagonal block first, then its blocks below.
+
+use super::Number;
+use super::pattern::{Column, Pattern};
+use std::ops::Range;
+
+/// L D L^T in place, column after column; the number of negative pivots, or `None` at one that is
+/// zero or not finite.
+pub(super) fn factor<T: Number>(pattern: &Pattern, values: &mut [T]) -> Option<usize> {
+    let mut negative = 0;
+    for column in &pattern.columns {
+        negative += match column.size {
+            4 => factor_column(4, pattern, column, values)?,
+            size => factor_column(size, pattern, column, values)?,
+        };
+    }
+    Some(negative)
+}
+
+/// `x <- L^-1 x` over some columns, whose variables `x` holds.
+pub(super) fn forward<T: Number>(
+    pattern: &Pattern,
+    columns: Range<usize>,
+    values: &[T],
+    x: &mut [T],
+) {
+    let columns = &pattern.columns[columns];
+    let base = columns.first().map_or(0, |column| column.start);
+    for column in columns {
+        match column.size {
+            4 => forward_column(4, pattern, column, values, base, x),
+            size => forward_column(size, pattern, column, values, base, x),
+        }
+    }
+}
+
+/// `x <- L^-T x`, or `x <- L^-T D^-1 x` if `SCALE`, over some columns, whose variables `x` holds.
+pub(super) fn backward<T: Number, const SCALE: bool>(
+    pattern: &Pattern,
+    columns: Range<usize>,
+    values: &[T],
+    x: &mut [T],
+) {
+    let columns = &pattern.columns[columns];
+    let base = columns.first().map_or(0, |column| column.start);
+    for column in columns.iter().rev() {
+        match column.size {
+            4 => backward_column::<T, SCALE>(4, pattern, column, values, base, x),
+            size => backward_column::<T, SCALE>(size, pattern, column, values, base, x),
+        }
+    }
+}
+
+/// Every row is solved for its part of L D, which changes the later columns, then made one of L.
+#[inline(always)]
+fn factor_column<T: Number>(
+    size: usize,
+    pattern: &Pattern,
+    column: &Column,
+    values: &mut [T],
+) -> Option<usize> {
+    let (diagonal, rest) = values[column.at..].split_at_mut(size * size);
+    let negative = factor_diagonal(size, diagonal)?;
+    let rows = &pattern.rows[column.rows.clone()];
+    let height: usize = rows.iter().map(|row| row.size).sum();
+    let (panel, later) = rest.split_at_mut(height * size);
+    let offset = column.at + (size + height) * size;
+    let mut targets = pattern.targets[column.targets..].iter();
+    let mut top = 0;
+    for (a, row) in rows.iter().enumerate() {
+        let (above, block) = panel[..(top + row.size) * size].split_at_mut(top * size);
+        for line in block.chunks_exact_mut(size) {
+            substitute(size, diagonal, line);
+        }
+        let mut above = &above[..];
+        for (left, target) in rows[..a].iter().zip(&mut targets) {
+            let (other, remaining) = above.split_at(left.size * size);
+            above = remaining;
+            let target = &mut later[target - offset..][..row.size * left.size];
+            let lines = block.chunks_exact(size);
+            for (line, target) in lines.zip(target.chunks_exact_mut(left.size)) {
+                for (value, other) in target.iter_mut().zip(other.chunks_exact(size)) {
+                    *value = *value - dot(line, other);
+                }
+            }
+        }
+        if let Some(target) = targets.next() {
+            let target = &mut later[target - offset..][..row.size * row.size];
+            for (r, target) in target.chunks_exact_mut(row.size).enumerate() {
+                let (done, line) = block.split_at_mut(r * size);
+                let line = &mut line[..size];
+                for (value, other) in target.iter_mut().zip(done.chunks_exact(size)) {
+                    *value = *value - dot(line, other);
+                }
+                target[r] = target[r] - normalize(size, diagonal, line);
+            }
+        }
+        top += row.size;
+    }
+    Some(negative)
+}
+
+/// L D L^T of a diagonal block from its lower triangle; the diagonal becomes the inverse pivots.
+#[inline(always)]
+fn factor_diagonal<T: Number>(size: usize, diagonal: &mut [T]) -> Option<usize> {
+    let mut negative = 0;
+    for i in 0..size {
+        let (above, rest) = diagonal.split_at_mut(i * size);
+        let line = &mut rest[..size];
+        for j in 1..i {
+            line[j] = line[j] - dot(&line[..j], &above[j * size..j * size + j]);
+        }
+        let mut pivot = line[i];
+        for k in 0..i {
+            let scaled = line[k] * above[k * size + k];
+            pivot = pivot - scaled * line[k];
+            line[k] = scaled;
+        }
+        if !pivot.is_pivot() {
+            return None;
+        }
+        negative += usize::from(pivot.is_negative());
+        line[i] = T::from(1.0) / pivot;
+    }
+    Some(negative)
+}
+
+/// Forward substitution with the unit lower triangle of a factored diagonal block.
+#[inline(always)]
+fn substitute<T: Number>(size: usize, diagonal: &[T], line: &mut [T]) {
+    for j in 1..size {
+        line[j] = line[j] - dot(&line[..j], &diagonal[j * size..j * size + j]);
+    }
+}
+
+/// Multiplies a row of L D by the inverse pivots; returns its product with what results.
+#[inline(always)]
+fn normalize<T: Number>(size: usize, diagonal: &[T], line: &mut [T]) -> T {
+    let mut sum = T::from(0.0);
+    for k in 0..size {
+        let scaled = line[k] * diagonal[k * size + k];
+        sum = sum + scaled * line[k];
+        line[k] = scaled;
+    }
+    sum
+}
+
+#[inline(always)]
+fn forward_column<T: Number>(
+    size: usize,
+    pattern: &Pattern,
+    column: &Column,
+    values: &[T],
+    base: usize,
+    x: &mut [T],
+) {
+    let (diagonal, mut rest) = values[column.at..].split_at(size * size);
+    let offset = column.start - base + size;
+    let (x, later) = x.split_at_mut(offset);
+    let x = &mut x[offset - size..];
+    substitute(size, diagonal, x);
+    for row in &pattern.rows[column.rows.clone()] {
+        let (block, remaining) = rest.split_at(row.size * size);
+        rest = remaining;
+        let y = &mut later[row.start - base - offset..][..row.size];
+        for (y, line) in y.iter_mut().zip(block.chunks_exact(size)) {
+            *y = *y - dot(line, x);
+        }
+    }
+}
+
+#[inline(always)]
+fn backward_column<T: Number, const SCALE: bool>(
+    size: usize,
+    pattern: &Pattern,
+    column: &Column,
+    values: &[T],
+    base: usize,
+    x: &mut [T],
+) {
+    let (diagonal, mut rest) = values[column.at..].split_at(size * size);
+    let offset = column.start - base + size;
+    let (x, later) = x.split_at_mut(offset);
+    let x = &mut x[offset - size..];
+    if SCALE {
+        for k in 0..size {
+            x[k] = x[k] * diagonal[k * size + k];
+        }
+    }
+    for row in &pattern.rows[column.rows.clone()] {
+        let (block, remaining) = rest.split_at(row.size * size);
+        rest = remaining;
+        let y = &later[row.start - base - offset..][..row.size];
+        for (y, line) in y.iter().zip(block.chunks_exact(size)) {
+            for (x, entry) in x.iter_mut().zip(line) {
+                *x = *x - *entry * *y;
+            }
+        }
+    }
+    for r in (1..size).rev() {
+        for c in 0..r {
+            x[c] = x[c] - diagonal[r * size + c] * x[r];
+        }
+    }
+}
+
+/// Adds what the blocks of a column and their transposes give in `A x`.
+pub(super) fn multiply<T: Number>(
+    pattern: &Pattern,
+    column: &Column,
+    values: &[T],
+    x: &[T],
+    y: &mut [T],
+) {
+    let size = column.size;
+    let (diagonal, mut rest) = values[column.at..].split_at(size * size);
+    let end = column.start + size;
+    let (y, later) = y.split_at_mut(end);
+    let y = &mut y[column.start..];
+    let own = &x[column.start..end];
+    for (y, line) in y.iter_mut().zip(diagonal.chunks_exact(size)) {
+        *y = *y + dot(line, own);
+    }
+    for row in &pattern.rows[column.rows.clone()] {
+        let (block, remaining) = rest.split_at(row.size * size);
+        rest = remaining;
+        let x = &x[row.start..row.start + row.size];
+        let later = &mut later[row.start - end..][..row.size];
+        for ((line, x), later) in block.chunks_exact(size).zip(x).zip(later) {
+            *later = *later + dot(line, own);
+            for (y, entry) in y.iter_mut().zip(line) {
+                *y = *y + *entry * *x;
+            }
+        }
+    }
+}
+
+/// The part of one column in `x <- L x`; later columns come first.
+pub(super) fn multiply_lower(pattern: &Pattern, column: &Column, values: &[f64], x: &mut [f64]) {
+    let size = column.size;
+    let (diagonal, mut rest) = values[column.at..].split_at(size * size);
+    let end = column.start + size;
+    let (x, later) = x.split_at_mut(end);
+    let x = &mut x[column.start..];
+    for row in &pattern.rows[column.rows.clone()] {
+        let (block, remaining) = rest.split_at(row.size * size);
+        rest = remaining;
+        let y = &mut later[row.start - end..][..row.size];
+        for (y, line) in y.iter_mut().zip(block.chunks_exact(size)) {
+            *y += dot(line, x);
+        }
+    }
+    for r in (1..size).rev() {
+        x[r] += dot(&diagonal[r * size..r * size + r], &x[..r]);
+    }
+}
+
+/// The part of one column in `x <- L^T x`; earlier columns come first.
+pub(super) fn multiply_lower_transposed(
+    pattern: &Pattern,
+    column: &Column,
+    values: &[f64],
+    x: &mut [f64],
+) {
+    let size = column.size;
+    let (diagonal, mut rest) = values[column.at..].split_at(size * size);
+    let end = column.start + size;
+    let (x, later) = x.split_at_mut(end);
+    let x = &mut x[column.start..];
+    for r in 1..size {
+        for c in 0..r {
+            x[c] += diagonal[r * size + c] * x[r];
+        }
+    }
+    for row in &pattern.rows[column.rows.clone()] {
+        let (block, remaining) = rest.split_at(row.size * size);
+        rest = remaining;
+        let y = &later[row.start - end..][..row.size];
+        for (y, line) in y.iter().zip(block.chunks_exact(size)) {
+            for (x, entry) in x.iter_mut().zip(line) {
+                *x += entry * y;
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn dot<T: Number>(a: &[T], b: &[T]) -> T {
+    let mut sum = T::from(0.0);
+    for (a, b) in a.iter().zip(b) {
+        sum = sum + *a * *b;
+    }
+    sum
+}

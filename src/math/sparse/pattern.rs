@@ -1,0 +1,318 @@
+//! Which blocks of a sparse symmetric matrix are stored, and in which order they are eliminated.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+use std::ops::Range;
+
+/// The elimination order, the stored blocks (with fill) and the components of symmetric matrices
+/// over one graph. Vectors are laid out in elimination order: see [`Pattern::range`].
+///
+/// Minimum degree: A. George, J. W. H. Liu, The evolution of the minimum degree ordering
+/// algorithm, SIAM Review 31 (1989).
+#[derive(Clone, Debug)]
+pub struct Pattern {
+    /// Variables of every vertex.
+    ranges: Vec<Range<usize>>,
+    /// Column of every vertex; what stands at an empty vertex has no meaning.
+    column_of: Vec<usize>,
+    component_of: Vec<usize>,
+    order: Vec<usize>,
+    components: Vec<Component>,
+    pub(super) columns: Vec<Column>,
+    /// Blocks below the diagonal, column by column, from the first to the last in the order.
+    pub(super) rows: Vec<Row>,
+    /// For every column and every pair (a, b), b <= a, of its rows: where in the values the block
+    /// stands that their product changes; pair (a, b) is number a (a + 1) / 2 + b of the column.
+    pub(super) targets: Vec<usize>,
+    /// Length of the values.
+    pub(super) stored: usize,
+}
+
+/// A part of the graph that no edge leaves. Vertices without variables couple nothing, so each is
+/// a component of its own.
+#[derive(Clone, Debug)]
+pub struct Component {
+    /// Where the variables stand in every vector.
+    pub variables: Range<usize>,
+    /// Where the vertices stand in [`Pattern::order`].
+    pub vertices: Range<usize>,
+    pub(super) columns: Range<usize>,
+}
+
+/// Where the block of two vertices is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Slot {
+    /// Place of its first entry in the values of the matrix.
+    pub at: usize,
+    /// Whether the stored block is the transpose of the one asked for.
+    pub transposed: bool,
+    /// Columns of the stored block, which stands row by row.
+    pub columns: usize,
+}
+
+impl Slot {
+    /// Place, in the values of the matrix, of entry (`row`, `column`) of the block asked for.
+    pub fn entry(&self, row: usize, column: usize) -> usize {
+        let (row, column) = if self.transposed {
+            (column, row)
+        } else {
+            (row, column)
+        };
+        self.at + row * self.columns + column
+    }
+}
+
+/// A vertex with variables: its diagonal block, then its blocks below, are stored row by row from
+/// `at` on, without gaps.
+#[derive(Clone, Debug)]
+pub(super) struct Column {
+    pub start: usize,
+    pub size: usize,
+    pub at: usize,
+    pub rows: Range<usize>,
+    pub targets: usize,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    pub column: usize,
+    pub start: usize,
+    pub size: usize,
+    pub at: usize,
+}
+
+impl Pattern {
+    /// The pattern of `sizes.len()` vertices with `sizes[v]` variables each, coupled by `edges`
+    /// in any order; repeated edges and edges from a vertex to itself change nothing.
+    ///
+    /// Vertices are eliminated by least degree (variables of the neighbours), at ties by lowest
+    /// index, one component after the other in the order of their lowest vertices.
+    ///
+    /// # Panics
+    ///
+    /// If an edge names a vertex that does not exist.
+    pub fn new(sizes: &[usize], edges: &[(usize, usize)]) -> Self {
+        let mut graph = vec![BTreeSet::new(); sizes.len()];
+        for &(v, w) in edges {
+            if v != w && sizes[v] > 0 && sizes[w] > 0 {
+                graph[v].insert(w);
+                graph[w].insert(v);
+            }
+        }
+        let mut pattern = Self {
+            ranges: vec![0..0; sizes.len()],
+            column_of: vec![0; sizes.len()],
+            component_of: vec![0; sizes.len()],
+            order: Vec::with_capacity(sizes.len()),
+            components: Vec::new(),
+            columns: Vec::new(),
+            rows: Vec::new(),
+            targets: Vec::new(),
+            stored: 0,
+        };
+        let parts = parts(&graph);
+        let mut below = Vec::with_capacity(sizes.len());
+        let degree = |near: &BTreeSet<usize>| near.iter().map(|&w| sizes[w]).sum();
+        let mut degrees: Vec<usize> = graph.iter().map(degree).collect();
+        for (c, part) in parts.iter().enumerate() {
+            for &v in part {
+                pattern.component_of[v] = c;
+            }
+            eliminate(part, sizes, &mut graph, &mut degrees, |v, neighbours| {
+                pattern.order.push(v);
+                below.push(neighbours);
+            });
+        }
+        pattern.lay_out(sizes, &below);
+        pattern.find_components(&parts);
+        pattern.find_targets();
+        pattern
+    }
+
+    /// Numbers the variables and places the blocks; `below`: neighbours at elimination, in order.
+    fn lay_out(&mut self, sizes: &[usize], below: &[Vec<usize>]) {
+        let (mut start, mut columns) = (0, 0);
+        for &v in &self.order {
+            self.ranges[v] = start..start + sizes[v];
+            self.column_of[v] = columns;
+            start += sizes[v];
+            columns += usize::from(sizes[v] > 0);
+        }
+        for (&v, below) in self.order.iter().zip(below) {
+            let size = sizes[v];
+            if size == 0 {
+                continue;
+            }
+            let (first, at) = (self.rows.len(), self.stored);
+            let mut end = at + size * size;
+            let mut below = below.clone();
+            below.sort_unstable_by_key(|&w| self.column_of[w]);
+            for w in below {
+                self.rows.push(Row {
+                    column: self.column_of[w],
+                    start: self.ranges[w].start,
+                    size: sizes[w],
+                    at: end,
+                });
+                end += size * sizes[w];
+            }
+            self.columns.push(Column {
+                start: self.ranges[v].start,
+                size,
+                at,
+                rows: first..self.rows.len(),
+                targets: 0,
+            });
+            self.stored = end;
+        }
+    }
+
+    fn find_components(&mut self, parts: &[Vec<usize>]) {
+        let mut vertices = 0..0;
+        let mut variables = 0..0;
+        let mut columns = 0..0;
+        for part in parts {
+            vertices = vertices.end..vertices.end + part.len();
+            for &v in part {
+                variables.end += self.ranges[v].len();
+                columns.end += usize::from(!self.ranges[v].is_empty());
+            }
+            self.components.push(Component {
+                variables: variables.clone(),
+                vertices: vertices.clone(),
+                columns: columns.clone(),
+            });
+            variables.start = variables.end;
+            columns.start = columns.end;
+        }
+    }
+
+    fn find_targets(&mut self) {
+        for j in 0..self.columns.len() {
+            self.columns[j].targets = self.targets.len();
+            let rows = self.columns[j].rows.clone();
+            for a in rows.clone() {
+                let row = self.rows[a].column;
+                for b in rows.start..a {
+                    self.targets.push(self.below(row, self.rows[b].column).1);
+                }
+                self.targets.push(self.columns[row].at);
+            }
+        }
+    }
+
+    /// Whether the block of two columns, `row` after `column`, is stored, and where.
+    fn below(&self, row: usize, column: usize) -> (bool, usize) {
+        let rows = &self.rows[self.columns[column].rows.clone()];
+        let found = rows.partition_point(|r| r.column < row);
+        rows.get(found)
+            .map_or((false, 0), |r| (r.column == row, r.at))
+    }
+
+    /// Number of variables: the length of every vector.
+    pub fn len(&self) -> usize {
+        self.components.last().map_or(0, |c| c.variables.end)
+    }
+
+    /// Whether there are no variables.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Where the variables of vertex `v` stand in every vector.
+    pub fn range(&self, v: usize) -> Range<usize> {
+        self.ranges[v].clone()
+    }
+
+    /// The vertices as they are eliminated and laid out.
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// The components, in the order of their lowest vertices; each is contiguous.
+    pub fn components(&self) -> &[Component] {
+        &self.components
+    }
+
+    /// The component of vertex `v`.
+    pub fn component_of(&self, v: usize) -> usize {
+        self.component_of[v]
+    }
+
+    /// Where the block of rows `v` and columns `w` is stored; `None` if it is not, so always zero.
+    /// The block of a vertex without variables has no entries and counts as stored.
+    pub fn slot(&self, v: usize, w: usize) -> Option<Slot> {
+        let transposed = self.ranges[v].start < self.ranges[w].start;
+        let (late, early) = if transposed { (w, v) } else { (v, w) };
+        let columns = self.ranges[early].len();
+        let (stored, at) = if columns == 0 || self.ranges[late].is_empty() {
+            (true, 0)
+        } else if v == w {
+            (true, self.columns[self.column_of[v]].at)
+        } else {
+            self.below(self.column_of[late], self.column_of[early])
+        };
+        stored.then_some(Slot {
+            at,
+            transposed,
+            columns,
+        })
+    }
+}
+
+/// The vertices of every connected part, lowest first vertices first.
+fn parts(graph: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
+    let mut seen = vec![false; graph.len()];
+    let mut parts = Vec::new();
+    for first in 0..graph.len() {
+        if seen[first] {
+            continue;
+        }
+        seen[first] = true;
+        let mut part = vec![first];
+        let mut next = 0;
+        while let Some(&v) = part.get(next) {
+            for &w in &graph[v] {
+                if !seen[w] {
+                    seen[w] = true;
+                    part.push(w);
+                }
+            }
+            next += 1;
+        }
+        parts.push(part);
+    }
+    parts
+}
+
+/// Takes the vertices of `part` out of the graph by least degree, joining the neighbours of each,
+/// and tells of every vertex with the neighbours it then has.
+fn eliminate(
+    part: &[usize],
+    sizes: &[usize],
+    graph: &mut [BTreeSet<usize>],
+    degrees: &mut [usize],
+    mut tell: impl FnMut(usize, Vec<usize>),
+) {
+    const ELIMINATED: usize = usize::MAX;
+    let mut queue: BinaryHeap<_> = part.iter().map(|&v| Reverse((degrees[v], v))).collect();
+    while let Some(Reverse((degree, v))) = queue.pop() {
+        if degrees[v] != degree {
+            continue; // out of date
+        }
+        degrees[v] = ELIMINATED;
+        let neighbours: Vec<usize> = std::mem::take(&mut graph[v]).into_iter().collect();
+        for &u in &neighbours {
+            graph[u].remove(&v);
+            let mut degree = degrees[u] - sizes[v];
+            for &w in &neighbours {
+                if w != u && graph[u].insert(w) {
+                    degree += sizes[w];
+                }
+            }
+            degrees[u] = degree;
+            queue.push(Reverse((degree, u)));
+        }
+        tell(v, neighbours);
+    }
+}

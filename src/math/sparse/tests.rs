@@ -1,0 +1,285 @@
+use super::*;
+use nalgebra::{Complex, ComplexField, DMatrix, DVector};
+
+/// Repeatable numbers in [-0.5, 0.5).
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (self.0 >> 33) as f64 / (1_u64 << 31) as f64 - 0.5
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        ((self.number() + 0.5) * end as f64) as usize
+    }
+}
+
+type Graph = (Vec<usize>, Vec<(usize, usize)>);
+
+/// Chains, a loop, trees, stars with odd sizes, empty vertices, separate parts, anything.
+fn graphs() -> Vec<Graph> {
+    let chain = |n: usize| (1..n).map(|v| (v - 1, v)).collect::<Vec<_>>();
+    let mut random = Random(7);
+    let mut graphs = vec![
+        (vec![], vec![]),
+        (vec![0], vec![(0, 0)]),
+        (vec![4], vec![]),
+        (vec![4; 12], chain(12)),
+        (vec![2; 9], chain(9)),
+        (vec![4, 4, 0, 4, 4, 4], chain(6)),
+        (vec![2, 4, 4, 7, 4, 4, 1], chain(7)),
+        (vec![4; 8], [chain(8), vec![(7, 0)]].concat()),
+        (
+            vec![4; 9],
+            [chain(4), vec![(5, 6), (8, 6), (7, 8), (3, 3), (3, 2)]].concat(),
+        ),
+        (
+            vec![4, 4, 4, 4, 13, 4, 4, 0, 3],
+            vec![
+                (0, 4),
+                (1, 0),
+                (4, 2),
+                (3, 4),
+                (5, 4),
+                (6, 5),
+                (7, 4),
+                (8, 7),
+                (8, 4),
+            ],
+        ),
+        (
+            vec![61, 4, 4, 4, 4, 4, 4, 4],
+            [chain(4), vec![(0, 4), (4, 5), (5, 6), (6, 7), (7, 0)]].concat(),
+        ),
+    ];
+    for n in 2..30 {
+        let sizes = (0..n).map(|_| random.below(7)).collect();
+        let mut edges: Vec<_> = (1..n).map(|v| (random.below(v), v)).collect();
+        for _ in 0..random.below(n) {
+            edges.push((random.below(n), random.below(n)));
+        }
+        edges.truncate(edges.len() - random.below(3).min(edges.len()));
+        graphs.push((sizes, edges));
+    }
+    graphs
+}
+
+/// A random matrix with `bump` on its diagonal, sparse and dense.
+fn matrix<T: Number + ComplexField>(
+    graph: &Graph,
+    pattern: &Pattern,
+    random: &mut Random,
+    number: fn(f64, f64) -> T,
+    bump: f64,
+) -> (Matrix<T>, DMatrix<T>) {
+    let mut a = Matrix::zeros(pattern);
+    let mut dense =
+        DMatrix::from_element(pattern.len(), pattern.len(), <T as From<f64>>::from(0.0));
+    let own = (0..graph.0.len()).map(|v| (v, v));
+    for (v, w) in graph.1.iter().copied().chain(own) {
+        let slot = pattern.slot(v, w).expect("stored");
+        assert_eq!(pattern.slot(w, v).map(|s| s.at), Some(slot.at));
+        for (r, i) in pattern.range(v).enumerate() {
+            for (c, j) in pattern.range(w).enumerate() {
+                let bump = if i == j { bump } else { 0.0 };
+                let value = number(random.number() + bump, random.number() + bump / 2.0);
+                a.values[slot.entry(r, c)] = value;
+                dense[(i, j)] = value;
+                if v == w {
+                    a.values[slot.entry(c, r)] = value;
+                }
+                dense[(j, i)] = value;
+            }
+        }
+    }
+    (a, dense)
+}
+
+fn error<T: Number>(a: &[T], b: &[T]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (*a - *b).size())
+        .fold(0.0, f64::max)
+}
+
+fn check<T: Number + ComplexField>(number: fn(f64, f64) -> T) {
+    for (g, graph) in graphs().iter().enumerate() {
+        let pattern = Pattern::new(&graph.0, &graph.1);
+        let mut random = Random(g as u64);
+        let (mut a, dense) = matrix(graph, &pattern, &mut random, number, 70.0);
+        let x = DVector::from_fn(pattern.len(), |_, _| {
+            number(random.number(), random.number())
+        });
+        let b = &dense * &x;
+        let mut y = vec![<T as From<f64>>::from(1.0); pattern.len()];
+        a.multiply(&pattern, x.as_slice(), &mut y);
+        assert!(error(&y, b.as_slice()) < 1e-12, "product, graph {g}");
+        for v in 0..graph.0.len() {
+            let slot = pattern.slot(v, v).expect("stored");
+            for r in 0..graph.0[v] {
+                for c in r + 1..graph.0[v] {
+                    a.values[slot.entry(r, c)] = <T as From<f64>>::from(f64::NAN); // not read
+                }
+            }
+        }
+        assert_eq!(a.factor(&pattern), Some(0));
+        a.solve(&pattern, &mut y);
+        assert!(error(&y, x.as_slice()) < 1e-13, "solution, graph {g}");
+        if !pattern.is_empty() {
+            let lu = dense.lu().solve(&b).expect("regular");
+            assert!(
+                error(&y, lu.as_slice()) < 1e-13,
+                "dense solution, graph {g}"
+            );
+        }
+        for (c, component) in pattern.components().iter().enumerate() {
+            let mut part = b.as_slice()[component.variables.clone()].to_vec();
+            a.solve_component(&pattern, c, &mut part);
+            assert!(
+                error(&part, &y[component.variables.clone()]) < 1e-13,
+                "part {c}, graph {g}"
+            );
+        }
+    }
+}
+
+#[test]
+fn solves_real_and_complex_systems() {
+    check::<f64>(|re, _| re);
+    check::<Complex<f64>>(Complex::new);
+}
+
+#[test]
+fn counts_negative_pivots_and_refuses_zero_ones() {
+    for (g, graph) in graphs().iter().enumerate() {
+        let pattern = Pattern::new(&graph.0, &graph.1);
+        if pattern.is_empty() {
+            continue;
+        }
+        let (mut a, dense) = matrix(graph, &pattern, &mut Random(g as u64), |re, _| re, 0.3);
+        let negative = dense
+            .symmetric_eigenvalues()
+            .iter()
+            .filter(|v| **v < 0.0)
+            .count();
+        assert_eq!(a.factor(&pattern), Some(negative), "graph {g}");
+    }
+    let pattern = Pattern::new(&[1, 1], &[(0, 1)]);
+    for bad in [1.0, f64::NAN, f64::INFINITY] {
+        let mut a = Matrix {
+            values: vec![1.0, 1.0, bad],
+        };
+        assert_eq!(a.factor(&pattern), None);
+    }
+    let one = Complex::new(0.0, 1.0);
+    assert_eq!(
+        Matrix {
+            values: vec![one; 3]
+        }
+        .factor(&pattern),
+        None
+    );
+}
+
+#[test]
+fn cholesky_factors_multiply_and_solve() {
+    for (g, graph) in graphs().iter().enumerate() {
+        let pattern = Pattern::new(&graph.0, &graph.1);
+        let mut random = Random(g as u64);
+        let (a, dense) = matrix(graph, &pattern, &mut random, |re, _| re, 70.0);
+        let w = Cholesky::new(&pattern, &a).expect("positive definite");
+        let lower = nalgebra::Cholesky::new(dense.clone())
+            .expect("positive definite")
+            .l();
+        let x = DVector::from_fn(pattern.len(), |_, _| random.number());
+        let mut y = x.as_slice().to_vec();
+        w.multiply_transposed(&pattern, &mut y);
+        assert!(
+            error(&y, (lower.transpose() * &x).as_slice()) < 1e-12,
+            "graph {g}"
+        );
+        w.multiply(&pattern, &mut y);
+        assert!(error(&y, (&dense * &x).as_slice()) < 1e-12, "graph {g}");
+        for (c, component) in pattern.components().iter().enumerate() {
+            let mut part = y[component.variables.clone()].to_vec();
+            w.forward_component(&pattern, c, &mut part);
+            let expected =
+                &(lower.transpose() * &x).as_slice()[component.variables.clone()].to_vec();
+            assert!(error(&part, expected) < 1e-12, "part {c}, graph {g}");
+        }
+        w.forward(&pattern, &mut y);
+        assert!(
+            error(&y, (lower.transpose() * &x).as_slice()) < 1e-12,
+            "graph {g}"
+        );
+        w.backward(&pattern, &mut y);
+        assert!(error(&y, x.as_slice()) < 1e-13, "graph {g}");
+    }
+    let pattern = Pattern::new(&[2], &[]);
+    assert!(
+        Cholesky::new(
+            &pattern,
+            &Matrix {
+                values: vec![1.0, 2.0, 2.0, 1.0]
+            }
+        )
+        .is_none()
+    );
+}
+
+#[test]
+fn components_are_contiguous() {
+    for (sizes, edges) in graphs() {
+        let pattern = Pattern::new(&sizes, &edges);
+        let mut sorted = pattern.order().to_vec();
+        sorted.sort_unstable();
+        assert!(sorted.into_iter().eq(0..sizes.len()));
+        let (mut variables, mut vertices, mut lowest) = (0, 0, None);
+        for (c, component) in pattern.components().iter().enumerate() {
+            assert_eq!(component.variables.start, variables);
+            assert_eq!(component.vertices.start, vertices);
+            for &v in &pattern.order()[component.vertices.clone()] {
+                assert_eq!(pattern.component_of(v), c);
+                assert_eq!(pattern.range(v), variables..variables + sizes[v]);
+                variables += sizes[v];
+            }
+            assert_eq!(component.variables.end, variables);
+            vertices = component.vertices.end;
+            let first = pattern.order()[component.vertices.clone()]
+                .iter()
+                .min()
+                .copied();
+            assert!(first > lowest);
+            lowest = first;
+        }
+        assert_eq!((variables, vertices), (pattern.len(), sizes.len()));
+        for (v, w) in edges {
+            let apart = pattern.component_of(v) != pattern.component_of(w);
+            assert!(!apart || sizes[v] == 0 || sizes[w] == 0);
+        }
+    }
+}
+
+#[test]
+fn chains_and_trees_have_no_fill() {
+    let n = 100_000;
+    let chain: Vec<_> = (1..n).map(|v| (v, v - 1)).collect();
+    let pattern = Pattern::new(&vec![4; n], &chain);
+    assert!(pattern.order().iter().copied().eq(0..n));
+    assert_eq!(
+        Matrix::<f64>::zeros(&pattern).values.len(),
+        16 * (2 * n - 1)
+    );
+    let star: Vec<_> = (1..n).map(|v| (0, v)).collect();
+    let tree: Vec<_> = (1..n).map(|v| (v, v / 3)).collect();
+    for edges in [star, tree] {
+        let pattern = Pattern::new(&vec![1; n], &edges);
+        assert_eq!(Matrix::<f64>::zeros(&pattern).values.len(), 2 * n - 1);
+    }
+    assert_eq!(Pattern::new(&[4; 4], &[(0, 1), (2, 3)]).slot(1, 2), None);
+}
