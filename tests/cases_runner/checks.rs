@@ -5,27 +5,23 @@ use std::fs;
 use std::path::Path;
 
 use super::Measured;
-use super::claim::{Claim, Critical, Drift, Kind, Order, Series, Values};
-use super::run::Run;
+use super::claim::{Claim, Critical, Drift, Given, Kind, Order, Series, Values};
+use super::run::{Run, SAME_TIME};
 
-/// Two times nearer than this, relative to the later, are the same communication point.
-const SAME_TIME: f64 = 1e-9;
 /// Below this relative error the order of convergence drowns in roundoff.
 const ROUNDOFF: f64 = 1e-10;
 /// Steps that a root search may take.
 const MOST_HALVINGS: u32 = 200;
 
-type Set = BTreeMap<String, f64>;
-
 /// Checks one claim of the case in a folder. `Err` is a claim that could not be measured.
 pub fn check(claim: &Claim, folder: &Path, scene: &str) -> Result<Measured, String> {
     let scene = folder.join(scene);
     match &claim.kind {
-        Kind::Series(series) => check_series(series, folder, &scene, &claim.set),
-        Kind::Values(values) => check_values(values, &scene, &claim.set),
-        Kind::Order(order) => check_order(order, &scene, &claim.set),
-        Kind::Critical(critical) => check_critical(critical, &scene, &claim.set),
-        Kind::Drift(drift) => check_drift(drift, &scene, &claim.set),
+        Kind::Series(series) => check_series(series, folder, &scene, &claim.values),
+        Kind::Values(values) => check_values(values, &scene, &claim.values),
+        Kind::Order(order) => check_order(order, &scene, &claim.values),
+        Kind::Critical(critical) => check_critical(critical, &scene, &claim.values),
+        Kind::Drift(drift) => check_drift(drift, &scene, &claim.values),
     }
 }
 
@@ -44,16 +40,17 @@ fn check_series(
     series: &Series,
     folder: &Path,
     scene: &Path,
-    set: &Set,
+    given: &Given,
 ) -> Result<Measured, String> {
     let (times, columns) = read_reference(&folder.join(&series.reference), &series.columns)?;
-    let mut run = Run::start(scene, set)?;
+    let mut run = Run::start(scene, given)?;
     let mut found = vec![(0.0, run.get(series.columns.keys())?)];
     run.steps(series.stop_time, series.step, |run, time| {
         found.push((time, run.get(series.columns.keys())?));
         Ok(())
     })?;
-    let mut errors: Vec<(f64, f64, String)> = Vec::new();
+    let allowed = allowances(series, &columns);
+    let mut errors: Vec<(f64, f64, f64, f64, String)> = Vec::new();
     let mut points = 0;
     for (row, t) in times.iter().enumerate() {
         let same = |(time, _): &&(f64, Vec<f64>)| (time - t).abs() <= SAME_TIME * time.max(1.0);
@@ -64,15 +61,15 @@ fn check_series(
         let differences = values.iter().zip(&columns).map(|(v, c)| v - c[row]);
         if series.distance {
             let names: Vec<&str> = series.columns.keys().map(String::as_str).collect();
-            let squares: f64 = differences.map(|d| d * d).sum();
-            errors.push((squares.sqrt(), *time, names.join(" and ")));
+            let error = differences.map(|d| d * d).sum::<f64>().sqrt();
+            let most = allowed.iter().copied().fold(0.0, f64::max);
+            errors.push((share(error, most), error, most, *time, names.join(" and ")));
         } else {
-            let names = series.columns.keys();
-            errors.extend(
-                differences
-                    .zip(names)
-                    .map(|(d, n)| (d.abs(), *time, n.clone())),
-            );
+            let names = series.columns.keys().zip(&allowed);
+            errors.extend(differences.zip(names).map(|(d, (name, allowed))| {
+                let error = d.abs();
+                (share(error, *allowed), error, *allowed, *time, name.clone())
+            }));
         }
     }
     if points < 2 {
@@ -83,19 +80,35 @@ fn check_series(
     }
     // In the order of total_cmp a NaN without its sign is above all numbers.
     let worst = errors.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((error, time, name)) = worst else {
+    let Some((_, error, allowed, time, name)) = worst else {
         return Err("columns: expected at least one, found none".into());
     };
-    let failure = format!(
-        "{name} at t = {time}: {error:.3e} from the reference, allowed {}",
-        series.absolute
-    );
-    Ok(measured(name, error, series.absolute, failure))
+    let failure =
+        format!("{name} at t = {time}: {error:.3e} from the reference, allowed {allowed:.3e}");
+    Ok(measured(name, error, allowed, failure))
 }
 
-fn check_values(values: &Values, scene: &Path, set: &Set) -> Result<Measured, String> {
+/// What every column may be off: `relative` is of its largest entry, or of `scale` if that is more.
+fn allowances(series: &Series, columns: &[Vec<f64>]) -> Vec<f64> {
+    let largest = |column: &Vec<f64>| column.iter().fold(series.scale, |l, v| l.max(v.abs()));
+    columns
+        .iter()
+        .map(|column| series.absolute.max(series.relative * largest(column)))
+        .collect()
+}
+
+/// An error as a share of what is allowed: nothing off by nothing is perfect, not 0 / 0.
+fn share(error: f64, allowed: f64) -> f64 {
+    if error <= allowed && allowed == 0.0 {
+        0.0
+    } else {
+        (error / allowed).abs()
+    }
+}
+
+fn check_values(values: &Values, scene: &Path, given: &Given) -> Result<Measured, String> {
     let names: Vec<String> = values.values.keys().cloned().collect();
-    let found = values_at(scene, set, values.time, values.step, &names)?;
+    let found = values_at(scene, given, values.time, values.step, &names)?;
     let mut worst: Option<(f64, Measured)> = None;
     for ((name, wanted), value) in values.values.iter().zip(found) {
         let allowed = values.relative * values.scale.max(wanted.abs());
@@ -103,12 +116,7 @@ fn check_values(values: &Values, scene: &Path, set: &Set) -> Result<Measured, St
         let failure = format!(
             "{name}: expected {wanted}, found {value}; {error:.3e} apart, allowed {allowed:.3e}"
         );
-        // Nothing off by nothing is perfect, not 0 / 0.
-        let share = if error <= allowed && allowed == 0.0 {
-            0.0
-        } else {
-            error / allowed
-        };
+        let share = share(error, allowed);
         let measured = measured(name.clone(), error, allowed, failure);
         if worst
             .as_ref()
@@ -122,11 +130,11 @@ fn check_values(values: &Values, scene: &Path, set: &Set) -> Result<Measured, St
         .ok_or_else(|| "values: expected at least one, found none".into())
 }
 
-fn check_order(order: &Order, scene: &Path, set: &Set) -> Result<Measured, String> {
+fn check_order(order: &Order, scene: &Path, given: &Given) -> Result<Measured, String> {
     let mut errors = Vec::new();
     for number in &order.over {
-        let mut start = set.clone();
-        start.insert(order.vary.clone(), *number);
+        let mut start = given.clone();
+        start.set.insert(order.vary.clone(), *number);
         let names = [order.variable.clone()];
         let value = values_at(scene, &start, order.time, order.step, &names)?[0];
         let scale = if order.value == 0.0 {
@@ -168,11 +176,11 @@ fn check_order(order: &Order, scene: &Path, set: &Set) -> Result<Measured, Strin
     })
 }
 
-fn check_critical(critical: &Critical, scene: &Path, set: &Set) -> Result<Measured, String> {
+fn check_critical(critical: &Critical, scene: &Path, given: &Given) -> Result<Measured, String> {
     let names = [critical.indicator.clone()];
     let indicator = |start: f64| {
-        let mut changed = set.clone();
-        changed.insert(critical.vary.clone(), start);
+        let mut changed = given.clone();
+        changed.set.insert(critical.vary.clone(), start);
         let frequency = values_at(scene, &changed, 0.0, None, &names)?[0];
         // The eigenvalue itself crosses zero smoothly; its signed root does not.
         Ok(frequency * frequency.abs())
@@ -192,18 +200,30 @@ fn check_critical(critical: &Critical, scene: &Path, set: &Set) -> Result<Measur
     Ok(measured(what, error, critical.relative, failure))
 }
 
-fn check_drift(drift: &Drift, scene: &Path, set: &Set) -> Result<Measured, String> {
-    let mut run = Run::start(scene, set)?;
-    let start: f64 = run.get(&drift.sum)?.iter().sum();
+fn check_drift(drift: &Drift, scene: &Path, given: &Given) -> Result<Measured, String> {
+    let mut run = Run::start(scene, given)?;
+    let total = |run: &mut Run| -> Result<f64, String> {
+        let plus: f64 = run.get(&drift.sum)?.iter().sum();
+        let minus: f64 = run.get(&drift.less)?.iter().sum();
+        Ok(plus - minus)
+    };
+    let mut start = total(&mut run)?;
     let (mut largest, mut when) = (0.0, 0.0);
     run.steps(drift.stop_time, drift.step, |run, time| {
-        let change = (run.get(&drift.sum)?.iter().sum::<f64>() - start).abs();
+        if time <= drift.after * (1.0 + SAME_TIME) {
+            start = total(run)?;
+            return Ok(());
+        }
+        let change = (total(run)? - start).abs();
         if change.total_cmp(&largest).is_gt() {
             (largest, when) = (change, time);
         }
         Ok(())
     })?;
-    let what = drift.sum.join(" + ");
+    let mut what = drift.sum.join(" + ");
+    for name in &drift.less {
+        what = format!("{what} - {name}");
+    }
     let failure = format!(
         "{what} drifts by {largest:.3e} (t = {when}), allowed {}; {:.3e} of the scale",
         drift.absolute,
@@ -215,12 +235,12 @@ fn check_drift(drift: &Drift, scene: &Path, set: &Set) -> Result<Measured, Strin
 /// Values of variables at a time, by default the start.
 fn values_at(
     scene: &Path,
-    set: &Set,
+    given: &Given,
     time: f64,
     step: Option<f64>,
     names: &[String],
 ) -> Result<Vec<f64>, String> {
-    let mut run = Run::start(scene, set)?;
+    let mut run = Run::start(scene, given)?;
     if time > 0.0 {
         let step = step.ok_or("step: expected one with a time, found nothing")?;
         run.steps(time, step, |_, _| Ok(()))?;

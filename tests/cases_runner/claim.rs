@@ -10,10 +10,27 @@ use serde_json::{Map, Value};
 pub struct Claim {
     /// Scene file in place of the case's.
     pub scene: Option<String>,
-    /// Start values of parameters and inputs.
-    pub set: BTreeMap<String, f64>,
+    /// Values of variables for a run.
+    pub values: Given,
     /// What is claimed.
     pub kind: Kind,
+}
+
+/// Values that a claim gives to a run.
+#[derive(Clone, Default)]
+pub struct Given {
+    /// Start values of parameters and inputs.
+    pub set: BTreeMap<String, f64>,
+    /// Inputs that change at communication points, in the order of time.
+    pub changes: Vec<Change>,
+}
+
+/// Inputs that change at a communication point.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Change {
+    pub time: f64,
+    pub set: BTreeMap<String, f64>,
 }
 
 /// What may be claimed.
@@ -38,7 +55,12 @@ pub struct Series {
     pub step: f64,
     pub reference: String,
     pub columns: BTreeMap<String, String>,
+    #[serde(default)]
     pub absolute: f64,
+    #[serde(default)]
+    pub relative: f64,
+    #[serde(default)]
+    pub scale: f64,
     #[serde(default)]
     pub distance: bool,
 }
@@ -91,6 +113,10 @@ pub struct Drift {
     pub stop_time: f64,
     pub step: f64,
     pub sum: Vec<String>,
+    #[serde(default)]
+    pub less: Vec<String>,
+    #[serde(default)]
+    pub after: f64,
     pub scale: f64,
     pub absolute: f64,
 }
@@ -123,6 +149,10 @@ impl Claim {
         let set = map.remove("set").map_or(Ok(BTreeMap::new()), |value| {
             serde_json::from_value(value).map_err(|error| format!("set: {error}"))
         })?;
+        let changes = map.remove("changes").map_or(Ok(Vec::new()), |value| {
+            serde_json::from_value(value).map_err(|error| format!("changes: {error}"))
+        })?;
+        let values = Given { set, changes };
         let kind = map.remove("kind");
         let kind = match kind.as_ref().and_then(Value::as_str) {
             Some("series") => Kind::Series(read(map)?),
@@ -137,7 +167,11 @@ impl Claim {
                 ));
             }
         };
-        Ok(Self { scene, set, kind })
+        Ok(Self {
+            scene,
+            values,
+            kind,
+        })
     }
 }
 

@@ -1,24 +1,28 @@
 //! A scene in simulation, driven the way the tests of the packaged FMU drive theirs.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use flexbody::scene::Scene;
 use flexbody::simulation::{Simulation, Source};
 
-/// A simulation by variable names.
-pub struct Run(Simulation);
+use super::claim::{Change, Given};
+
+/// Two times nearer than this, relative to the later, are the same communication point.
+pub const SAME_TIME: f64 = 1e-9;
+
+/// A simulation by variable names, and the inputs that will change.
+pub struct Run(Simulation, Vec<Change>);
 
 impl Run {
     /// A simulation ready for steps: parameters are set before initialization, inputs during it.
-    pub fn start(path: &Path, set: &BTreeMap<String, f64>) -> Result<Self, String> {
+    pub fn start(path: &Path, given: &Given) -> Result<Self, String> {
         let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = fs::read_to_string(path).map_err(|error| at(&error))?;
         let scene = Scene::from_json(&text).map_err(|error| at(&error))?;
-        let mut run = Self(Simulation::new(scene));
+        let mut run = Self(Simulation::new(scene), given.changes.clone());
         let mut inputs = Vec::new();
-        for (name, value) in set {
+        for (name, value) in &given.set {
             let index = run.index(name)?;
             if matches!(run.0.variables()[index].source, Source::Input(..)) {
                 inputs.push((index, *value));
@@ -102,6 +106,19 @@ impl Run {
                 .map_err(|failure| failure.to_string())?;
             time = following;
             visit(self, time)?;
+            self.change(time)?;
+        }
+        Ok(())
+    }
+
+    /// Changes the inputs that are due at a communication point.
+    fn change(&mut self, time: f64) -> Result<(), String> {
+        let due = |change: &Change| change.time <= time + SAME_TIME * time.max(1.0);
+        while self.1.first().is_some_and(due) {
+            for (name, value) in self.1.remove(0).set {
+                let index = self.index(&name)?;
+                self.set(index, value)?;
+            }
         }
         Ok(())
     }
