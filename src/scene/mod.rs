@@ -7,16 +7,20 @@
 
 mod assemble;
 mod description;
+mod marker;
 mod mesh;
 mod shape;
 mod validate;
 
 pub use assemble::assemble;
 pub use description::{
-    Accuracy, Body, Element, Experiment, Formulation, Initial, Input, InputKind, Integrator, Joint,
-    JointKind, Material, Method, Motion, Output, OutputKind, Scene, Section, Shape, Strain,
+    Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion, Input,
+    InputKind, Integrator, Joint, JointKind, Load, LoadKind, LoadValue, Mass, MasterInput, Material,
+    Method, Motion, MotionKind, MotionValue, Output, OutputKind, RigidBody, Scene, Section, Shape,
+    Strain, Table, Value,
 };
-pub use validate::{ELEMENTS, MarkerReference, TOLERANCE};
+pub use marker::{At, GROUND, MarkerReference};
+pub use validate::{ELEMENTS, TOLERANCE};
 
 /// What is wrong with a scene, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -46,14 +50,15 @@ impl Scene {
     pub fn from_json(text: &str) -> Result<Self, Error> {
         let mut json = serde_json::Deserializer::from_str(text);
         let scene: Self = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-            let path = error.path().to_string();
+            let (mut path, message) = (error.path().to_string(), error.inner().to_string());
             // Broken JSON has no path.
-            let path = if path == "." || path == "?" {
-                "scene".into()
-            } else {
-                path
-            };
-            Error::new(path, error.inner().to_string())
+            if path == "." || path == "?" {
+                path = "scene".into();
+            }
+            match message.split_once(description::INNER) {
+                Some((inner, message)) => Error::new(format!("{path}.{inner}"), message),
+                None => Error::new(path, message),
+            }
         })?;
         json.end()
             .map_err(|error| Error::new("scene", error.to_string()))?;

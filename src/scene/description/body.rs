@@ -1,0 +1,231 @@
+//! Bodies and masses.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::strict::{Strict, at, typed};
+
+/// A body; `element` says of which kind.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(tag = "element", rename_all = "snake_case")]
+pub enum Body {
+    /// Flexible, of ANCF cables: two nodes with position and slope; stretches and bends, does not
+    /// shear.
+    Cable(CableBody),
+    /// Rigid.
+    Rigid(RigidBody),
+}
+
+/// A flexible body of cable elements.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CableBody {
+    /// Name: a letter or `_`, then letters, digits and `_`.
+    pub name: String,
+    /// Number of elements.
+    pub elements: u32,
+    /// Material.
+    pub material: Material,
+    /// Cross section.
+    pub section: Section,
+    /// Strain measure.
+    #[serde(default)]
+    pub strain: Strain,
+    /// Unstressed shape, and the configuration at the start.
+    pub shape: Shape,
+    /// Rigid motion at the start; velocity of the first end.
+    #[serde(default)]
+    pub motion: InitialMotion,
+    /// Named material coordinates: 0 is the first end, 1 the last.
+    #[serde(default)]
+    pub markers: BTreeMap<String, f64>,
+}
+
+/// A rigid body; without inertia, a particle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RigidBody {
+    /// Name: a letter or `_`, then letters, digits and `_`.
+    pub name: String,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Moment of inertia about the centre of mass, kg m^2; 0 is a particle, which does not turn.
+    pub inertia: f64,
+    /// Centre of mass at the start, m.
+    pub position: [f64; 2],
+    /// Direction of the body's frame at the start, counter-clockwise, rad.
+    #[serde(default)]
+    pub angle: f64,
+    /// Motion at the start; velocity of the centre of mass.
+    #[serde(default)]
+    pub motion: InitialMotion,
+    /// Named points in the body's frame, whose origin is the centre of mass, m.
+    #[serde(default)]
+    pub markers: BTreeMap<String, [f64; 2]>,
+}
+
+/// Material of a cable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus, Pa.
+    pub youngs_modulus: f64,
+    /// Density, kg/m^3.
+    pub density: f64,
+    /// Kelvin-Voigt damping: ratio of viscosity to stiffness, s.
+    #[serde(default)]
+    pub damping_time: f64,
+}
+
+/// Cross section of a cable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// Area, m^2.
+    pub area: f64,
+    /// Second moment of area, m^4; 0 is a cable without bending stiffness.
+    pub second_moment: f64,
+}
+
+/// Strain measures by name; they agree only for small strains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Strain {
+    /// Stretch `|r'| - 1` and rotation per reference length: geometrically exact beam theory.
+    #[default]
+    #[serde(rename = "thetaPrime")]
+    ThetaPrime,
+    /// Green-Lagrange axial strain and the curvature of the deformed line.
+    #[serde(rename = "GreenLagrange_FrenetKappa")]
+    GreenLagrangeFrenetKappa,
+    /// Stretch `|r'| - 1` and the curvature of the deformed line.
+    #[serde(rename = "engStrain_FrenetKappa")]
+    EngStrainFrenetKappa,
+}
+
+/// Unstressed shape of a cable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    /// Straight line.
+    Line {
+        /// First end, m.
+        from: [f64; 2],
+        /// Last end, m.
+        to: [f64; 2],
+    },
+    /// Circular arc that bulges to the right of the way from `from` to `to`: drawn from left to
+    /// right it sags.
+    Arc {
+        /// First end, m.
+        from: [f64; 2],
+        /// Last end, m.
+        to: [f64; 2],
+        /// Length along the arc, m; more than the distance between the ends.
+        length: f64,
+    },
+}
+
+/// Rigid motion of a body at the start.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InitialMotion {
+    /// Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s.
+    #[serde(default)]
+    pub velocity: [f64; 2],
+    /// Angular velocity, counter-clockwise, rad/s.
+    #[serde(default)]
+    pub spin: f64,
+}
+
+/// A mass lumped at a marker.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mass {
+    /// Where it sits: `body.marker`.
+    pub marker: String,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Moment of inertia that turns with the slope, kg m^2; markers of cables only.
+    #[serde(default)]
+    pub inertia: f64,
+}
+
+impl<'de> Deserialize<'de> for Body {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let wrong = |found: &str| {
+            let message = format!("expected \"cable\" or \"rigid\", found {found}");
+            D::Error::custom(at("element", &message))
+        };
+        let mut value = Strict::deserialize(deserializer)?.0;
+        let Some(keys) = value.as_object_mut() else {
+            return Err(D::Error::custom("expected a body { ... }"));
+        };
+        let element = keys.remove("element").ok_or_else(|| wrong("nothing"))?;
+        match element.as_str() {
+            Some("cable") => typed(value).map(Self::Cable),
+            Some("rigid") => typed(value).map(Self::Rigid),
+            _ => Err(wrong(&element.to_string())),
+        }
+    }
+}
+
+impl Body {
+    /// Name of the body.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Cable(body) => &body.name,
+            Self::Rigid(body) => &body.name,
+        }
+    }
+
+    /// Motion at the start.
+    pub fn motion(&self) -> &InitialMotion {
+        match self {
+            Self::Cable(body) => &body.motion,
+            Self::Rigid(body) => &body.motion,
+        }
+    }
+
+    /// Names of its markers, in alphabetical order.
+    pub fn marker_names(&self) -> Vec<&str> {
+        match self {
+            Self::Cable(body) => body.markers.keys().map(String::as_str).collect(),
+            Self::Rigid(body) => body.markers.keys().map(String::as_str).collect(),
+        }
+    }
+
+    /// The body if it is flexible.
+    pub fn cable(&self) -> Option<&CableBody> {
+        match self {
+            Self::Cable(body) => Some(body),
+            Self::Rigid(_) => None,
+        }
+    }
+
+    /// The body, to be changed, if it is flexible.
+    pub fn cable_mut(&mut self) -> Option<&mut CableBody> {
+        match self {
+            Self::Cable(body) => Some(body),
+            Self::Rigid(_) => None,
+        }
+    }
+
+    /// The body if it is rigid.
+    pub fn rigid(&self) -> Option<&RigidBody> {
+        match self {
+            Self::Rigid(body) => Some(body),
+            Self::Cable(_) => None,
+        }
+    }
+
+    /// The body, to be changed, if it is rigid.
+    pub fn rigid_mut(&mut self) -> Option<&mut RigidBody> {
+        match self {
+            Self::Rigid(body) => Some(body),
+            Self::Cable(_) => None,
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Loads that the scene knows, and inputs that the master sets.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{LoadValue, Value};
+
+/// A load that is known in the scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Name: a letter or `_`, then letters, digits and `_`.
+    pub name: String,
+    /// What acts.
+    pub kind: LoadKind,
+    /// `force`, `moment`: where it acts, `body.marker`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marker: Option<String>,
+    /// `torque`: name of the revolute joint or hinge that it acts in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// `distributed`: name of the cable that it acts on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
+    /// `spring_damper`: its ends, `ground` or `body.marker`, then `body.marker`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub markers: Option<[String; 2]>,
+    /// `spring_damper` from `ground` only: where on the ground, m; where the second marker is at the
+    /// start by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<[f64; 2]>,
+    /// `force` only: the components turn with the marker, along and across (to the left).
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub follower: bool,
+    /// All but `spring_damper`: two components of a force (N) or of a force per length (N/m), one of
+    /// a moment or torque (N m).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<LoadValue>,
+    /// `spring_damper`: stiffness, N/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<f64>,
+    /// `spring_damper`: damping, N s/m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping: Option<f64>,
+    /// `spring_damper`: length at rest, m; the distance at the start by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length: Option<Value>,
+}
+
+/// Loads by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadKind {
+    /// Force at a marker, N.
+    Force,
+    /// Moment at a marker, counter-clockwise, N m.
+    Moment,
+    /// Moment on the second marker of a joint, opposite on its first, N m.
+    Torque,
+    /// Force in global axes per reference length of a cable, N/m.
+    Distributed,
+    /// Spring and damper side by side between two points.
+    SpringDamper,
+}
+
+/// A load that the master sets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Input {
+    /// What is set.
+    pub kind: InputKind,
+    /// `force`, `moment`: where it acts, `body.marker`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marker: Option<String>,
+    /// `torque`: name of the revolute joint or hinge that it acts in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// `distributed`: name of the cable that it acts on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
+    /// `rest_length`: name of the spring-damper.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<String>,
+    /// `force` only: the components turn with the marker, along and across (to the left).
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub follower: bool,
+    /// Value before the master sets one: two components for a force, one for others; zero by default,
+    /// for a rest length that of the spring-damper.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub start: Vec<f64>,
+}
+
+/// Inputs by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InputKind {
+    /// Force at a marker, N.
+    Force,
+    /// Moment at a marker, counter-clockwise, N m.
+    Moment,
+    /// Moment on the second marker of a joint, opposite on its first, N m.
+    Torque,
+    /// Force in global axes per reference length of a cable, N/m.
+    Distributed,
+    /// Length at rest of a spring-damper, m.
+    RestLength,
+}
+
+impl Input {
+    /// Number of components: 2 for a force, 1 for others.
+    pub fn components(&self) -> usize {
+        match self.kind {
+            InputKind::Force | InputKind::Distributed => 2,
+            InputKind::Moment | InputKind::Torque | InputKind::RestLength => 1,
+        }
+    }
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
+}

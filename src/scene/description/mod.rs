@@ -1,0 +1,163 @@
+//! What a scene may say. Field names are the JSON keys; units are SI, angles in rad.
+
+mod body;
+mod joint;
+mod load;
+mod output;
+mod strict;
+mod value;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Section, Shape, Strain};
+pub use joint::{Joint, JointKind, Motion, MotionKind};
+pub use load::{Input, InputKind, Load, LoadKind};
+pub use output::{Output, OutputKind};
+pub use strict::INNER;
+pub use value::{LoadValue, MasterInput, MotionValue, Table, Value};
+
+/// A scene: bodies, joints, what drives and loads them, what goes in and what comes out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Name of the scene and of the FMU: letters, digits, `_` and `-`.
+    pub name: String,
+    /// Dimension of space; 2 (planar).
+    pub dimension: usize,
+    /// Gravitational acceleration, m/s^2.
+    #[serde(default)]
+    pub gravity: [f64; 2],
+    /// Rate of the frame that the scene is described in, about its origin, counter-clockwise, rad/s.
+    #[serde(default)]
+    pub rotation: f64,
+    /// Bodies; at least one.
+    pub bodies: Vec<Body>,
+    /// Masses lumped at markers.
+    #[serde(default)]
+    pub masses: Vec<Mass>,
+    /// Joints to ground and between bodies.
+    #[serde(default)]
+    pub joints: Vec<Joint>,
+    /// Driven positions, angles and displacements.
+    #[serde(default)]
+    pub motions: Vec<Motion>,
+    /// Loads that the scene itself knows.
+    #[serde(default)]
+    pub loads: Vec<Load>,
+    /// Loads that the master sets.
+    #[serde(default)]
+    pub inputs: Vec<Input>,
+    /// Quantities that the master reads.
+    #[serde(default)]
+    pub outputs: Vec<Output>,
+    /// Where the simulation starts from.
+    #[serde(default)]
+    pub initial: Initial,
+    /// What accuracy is asked for.
+    #[serde(default)]
+    pub accuracy: Accuracy,
+    /// Formulation, constraints and integrator, where the automatic choice is not wanted.
+    #[serde(default)]
+    pub method: Method,
+    /// Default experiment of the FMU.
+    #[serde(default)]
+    pub experiment: Experiment,
+}
+
+/// Where the simulation starts from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Initial {
+    /// The unstressed shapes with their rigid motion.
+    #[default]
+    AsShaped,
+    /// The stable equilibrium under gravity, loads and the start values of the inputs, at rest.
+    StaticEquilibrium,
+}
+
+/// What accuracy is asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Accuracy {
+    /// Error in time that a step may make, relative to the length of the body (root mean square
+    /// over its mass).
+    pub relative_tolerance: f64,
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Self {
+            relative_tolerance: 1e-4,
+        }
+    }
+}
+
+/// Formulation, constraints and integrator.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Method {
+    /// How connectivity and linear joints are eliminated.
+    #[serde(default)]
+    pub formulation: Formulation,
+    /// How constraints that are not linear are kept.
+    #[serde(default)]
+    pub constraints: Constraints,
+    /// Integrator.
+    #[serde(default)]
+    pub integrator: Integrator,
+}
+
+/// Formulations by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Formulation {
+    /// QR elimination weighted by the square root of the mass: exact connectivity, identity inertia.
+    #[default]
+    MassWeighted,
+    /// Report MBS97-2-UIC, Eqs. 23-34, as printed. It tears the elements apart; for charts only.
+    AsPrinted,
+}
+
+/// Ways to keep constraints that are not linear, by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Constraints {
+    /// Multipliers, and a projection of positions and velocities after every step.
+    #[default]
+    Projection,
+    /// Report MBS97-2-UIC, Section 7: independent coordinates are integrated, the others follow.
+    Partitioning,
+}
+
+/// Integrators by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Integrator {
+    /// Chosen from the stiffness of the scene and the tolerance.
+    #[default]
+    Auto,
+    /// Radau IIA of order 5, implicit: for stiff scenes.
+    Radau,
+    /// Runge-Kutta of order 4 with an embedded order 3, explicit: for soft scenes.
+    Rk4,
+}
+
+/// Default experiment of the FMU.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Experiment {
+    /// Stop time, s.
+    pub stop_time: f64,
+    /// Communication step, s.
+    pub step: f64,
+}
+
+impl Default for Experiment {
+    fn default() -> Self {
+        Self {
+            stop_time: 1.0,
+            step: 0.01,
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! Quantities that the master reads.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A quantity that the master reads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// What is read.
+    pub kind: OutputKind,
+    /// `body.marker`, for quantities at a marker.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marker: Option<String>,
+    /// Name of a joint, for quantities of a joint.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// Name of a motion, for what drives it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<String>,
+    /// `natural_frequency` of a scene with one body only: its name, which then begins those of the
+    /// variables.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
+    /// `natural_frequency` only: how many, lowest first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u32>,
+}
+
+/// Outputs by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum OutputKind {
+    /// Position of a marker, m.
+    Position,
+    /// Velocity of a marker, m/s.
+    Velocity,
+    /// Acceleration of a marker, m/s^2.
+    Acceleration,
+    /// Direction at a marker, or direction of the second marker of a revolute joint or hinge less
+    /// that of its first, rad, counted on over full turns.
+    Angle,
+    /// Rate of the angle, rad/s.
+    AngularVelocity,
+    /// Axial strain at a marker of a cable, in the strain measure of the body.
+    Strain,
+    /// Curvature at a marker of a cable, in the strain measure of the body, 1/m.
+    Curvature,
+    /// Axial force at a marker of a cable, N.
+    AxialForce,
+    /// Bending moment at a marker of a cable, N m.
+    BendingMoment,
+    /// Force that the part of a cable before a marker exerts on the part after it, global axes, N.
+    ConnectivityForce,
+    /// Where along the cable a joint of kind `along` stands: length from the first end, m.
+    Travel,
+    /// Force of a joint on its second marker, or of a motion, global axes, N.
+    Reaction,
+    /// Moment of a joint on its second marker, or of a motion, N m.
+    ReactionMoment,
+    /// Kinetic, strain and gravitational energy, and that of springs where there are any, J.
+    Energy,
+    /// Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
+    Work,
+    /// Linear momentum, N s, and angular momentum about the origin, N m s.
+    Momentum,
+    /// Centre of mass of the scene, m.
+    CenterOfMass,
+    /// Largest residual of the constraints, relative: of positions and of velocities.
+    Residual,
+    /// Natural frequencies of the scene about the initial configuration, rad/s.
+    NaturalFrequency,
+}

@@ -1,0 +1,225 @@
+//! Numbers that may change in time.
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize};
+
+use crate::math::function::Function;
+
+/// A number, an expression in the time `t` (s), or a table over time.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Value {
+    /// Constant.
+    Number(f64),
+    /// Expression in `t`, e.g. `0.1*sin(2*PI*t)`.
+    Expression(String),
+    /// Table.
+    Table(Table),
+}
+
+/// A table over time. Motions follow a smooth spline through it, at rest before and after; loads go
+/// straight from point to point and hold the end values outside.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Table {
+    /// Times (s, increasing) and values.
+    pub table: Vec<[f64; 2]>,
+}
+
+/// Values of a load: one of a moment, two of a force.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum LoadValue {
+    /// One component.
+    One(Value),
+    /// Two components.
+    Two([Value; 2]),
+}
+
+/// Course of a driven motion.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MotionValue {
+    /// An angle or a displacement.
+    One(Value),
+    /// The two components of a position.
+    Two([Value; 2]),
+    /// Set by the master.
+    Input(MasterInput),
+}
+
+/// A motion that the master sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MasterInput {
+    /// What the master sets besides the value: 0 nothing, 1 its rate, 2 its rate and acceleration.
+    #[schemars(range(max = 2))]
+    pub input: u8,
+}
+
+impl Value {
+    /// The function of time of a load: tables are piecewise linear.
+    ///
+    /// # Errors
+    /// What is wrong with an expression or a table; never for a valid scene.
+    pub fn function(&self) -> Result<Function, String> {
+        match self {
+            Self::Number(value) => Ok(Function::constant(*value)),
+            Self::Expression(text) => Function::expression(text),
+            Self::Table(table) => Function::linear(&table.table),
+        }
+    }
+
+    /// The function of time of a motion: tables are splines.
+    ///
+    /// # Errors
+    /// What is wrong with an expression or a table; never for a valid scene.
+    pub fn motion_function(&self) -> Result<Function, String> {
+        match self {
+            Self::Table(table) => Function::spline(&table.table),
+            _ => self.function(),
+        }
+    }
+}
+
+impl LoadValue {
+    /// Its one or two components.
+    pub fn components(&self) -> &[Value] {
+        match self {
+            Self::One(value) => std::slice::from_ref(value),
+            Self::Two(values) => values,
+        }
+    }
+}
+
+impl MotionValue {
+    /// Its one or two components; none if the master sets it.
+    pub fn components(&self) -> &[Value] {
+        match self {
+            Self::One(value) => std::slice::from_ref(value),
+            Self::Two(values) => values,
+            Self::Input(_) => &[],
+        }
+    }
+}
+
+/// What a JSON value may turn out to be.
+struct Anything {
+    /// What is told to be expected.
+    wanted: &'static str,
+    pair: bool,
+    input: bool,
+}
+
+/// What a JSON value turned out to be.
+enum Found {
+    One(Value),
+    Two([Value; 2]),
+    Input(MasterInput),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TableOrInput {
+    table: Option<Vec<[f64; 2]>>,
+    input: Option<u8>,
+}
+
+impl<'de> Visitor<'de> for Anything {
+    type Value = Found;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.wanted)
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Found, E> {
+        Ok(Found::One(Value::Number(value)))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Found, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Found, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Found, E> {
+        Ok(Found::One(Value::Expression(text.into())))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Found, A::Error> {
+        if !self.pair {
+            return Err(A::Error::custom(format!("expected {}, found a list", self.wanted)));
+        }
+        Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Found::Two)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Found, A::Error> {
+        let keys = MapAccessDeserializer::new(map);
+        if !self.input {
+            return Table::deserialize(keys).map(|table| Found::One(Value::Table(table)));
+        }
+        match TableOrInput::deserialize(keys)? {
+            TableOrInput {
+                table: Some(table),
+                input: None,
+            } => Ok(Found::One(Value::Table(Table { table }))),
+            TableOrInput {
+                table: None,
+                input: Some(input),
+            } => Ok(Found::Input(MasterInput { input })),
+            _ => Err(A::Error::custom(format!("expected {}", self.wanted))),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Value {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let wanted = "a number, an expression in t or {\"table\": [[t, y], ...]}";
+        let visitor = Anything {
+            wanted,
+            pair: false,
+            input: false,
+        };
+        match deserializer.deserialize_any(visitor)? {
+            Found::One(value) => Ok(value),
+            Found::Two(_) | Found::Input(_) => Err(D::Error::custom(format!("expected {wanted}"))),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for LoadValue {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let wanted = "a number, an expression in t, {\"table\": [[t, y], ...]} or a pair of them";
+        let visitor = Anything {
+            wanted,
+            pair: true,
+            input: false,
+        };
+        match deserializer.deserialize_any(visitor)? {
+            Found::One(value) => Ok(Self::One(value)),
+            Found::Two(values) => Ok(Self::Two(values)),
+            Found::Input(_) => Err(D::Error::custom(format!("expected {wanted}"))),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for MotionValue {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let visitor = Anything {
+            wanted: "a number, an expression in t, {\"table\": [[t, y], ...]}, a pair of them or {\"input\": 0, 1 or 2}",
+            pair: true,
+            input: true,
+        };
+        Ok(match deserializer.deserialize_any(visitor)? {
+            Found::One(value) => Self::One(value),
+            Found::Two(values) => Self::Two(values),
+            Found::Input(input) => Self::Input(input),
+        })
+    }
+}
