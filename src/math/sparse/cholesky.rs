@@ -32,22 +32,25 @@ impl Cholesky {
 
     /// `x <- W^-1 x`.
     pub fn forward(&self, pattern: &Pattern, x: &mut [f64]) {
-        kernels::forward(pattern, 0..pattern.columns.len(), &self.factors.values, x);
+        kernels::forward(pattern, &pattern.steps, &self.factors.values, 0, x);
         scale(x, &self.inverse_roots);
     }
 
     /// `x <- W^-1 x` for one component; `x` holds the variables of this component alone.
     pub fn forward_component(&self, pattern: &Pattern, component: usize, x: &mut [f64]) {
         let component = &pattern.components()[component];
-        kernels::forward(pattern, component.columns.clone(), &self.factors.values, x);
+        let (steps, base) = (
+            &pattern.steps[component.steps.clone()],
+            component.variables.start,
+        );
+        kernels::forward(pattern, steps, &self.factors.values, base, x);
         scale(x, &self.inverse_roots[component.variables.clone()]);
     }
 
     /// `x <- W^-T x`.
     pub fn backward(&self, pattern: &Pattern, x: &mut [f64]) {
         scale(x, &self.inverse_roots);
-        let all = 0..pattern.columns.len();
-        kernels::backward::<f64, false>(pattern, all, &self.factors.values, x);
+        kernels::backward::<f64, false>(pattern, &pattern.steps, &self.factors.values, 0, x);
     }
 
     /// `x <- W x`.

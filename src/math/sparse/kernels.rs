@@ -1,53 +1,101 @@
 //! The loops over stored blocks. A column of `size` variables is one matrix of `size` numbers per
 //! row: its diagonal block first, then its blocks below.
 
-use super::Number;
-use super::pattern::{Column, Pattern};
-use std::ops::Range;
+use super::pattern::{CHAIN, Column, Pattern, Step};
+use super::{Number, chains};
 
 /// L D L^T in place, column after column; the number of negative pivots, or `None` at one that is
 /// zero or not finite.
 pub(super) fn factor<T: Number>(pattern: &Pattern, values: &mut [T]) -> Option<usize> {
     let mut negative = 0;
-    for column in &pattern.columns {
-        negative += match column.size {
-            4 => factor_column(4, pattern, column, values)?,
-            size => factor_column(size, pattern, column, values)?,
+    for step in &pattern.steps {
+        negative += match step {
+            Step::Chain { values: run, .. } => {
+                chains::factor::<T, CHAIN>(&mut values[run.start..run.end + CHAIN * CHAIN])?
+            }
+            Step::Column(j) => {
+                let column = &pattern.columns[*j];
+                match column.size {
+                    4 => factor_column(4, pattern, column, values)?,
+                    size => factor_column(size, pattern, column, values)?,
+                }
+            }
         };
     }
     Some(negative)
 }
 
-/// `x <- L^-1 x` over some columns, whose variables `x` holds.
+/// `x <- L^-1 x` over some steps; `x` holds the variables from number `base` on.
 pub(super) fn forward<T: Number>(
     pattern: &Pattern,
-    columns: Range<usize>,
+    steps: &[Step],
     values: &[T],
+    base: usize,
     x: &mut [T],
 ) {
-    let columns = &pattern.columns[columns];
-    let base = columns.first().map_or(0, |column| column.start);
-    for column in columns {
-        match column.size {
-            4 => forward_column(4, pattern, column, values, base, x),
-            size => forward_column(size, pattern, column, values, base, x),
+    for step in steps {
+        match step {
+            Step::Chain {
+                values: run,
+                variables,
+            } => {
+                let x = &mut x[variables.start - base..variables.end - base + CHAIN];
+                chains::forward::<T, CHAIN>(&values[run.clone()], x);
+            }
+            Step::Column(j) => {
+                let column = &pattern.columns[*j];
+                match column.size {
+                    4 => forward_column(4, pattern, column, values, base, x),
+                    size => forward_column(size, pattern, column, values, base, x),
+                }
+            }
         }
     }
 }
 
-/// `x <- L^-T x`, or `x <- L^-T D^-1 x` if `SCALE`, over some columns, whose variables `x` holds.
+/// `x <- L^-T x`, or `x <- L^-T D^-1 x` if `SCALE`, over some steps; `x` holds the variables from
+/// number `base` on.
 pub(super) fn backward<T: Number, const SCALE: bool>(
     pattern: &Pattern,
-    columns: Range<usize>,
+    steps: &[Step],
     values: &[T],
+    base: usize,
     x: &mut [T],
 ) {
-    let columns = &pattern.columns[columns];
-    let base = columns.first().map_or(0, |column| column.start);
-    for column in columns.iter().rev() {
-        match column.size {
-            4 => backward_column::<T, SCALE>(4, pattern, column, values, base, x),
-            size => backward_column::<T, SCALE>(size, pattern, column, values, base, x),
+    for step in steps.iter().rev() {
+        match step {
+            Step::Chain {
+                values: run,
+                variables,
+            } => {
+                let x = &mut x[variables.start - base..variables.end - base + CHAIN];
+                chains::backward::<T, CHAIN, SCALE>(&values[run.clone()], x);
+            }
+            Step::Column(j) => {
+                let column = &pattern.columns[*j];
+                match column.size {
+                    4 => backward_column::<T, SCALE>(4, pattern, column, values, base, x),
+                    size => backward_column::<T, SCALE>(size, pattern, column, values, base, x),
+                }
+            }
+        }
+    }
+}
+
+/// `y = A x`.
+pub(super) fn multiply<T: Number>(pattern: &Pattern, values: &[T], x: &[T], y: &mut [T]) {
+    y.fill(T::from(0.0));
+    for step in &pattern.steps {
+        match step {
+            Step::Chain {
+                values: run,
+                variables,
+            } => {
+                let variables = variables.start..variables.end + CHAIN;
+                let (x, y) = (&x[variables.clone()], &mut y[variables]);
+                chains::multiply::<T, CHAIN>(&values[run.clone()], x, y);
+            }
+            Step::Column(j) => multiply_column(pattern, &pattern.columns[*j], values, x, y),
         }
     }
 }
@@ -117,11 +165,8 @@ fn factor_diagonal<T: Number>(size: usize, diagonal: &mut [T]) -> Option<usize> 
             pivot = pivot - scaled * line[k];
             line[k] = scaled;
         }
-        if !pivot.is_pivot() {
-            return None;
-        }
         negative += usize::from(pivot.is_negative());
-        line[i] = T::from(1.0) / pivot;
+        line[i] = pivot.inverse()?;
     }
     Some(negative)
 }
@@ -206,7 +251,7 @@ fn backward_column<T: Number, const SCALE: bool>(
 }
 
 /// Adds what the blocks of a column and their transposes give in `A x`.
-pub(super) fn multiply<T: Number>(
+fn multiply_column<T: Number>(
     pattern: &Pattern,
     column: &Column,
     values: &[T],

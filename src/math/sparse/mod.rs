@@ -7,6 +7,7 @@
 //! Factorizing complex symmetric matrices with positive definite real and imaginary parts,
 //! Math. Comp. 67 (1998).
 
+mod chains;
 mod cholesky;
 mod kernels;
 mod pattern;
@@ -22,8 +23,8 @@ use std::ops::{Add, Div, Mul, Sub};
 pub trait Number:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// Whether one can divide by it: neither zero nor as good as zero, and finite.
-    fn is_pivot(self) -> bool;
+    /// 1 / self; `None` if that or the number itself is not finite.
+    fn inverse(self) -> Option<Self>;
     /// Whether a pivot counts as negative; never for complex numbers.
     fn is_negative(self) -> bool;
     /// Absolute value.
@@ -31,8 +32,8 @@ pub trait Number:
 }
 
 impl Number for f64 {
-    fn is_pivot(self) -> bool {
-        self.is_normal()
+    fn inverse(self) -> Option<Self> {
+        self.is_normal().then(|| 1.0 / self)
     }
 
     fn is_negative(self) -> bool {
@@ -45,8 +46,9 @@ impl Number for f64 {
 }
 
 impl Number for nalgebra::Complex<f64> {
-    fn is_pivot(self) -> bool {
-        self.norm_sqr().is_normal()
+    fn inverse(self) -> Option<Self> {
+        let square = self.norm_sqr();
+        square.is_normal().then(|| self.conj() * (1.0 / square))
     }
 
     fn is_negative(self) -> bool {
@@ -79,10 +81,7 @@ impl<T: Number> Matrix<T> {
     /// `y = A x` with the matrix not yet factored and its diagonal blocks filled on both sides of
     /// the diagonal.
     pub fn multiply(&self, pattern: &Pattern, x: &[T], y: &mut [T]) {
-        y.fill(T::from(0.0));
-        for column in &pattern.columns {
-            kernels::multiply(pattern, column, &self.values, x, y);
-        }
+        kernels::multiply(pattern, &self.values, x, y);
     }
 
     /// Factors in place, reading only the lower triangles of the diagonal blocks. Returns the
@@ -94,16 +93,19 @@ impl<T: Number> Matrix<T> {
 
     /// Solves in place with the factors.
     pub fn solve(&self, pattern: &Pattern, x: &mut [T]) {
-        let all = 0..pattern.columns.len();
-        kernels::forward(pattern, all.clone(), &self.values, x);
-        kernels::backward::<T, true>(pattern, all, &self.values, x);
+        kernels::forward(pattern, &pattern.steps, &self.values, 0, x);
+        kernels::backward::<T, true>(pattern, &pattern.steps, &self.values, 0, x);
     }
 
     /// Solves for one component in place with the factors; `x` holds the variables of this
     /// component alone.
     pub fn solve_component(&self, pattern: &Pattern, component: usize, x: &mut [T]) {
-        let columns = &pattern.components()[component].columns;
-        kernels::forward(pattern, columns.clone(), &self.values, x);
-        kernels::backward::<T, true>(pattern, columns.clone(), &self.values, x);
+        let component = &pattern.components()[component];
+        let (steps, base) = (
+            &pattern.steps[component.steps.clone()],
+            component.variables.start,
+        );
+        kernels::forward(pattern, steps, &self.values, base, x);
+        kernels::backward::<T, true>(pattern, steps, &self.values, base, x);
     }
 }

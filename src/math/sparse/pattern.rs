@@ -19,6 +19,8 @@ pub struct Pattern {
     order: Vec<usize>,
     components: Vec<Component>,
     pub(super) columns: Vec<Column>,
+    /// All columns, in the order they are eliminated.
+    pub(super) steps: Vec<Step>,
     /// Blocks below the diagonal, column by column, from the first to the last in the order.
     pub(super) rows: Vec<Row>,
     /// For every column and every pair (a, b), b <= a, of its rows: where in the values the block
@@ -36,8 +38,25 @@ pub struct Component {
     pub variables: Range<usize>,
     /// Where the vertices stand in [`Pattern::order`].
     pub vertices: Range<usize>,
-    pub(super) columns: Range<usize>,
+    pub(super) steps: Range<usize>,
 }
+
+/// Columns eliminated in one go.
+#[derive(Clone, Debug)]
+pub(super) enum Step {
+    /// One column of any size with any rows.
+    Column(usize),
+    /// Columns that have [`CHAIN`] variables and one row each: the next column, of the same size.
+    Chain {
+        /// The blocks of the columns.
+        values: Range<usize>,
+        /// The variables of the columns.
+        variables: Range<usize>,
+    },
+}
+
+/// The block size for which runs have loops of their own: a node of a cable in the plane.
+pub(super) const CHAIN: usize = 4;
 
 /// Where the block of two vertices is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,6 +125,7 @@ impl Pattern {
             order: Vec::with_capacity(sizes.len()),
             components: Vec::new(),
             columns: Vec::new(),
+            steps: Vec::new(),
             rows: Vec::new(),
             targets: Vec::new(),
             stored: 0,
@@ -124,6 +144,7 @@ impl Pattern {
             });
         }
         pattern.lay_out(sizes, &below);
+        pattern.find_steps();
         pattern.find_components(&parts);
         pattern.find_targets();
         pattern
@@ -167,23 +188,47 @@ impl Pattern {
         }
     }
 
+    fn find_steps(&mut self) {
+        for (j, column) in self.columns.iter().enumerate() {
+            let linked = match &self.rows[column.rows.clone()] {
+                [row] => row.column == j + 1 && row.size == CHAIN && column.size == CHAIN,
+                _ => false,
+            };
+            let variables = column.start..column.start + CHAIN;
+            let values = column.at..column.at + 2 * CHAIN * CHAIN;
+            match self.steps.last_mut() {
+                Some(Step::Chain {
+                    values: v,
+                    variables: x,
+                }) if linked && v.end == values.start => {
+                    v.end = values.end;
+                    x.end = variables.end;
+                }
+                _ if linked => self.steps.push(Step::Chain { values, variables }),
+                _ => self.steps.push(Step::Column(j)),
+            }
+        }
+    }
+
     fn find_components(&mut self, parts: &[Vec<usize>]) {
-        let mut vertices = 0..0;
-        let mut variables = 0..0;
-        let mut columns = 0..0;
+        let (mut vertices, mut variables, mut steps) = (0..0, 0..0, 0..0);
         for part in parts {
             vertices = vertices.end..vertices.end + part.len();
-            for &v in part {
-                variables.end += self.ranges[v].len();
-                columns.end += usize::from(!self.ranges[v].is_empty());
-            }
+            let size: usize = part.iter().map(|&v| self.ranges[v].len()).sum();
+            variables = variables.end..variables.end + size;
+            let start = |step: &Step| match step {
+                Step::Column(j) => self.columns[*j].start,
+                Step::Chain { variables, .. } => variables.start,
+            };
+            let end = self
+                .steps
+                .partition_point(|step| start(step) < variables.end);
+            steps = steps.end..end;
             self.components.push(Component {
                 variables: variables.clone(),
                 vertices: vertices.clone(),
-                columns: columns.clone(),
+                steps: steps.clone(),
             });
-            variables.start = variables.end;
-            columns.start = columns.end;
         }
     }
 
