@@ -3,6 +3,9 @@
 
 pub mod block_tridiagonal;
 pub mod eigen;
+pub mod expression;
+pub mod function;
+mod grammar;
 pub mod householder;
 pub mod quadrature;
 pub mod sparse;

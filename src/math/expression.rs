@@ -1,0 +1,264 @@
+//! Expressions in the time `t`, with their first two derivatives. The only user of num-dual, which
+//! differentiates: a program runs on numbers, or on numbers with their derivatives.
+
+use num_dual::{Dual2_64, DualNumCopy};
+
+use super::grammar;
+
+/// Most numbers that wait while an expression is evaluated.
+pub(super) const DEPTH: usize = 64;
+
+/// An expression in `t` (s): numbers, `PI`, `E`, `+ - * / ^`, parentheses and the functions `sin`, `cos`,
+/// `tan`, `asin`, `acos`, `atan`, `sinh`, `cosh`, `tanh`, `exp`, `ln`, `log2`, `log10` and `sqrt`.
+/// Powers bind first, from the right, then signs: `-2^2` is -4.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    program: Vec<Operation>,
+}
+
+/// A step of a program: it takes numbers from the top of a stack and puts one there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Operation {
+    Time,
+    Number(f64),
+    Negate,
+    /// The next four: of the number below and the one on top.
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    /// To a constant power: has derivatives also where the base is not positive.
+    PowerOf(f64),
+    Function(Elementary),
+}
+
+/// Functions of one number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Elementary {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Log2,
+    Log10,
+    Sqrt,
+}
+
+impl Expression {
+    /// Reads an expression.
+    ///
+    /// # Errors
+    /// What was expected in the text, and what was found.
+    pub fn new(text: &str) -> Result<Self, String> {
+        let program = grammar::program(text)?;
+        Ok(Self { program })
+    }
+
+    /// The value if it is the same at all times.
+    pub fn constant(&self) -> Option<f64> {
+        match self.program[..] {
+            [Operation::Number(value)] => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Value at a time.
+    pub fn value(&self, t: f64) -> f64 {
+        run(&self.program, t)
+    }
+
+    /// Value, first and second derivative at a time.
+    pub fn derivatives(&self, t: f64) -> [f64; 3] {
+        let found = run(&self.program, Dual2_64::from_re(t).derivative());
+        [found.re, found.v1, found.v2]
+    }
+}
+
+impl Operation {
+    /// Change of the height of the stack.
+    pub(super) fn rise(self) -> isize {
+        match self {
+            Self::Time | Self::Number(_) => 1,
+            Self::Negate | Self::PowerOf(_) | Self::Function(_) => 0,
+            Self::Add | Self::Subtract | Self::Multiply | Self::Divide | Self::Power => -1,
+        }
+    }
+}
+
+impl Elementary {
+    fn apply<N: DualNumCopy>(self, x: N) -> N {
+        match self {
+            Self::Sin => x.sin(),
+            Self::Cos => x.cos(),
+            Self::Tan => x.tan(),
+            Self::Asin => x.asin(),
+            Self::Acos => x.acos(),
+            Self::Atan => x.atan(),
+            Self::Sinh => x.sinh(),
+            Self::Cosh => x.cosh(),
+            Self::Tanh => x.tanh(),
+            Self::Exp => x.exp(),
+            Self::Ln => x.ln(),
+            Self::Log2 => x.log2(),
+            Self::Log10 => x.log10(),
+            Self::Sqrt => x.sqrt(),
+        }
+    }
+}
+
+/// Numbers that know their constant powers also at zero.
+pub(super) trait ConstantPower: DualNumCopy<Primitive = f64> {
+    fn to(self, exponent: f64) -> Self;
+}
+
+impl ConstantPower for f64 {
+    fn to(self, exponent: f64) -> Self {
+        self.powf(exponent)
+    }
+}
+
+impl ConstantPower for Dual2_64 {
+    fn to(self, n: f64) -> Self {
+        // What is multiplied by zero is zero, even an infinite power.
+        let term = |factor: f64, n: f64| {
+            if factor == 0.0 {
+                0.0
+            } else {
+                factor * self.re.powf(n)
+            }
+        };
+        let (first, second) = (term(n, n - 1.0), term(n * (n - 1.0), n - 2.0));
+        let curvature = if self.v1 == 0.0 {
+            0.0
+        } else {
+            second * self.v1 * self.v1
+        };
+        Self::new(
+            self.re.powf(n),
+            first * self.v1,
+            first * self.v2 + curvature,
+        )
+    }
+}
+
+/// Runs a program whose stack never holds more than [`DEPTH`] numbers.
+pub(super) fn run<N: ConstantPower>(program: &[Operation], t: N) -> N {
+    let mut stack = [N::from(0.0); DEPTH];
+    let mut height = 0_usize;
+    for operation in program {
+        height = height.wrapping_add_signed(operation.rise());
+        let top = height - 1;
+        stack[top] = match *operation {
+            Operation::Time => t,
+            Operation::Number(number) => N::from(number),
+            Operation::Negate => -stack[top],
+            Operation::Add => stack[top] + stack[height],
+            Operation::Subtract => stack[top] - stack[height],
+            Operation::Multiply => stack[top] * stack[height],
+            Operation::Divide => stack[top] / stack[height],
+            Operation::Power => stack[top].powd(stack[height]),
+            Operation::PowerOf(exponent) => stack[top].to(exponent),
+            Operation::Function(function) => function.apply(stack[top]),
+        };
+    }
+    stack[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Expressions, a time, and what they and their derivatives are there, by hand.
+    #[test]
+    fn values_and_derivatives_are_those_of_calculus() {
+        let (s, c) = 0.6_f64.sin_cos();
+        let th = 0.2_f64.tanh();
+        let decay = (-0.2_f64).exp();
+        let cases: [(&str, f64, [f64; 3]); 27] = [
+            ("sin(3*t)", 0.2, [s, 3.0 * c, -9.0 * s]),
+            ("cos(3*t)", 0.2, [c, -3.0 * s, -9.0 * c]),
+            ("-t^2", 2.0, [-4.0, -4.0, -2.0]),
+            ("(-t)^2 + 1", 2.0, [5.0, 4.0, 2.0]),
+            ("2*-t", 2.0, [-4.0, -2.0, 0.0]),
+            ("2^-t*2^t", 2.0, [1.0, 0.0, 0.0]),
+            ("2^3^2 + 0*t", 2.0, [512.0, 0.0, 0.0]),
+            ("10 - t - 2", 3.0, [5.0, -1.0, 0.0]),
+            ("10 - t + 2*t", 3.0, [13.0, 1.0, 0.0]),
+            ("8/t/2*t", 3.0, [4.0, 0.0, 0.0]),
+            ("t^1", 0.0, [0.0, 1.0, 0.0]),
+            ("t^2", 0.0, [0.0, 0.0, 2.0]),
+            ("t^3", -1.0, [-1.0, 3.0, -6.0]),
+            ("t^2.5", 0.0, [0.0, 0.0, 0.0]),
+            ("(t-1)^0", 1.0, [1.0, 0.0, 0.0]),
+            ("t^-1", 2.0, [0.5, -0.25, 0.25]),
+            ("(t^2)^1.5", 0.0, [0.0, 0.0, 0.0]),
+            ("1.5e-3*t + 2E2", 2.0, [200.003, 1.5e-3, 0.0]),
+            ("exp(-t)", 0.2, [decay, -decay, decay]),
+            (
+                "tanh(t)",
+                0.2,
+                [th, 1.0 - th * th, -2.0 * th * (1.0 - th * th)],
+            ),
+            ("sqrt(t)", 4.0, [2.0, 0.25, -1.0 / 32.0]),
+            ("1/(1+t^2)", 0.5, [0.8, -0.64, -0.256]),
+            ("atan(t)", 0.5, [0.5_f64.atan(), 0.8, -0.64]),
+            ("E^(2*t)", 0.0, [1.0, 2.0, 4.0]),
+            ("ln(t)", 2.0, [2.0_f64.ln(), 0.5, -0.25]),
+            ("log10(10^t) + log2(2^t)", 0.3, [0.6, 2.0, 0.0]),
+            (
+                "10*(t/0.2)^3-15*(t/0.2)^4+6*(t/0.2)^5",
+                0.2,
+                [1.0, 0.0, 0.0],
+            ),
+        ];
+        for (text, t, wanted) in cases {
+            let f = Expression::new(text).expect(text);
+            let found = f.derivatives(t);
+            assert!((f.value(t) - wanted[0]).abs() < 1e-12, "{text}");
+            for order in 0..3 {
+                let error = (found[order] - wanted[order]).abs();
+                assert!(error < 1e-10, "{text}: {found:?}, expected {wanted:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_function_has_its_derivatives() {
+        let functions = grammar::FUNCTIONS.map(|(name, _)| format!("{name}(0.3 + 0.1*t)"));
+        let others = ["(1+t)^(1-t)", "2^t/(t+3)*5-t", "-(t^1.5)"].map(String::from);
+        for text in functions.iter().chain(&others) {
+            let f = Expression::new(text).expect(text);
+            let (t, h) = (0.7, 1e-4);
+            let (y, before, after) = (f.derivatives(t), f.value(t - h), f.value(t + h));
+            let first = (after - before) / (2.0 * h);
+            let second = (after - 2.0 * y[0] + before) / (h * h);
+            assert!((first - y[1]).abs() < 1e-7, "{text}: {first} {y:?}");
+            assert!((second - y[2]).abs() < 1e-6, "{text}: {second} {y:?}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_change_is_a_constant() {
+        let constant = |text| Expression::new(text).expect("an expression").constant();
+        assert_eq!(constant("2*PI"), Some(2.0 * std::f64::consts::PI));
+        assert_eq!(constant("-3"), Some(-3.0));
+        assert_eq!(constant("t"), None);
+    }
+
+    #[test]
+    fn as_many_numbers_wait_as_may() {
+        let deep = |n: usize| format!("{}t{}", "1+(".repeat(n), ")".repeat(n));
+        let f = Expression::new(&deep(DEPTH - 1)).expect("not too deep");
+        assert_eq!(f.derivatives(2.0), [DEPTH as f64 + 1.0, 1.0, 0.0]);
+        let told = Expression::new(&deep(DEPTH)).expect_err("too deep");
+        assert!(told.contains("fewer parentheses"), "{told}");
+    }
+}

@@ -1,0 +1,248 @@
+//! Functions of time with their first two derivatives: constants, expressions, tables.
+
+use super::expression::Expression;
+
+/// A function of time (s). Evaluating it allocates nothing.
+#[derive(Clone, Debug)]
+pub enum Function {
+    /// The same at all times.
+    Constant(f64),
+    /// An expression in `t`.
+    Expression(Box<Expression>),
+    /// Straight from point to point.
+    Linear(Table),
+    /// A cubic spline through the points, at rest at both ends.
+    Spline(Table),
+}
+
+/// Points of a function of time and its slopes.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Times, s, increasing.
+    times: Vec<f64>,
+    values: Vec<f64>,
+    /// Rates at the points; of splines only.
+    slopes: Vec<f64>,
+}
+
+impl Function {
+    /// A constant.
+    pub fn constant(value: f64) -> Self {
+        Self::Constant(value)
+    }
+
+    /// An expression in `t`, e.g. `0.1*sin(2*PI*t)`; [`Expression`] says what it may hold.
+    ///
+    /// # Errors
+    /// What was expected in the text, and what was found.
+    pub fn expression(text: &str) -> Result<Self, String> {
+        let expression = Expression::new(text)?;
+        Ok(match expression.constant() {
+            Some(value) if value.is_finite() => Self::Constant(value),
+            Some(value) => return Err(format!("expected a finite number, found {value}")),
+            None => Self::Expression(Box::new(expression)),
+        })
+    }
+
+    /// Straight lines through points `[t, y]`; the end values are held outside.
+    ///
+    /// # Errors
+    /// No point, times that do not increase, numbers that are not finite.
+    pub fn linear(points: &[[f64; 2]]) -> Result<Self, String> {
+        Table::new(points).map(Self::Linear)
+    }
+
+    /// The cubic spline through points `[t, y]` with slope zero at both ends; the end values are held
+    /// outside. Its second derivative jumps at the ends only.
+    ///
+    /// # Errors
+    /// No point, times that do not increase, numbers that are not finite.
+    pub fn spline(points: &[[f64; 2]]) -> Result<Self, String> {
+        let mut table = Table::new(points)?;
+        table.slopes = clamped_slopes(&table.times, &table.values);
+        Ok(Self::Spline(table))
+    }
+
+    /// Value at a time.
+    pub fn value(&self, t: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Expression(expression) => expression.value(t),
+            Self::Linear(_) | Self::Spline(_) => self.derivatives(t)[0],
+        }
+    }
+
+    /// Value, first and second derivative at a time; at a kink or jump, those after it.
+    pub fn derivatives(&self, t: f64) -> [f64; 3] {
+        match self {
+            Self::Constant(value) => [*value, 0.0, 0.0],
+            Self::Expression(expression) => expression.derivatives(t),
+            Self::Linear(table) => table.linear(t),
+            Self::Spline(table) => table.spline(t),
+        }
+    }
+
+    /// Times where the function or one of its derivatives has a kink or a jump, increasing.
+    pub fn breaks(&self) -> &[f64] {
+        match self {
+            Self::Constant(_) | Self::Expression(_) => &[],
+            Self::Linear(table) | Self::Spline(table) => &table.times,
+        }
+    }
+}
+
+impl Table {
+    fn new(points: &[[f64; 2]]) -> Result<Self, String> {
+        if points.is_empty() {
+            return Err("expected at least one point [t, y], found none".into());
+        }
+        if let Some(number) = points.iter().flatten().find(|number| !number.is_finite()) {
+            return Err(format!("expected finite numbers, found {number}"));
+        }
+        if let Some(pair) = points.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
+            let (before, after) = (pair[0][0], pair[1][0]);
+            return Err(format!(
+                "expected increasing times, found {after} after {before}"
+            ));
+        }
+        Ok(Self {
+            times: points.iter().map(|point| point[0]).collect(),
+            values: points.iter().map(|point| point[1]).collect(),
+            slopes: Vec::new(),
+        })
+    }
+
+    /// Index of the piece that holds a time; what is held outside is an error.
+    fn piece(&self, t: f64) -> Result<usize, f64> {
+        let after = self.times.partition_point(|time| *time <= t);
+        if after == 0 {
+            Err(self.values[0])
+        } else if after == self.times.len() {
+            Err(self.values[after - 1])
+        } else {
+            Ok(after - 1)
+        }
+    }
+
+    fn linear(&self, t: f64) -> [f64; 3] {
+        match self.piece(t) {
+            Err(held) => [held, 0.0, 0.0],
+            Ok(i) => {
+                let rate =
+                    (self.values[i + 1] - self.values[i]) / (self.times[i + 1] - self.times[i]);
+                [self.values[i] + rate * (t - self.times[i]), rate, 0.0]
+            }
+        }
+    }
+
+    /// Hermite's cubic on the piece.
+    fn spline(&self, t: f64) -> [f64; 3] {
+        let i = match self.piece(t) {
+            Err(held) => return [held, 0.0, 0.0],
+            Ok(i) => i,
+        };
+        let step = self.times[i + 1] - self.times[i];
+        let s = (t - self.times[i]) / step;
+        let rise = self.values[i + 1] - self.values[i];
+        let (a, b) = (step * self.slopes[i], step * self.slopes[i + 1]);
+        // y = y_i + a s + (3 rise - 2 a - b) s^2 + (a + b - 2 rise) s^3
+        let (square, cube) = (3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise);
+        [
+            self.values[i] + s * (a + s * (square + s * cube)),
+            (a + s * (2.0 * square + 3.0 * s * cube)) / step,
+            (2.0 * square + 6.0 * s * cube) / (step * step),
+        ]
+    }
+}
+
+/// Slopes of the cubic spline with slope zero at both ends: continuous second derivatives at the
+/// inner points are a diagonally dominant tridiagonal system.
+fn clamped_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
+    let n = times.len();
+    let mut slopes = vec![0.0; n];
+    let mut above = vec![0.0; n];
+    for i in 1..n.saturating_sub(1) {
+        let (before, after) = (times[i] - times[i - 1], times[i + 1] - times[i]);
+        let (p, q) = (1.0 / before, 1.0 / after);
+        let right =
+            3.0 * ((values[i] - values[i - 1]) * p * p + (values[i + 1] - values[i]) * q * q);
+        let pivot = 2.0 * (p + q) - p * above[i - 1];
+        above[i] = q / pivot;
+        slopes[i] = (right - p * slopes[i - 1]) / pivot;
+    }
+    for i in (1..n.saturating_sub(1)).rev() {
+        slopes[i] -= above[i] * slopes[i + 1];
+    }
+    slopes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_table_goes_straight_and_holds_its_ends() {
+        let f = Function::linear(&[[1.0, 2.0], [2.0, 4.0], [4.0, 0.0]]).expect("a table");
+        assert_eq!(f.derivatives(0.0), [2.0, 0.0, 0.0]);
+        assert_eq!(f.derivatives(1.5), [3.0, 2.0, 0.0]);
+        assert_eq!(f.derivatives(3.0), [2.0, -2.0, 0.0]);
+        assert_eq!(f.derivatives(2.0), [4.0, -2.0, 0.0]);
+        assert_eq!(f.value(9.0), 0.0);
+        assert_eq!(f.breaks(), [1.0, 2.0, 4.0]);
+        let one = Function::linear(&[[1.0, 2.0]]).expect("a table");
+        assert_eq!([one.value(0.0), one.value(1.0), one.value(2.0)], [2.0; 3]);
+    }
+
+    #[test]
+    fn a_spline_is_smooth_and_starts_and_ends_at_rest() {
+        let points = [[0.0, 0.0], [0.5, 1.0], [0.7, 1.1], [2.0, -1.0], [2.5, 0.5]];
+        let f = Function::spline(&points).expect("a table");
+        for [t, y] in points {
+            assert!((f.value(t) - y).abs() < 1e-14, "{t}");
+        }
+        assert_eq!(f.derivatives(0.0)[1], 0.0);
+        assert!(f.derivatives(2.5 - 1e-9)[1].abs() < 1e-6);
+        for t in [0.5, 0.7, 2.0] {
+            let (before, after) = (f.derivatives(t - 1e-9), f.derivatives(t));
+            for order in 0..3 {
+                assert!((before[order] - after[order]).abs() < 1e-5, "{t} {order}");
+            }
+        }
+        for t in [0.2, 0.6, 1.1, 2.3] {
+            let h = 1e-4;
+            let (y, before, after) = (f.derivatives(t), f.value(t - h), f.value(t + h));
+            assert!(((after - before) / (2.0 * h) - y[1]).abs() < 1e-5);
+            assert!(((after - 2.0 * y[0] + before) / (h * h) - y[2]).abs() < 1e-4);
+        }
+        // One cubic from rest to rest is the spline through its ends.
+        let f = Function::spline(&[[1.0, 0.0], [3.0, 2.0]]).expect("a table");
+        assert_eq!(f.derivatives(2.0), [1.0, 1.5, 0.0]);
+        assert_eq!(f.derivatives(5.0), [2.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn an_expression_without_time_is_a_constant() {
+        let f = Function::expression("2*3").expect("an expression");
+        assert!(matches!(f, Function::Constant(6.0)));
+        let told = Function::expression("1/0").expect_err("not finite");
+        assert_eq!(told, "expected a finite number, found inf");
+        let f = Function::expression("t^2").expect("an expression");
+        assert_eq!((f.value(3.0), f.derivatives(3.0)), (9.0, [9.0, 6.0, 2.0]));
+        assert!(f.breaks().is_empty());
+    }
+
+    #[test]
+    fn tables_say_what_is_wrong_with_them() {
+        for (points, wanted) in [
+            (&[][..], "at least one point"),
+            (
+                &[[0.0, 1.0], [0.0, 2.0]],
+                "increasing times, found 0 after 0",
+            ),
+            (&[[0.0, f64::NAN]], "finite numbers"),
+        ] {
+            let told = Function::spline(points).expect_err("no table");
+            assert!(told.contains(wanted), "{told}");
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! Reads expressions in `t` into programs: Dijkstra's shunting yard.
+
+use super::expression::{DEPTH, Elementary, Operation, run};
+
+/// Functions by name.
+pub(super) const FUNCTIONS: [(&str, Elementary); 14] = [
+    ("sin", Elementary::Sin),
+    ("cos", Elementary::Cos),
+    ("tan", Elementary::Tan),
+    ("asin", Elementary::Asin),
+    ("acos", Elementary::Acos),
+    ("atan", Elementary::Atan),
+    ("sinh", Elementary::Sinh),
+    ("cosh", Elementary::Cosh),
+    ("tanh", Elementary::Tanh),
+    ("exp", Elementary::Exp),
+    ("ln", Elementary::Ln),
+    ("log2", Elementary::Log2),
+    ("log10", Elementary::Log10),
+    ("sqrt", Elementary::Sqrt),
+];
+/// Numbers by name.
+const CONSTANTS: [(&str, f64); 2] = [("PI", std::f64::consts::PI), ("E", std::f64::consts::E)];
+/// Longest text, bytes.
+const LENGTH: usize = 10_000;
+
+/// The program of an expression.
+///
+/// # Errors
+/// What was expected in the text, and what was found.
+pub(super) fn program(text: &str) -> Result<Vec<Operation>, String> {
+    if text.len() > LENGTH {
+        let found = text.len();
+        return Err(format!(
+            "expected at most {LENGTH} characters, found {found}"
+        ));
+    }
+    let mut reader = Reader {
+        program: Vec::new(),
+        waiting: Vec::new(),
+        place: Place::Start,
+    };
+    let mut rest = text.trim_start();
+    while let Some(first) = rest.chars().next() {
+        let length = if let Some((number, length)) = number(rest) {
+            reader.number(number, &rest[..length])?;
+            length
+        } else if first.is_ascii_alphabetic() || first == '_' {
+            let part = |c: &char| c.is_ascii_alphanumeric() || *c == '_';
+            let length = rest.chars().take_while(part).count();
+            reader.name(&rest[..length])?;
+            length
+        } else {
+            reader.sign(first)?;
+            first.len_utf8()
+        };
+        rest = rest[length..].trim_start();
+    }
+    reader.end()
+}
+
+/// The number that a text begins with, and its length: digits, a point, an exponent.
+fn number(text: &str) -> Option<(f64, usize)> {
+    let bytes = text.as_bytes();
+    let digits = |from: usize| {
+        let rest = bytes.get(from..).unwrap_or_default();
+        rest.iter().take_while(|b| b.is_ascii_digit()).count()
+    };
+    let mut end = digits(0);
+    if bytes.get(end) == Some(&b'.') {
+        end += 1 + digits(end + 1);
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let exponent = digits(end + 1 + sign);
+        if exponent > 0 {
+            end += 1 + sign + exponent;
+        }
+    }
+    // A point or an exponent alone is none.
+    let number = text.get(..end)?.parse().ok()?;
+    Some((number, end))
+}
+
+/// What stands before the next token.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    /// Nothing, an opening parenthesis or an operator.
+    Start,
+    /// The name of a function.
+    Name,
+    /// A number, `t` or a closing parenthesis.
+    Operand,
+}
+
+/// What waits for the number to its right.
+#[derive(Clone, Copy)]
+enum Waiting {
+    Parenthesis,
+    Operator { operation: Operation, rank: u8 },
+}
+
+const SUM: u8 = 1;
+const PRODUCT: u8 = 2;
+const SIGN: u8 = 3;
+const POWER: u8 = 4;
+const FUNCTION: u8 = 5;
+
+struct Reader {
+    program: Vec<Operation>,
+    waiting: Vec<Waiting>,
+    place: Place,
+}
+
+impl Reader {
+    fn expected(&self, found: &str) -> String {
+        let inside = self
+            .waiting
+            .iter()
+            .any(|w| matches!(w, Waiting::Parenthesis));
+        let wanted = match self.place {
+            Place::Start => "a number, t, a function or \"(\"",
+            Place::Name => "\"(\" after the name of a function",
+            Place::Operand if inside => "an operator or \")\"",
+            Place::Operand => "an operator",
+        };
+        format!("expected {wanted}, found {found}")
+    }
+
+    fn operand(&mut self, operation: Operation, text: &str) -> Result<(), String> {
+        if self.place != Place::Start {
+            return Err(self.expected(&format!("\"{text}\"")));
+        }
+        self.program.push(operation);
+        self.place = Place::Operand;
+        Ok(())
+    }
+
+    fn number(&mut self, number: f64, text: &str) -> Result<(), String> {
+        if !number.is_finite() {
+            return Err(format!("expected a finite number, found \"{text}\""));
+        }
+        self.operand(Operation::Number(number), text)
+    }
+
+    fn name(&mut self, name: &str) -> Result<(), String> {
+        if name == "t" {
+            return self.operand(Operation::Time, name);
+        }
+        if let Some((_, number)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
+            return self.operand(Operation::Number(*number), name);
+        }
+        let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
+            let constants = CONSTANTS.map(|(known, _)| known);
+            let functions = FUNCTIONS.map(|(known, _)| known);
+            let known = [&["t"], &constants[..], &functions[..]].concat().join(", ");
+            return Err(format!(
+                "expected one of the names {known}, found \"{name}\""
+            ));
+        };
+        if self.place != Place::Start {
+            return Err(self.expected(&format!("\"{name}\"")));
+        }
+        self.wait(Operation::Function(*function), FUNCTION);
+        self.place = Place::Name;
+        Ok(())
+    }
+
+    fn sign(&mut self, sign: char) -> Result<(), String> {
+        match (sign, self.place) {
+            ('(', Place::Start | Place::Name) => {
+                self.waiting.push(Waiting::Parenthesis);
+                self.place = Place::Start;
+                Ok(())
+            }
+            (')', Place::Operand) => self.close(),
+            ('+', Place::Start) => Ok(()),
+            ('-', Place::Start) => {
+                self.wait(Operation::Negate, SIGN);
+                Ok(())
+            }
+            ('+', Place::Operand) => self.operator(Operation::Add, SUM),
+            ('-', Place::Operand) => self.operator(Operation::Subtract, SUM),
+            ('*', Place::Operand) => self.operator(Operation::Multiply, PRODUCT),
+            ('/', Place::Operand) => self.operator(Operation::Divide, PRODUCT),
+            ('^', Place::Operand) => self.operator(Operation::Power, POWER),
+            _ => Err(self.expected(&format!("\"{sign}\""))),
+        }
+    }
+
+    fn wait(&mut self, operation: Operation, rank: u8) {
+        self.waiting.push(Waiting::Operator { operation, rank });
+    }
+
+    /// Writes what waits and binds at least as tight.
+    fn operator(&mut self, operation: Operation, rank: u8) -> Result<(), String> {
+        // Powers of powers are taken from the right.
+        self.release(if rank == POWER { FUNCTION } else { rank });
+        self.wait(operation, rank);
+        self.place = Place::Start;
+        Ok(())
+    }
+
+    fn release(&mut self, least: u8) {
+        while let Some(Waiting::Operator { operation, rank }) = self.waiting.last().copied() {
+            if rank < least {
+                break;
+            }
+            self.waiting.pop();
+            self.write(operation);
+        }
+    }
+
+    fn close(&mut self) -> Result<(), String> {
+        self.release(0);
+        if self.waiting.pop().is_none() {
+            return Err(self.expected("\")\""));
+        }
+        Ok(())
+    }
+
+    /// Writes an operation; of numbers alone, its result.
+    fn write(&mut self, operation: Operation) {
+        if let (Operation::Power, Some(Operation::Number(exponent))) =
+            (operation, self.program.last().copied())
+        {
+            self.program.pop();
+            return self.write(Operation::PowerOf(exponent));
+        }
+        self.program.push(operation);
+        let operands = 1_usize.wrapping_add_signed(-operation.rise());
+        let from = self.program.len().saturating_sub(operands + 1);
+        let (_, step) = self.program.split_at(from);
+        let is_number = |operand: &Operation| matches!(operand, Operation::Number(_));
+        if step[..operands].iter().all(is_number) {
+            let result = Operation::Number(run(step, 0.0));
+            self.program.truncate(from);
+            self.program.push(result);
+        }
+    }
+
+    fn end(mut self) -> Result<Vec<Operation>, String> {
+        if self.place != Place::Operand {
+            return Err(self.expected("the end"));
+        }
+        self.release(0);
+        if !self.waiting.is_empty() {
+            return Err("expected \")\", found the end".into());
+        }
+        let mut height = 0;
+        let heights = self.program.iter().map(|operation| {
+            height += operation.rise();
+            height
+        });
+        if heights.max().unwrap_or(0) > DEPTH as isize {
+            return Err("expected fewer parentheses inside each other, found too many".into());
+        }
+        Ok(self.program)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_end_where_they_should() {
+        for (text, wanted) in [
+            ("12.5e-3*t", Some((12.5e-3, 7))),
+            ("2E3", Some((2e3, 3))),
+            ("2e", Some((2.0, 1))),
+            (".5t", Some((0.5, 2))),
+            ("1.", Some((1.0, 2))),
+            (".", None),
+            ("e3", None),
+            (".e3", None),
+            ("", None),
+        ] {
+            assert_eq!(number(text), wanted, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_told() {
+        for (text, wanted) in [
+            ("", "a number, t, a function or \"(\", found the end"),
+            ("t +", "a function or \"(\", found the end"),
+            ("2 t", "expected an operator, found \"t\""),
+            ("(2 t)", "expected an operator or \")\", found \"t\""),
+            (
+                "sin t",
+                "expected \"(\" after the name of a function, found \"t\"",
+            ),
+            (
+                "sin",
+                "expected \"(\" after the name of a function, found the end",
+            ),
+            ("t sin(t)", "expected an operator, found \"sin\""),
+            ("(t", "expected \")\", found the end"),
+            ("t)", "expected an operator, found \")\""),
+            ("(t))", "expected an operator, found \")\""),
+            ("()", "found \")\""),
+            ("x + 1", "expected one of the names t, PI, E, sin, "),
+            ("t ** 2", "a function or \"(\", found \"*\""),
+            ("t % 2", "expected an operator, found \"%\""),
+            ("1e999*t", "expected a finite number, found \"1e999\""),
+            ("\u{3c0}*t", "found \"\u{3c0}\""),
+        ] {
+            let told = program(text).expect_err(text);
+            assert!(told.contains(wanted), "{text}: {told}");
+        }
+        assert!(program(&"1".repeat(20_000)).is_err());
+        assert!(program(&"(".repeat(9_000)).is_err());
+        assert!(program(&format!("{}t", "-".repeat(9_000))).is_ok());
+    }
+}
