@@ -42,9 +42,9 @@ def rate2(phi, rate):
 
 def solve(method, tolerance):
     times = np.linspace(0.0, STOP, STEPS + 1)
-    return solve_ivp(
-        lambda _, y: [y[1], rate2(*y)], (0.0, STOP), [0.0, SPEED], method=method, t_eval=times, rtol=tolerance, atol=1e-13
-    )
+    start, span = [0.0, SPEED], (0.0, STOP)
+    options = {"method": method, "t_eval": times, "rtol": tolerance, "atol": 1e-13}
+    return solve_ivp(lambda _, y: [y[1], rate2(*y)], span, start, **options)
 
 
 solution = solve("DOP853", 1e-13)
