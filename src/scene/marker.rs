@@ -1,6 +1,6 @@
 //! Markers: what their names refer to, and where they are at the start.
 
-use super::{Body, Scene};
+use super::{Body, Input, Load, Scene, Value};
 
 /// What stands for the ground where a marker is named.
 pub const GROUND: &str = "ground";
@@ -60,6 +60,36 @@ impl Scene {
     /// Direction of a marker in the shapes and positions that the scene describes: a unit vector.
     pub fn direction(&self, marker: MarkerReference) -> [f64; 2] {
         self.bodies[marker.body].direction(marker.at)
+    }
+
+    /// Distance at the start between the places that a joint or a spring joins, m. The ground is at
+    /// `point`, or where the second marker is.
+    pub fn distance(&self, markers: &[String; 2], point: Option<[f64; 2]>) -> f64 {
+        let at = |name: &String| Some(self.position(self.marker(name)?));
+        let b = at(&markers[1]).unwrap_or_default();
+        let a = point.or_else(|| at(&markers[0])).unwrap_or(b);
+        (b[0] - a[0]).hypot(b[1] - a[1])
+    }
+
+    /// Values of an input before the master sets one; a rest length is that of the spring.
+    pub fn input_start(&self, input: &Input) -> Vec<f64> {
+        if !input.start.is_empty() {
+            return input.start.clone();
+        }
+        let load = input.load.as_deref().and_then(|name| self.load(name));
+        match load.map(|load| &self.loads[load]) {
+            Some(load) => vec![self.rest_length(load)],
+            None => vec![0.0; input.components()],
+        }
+    }
+
+    /// Length at rest of a spring-damper, m, where it does not change in time.
+    fn rest_length(&self, load: &Load) -> f64 {
+        match (&load.length, &load.markers) {
+            (Some(Value::Number(length)), _) => *length,
+            (_, Some(markers)) => self.distance(markers, load.point),
+            (_, None) => 0.0,
+        }
     }
 }
 

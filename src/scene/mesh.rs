@@ -1,16 +1,57 @@
-//! Meshes: nodes where joints and loads act, the rest spread evenly.
+//! Meshes: nodes where something acts on a cable or is joined to it, the rest spread evenly.
 
-use super::{Error, Scene};
+use super::{At, Error, JointKind, OutputKind, Scene};
 
 impl Scene {
-    /// Material coordinates in [0, 1] of the nodes of a body, by its index.
+    /// Material coordinates in [0, 1] of the nodes of a cable, by the index of the body; none of a
+    /// rigid body.
     ///
     /// # Errors
-    /// When there are too few elements for the joints and loads inside the body.
+    /// When there are too few elements for what acts inside the body.
     pub fn nodes(&self, body: usize) -> Result<Vec<f64>, Error> {
         let path = format!("bodies[{body}].elements");
-        let elements = self.bodies[body].elements as usize;
+        let Some(cable) = self.bodies[body].cable() else {
+            return Ok(Vec::new());
+        };
+        let elements = cable.elements as usize;
         nodes(&path, elements, &self.loaded_coordinates(body))
+    }
+
+    /// Material coordinates of a cable where joints, motions, loads, inputs and masses act or where
+    /// the force from element to element is read: the mesh has nodes there. Increasing.
+    pub fn loaded_coordinates(&self, body: usize) -> Vec<f64> {
+        let mut coordinates: Vec<f64> = self
+            .loaded_markers()
+            .into_iter()
+            .filter_map(|name| self.marker(name))
+            .filter(|marker| marker.body == body)
+            .filter_map(|marker| match marker.at {
+                At::Along(coordinate) => Some(coordinate),
+                At::Point(_) => None,
+            })
+            .collect();
+        coordinates.sort_by(f64::total_cmp);
+        coordinates.dedup();
+        coordinates
+    }
+
+    fn loaded_markers(&self) -> Vec<&String> {
+        // The cable that a joint of kind `along` slides on is named without a marker.
+        let joints = self.joints.iter().flat_map(|joint| match joint.kind {
+            JointKind::Along => &joint.markers[1..],
+            _ => &joint.markers[..],
+        });
+        let springs = self.loads.iter().flat_map(|load| load.markers.iter());
+        let is_cut = |kind| kind == OutputKind::ConnectivityForce;
+        let cuts = self.outputs.iter().filter(|output| is_cut(output.kind));
+        joints
+            .chain(self.motions.iter().flat_map(|motion| &motion.marker))
+            .chain(self.loads.iter().flat_map(|load| &load.marker))
+            .chain(springs.flatten())
+            .chain(self.inputs.iter().flat_map(|input| &input.marker))
+            .chain(self.masses.iter().map(|mass| &mass.marker))
+            .chain(cuts.flat_map(|output| &output.marker))
+            .collect()
     }
 }
 
@@ -24,7 +65,7 @@ fn nodes(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error> {
     let stretches: Vec<f64> = corners.windows(2).map(|c| c[1] - c[0]).collect();
     if elements < stretches.len() {
         let message = format!(
-            "expected at least {} elements (joints and loads act inside the body), found {elements}",
+            "expected at least {} elements (joints, loads and masses act inside the body), found {elements}",
             stretches.len()
         );
         return Err(Error::new(path, message));

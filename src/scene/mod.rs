@@ -15,9 +15,9 @@ mod validate;
 pub use assemble::assemble;
 pub use description::{
     Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion, Input,
-    InputKind, Integrator, Joint, JointKind, Load, LoadKind, LoadValue, Mass, MasterInput, Material,
-    Method, Motion, MotionKind, MotionValue, Output, OutputKind, RigidBody, Scene, Section, Shape,
-    Strain, Table, Value,
+    InputKind, Integrator, Joint, JointKind, Load, LoadKind, LoadValue, Mass, MasterInput,
+    Material, Method, Motion, MotionKind, MotionValue, Output, OutputKind, RigidBody, Scene,
+    Section, Shape, Strain, Table, Value,
 };
 pub use marker::{At, GROUND, MarkerReference};
 pub use validate::{ELEMENTS, TOLERANCE};

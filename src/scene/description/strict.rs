@@ -3,8 +3,8 @@
 
 use std::fmt::{self, Display};
 
-use serde::de::{DeserializeOwned, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde::Deserialize;
+use serde::de::{DeserializeOwned, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 
 /// Stands between a path inside a value and the message about what is there.
@@ -24,7 +24,11 @@ pub fn typed<T: DeserializeOwned, E: Error>(value: Value) -> Result<T, E> {
         let path = error.path().to_string();
         let message = error.inner().to_string();
         // A message of the value itself, e.g. about a missing key, has no path of its own.
-        E::custom(if path == "." { message } else { at(&path, &message) })
+        E::custom(if path == "." {
+            message
+        } else {
+            at(&path, &message)
+        })
     })
 }
 

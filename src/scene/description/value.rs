@@ -140,11 +140,11 @@ impl<'de> Visitor<'de> for Anything {
         Ok(Found::One(Value::Number(value)))
     }
 
-    fn visit_i64<E>(self, value: i64) -> Result<Found, E> {
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Found, E> {
         self.visit_f64(value as f64)
     }
 
-    fn visit_u64<E>(self, value: u64) -> Result<Found, E> {
+    fn visit_u64<E: Error>(self, value: u64) -> Result<Found, E> {
         self.visit_f64(value as f64)
     }
 
@@ -154,7 +154,10 @@ impl<'de> Visitor<'de> for Anything {
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Found, A::Error> {
         if !self.pair {
-            return Err(A::Error::custom(format!("expected {}, found a list", self.wanted)));
+            return Err(A::Error::custom(format!(
+                "expected {}, found a list",
+                self.wanted
+            )));
         }
         Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Found::Two)
     }

@@ -1,0 +1,133 @@
+//! Checks of single values, and how what is wrong with them is told.
+
+use std::collections::BTreeSet;
+use std::fmt::Display;
+
+use crate::scene::{Error, GROUND, Value};
+
+/// Words that begin variable names of the scene itself, or stand for something else.
+const RESERVED: [&str; 11] = [
+    GROUND,
+    "gravity",
+    "rotation",
+    "energy",
+    "momentum",
+    "angular_momentum",
+    "center_of_mass",
+    "residual",
+    "natural_frequency",
+    "time",
+    "relative_tolerance",
+];
+
+/// An error about the value at `path`.
+pub fn expected(path: &str, wanted: &str, found: impl Display) -> Error {
+    Error::new(path, format!("expected {wanted}, found {found}"))
+}
+
+/// A text between quotation marks.
+pub fn quoted(text: &str) -> String {
+    format!("\"{text}\"")
+}
+
+/// An optional key: its name, whether it is there, and what would stand there.
+pub type Key = (&'static str, bool, &'static str);
+
+/// Checks that all keys of `must`, and beside them only keys of `may`, are there.
+pub fn keys(path: &str, of: &str, all: &[Key], must: &[&str], may: &[&str]) -> Result<(), Error> {
+    for (key, is_given, what) in all {
+        let place = format!("{path}.{key}");
+        if must.contains(key) && !is_given {
+            return Err(expected(&place, what, "nothing"));
+        }
+        if *is_given && !must.contains(key) && !may.contains(key) {
+            let wanted = format!("nothing for this kind of {of}");
+            return Err(expected(&place, &wanted, what));
+        }
+    }
+    Ok(())
+}
+
+/// Checks that a number is finite.
+pub fn finite(path: &str, value: f64) -> Result<(), Error> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(expected(path, "a finite number", value))
+}
+
+/// Checks that both components are finite.
+pub fn vector(path: &str, value: [f64; 2]) -> Result<(), Error> {
+    finite(&format!("{path}[0]"), value[0])?;
+    finite(&format!("{path}[1]"), value[1])
+}
+
+/// Checks that a quantity is positive.
+pub fn positive(path: &str, unit: &str, value: f64) -> Result<(), Error> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    let wanted = format!("a positive number ({unit})");
+    Err(expected(path, &wanted, value))
+}
+
+/// Checks that a quantity is not negative.
+pub fn not_negative(path: &str, unit: &str, value: f64) -> Result<(), Error> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    let wanted = format!("zero or a positive number ({unit})");
+    Err(expected(path, &wanted, value))
+}
+
+/// Checks a spring and a damper side by side, of which one may be missing.
+pub fn spring_damper(
+    path: &str,
+    stiffness: (Option<f64>, &str),
+    damping: (Option<f64>, &str),
+) -> Result<(), Error> {
+    if stiffness.0.is_none() && damping.0.is_none() {
+        return Err(expected(path, "a stiffness or a damping", "neither"));
+    }
+    for (key, (value, unit)) in [("stiffness", stiffness), ("damping", damping)] {
+        if let Some(value) = value {
+            not_negative(&format!("{path}.{key}"), unit, value)?;
+        }
+    }
+    Ok(())
+}
+
+/// Checks a value that may change in time; tables of motions are splines.
+pub fn value(path: &str, value: &Value, of_motion: bool) -> Result<(), Error> {
+    let (place, built) = match value {
+        Value::Number(number) => return finite(path, *number),
+        Value::Expression(_) => (path.to_owned(), value.function()),
+        Value::Table(_) if of_motion => (format!("{path}.table"), value.motion_function()),
+        Value::Table(_) => (format!("{path}.table"), value.function()),
+    };
+    built
+        .map(drop)
+        .map_err(|message| Error::new(place, message))
+}
+
+/// Checks the name of a scene, which is that of the FMU too.
+pub fn scene_name(name: &str) -> Result<(), Error> {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if !name.is_empty() && name.len() <= 100 && name.chars().all(allowed) {
+        return Ok(());
+    }
+    Err(expected("name", "letters, digits, _ and -", quoted(name)))
+}
+
+/// Checks the name of a part, and that it is new among `names`.
+pub fn name<'a>(path: &str, name: &'a str, names: &mut BTreeSet<&'a str>) -> Result<(), Error> {
+    let starts = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    if !starts || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
+        let wanted = "a letter or _, then letters, digits and _";
+        return Err(expected(path, wanted, quoted(name)));
+    }
+    if RESERVED.contains(&name) || !names.insert(name) {
+        return Err(expected(path, "a name not used yet", quoted(name)));
+    }
+    Ok(())
+}

@@ -1,0 +1,94 @@
+//! Checks that a scene means something.
+
+mod bodies;
+mod checks;
+mod inputs;
+mod joints;
+mod loads;
+mod method;
+mod motions;
+mod outputs;
+mod references;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
+
+use super::{Error, Initial, InitialMotion, Scene};
+use checks::{expected, finite, name, positive, scene_name, vector};
+
+/// Numbers of elements of a body: the limit on memory is far beyond any use.
+pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
+/// Relative tolerances: below, the error of a step drowns in roundoff; above, it is none at all.
+pub const TOLERANCE: RangeInclusive<f64> = 1e-12..=0.1;
+
+impl Scene {
+    /// Checks every value of the scene.
+    ///
+    /// # Errors
+    /// The first value that is out of range or refers to nothing.
+    pub fn validate(&self) -> Result<(), Error> {
+        scene_name(&self.name)?;
+        if self.dimension != 2 {
+            return Err(expected("dimension", "2 (planar)", self.dimension));
+        }
+        vector("gravity", self.gravity)?;
+        finite("rotation", self.rotation)?;
+        self.validate_names()?;
+        self.validate_bodies()?;
+        self.validate_masses()?;
+        for (index, joint) in self.joints.iter().enumerate() {
+            self.validate_joint(&format!("joints[{index}]"), joint)?;
+        }
+        self.validate_motions()?;
+        for (index, load) in self.loads.iter().enumerate() {
+            self.validate_load(&format!("loads[{index}]"), load)?;
+        }
+        self.validate_inputs()?;
+        self.validate_outputs()?;
+        let tolerance = self.accuracy.relative_tolerance;
+        if !TOLERANCE.contains(&tolerance) {
+            let (least, most) = (TOLERANCE.start(), TOLERANCE.end());
+            let wanted = format!("a number from {least:e} to {most}");
+            return Err(expected("accuracy.relative_tolerance", &wanted, tolerance));
+        }
+        positive("experiment.stop_time", "s", self.experiment.stop_time)?;
+        positive("experiment.step", "s", self.experiment.step)?;
+        self.validate_method()
+    }
+
+    /// Bodies, joints, motions and loads share their names.
+    fn validate_names(&self) -> Result<(), Error> {
+        let mut names = BTreeSet::new();
+        let bodies = self.bodies.iter().map(|body| body.name());
+        let joints = self.joints.iter().map(|joint| joint.name.as_str());
+        let motions = self.motions.iter().map(|motion| motion.name.as_str());
+        let loads = self.loads.iter().map(|load| load.name.as_str());
+        let named = |list: &'static str| move |(i, name)| (format!("{list}[{i}].name"), name);
+        let all = bodies.enumerate().map(named("bodies"));
+        let all = all.chain(joints.enumerate().map(named("joints")));
+        let all = all.chain(motions.enumerate().map(named("motions")));
+        for (path, text) in all.chain(loads.enumerate().map(named("loads"))) {
+            name(&path, text, &mut names)?;
+        }
+        Ok(())
+    }
+
+    fn validate_bodies(&self) -> Result<(), Error> {
+        if self.bodies.is_empty() {
+            return Err(expected("bodies", "at least one body", "none"));
+        }
+        for (index, body) in self.bodies.iter().enumerate() {
+            let path = format!("bodies[{index}]");
+            body.validate(&path)?;
+            let moves = *body.motion() != InitialMotion::default();
+            if moves && self.initial == Initial::StaticEquilibrium {
+                let place = format!("{path}.motion");
+                let wanted = "no motion at static equilibrium";
+                return Err(expected(&place, wanted, "a motion"));
+            }
+        }
+        Ok(())
+    }
+}

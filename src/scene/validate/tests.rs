@@ -1,0 +1,448 @@
+//! What scenes may say, and refusals, one line each: where, what stands there instead, and how the
+//! message begins.
+
+use serde_json::{Value, json};
+
+use crate::math::function::Function;
+use crate::scene::{At, Body, MarkerReference, Scene};
+
+/// A scene with every kind of part.
+fn scene() -> Value {
+    let cable = |name: &str, from: [f64; 2], to: [f64; 2]| {
+        json!({"name": name, "element": "cable", "elements": 8,
+            "material": {"youngs_modulus": 7e5, "density": 5540},
+            "section": {"area": 1.8e-3, "second_moment": 1.215e-8},
+            "shape": {"line": {"from": from, "to": to}},
+            "markers": {"root": 0, "low": 0.25, "mid": 0.5, "tip": 1}})
+    };
+    json!({
+        "name": "everything", "dimension": 2, "gravity": [0, -9.81],
+        "bodies": [
+            cable("rod", [0.0, 0.0], [1.0, 0.0]),
+            cable("rope", [0.0, 1.0], [3.0, 1.0]),
+            {"name": "crank", "element": "rigid", "mass": 0.1, "inertia": 1e-3, "position": [1.5, 0],
+                "markers": {"a": [-0.5, 0], "b": [0.5, 0]}},
+            {"name": "load", "element": "rigid", "mass": 1, "inertia": 0, "position": [1, 1],
+                "markers": {"eye": [0, 0]}},
+            {"name": "cart", "element": "rigid", "mass": 1, "inertia": 1, "position": [0, -1],
+                "angle": 0.5, "motion": {"velocity": [1, 0], "spin": 2}, "markers": {"top": [0, 0.1]}}
+        ],
+        "masses": [{"marker": "rod.mid", "mass": 2, "inertia": 0.1}, {"marker": "crank.b", "mass": 1}],
+        "joints": [
+            {"name": "pin", "kind": "revolute", "markers": ["ground", "rod.root"], "point": [0, 0]},
+            {"name": "knee", "kind": "hinge", "markers": ["rod.tip", "crank.a"],
+                "stiffness": 1, "damping": 0.1, "angle": 0},
+            {"name": "rail", "kind": "slider", "markers": ["ground", "cart.top"], "direction": [1, 0]},
+            {"name": "ring", "kind": "along", "markers": ["rope", "load.eye"]},
+            {"name": "link", "kind": "distance", "markers": ["crank.b", "load.eye"], "length": 1.5},
+            {"name": "clamp", "kind": "weld", "markers": ["ground", "rope.root"], "angle": 0.1},
+            {"name": "guide", "kind": "orientation", "markers": ["cart.top", "rope.tip"]}
+        ],
+        "motions": [
+            {"name": "drive", "kind": "angle", "joint": "pin", "value": "0.1*sin(2*PI*t)"},
+            {"name": "feed", "kind": "displacement", "joint": "rail", "value": {"table": [[0, 0], [1, 2]]}},
+            {"name": "lift", "kind": "position", "marker": "rope.tip", "value": {"input": 2}},
+            {"name": "tilt", "kind": "angle", "marker": "crank.b", "value": {"input": 0}},
+            {"name": "shift", "kind": "position", "marker": "crank.b", "value": [1, "t"]}
+        ],
+        "loads": [
+            {"name": "push", "kind": "force", "marker": "rod.tip", "follower": true, "value": ["t", 1]},
+            {"name": "twist", "kind": "moment", "marker": "rod.mid", "value": {"table": [[0, 1], [2, 3]]}},
+            {"name": "motor", "kind": "torque", "joint": "knee", "value": 0.1},
+            {"name": "wind", "kind": "distributed", "body": "rope", "value": [0, -1]},
+            {"name": "hoist", "kind": "spring_damper", "markers": ["rope.mid", "load.eye"],
+                "stiffness": 100, "damping": 1, "length": 0.3},
+            {"name": "tie", "kind": "spring_damper", "markers": ["ground", "crank.b"], "point": [2, 1],
+                "stiffness": 1}
+        ],
+        "inputs": [
+            {"kind": "force", "marker": "rod.tip", "start": [1, 2]},
+            {"kind": "force", "marker": "rod.tip", "follower": true},
+            {"kind": "moment", "marker": "crank.a"},
+            {"kind": "torque", "joint": "knee"},
+            {"kind": "distributed", "body": "rod"},
+            {"kind": "rest_length", "load": "tie"}
+        ],
+        "outputs": [
+            {"kind": "position", "marker": "load.eye"}, {"kind": "angle", "joint": "knee"},
+            {"kind": "angular_velocity", "marker": "crank.a"}, {"kind": "axial_force", "marker": "rod.mid"},
+            {"kind": "bending_moment", "marker": "rod.mid"},
+            {"kind": "connectivity_force", "marker": "rod.low"}, {"kind": "travel", "joint": "ring"},
+            {"kind": "reaction", "joint": "ring"}, {"kind": "reaction", "motion": "feed"},
+            {"kind": "reaction_moment", "motion": "drive"}, {"kind": "reaction_moment", "joint": "clamp"},
+            {"kind": "energy"}, {"kind": "work"}, {"kind": "momentum"}, {"kind": "center_of_mass"},
+            {"kind": "residual"}, {"kind": "natural_frequency", "count": 3}
+        ]
+    })
+}
+
+/// A scene with one pinned cable, as the printed formulation takes it.
+fn printed() -> Value {
+    let mut scene = scene();
+    let (rod, pin) = (scene["bodies"][0].take(), scene["joints"][0].take());
+    scene["bodies"] = json!([rod]);
+    scene["joints"] = json!([pin]);
+    scene["joints"][0]["point"] = Value::Null;
+    for list in ["masses", "motions", "loads", "inputs", "outputs"] {
+        scene[list] = json!([]);
+    }
+    scene["method"] = json!({"formulation": "as_printed", "integrator": "rk4"});
+    scene
+}
+
+/// The message about a scene with one value changed.
+fn told(mut scene: Value, pointer: &str, value: Value) -> String {
+    let (parent, key) = pointer.rsplit_once('/').expect("a pointer");
+    match scene.pointer_mut(parent).expect("a place in the scene") {
+        Value::Array(list) => list[key.parse::<usize>().expect("an index")] = value,
+        place => place[key] = value,
+    }
+    match Scene::from_json(&scene.to_string()) {
+        Ok(_) => "accepted".into(),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Lines of `pointer | value | message`.
+fn check(scene: fn() -> Value, cases: &str) {
+    for line in cases.lines().map(str::trim).filter(|line| !line.is_empty()) {
+        let cells: Vec<&str> = line.splitn(3, " | ").collect();
+        let (pointer, value, expected) = (cells[0], cells[1], cells[2]);
+        let value = serde_json::from_str(value).expect(value);
+        let told = told(scene(), pointer, value);
+        assert!(told.starts_with(expected), "{pointer}: {told}");
+    }
+}
+
+#[test]
+fn a_scene_with_everything_is_valid_and_survives_being_written() {
+    let read = Scene::from_json(&scene().to_string()).expect("a valid scene");
+    assert_eq!(Scene::from_json(&read.to_json()), Ok(read));
+    assert!(Scene::from_json(&printed().to_string()).is_ok());
+}
+
+#[test]
+fn types_and_keys_keep_their_places() {
+    check(
+        scene,
+        r#"
+        /bodies | [] | bodies: expected at least one body, found none
+        /bodies/0/element | "shell" | bodies[0].element: expected "cable" or "rigid", found "shell"
+        /bodies/0 | {"name": "rod"} | bodies[0].element: expected "cable" or "rigid", found nothing
+        /bodies/0 | 3 | bodies[0]: expected a body
+        /bodies/0/section/area | "wide" | bodies[0].section.area: invalid type: string "wide", expected f64
+        /bodies/0/material/colour | 1 | bodies[0].material.colour: unknown field
+        /bodies/0/section | {"area": 1} | bodies[0].section: missing field `second_moment`
+        /bodies/2/elements | 3 | bodies[2].elements: unknown field
+        /bodies/2/markers/a | [1, 2, 3] | bodies[2].markers.a
+        /bodies/2/position | [1] | bodies[2].position
+        /loads/0/value | true | loads[0].value: invalid type: boolean `true`, expected a number, an expression
+        /loads/0/value | [1, true] | loads[0].value[1]: invalid type: boolean
+        /loads/0/value | [1] | loads[0].value
+        /loads/0/value | {"input": 1} | loads[0].value.input: unknown field
+        /loads/1/value | {"table": [[0, 1], [1]]} | loads[1].value.table[1]
+        /loads/4/length | [1, 2] | loads[4].length: expected a number
+        /motions/0/value | {"table": 1} | motions[0].value.table: invalid type
+        /motions/0/value | {"table": [[0, 1]], "input": 1} | motions[0].value: expected a number
+        /motions/0/value | {"spline": 1} | motions[0].value.spline: unknown field
+        /motions/2/value | {"input": -1} | motions[2].value.input: invalid value
+        /method | {"constraints": "baumgarte"} | method.constraints: unknown variant
+    "#,
+    );
+    let twice = scene()
+        .to_string()
+        .replacen("\"area\":0.0018", "\"area\":1,\"area\":2", 1);
+    let error = Scene::from_json(&twice).expect_err("a key twice");
+    assert!(
+        error.to_string().starts_with("bodies[0].section"),
+        "{error}"
+    );
+    assert!(
+        error.to_string().contains("duplicate field `area`"),
+        "{error}"
+    );
+}
+
+#[test]
+fn values_out_of_range_are_refused() {
+    check(
+        scene,
+        r#"
+        /bodies/0/material/density | -1 | bodies[0].material.density: expected a positive number (kg/m^3), found -1
+        /bodies/0/markers/mid | 1.5 | bodies[0].markers.mid: expected a number from 0 to 1
+        /bodies/2/mass | 0 | bodies[2].mass: expected a positive number (kg), found 0
+        /bodies/2/inertia | -1 | bodies[2].inertia: expected zero or a positive number (kg m^2)
+        /bodies/3/markers/eye | [0, 1] | bodies[3].markers.eye: expected [0, 0] in a body without inertia
+        /bodies/3/motion | {"spin": 1} | bodies[3].motion.spin: expected 0 in a body without inertia
+        /bodies/2/markers/2x | [0, 0] | bodies[2].markers.2x: expected a letter or _
+        /initial | "static_equilibrium" | bodies[4].motion: expected no motion at static equilibrium
+        /masses/0/mass | -1 | masses[0].mass: expected zero or a positive number (kg)
+        /masses/1/mass | 0 | masses[1].mass: expected a positive number (kg)
+        /masses/1/inertia | 1 | masses[1].inertia: expected 0 at a marker of a rigid body
+        /masses/1/marker | "rod.mid" | masses[1].marker: expected a marker without a mass so far
+        /masses/1/marker | "rod.top" | masses[1].marker: expected a marker of this scene (rod.low, 
+    "#,
+    );
+}
+
+#[test]
+fn names_are_shared_by_bodies_joints_motions_and_loads() {
+    let new = ": expected a name not used yet";
+    for (pointer, name) in [
+        ("/bodies/1/name", "rod"),
+        ("/joints/1/name", "rope"),
+        ("/motions/0/name", "pin"),
+        ("/loads/0/name", "drive"),
+        ("/loads/1/name", "push"),
+        ("/loads/1/name", "momentum"),
+        ("/bodies/3/name", "ground"),
+    ] {
+        let told = told(scene(), pointer, json!(name));
+        assert!(told.contains(new), "{pointer}: {told}");
+    }
+}
+
+#[test]
+fn joints_take_what_is_theirs_and_no_more() {
+    check(
+        scene,
+        r#"
+        /joints/0/direction | [1, 0] | joints[0].direction: expected nothing for this kind of joint
+        /joints/0/stiffness | 1 | joints[0].stiffness: expected nothing for this kind of joint
+        /joints/0/angle | 1 | joints[0].angle: expected nothing for this kind of joint
+        /joints/6/point | [1, 0] | joints[6].point: expected nothing for this kind of joint
+        /joints/5/length | 1 | joints[5].length: expected nothing for this kind of joint
+        /joints/2/direction | null | joints[2].direction: expected a direction [x, y], found nothing
+        /joints/2/direction | [0, 0] | joints[2].direction: expected a direction that is not zero
+        /joints/2/markers | ["rod.mid", "cart.top"] | joints[2].markers[0]: expected "ground"
+        /joints/1/point | [1, 0] | joints[1].point: expected nothing between two bodies
+        /joints/1/markers | ["rod.top", "crank.a"] | joints[1].markers[0]: expected a marker of this scene
+        /joints/1/markers | ["rod.tip", "ground"] | joints[1].markers[1]: expected a marker of this scene
+        /joints/1/markers | ["rod.tip", "rod.root"] | joints[1].markers: expected markers of two bodies, found "rod" twice
+        /joints/1/markers | ["rod.tip", "load.eye"] | joints[1].markers[1]: expected a marker that can turn
+        /joints/6/markers | ["load.eye", "rope.tip"] | joints[6].markers[0]: expected a marker that can turn
+        /joints/1/stiffness | -1 | joints[1].stiffness: expected zero or a positive number (N m/rad)
+        /joints/1 | {"name": "knee", "kind": "hinge", "markers": ["rod.tip", "crank.a"]} | joints[1]: expected a stiffness or a damping, found neither
+        /joints/3/markers | ["crank", "load.eye"] | joints[3].markers[0]: expected the name of a cable
+        /joints/3/markers | ["rope.mid", "load.eye"] | joints[3].markers[0]: expected the name of a cable
+        /joints/3/markers | ["rope", "rope.tip"] | joints[3].markers: expected markers of two bodies
+        /joints/3/markers | ["rope", "ground"] | joints[3].markers[1]: expected a marker of this scene
+        /joints/3/point | [0, 0] | joints[3].point: expected nothing for this kind of joint
+        /joints/4/length | 0 | joints[4].length: expected a positive number (m)
+        /joints/4 | {"name": "link", "kind": "distance", "markers": ["ground", "rod.tip"]} | joints[4].length: expected a length, since
+        /joints/4 | {"name": "link", "kind": "distance", "markers": ["rod.tip", "crank.a"]} | joints[4].length: expected a length, since
+        /joints/4 | {"name": "link", "kind": "distance", "markers": ["ground", "rod.tip"], "point": [1, 1]} | accepted
+        /joints/0/kind | "ball" | joints[0].kind: unknown variant
+    "#,
+    );
+}
+
+#[test]
+fn motions_drive_what_can_be_driven_once() {
+    check(
+        scene,
+        r#"
+        /motions/0/joint | "clamp" | motions[0].joint: expected a revolute joint or a hinge
+        /motions/0/joint | "gone" | motions[0].joint: expected a joint of this scene
+        /motions/0/marker | "rod.root" | motions[0]: expected either a marker or a joint, found both
+        /motions/0/joint | null | motions[0]: expected either a marker or a joint, found neither
+        /motions/1/joint | "pin" | motions[1].joint: expected a slider
+        /motions/1/marker | "rod.tip" | motions[1].marker: expected nothing for this kind of motion
+        /motions/2/marker | null | motions[2].marker: expected a name, found nothing
+        /motions/2/joint | "pin" | motions[2].joint: expected nothing for this kind of motion
+        /motions/3/marker | "load.eye" | motions[3].marker: expected a marker that can turn
+        /motions/2/value | {"input": 3} | motions[2].value.input: expected 0, 1 or 2, found 3
+        /motions/2/value | 1 | motions[2].value: expected two values [x, y] or
+        /motions/0/value | [1, 2] | motions[0].value: expected one value, found two
+        /motions/0/value | "sin(x)" | motions[0].value: expected one of the names t, 
+        /motions/4/value | ["t", "2 t"] | motions[4].value[1]: expected an operator, found "t"
+        /motions/1/value | {"table": [[1, 0], [0, 2]]} | motions[1].value.table: expected increasing times
+        /motions/1/value | {"table": []} | motions[1].value.table: expected at least one point
+        /motions/4/marker | "rope.tip" | motions[4]: expected a motion of what is not driven yet, found "rope.tip"
+    "#,
+    );
+}
+
+#[test]
+fn loads_take_what_is_theirs_and_no_more() {
+    check(
+        scene,
+        r#"
+        /loads/0/marker | null | loads[0].marker: expected a name, found nothing
+        /loads/0/value | null | loads[0].value: expected a value, found nothing
+        /loads/0/value | 1 | loads[0].value: expected two values [x, y], found one
+        /loads/0/marker | "load.eye" | loads[0].marker: expected a marker that can turn
+        /loads/0/joint | "pin" | loads[0].joint: expected nothing for this kind of load
+        /loads/1/follower | true | loads[1].follower: expected nothing for this kind of load
+        /loads/1/marker | "load.eye" | loads[1].marker: expected a marker that can turn
+        /loads/1/value | [1, 2] | loads[1].value: expected one value, found two
+        /loads/1/value | "1 +" | loads[1].value: expected a number, t, a function
+        /loads/2/joint | "rail" | loads[2].joint: expected a revolute joint or a hinge
+        /loads/2/stiffness | 1 | loads[2].stiffness: expected nothing for this kind of load
+        /loads/3/body | "crank" | loads[3].body: expected the name of a cable of this scene
+        /loads/4/value | 1 | loads[4].value: expected nothing for this kind of load
+        /loads/4/markers | null | loads[4].markers: expected two names, found nothing
+        /loads/4/markers | ["rope.mid", "rope.tip"] | loads[4].markers: expected markers of two bodies
+        /loads/4/point | [1, 1] | loads[4].point: expected nothing between two bodies
+        /loads/4/length | -1 | loads[4].length: expected zero or a positive number (m)
+        /loads/4/length | "y" | loads[4].length: expected one of the names
+        /loads/4/damping | -1 | loads[4].damping: expected zero or a positive number (N s/m)
+        /loads/5/stiffness | null | loads[5]: expected a stiffness or a damping, found neither
+    "#,
+    );
+}
+
+#[test]
+fn inputs_and_outputs_refer_to_what_has_them() {
+    check(
+        scene,
+        r#"
+        /inputs/0/follower | true | inputs[1]: expected an input not declared before, found "rod.tip"
+        /inputs/0/joint | "pin" | inputs[0].joint: expected nothing for this kind of input
+        /inputs/0/start | [1] | inputs[0].start: expected 2 component(s), found 1
+        /inputs/2/marker | "load.eye" | inputs[2].marker: expected a marker that can turn
+        /inputs/3/joint | "link" | inputs[3].joint: expected a revolute joint or a hinge
+        /inputs/4/body | "load" | inputs[4].body: expected the name of a cable
+        /inputs/5/load | "wind" | inputs[5].load: expected a spring-damper of this scene
+        /inputs/5/start | [-1] | inputs[5].start[0]: expected zero or a positive number (m)
+        /loads/5/length | "1+t" | inputs[5].load: expected a spring-damper whose length is a number
+        /outputs/0 | {"kind": "position"} | outputs[0].marker: expected a name, found nothing
+        /outputs/0 | {"kind": "strain", "marker": "crank.a"} | outputs[0].marker: expected a marker of a cable
+        /outputs/0 | {"kind": "angle", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
+        /outputs/0 | {"kind": "angle", "joint": "clamp"} | outputs[0].joint: expected a revolute joint or a hinge
+        /outputs/0 | {"kind": "angle", "joint": "pin", "marker": "rod.tip"} | outputs[0]: expected one name of what is read, found two
+        /outputs/0 | {"kind": "travel", "joint": "rail"} | outputs[0].joint: expected a joint of kind along
+        /outputs/0 | {"kind": "reaction", "joint": "guide"} | outputs[0].joint: expected a joint that transmits a force
+        /outputs/0 | {"kind": "reaction_moment", "joint": "pin"} | outputs[0].joint: expected a joint that transmits a moment
+        /outputs/0 | {"kind": "reaction", "motion": "drive"} | outputs[0].motion: expected a motion driven by a force
+        /outputs/0 | {"kind": "reaction_moment", "motion": "feed"} | outputs[0].motion: expected a motion driven by a moment
+        /outputs/0 | {"kind": "reaction", "motion": "pin"} | outputs[0].motion: expected a motion of this scene
+        /outputs/0 | {"kind": "momentum", "body": "rod"} | outputs[0].body: expected nothing for this kind of output
+        /outputs/0 | {"kind": "natural_frequency", "count": 1, "body": "rod"} | outputs[0].body: expected nothing in a scene of several bodies
+        /outputs/0 | {"kind": "natural_frequency"} | outputs[0].count: expected an integer from 1 to 100, found nothing
+        /outputs/0 | {"kind": "energy"} | outputs[11]: expected an output not declared before
+        /outputs/0 | {"kind": "energy", "count": 1} | outputs[0].count: expected nothing for this kind of output
+    "#,
+    );
+}
+
+#[test]
+fn methods_take_the_scenes_that_they_can() {
+    check(
+        scene,
+        r#"
+        /method | {"constraints": "partitioning"} | method.integrator: expected "rk4"
+        /method | {"constraints": "partitioning", "integrator": "rk4"} | accepted
+        /method | {"formulation": "as_printed", "integrator": "rk4"} | method.formulation: expected one cable only under "as_printed", found 5 bodies
+    "#,
+    );
+    check(
+        printed,
+        r#"
+        /method | {"formulation": "as_printed"} | method.integrator: expected "rk4": the implicit
+        /bodies/0 | {"name": "rod", "element": "rigid", "mass": 1, "inertia": 1, "position": [0, 0], "markers": {"root": [0, 0]}} | method.formulation: expected one cable only
+        /joints/0/point | [0, 1] | method.formulation: expected revolute joints to ground
+        /joints/0/kind | "weld" | method.formulation: expected revolute joints to ground
+        /masses | [{"marker": "rod.tip", "mass": 1}] | method.formulation: expected no masses
+        /motions | [{"name": "m", "kind": "angle", "joint": "pin", "value": 0}] | method.formulation: expected no motions
+        /loads | [{"name": "m", "kind": "moment", "marker": "rod.tip", "value": 0}] | method.formulation: expected no loads but inputs
+        /inputs | [{"kind": "torque", "joint": "pin"}] | method.formulation: expected no inputs but dead forces
+        /inputs | [{"kind": "force", "marker": "rod.tip"}] | accepted
+        /rotation | 1 | method.formulation: expected a frame that does not turn
+    "#,
+    );
+}
+
+#[test]
+fn markers_are_found_on_cables_and_rigid_bodies() {
+    let scene = Scene::from_json(&scene().to_string()).expect("a valid scene");
+    let mid = scene.marker("rod.mid").expect("a marker");
+    let top = scene.marker("cart.top").expect("a marker");
+    assert_eq!(
+        mid,
+        MarkerReference {
+            body: 0,
+            at: At::Along(0.5)
+        }
+    );
+    assert_eq!(
+        top,
+        MarkerReference {
+            body: 4,
+            at: At::Point([0.0, 0.1])
+        }
+    );
+    assert_eq!(scene.position(mid), [0.5, 0.0]);
+    let (sin, cos) = 0.5_f64.sin_cos();
+    assert_eq!(scene.position(top), [-sin * 0.1, -1.0 + cos * 0.1]);
+    assert_eq!(
+        (scene.direction(mid), scene.direction(top)),
+        ([1.0, 0.0], [cos, sin])
+    );
+    for name in ["ground", "rod", "rod.top", "rode.tip", "rod.mid.x"] {
+        assert_eq!(scene.marker(name), None);
+    }
+    assert_eq!(
+        scene.bodies.iter().map(Body::name).collect::<Vec<_>>(),
+        ["rod", "rope", "crank", "load", "cart"]
+    );
+}
+
+#[test]
+fn nodes_are_where_something_acts_or_is_cut() {
+    let scene = Scene::from_json(&scene().to_string()).expect("a valid scene");
+    assert_eq!(scene.loaded_coordinates(0), [0.0, 0.25, 0.5, 1.0]);
+    // The joint along the rope slides; what acts are the clamp, the motion and the spring.
+    assert_eq!(scene.loaded_coordinates(1), [0.0, 0.5, 1.0]);
+    assert_eq!(scene.loaded_coordinates(2), [0.0; 0]);
+    assert_eq!(scene.nodes(0).map(|nodes| nodes.len()), Ok(9));
+    assert_eq!(scene.nodes(2), Ok(Vec::new()));
+}
+
+#[test]
+fn values_become_functions_and_inputs_have_their_starts() {
+    let scene = Scene::from_json(&scene().to_string()).expect("a valid scene");
+    let starts: Vec<_> = scene
+        .inputs
+        .iter()
+        .map(|input| scene.input_start(input))
+        .collect();
+    assert_eq!(starts[0], [1.0, 2.0]);
+    assert_eq!(starts[1], [0.0, 0.0]);
+    assert_eq!(starts[2], [0.0]);
+    assert_eq!(starts[5], [1.0]);
+    let table = &scene.motions[1].value.components()[0];
+    let smooth = table.motion_function().expect("a spline");
+    let straight = table.function().expect("a table");
+    assert!(matches!(smooth, Function::Spline(_)) && matches!(straight, Function::Linear(_)));
+    assert_eq!((smooth.value(0.25), straight.value(0.25)), (0.3125, 0.5));
+    assert_eq!(scene.motions[2].value.components(), []);
+    assert_eq!(
+        scene.loads[0]
+            .value
+            .as_ref()
+            .map(|value| value.components().len()),
+        Some(2)
+    );
+}
+
+#[test]
+fn the_schema_tells_bodies_apart_by_their_element() {
+    let schema: Value = serde_json::from_str(&Scene::json_schema()).expect("JSON");
+    let kinds = schema["$defs"]["Body"]["oneOf"]
+        .as_array()
+        .expect("kinds of bodies");
+    let elements: Vec<_> = kinds
+        .iter()
+        .map(|kind| &kind["properties"]["element"]["const"])
+        .collect();
+    assert_eq!(elements, ["cable", "rigid"]);
+    for kind in kinds {
+        assert_eq!(kind["additionalProperties"], json!(false));
+        assert!(
+            kind["required"]
+                .as_array()
+                .is_some_and(|keys| keys.contains(&json!("element")))
+        );
+    }
+}
