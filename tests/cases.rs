@@ -127,6 +127,18 @@ fn claims_are_measured_and_not_believed() {
             r#""kind": "drift", "stop_time": 0.1, "step": 0.05, "sum": ["energy.kinetic"], "scale": 1.0, "absolute": 1e-3"#,
             "energy.kinetic drifts by",
         ),
+        (
+            r#""kind": "drift", "stop_time": 0.1, "step": 0.05, "sum": ["energy.kinetic"], "less": ["energy.kinetic"], "scale": 1.0, "absolute": 0.0"#,
+            "",
+        ),
+        (
+            r#""kind": "drift", "stop_time": 0.1, "step": 0.05, "sum": ["energy.kinetic"], "after": 0.1, "scale": 1.0, "absolute": 1.0"#,
+            "after: expected a time before 0.1, found 0.1",
+        ),
+        (
+            r#""kind": "values", "time": 0.1, "step": 0.05, "values": {"rod.tip.position[1]": 1.2}, "relative": 1.0, "changes": [{"time": 0.05, "set": {"rod.tail.force[1]": 1.0}}]"#,
+            "rod.tail.force[1]: expected a variable",
+        ),
     ] {
         let found = refusal(&format!(
             r#"{{"purpose": "to pass", "source": "somewhere", "scene": "{scene}", "claims": [{{{claim}}}]}}"#

@@ -201,6 +201,12 @@ fn check_critical(critical: &Critical, scene: &Path, given: &Given) -> Result<Me
 }
 
 fn check_drift(drift: &Drift, scene: &Path, given: &Given) -> Result<Measured, String> {
+    if drift.after >= drift.stop_time {
+        return Err(format!(
+            "after: expected a time before {}, found {}",
+            drift.stop_time, drift.after
+        ));
+    }
     let mut run = Run::start(scene, given)?;
     let total = |run: &mut Run| -> Result<f64, String> {
         let plus: f64 = run.get(&drift.sum)?.iter().sum();

@@ -130,7 +130,9 @@ def critical(claim, _folder, fmu):
 
 def drift(claim, _folder, fmu):
     """A sum of variables, less others, keeps the value it has at a time, by default the start."""
-    plus, minus = claim["sum"], claim.get("less", [])
+    plus, minus, after = claim["sum"], claim.get("less", []), claim.get("after", 0.0)
+    if after >= claim["stop_time"]:
+        raise AssertionError(f"after: expected a time before {claim['stop_time']:g}, found {after:g}")
 
     def total(instance):
         return math.fsum([*instance.get(plus), *(-value for value in instance.get(minus))])
@@ -139,7 +141,7 @@ def drift(claim, _folder, fmu):
         start = total(instance)
         largest, when = 0.0, 0.0
         for time in steps(instance, claim, claim["stop_time"]):
-            if time <= claim.get("after", 0.0) * (1.0 + SAME_TIME):
+            if time <= after * (1.0 + SAME_TIME):
                 start = total(instance)
                 continue
             change = abs(total(instance) - start)
