@@ -7,6 +7,7 @@
 
 mod assemble;
 mod description;
+mod inputs;
 mod marker;
 mod mesh;
 mod shape;
@@ -19,6 +20,7 @@ pub use description::{
     Material, Method, Motion, MotionKind, MotionValue, Output, OutputKind, RigidBody, Scene,
     Section, Shape, Strain, Table, Value,
 };
+pub use inputs::InputLayout;
 pub use marker::{At, GROUND, MarkerReference};
 pub use validate::{ELEMENTS, TOLERANCE};
 
