@@ -1,54 +1,50 @@
-//! Markers: material points of a body, found by a coordinate in [0, 1] whatever the mesh.
+//! Points of planar bodies: their position and direction are linear in the coordinates of one or two
+//! nodes.
 
-use nalgebra::SVector;
+use nalgebra::{Matrix2, Vector2};
 
-use crate::elements::{Element, Nodal, shape};
+use super::connectivity::{Node, Row};
+use crate::elements::{Element, shape};
 
-use super::FlexibleBody;
-
-/// A material point.
-#[derive(Clone, Debug, PartialEq)]
+/// A point of a body, with a direction: the slope of a cable, the unit vector of a rigid body.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
-    /// Element it lies on.
-    pub element: usize,
-    /// Coordinate inside the element, in [0, 1].
-    pub xi: f64,
-    /// Shape functions there: position is `e * values`.
-    pub values: SVector<f64, 4>,
-    /// Their derivatives: slope is `e * slopes`.
-    pub slopes: SVector<f64, 4>,
+    /// The body, by its index in the system.
+    pub body: usize,
+    /// The nodes that it depends on.
+    pub nodes: [usize; 2],
+    /// Weights of position and direction of both nodes in the position.
+    values: [f64; 4],
+    /// Their weights in the direction.
+    slopes: [f64; 4],
+    /// Weight, in the position, of the first node's direction turned left by a right angle, m.
+    across: f64,
+    /// Element of a cable and the place inside it, in [0, 1].
+    pub element: Option<(usize, f64)>,
+}
+
+/// The vector turned left by a right angle.
+pub fn left(v: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(-v.y, v.x)
 }
 
 impl Marker {
-    /// The node nearest to it; joints and loads act on nodes.
-    pub fn node(&self) -> usize {
-        self.element + usize::from(self.xi > 0.5)
-    }
-
-    /// Position, or velocity or acceleration where `e` holds rates.
-    pub fn position<const D: usize>(&self, e: &[Nodal<D>]) -> SVector<f64, D> {
-        e[self.element] * self.values
-    }
-
-    /// Slope, or its rate.
-    pub fn slope<const D: usize>(&self, e: &[Nodal<D>]) -> SVector<f64, D> {
-        e[self.element] * self.slopes
-    }
-}
-
-impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
-    /// The marker at a material coordinate in [0, 1] (fraction of the reference length).
-    pub fn marker(&self, coordinate: f64) -> Marker {
-        let target = coordinate * self.length();
-        let (mut start, mut element) = (0.0, 0);
-        while element + 1 < self.elements.len() && start + self.elements[element].length() <= target
-        {
-            start += self.elements[element].length();
-            element += 1;
+    /// The point of a rigid body at `(x, y)` in its frame, m.
+    pub fn rigid(body: usize, node: usize, point: [f64; 2]) -> Self {
+        Self {
+            body,
+            nodes: [node, node],
+            values: [1.0, point[0], 0.0, 0.0],
+            slopes: [0.0, 1.0, 0.0, 0.0],
+            across: point[1],
+            element: None,
         }
-        let length = self.elements[element].length();
-        let xi = ((target - start) / length).clamp(0.0, 1.0);
-        // A marker on a node must be on it exactly: reactions and loads act there.
+    }
+
+    /// The point of a cable at a length along it, m.
+    pub fn along<E: Element<2>>(body: usize, chain: &super::Chain<E, 2, 4>, length: f64) -> Self {
+        let (element, xi) = chain.find(length);
+        // A marker on a node must be on it exactly: joints and loads act there.
         let xi = if xi < 1e-9 {
             0.0
         } else if xi > 1.0 - 1e-9 {
@@ -56,11 +52,107 @@ impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
         } else {
             xi
         };
-        Marker {
-            element,
-            xi,
-            values: shape::values(xi, length),
-            slopes: shape::slopes(xi, length),
+        Self::inside(body, chain, element, xi)
+    }
+
+    /// The point of a cable inside an element, `xi` in [0, 1].
+    pub fn inside<E: Element<2>>(
+        body: usize,
+        chain: &super::Chain<E, 2, 4>,
+        element: usize,
+        xi: f64,
+    ) -> Self {
+        let length = chain.elements()[element].length();
+        let nodes = chain.nodes(element);
+        let mut marker = Self {
+            body,
+            nodes,
+            values: shape::values(xi, length).into(),
+            slopes: shape::slopes(xi, length).into(),
+            across: 0.0,
+            element: Some((element, xi)),
+        };
+        if xi == 0.0 || xi == 1.0 {
+            let node = nodes[usize::from(xi == 1.0)];
+            marker.nodes = [node, node];
+            marker.values = [1.0, 0.0, 0.0, 0.0];
+            marker.slopes = [0.0, 1.0, 0.0, 0.0];
+        }
+        marker
+    }
+
+    /// Whether it is a node of a cable, or belongs to a rigid body.
+    pub fn is_nodal(&self) -> bool {
+        self.nodes[0] == self.nodes[1]
+    }
+
+    /// Position, or velocity or acceleration where `x` holds rates.
+    pub fn position(&self, x: &[Node<4>]) -> Vector2<f64> {
+        let [a, b] = self.nodes.map(|node| &x[node]);
+        let [p, s, q, t] = self.values;
+        Vector2::new(
+            p * a[0] + s * a[2] + q * b[0] + t * b[2] - self.across * a[3],
+            p * a[1] + s * a[3] + q * b[1] + t * b[3] + self.across * a[2],
+        )
+    }
+
+    /// Direction (not of unit length on a cable), or its rate.
+    pub fn direction(&self, x: &[Node<4>]) -> Vector2<f64> {
+        let [a, b] = self.nodes.map(|node| &x[node]);
+        let [p, s, q, t] = self.slopes;
+        Vector2::new(
+            p * a[0] + s * a[2] + q * b[0] + t * b[2],
+            p * a[1] + s * a[3] + q * b[1] + t * b[3],
+        )
+    }
+
+    /// Forces on the nodes of a force on the position and one on the direction.
+    pub fn forces(&self, position: Vector2<f64>, direction: Vector2<f64>) -> [(usize, Node<4>); 2] {
+        let part = |k: usize, across: f64| {
+            let at = position * self.values[2 * k] + direction * self.slopes[2 * k];
+            let on = position * self.values[2 * k + 1] + direction * self.slopes[2 * k + 1]
+                - left(position) * across;
+            [at.x, at.y, on.x, on.y]
+        };
+        [
+            (self.nodes[0], part(0, self.across)),
+            (self.nodes[1], part(1, 0.0)),
+        ]
+    }
+
+    /// Adds such forces.
+    pub fn add_force(&self, position: Vector2<f64>, direction: Vector2<f64>, f: &mut [Node<4>]) {
+        for (node, part) in self.forces(position, direction) {
+            for (sum, part) in f[node].iter_mut().zip(part) {
+                *sum += part;
+            }
+        }
+    }
+
+    /// Jacobian of position (`part` 0) or direction (1) by the coordinates of each node.
+    pub fn jacobian(&self, part: usize) -> [(usize, [Matrix2<f64>; 2]); 2] {
+        let weights = if part == 0 { &self.values } else { &self.slopes };
+        let turn = Matrix2::new(0.0, -1.0, 1.0, 0.0);
+        let across = if part == 0 { self.across } else { 0.0 };
+        let one = Matrix2::identity();
+        [
+            (
+                self.nodes[0],
+                [one * weights[0], one * weights[1] + turn * across],
+            ),
+            (self.nodes[1], [one * weights[2], one * weights[3]]),
+        ]
+    }
+
+    /// Adds what a force along `position` on the position and along `direction` on the direction
+    /// would do, as terms of a row.
+    pub fn add_terms(&self, position: Vector2<f64>, direction: Vector2<f64>, row: &mut Row<4>) {
+        for (node, part) in self.forces(position, direction) {
+            match row.terms.iter_mut().find(|(other, _)| *other == node) {
+                Some((_, sum)) => sum.iter_mut().zip(part).for_each(|(s, p)| *s += p),
+                None if part != [0.0; 4] => row.terms.push((node, part)),
+                None => {}
+            }
         }
     }
 }

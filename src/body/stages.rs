@@ -7,176 +7,243 @@
 //! forth again. Mass is isotropic and hardly notices; what is left of the turn only slows convergence
 //! down in proportion (docs/decisions/0005-corotated-newton.md).
 //!
-//! Turning every node by itself changes sums over nodes. The translation of a free body is therefore
-//! put right before and after, so that momentum is kept exactly however far the iteration goes.
+//! Turning every node by itself changes sums over nodes. The translation of a part that nothing holds
+//! is therefore put right before and after, so that momentum is kept exactly however far the
+//! iteration goes.
+
+use std::ops::Range;
 
 use nalgebra::{Complex, SVector};
 
-use super::{FlexibleBody, Tangent};
-use crate::elements::{Element, Nodal};
-use crate::math::block_tridiagonal::BlockTridiagonal;
+use super::Tangent;
+use super::assembly::Assembly;
+use super::connectivity::Node;
+use super::elimination::Elimination;
 
-/// Nodal vectors of three stages and how far their slopes have turned.
+/// Vectors of three stages and how far the directions of nodes have turned.
 #[derive(Clone, Debug)]
-pub(super) struct Stages<const D: usize, const B: usize> {
-    x: [Vec<[f64; B]>; 3],
-    /// Unit slopes where the tangent was made.
+pub struct Stages<const D: usize, const B: usize> {
+    nodes: Vec<Node<B>>,
+    /// Unit directions where the tangent was made.
     base: Vec<SVector<f64, D>>,
-    /// Unit slopes at the stages.
+    /// Unit directions at the stages.
     turned: [Vec<SVector<f64, D>>; 3],
-    /// Mass times a unit translation: what positions and slopes of a node carry of the momentum, kg.
-    /// Empty where the body is held.
-    carried: Vec<[f64; 2]>,
+    floating: Vec<Floating>,
+}
+
+/// A component that may move as a whole.
+#[derive(Clone, Debug)]
+struct Floating {
+    range: Range<usize>,
     mass: f64,
+    /// Unit translation along every axis, and mass times it.
+    translation: Vec<Vec<f64>>,
+    momentum: Vec<Vec<f64>>,
+    before: Vec<f64>,
 }
 
 impl<const D: usize, const B: usize> Stages<D, B> {
-    pub(super) fn new(mass: &BlockTridiagonal<f64, B>, is_free: bool) -> Self {
-        let nodes = mass.diagonal.len();
-        let slopes = || vec![SVector::zeros(); nodes];
-        let vectors = || vec![[0.0; B]; nodes];
-        let (mut unit, mut product) = (vectors(), vectors());
-        unit.iter_mut().for_each(|x| x[0] = 1.0);
-        mass.multiply(&unit, &mut product);
-        let mut carried: Vec<[f64; 2]> = product.iter().map(|y| [y[0], y[D]]).collect();
-        let total = carried.iter().map(|[position, _]| position).sum();
-        if !is_free {
-            carried.clear();
-        }
+    pub(super) fn new(elimination: &Elimination<B>, grounded: &[usize]) -> Self {
+        let nodes = elimination.assembly.nodes();
+        let directions = || vec![SVector::zeros(); nodes];
         Self {
-            carried,
-            mass: total,
-            x: [vectors(), vectors(), vectors()],
-            base: slopes(),
-            turned: [slopes(), slopes(), slopes()],
-        }
-    }
-
-    /// Mean translation of nodal displacements, weighted by mass, m.
-    fn translation(&self, x: &[[f64; B]]) -> SVector<f64, D> {
-        let mut sum = SVector::zeros();
-        for ([position, slope], x) in self.carried.iter().zip(x) {
-            for axis in 0..D {
-                sum[axis] += position * x[axis] + slope * x[D + axis];
-            }
-        }
-        sum / self.mass
-    }
-
-    /// Adds the nodal forces of a uniform acceleration, m/s^2.
-    fn accelerate(&self, acceleration: &SVector<f64, D>, x: &mut [[f64; B]]) {
-        for ([position, slope], x) in self.carried.iter().zip(x) {
-            for axis in 0..D {
-                x[axis] += position * acceleration[axis];
-                x[D + axis] += slope * acceleration[axis];
-            }
-        }
-    }
-
-    /// Turns the forces on a stage back to where the tangent was made; their sum stays.
-    fn turn_back(&self, stage: usize, x: &mut [[f64; B]]) {
-        let before = total(x);
-        for (node, x) in x.iter_mut().enumerate() {
-            turn(&self.turned[stage][node], &self.base[node], x);
-        }
-        self.accelerate(&((before - total(x)) / self.mass), x);
-    }
-
-    /// Turns displacements forth to a stage; their mean translation stays.
-    fn turn_forth(&self, stage: usize, x: &mut [[f64; B]]) {
-        let before = self.translation(x);
-        for (node, x) in x.iter_mut().enumerate() {
-            turn(&self.base[node], &self.turned[stage][node], x);
-        }
-        if !self.carried.is_empty() {
-            let change = before - self.translation(x);
-            for x in x {
-                for axis in 0..D {
-                    x[axis] += change[axis];
-                }
-            }
+            floating: floating::<D, B>(elimination, grounded),
+            nodes: vec![[0.0; B]; nodes],
+            base: directions(),
+            turned: [directions(), directions(), directions()],
         }
     }
 
     /// The tangent is made at this configuration.
-    pub(super) fn set_base(&mut self, e: &[Nodal<D>]) {
-        unit_slopes(e, &mut self.base);
+    pub fn set_base(&mut self, x: &[Node<B>]) {
+        unit_directions(x, &mut self.base);
         for turned in &mut self.turned {
             turned.copy_from_slice(&self.base);
         }
     }
-}
 
-impl<E: Element<D>, const D: usize, const B: usize> FlexibleBody<E, D, B> {
     /// Sets the configuration of a stage.
-    pub fn set_stage(&self, stage: usize, e: &[Nodal<D>], tangent: &mut Tangent<D, B>) {
-        unit_slopes(e, &mut tangent.stages.turned[stage]);
+    pub fn set(&mut self, stage: usize, x: &[Node<B>]) {
+        unit_directions(x, &mut self.turned[stage]);
     }
 
+    /// Turns the forces on a stage back to where the tangent was made; their sum stays.
+    pub(super) fn turn_back(&mut self, assembly: &Assembly<B>, stage: usize, y: &mut [f64]) {
+        for f in &mut self.floating {
+            f.remember(|f| &f.translation, y);
+        }
+        let (from, to) = (&self.turned[stage], &self.base);
+        turn_all(assembly, &mut self.nodes, (from, to), y);
+        for f in &self.floating {
+            f.restore((&f.translation, &f.momentum), y);
+        }
+    }
+
+    /// Turns displacements forth to a stage; their mean translation stays.
+    pub(super) fn turn_forth(&mut self, assembly: &Assembly<B>, stage: usize, y: &mut [f64]) {
+        for f in &mut self.floating {
+            f.remember(|f| &f.momentum, y);
+        }
+        let (from, to) = (&self.base, &self.turned[stage]);
+        turn_all(assembly, &mut self.nodes, (from, to), y);
+        for f in &self.floating {
+            f.restore((&f.momentum, &f.translation), y);
+        }
+    }
+}
+
+impl Floating {
+    /// Keeps the products of `y` with these vectors.
+    fn remember(&mut self, with: impl Fn(&Self) -> &Vec<Vec<f64>>, y: &[f64]) {
+        let y = &y[self.range.clone()];
+        for axis in 0..self.before.len() {
+            self.before[axis] = dot(&with(self)[axis], y);
+        }
+    }
+
+    /// Brings the products with the first vectors back by adding the second ones.
+    fn restore(&self, (with, along): (&[Vec<f64>], &[Vec<f64>]), y: &mut [f64]) {
+        let y = &mut y[self.range.clone()];
+        for (axis, before) in self.before.iter().enumerate() {
+            let change = (before - dot(&with[axis], y)) / self.mass;
+            y.iter_mut()
+                .zip(&along[axis])
+                .for_each(|(y, v)| *y += change * v);
+        }
+    }
+}
+
+/// Components that uniform translation of all their nodes does not strain.
+fn floating<const D: usize, const B: usize>(
+    elimination: &Elimination<B>,
+    grounded: &[usize],
+) -> Vec<Floating> {
+    let assembly = &elimination.assembly;
+    let n = elimination.scratch();
+    let mut held = vec![false; assembly.components().len()];
+    for node in grounded {
+        held[assembly.component(*node)] = true;
+    }
+    let (mut translation, mut momentum) = (Vec::new(), Vec::new());
+    for axis in 0..D {
+        let unit: Node<B> = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
+        let x = vec![unit; assembly.nodes()];
+        let (mut y, mut product) = (vec![0.0; n], vec![0.0; n]);
+        assembly.gather(&x, &mut y);
+        let mut back = x.clone();
+        assembly.spread(&y, &mut back);
+        for (node, (x, back)) in x.iter().zip(&back).enumerate() {
+            let change: f64 = x.iter().zip(back).map(|(a, b)| (a - b).abs()).sum();
+            if change > 1e-9 {
+                held[assembly.component(node)] = true;
+            }
+        }
+        elimination.mass.multiply(assembly.pattern(), &y, &mut product);
+        translation.push(y);
+        momentum.push(product);
+    }
+    let components = assembly.components().iter().zip(held);
+    components
+        .filter(|(component, held)| !held && !component.variables.is_empty())
+        .map(|(component, _)| {
+            let range = component.variables.clone();
+            let part = |of: &Vec<f64>| of[range.clone()].to_vec();
+            Floating {
+                mass: dot(&translation[0][range.clone()], &momentum[0][range.clone()]),
+                translation: translation.iter().map(part).collect(),
+                momentum: momentum.iter().map(part).collect(),
+                before: vec![0.0; D],
+                range,
+            }
+        })
+        .collect()
+}
+
+impl<const D: usize, const B: usize> Tangent<D, B> {
     /// Solves in place, in the coordinates `q`: `forward` takes the three right-hand sides to one for
     /// the real factors and two for the complex ones, `back` takes the solutions to the stages.
     pub fn solve_stages(
-        &self,
-        tangent: &mut Tangent<D, B>,
-        (e, border): (&mut [Nodal<D>], &mut [f64]),
+        &mut self,
+        elimination: &Elimination<B>,
         (forward, back): (&[[f64; 3]; 3], &[[f64; 3]; 3]),
         q: &mut [Vec<f64>; 3],
     ) {
-        for (i, q) in q.iter().enumerate() {
-            self.nodal_forces(tangent, e, border, q);
-            tangent.stages.turn_back(i, &mut tangent.x);
-            self.hold(&mut tangent.x);
-            tangent.stages.x[i].copy_from_slice(&tangent.x);
-        }
-        let stages = &mut tangent.stages.x;
-        for node in 0..tangent.x.len() {
-            for k in 0..B {
-                let x = [stages[0][node][k], stages[1][node][k], stages[2][node][k]];
-                tangent.x[node][k] = dot(&forward[0], &x);
-                tangent.z[node][k] = Complex::new(dot(&forward[1], &x), dot(&forward[2], &x));
-            }
-        }
-        tangent.real.solve(&mut tangent.x);
-        tangent.complex.solve(&mut tangent.z);
-        for node in 0..tangent.x.len() {
-            for k in 0..B {
-                let z = tangent.z[node][k];
-                let x = [tangent.x[node][k], z.re, z.im];
-                for (stage, row) in stages.iter_mut().zip(back) {
-                    stage[node][k] = dot(row, &x);
+        let assembly = &elimination.assembly;
+        for (i, q) in q.iter_mut().enumerate() {
+            elimination.forces(q);
+            self.stages.turn_back(assembly, i, q);
+            if !self.borders.is_empty() {
+                self.x.copy_from_slice(q);
+                elimination.project_in_place(&mut self.x);
+                for border in &mut self.borders {
+                    border.set_normal(i, &self.x);
                 }
             }
         }
+        for k in 0..self.x.len() {
+            let y = [q[0][k], q[1][k], q[2][k]];
+            self.x[k] = product(&forward[0], &y);
+            self.z[k] = Complex::new(product(&forward[1], &y), product(&forward[2], &y));
+        }
+        self.real.solve(assembly.pattern(), &mut self.x);
+        self.complex.solve(assembly.pattern(), &mut self.z);
+        self.correct_stages(forward);
+        for k in 0..self.x.len() {
+            let solution = [self.x[k], self.z[k].re, self.z[k].im];
+            for (q, row) in q.iter_mut().zip(back) {
+                q[k] = product(row, &solution);
+            }
+        }
         for (i, q) in q.iter_mut().enumerate() {
-            tangent.x.copy_from_slice(&tangent.stages.x[i]);
-            tangent.stages.turn_forth(i, &mut tangent.x);
-            self.hold(&mut tangent.x);
-            self.reduce_displacements(tangent, e, border, q);
+            self.stages.turn_forth(assembly, i, q);
+            elimination.coordinates_of(q);
+        }
+    }
+
+    fn correct_stages(&mut self, forward: &[[f64; 3]; 3]) {
+        let (real, complex) = (1.0 / (self.s.0 * self.s.0), (self.s.1 * self.s.1).inv());
+        for border in &mut self.borders {
+            let rows = (&border.forces[..], border.rank);
+            let normal = &border.normal;
+            let mixed = |row: &[f64; 3], i: usize| {
+                product(row, &[normal[0][i], normal[1][i], normal[2][i]])
+            };
+            let x = &mut self.x[border.range.clone()];
+            border
+                .real
+                .correct(rows, |i| real * mixed(&forward[0], i), x);
+            let z = &mut self.z[border.range.clone()];
+            let target = |i: usize| complex * Complex::new(mixed(&forward[1], i), mixed(&forward[2], i));
+            border.complex.correct(rows, target, z);
         }
     }
 }
 
-/// Sum of nodal forces.
-fn total<const D: usize, const B: usize>(x: &[[f64; B]]) -> SVector<f64, D> {
-    x.iter()
-        .map(|x| SVector::<f64, D>::from_column_slice(&x[..D]))
-        .sum()
+fn unit_directions<const D: usize, const B: usize>(x: &[Node<B>], units: &mut [SVector<f64, D>]) {
+    for (x, unit) in x.iter().zip(units) {
+        *unit = SVector::<f64, D>::from_column_slice(&x[D..]).normalize();
+    }
 }
 
-fn unit_slopes<const D: usize>(e: &[Nodal<D>], slopes: &mut [SVector<f64, D>]) {
-    for (e, slope) in e.iter().zip(slopes.iter_mut()) {
-        *slope = e.column(1).normalize();
+/// Turns the vectors of every node.
+fn turn_all<const D: usize, const B: usize>(
+    assembly: &Assembly<B>,
+    nodes: &mut [Node<B>],
+    (from, to): (&[SVector<f64, D>], &[SVector<f64, D>]),
+    y: &mut [f64],
+) {
+    assembly.spread(y, nodes);
+    for (node, x) in nodes.iter_mut().enumerate() {
+        turn(&from[node], &to[node], x);
     }
-    if let (Some(e), Some(slope)) = (e.last(), slopes.last_mut()) {
-        *slope = e.column(3).normalize();
-    }
+    assembly.gather(nodes, y);
 }
 
 /// Turns the vectors of a node by the smallest rotation that takes the unit vector `from` to `to`.
 fn turn<const D: usize, const B: usize>(
     from: &SVector<f64, D>,
     to: &SVector<f64, D>,
-    x: &mut [f64; B],
+    x: &mut Node<B>,
 ) {
     let sum = from + to;
     let scale = 1.0 + from.dot(to);
@@ -191,6 +258,10 @@ fn turn<const D: usize, const B: usize>(
     }
 }
 
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -442,4 +442,31 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
         };
         (self.axial(u.norm_squared()).0, signed)
     }
+
+    fn section(&self, e: &Nodal<D>, rate: &Nodal<D>, xi: f64) -> (f64, f64) {
+        let p = &self.parameters;
+        let (slopes, curvatures) = (shape::slopes(xi, p.length), shape::curvatures(xi, p.length));
+        let (u, w) = (e * slopes, e * curvatures);
+        let (du, dw) = (rate * slopes, rate * curvatures);
+        let (strain, f, _) = self.axial(u.norm_squared());
+        let [n0, n1, n2] = self.natural_strain;
+        let natural = (n0 + n1 + n2) / 3.0;
+        let stretching = strain - natural + p.damping_time * f * u.dot(&du);
+        let bending: [f64; C] = if p.bending_stiffness > 0.0 {
+            let (now, speed) = (
+                self.curvature(&u, &w).0,
+                self.curvature_rate((&u, &w), (&du, &dw)),
+            );
+            let [a, b] = &self.natural_curvature;
+            std::array::from_fn(|i| now[i] - 0.5 * (a[i] + b[i]) + p.damping_time * speed[i])
+        } else {
+            [0.0; C]
+        };
+        let moment = if C == 1 {
+            bending[0]
+        } else {
+            dot(&bending, &bending).sqrt()
+        };
+        (p.axial_stiffness * stretching, p.bending_stiffness * moment)
+    }
 }

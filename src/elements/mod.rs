@@ -50,4 +50,7 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn is_damped(&self) -> bool;
     /// Axial strain and curvature (1/m) at `xi` in [0, 1], in the strain measure of the element.
     fn strain(&self, e: &Nodal<D>, xi: f64) -> (f64, f64);
+    /// Axial force (N) and bending moment (N m) at `xi` in [0, 1], conjugate to the strain measure, with
+    /// damping; those of a curved shape are measured from its mean strain and curvature.
+    fn section(&self, e: &Nodal<D>, rate: &Nodal<D>, xi: f64) -> (f64, f64);
 }

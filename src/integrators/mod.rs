@@ -10,7 +10,7 @@ mod rk4;
 pub use radau::Radau;
 pub use rk4::Rk4;
 
-use crate::system::{Dynamics, State};
+use crate::system::{Accepted, Dynamics, State};
 
 /// Error that a step may make, in the mass norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,17 +54,21 @@ pub trait Method: Send {
     /// Longest step that stability allows, s.
     fn longest_step(&self) -> f64;
     /// Forgets history: inputs may have jumped.
-    fn begin(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64]);
+    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]);
     /// Tries a step of length `h` from the state last begun with or accepted.
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (&[f64], &[f64]),
+        state: (f64, &[f64], &[f64]),
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt;
     /// Takes over the result of the last attempt.
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]);
+    /// The state accepted last was brought back to constraints: computes its acceleration again.
+    fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]);
+    /// Work that came in and that was dissipated over the last attempt, J.
+    fn work(&self) -> [f64; 2];
     /// Acceleration at the state last begun with or accepted, for the first step's length.
     fn acceleration(&self) -> &[f64];
     /// Newton iterations since [`Method::begin`].
@@ -91,6 +95,10 @@ pub enum Stop {
     NotFinite,
     /// The way to the communication point takes more than [`MOST_STEPS`].
     TooManySteps,
+    /// A slide has left its cable; the joint.
+    RanOff(usize),
+    /// Constraints cannot be kept.
+    Broken,
 }
 
 /// Most attempted steps of one call: a master should hear of it before a night has passed.
@@ -101,8 +109,8 @@ const SHRINK: f64 = 0.2;
 const GROW: f64 = 5.0;
 const SAFETY: f64 = 0.9;
 
-/// Advances the state to `until` in steps that each keep the tolerance; lands exactly. On failure
-/// the state is that of the last accepted step.
+/// Advances the state to `until` in steps that each keep the tolerance; lands exactly, and on every
+/// time on the way at which something jumps. On failure the state is that of the last accepted step.
 ///
 /// # Errors
 /// The reason, when no step however short succeeds.
@@ -114,19 +122,37 @@ pub fn advance(
     tolerance: &Tolerance,
 ) -> (Counts, Result<(), Stop>) {
     let mut counts = Counts::default();
+    let mut result = Ok(());
+    while result.is_ok() && state.time < until {
+        let next = dynamics.breaks().iter().find(|t| **t > state.time);
+        let end = next.map_or(until, |t| t.min(until));
+        result = advance_smoothly(method, dynamics, state, end, (tolerance, &mut counts));
+        counts.newton_iterations += method.newton_iterations();
+    }
+    (counts, result)
+}
+
+/// Advances over a stretch without jumps.
+fn advance_smoothly(
+    method: &mut dyn Method,
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+    until: f64,
+    (tolerance, counts): (&Tolerance, &mut Counts),
+) -> Result<(), Stop> {
     let mut grow = GROW;
-    method.begin(dynamics, &state.coordinates, &state.rates);
+    method.begin(dynamics, state.time, &state.coordinates, &state.rates);
     if state.step <= 0.0 {
         state.step = first_step(method.acceleration(), &state.rates, tolerance);
     }
     let shortest = 16.0 * f64::EPSILON * until.abs().max(state.time.abs());
-    let result = loop {
+    loop {
         let remaining = until - state.time;
         if remaining <= 0.0 {
-            break Ok(());
+            return Ok(());
         }
         if counts.steps + counts.rejected >= MOST_STEPS {
-            break Err(Stop::TooManySteps);
+            return Err(Stop::TooManySteps);
         }
         let wanted = state.step.min(method.longest_step());
         // Whole steps to the end: a sliver left over would cost a step of its own.
@@ -136,7 +162,7 @@ pub fn advance(
         } else {
             wanted
         };
-        let from = (&state.coordinates[..], &state.rates[..]);
+        let from = (state.time, &state.coordinates[..], &state.rates[..]);
         let attempt = method.attempt(dynamics, from, h, tolerance);
         match attempt {
             Attempt::Done(error) if error <= 1.0 => {
@@ -151,7 +177,10 @@ pub fn advance(
                     next
                 };
                 counts.steps += 1;
-                dynamics.accepted(state);
+                for (sum, part) in state.work.iter_mut().zip(method.work()) {
+                    *sum += part;
+                }
+                settle(method, dynamics, state)?;
             }
             outcome => {
                 counts.rejected += 1;
@@ -166,13 +195,28 @@ pub fn advance(
                 };
                 state.step = h * factor;
                 if state.step <= shortest {
-                    break Err(reason(&state.rates, method.acceleration()));
+                    return Err(reason(&state.rates, method.acceleration()));
                 }
             }
         }
-    };
-    counts.newton_iterations = method.newton_iterations();
-    (counts, result)
+    }
+}
+
+/// Lets the system do with an accepted state what it must.
+fn settle(
+    method: &mut dyn Method,
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+) -> Result<(), Stop> {
+    match dynamics.accepted(state) {
+        Accepted::AsIs => {}
+        Accepted::Moved => {
+            method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
+        }
+        Accepted::RanOff(joint) => return Err(Stop::RanOff(joint)),
+        Accepted::Broken => return Err(Stop::Broken),
+    }
+    Ok(())
 }
 
 fn reason(v: &[f64], a: &[f64]) -> Stop {

@@ -65,6 +65,8 @@ const A_INVERSE: [[f64; 3]; 3] = [
     ],
     [5.531_972_647_421_809, -7.531_972_647_421_809, 5.0],
 ];
+/// Weights of the stages in an integral.
+const B: [f64; 3] = [0.376_403_062_700_467_3, 0.512_485_826_188_421_6, 1.0 / 9.0];
 /// Weights of the stages in the error estimate.
 const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_749, -1.0 / 3.0];
 /// Size of the error that Newton's method leaves, in units of the tolerance.
@@ -104,6 +106,8 @@ pub struct Radau {
     rate: f64,
     rejected: bool,
     iterations: u64,
+    /// Power at the stages, W.
+    powers: [[f64; 2]; 3],
 }
 
 impl Radau {
@@ -127,6 +131,7 @@ impl Radau {
             rate: 1.0,
             rejected: false,
             iterations: 0,
+            powers: [[0.0; 2]; 3],
         }
     }
 
@@ -176,14 +181,16 @@ impl Radau {
     fn iterate(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (q, v): (&[f64], &[f64]),
+        (time, q, v): (f64, &[f64], &[f64]),
         h: f64,
         tolerance: &Tolerance,
     ) -> f64 {
         for stage in 0..3 {
             self.place(stage, q, v);
-            dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.f[stage]);
+            let at = time + C[stage] * h;
+            dynamics.acceleration(at, &self.stage_q, &self.stage_v, &mut self.f[stage]);
             dynamics.set_stage(stage);
+            self.powers[stage] = dynamics.power();
         }
         for i in 0..q.len() {
             let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
@@ -212,7 +219,7 @@ impl Radau {
     fn newton(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (&[f64], &[f64]),
+        state: (f64, &[f64], &[f64]),
         h: f64,
         tolerance: &Tolerance,
     ) -> Result<(), f64> {
@@ -256,7 +263,7 @@ impl Radau {
     fn estimate(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (q, v): (&[f64], &[f64]),
+        (time, q, v): (f64, &[f64], &[f64]),
         h: f64,
         tolerance: &Tolerance,
     ) -> f64 {
@@ -272,7 +279,7 @@ impl Radau {
             self.stage_q[i] = q[i] + self.error_q[i];
             self.stage_v[i] = v[i] + self.error_v[i];
         }
-        dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.f[0]);
+        dynamics.acceleration(time, &self.stage_q, &self.stage_v, &mut self.f[0]);
         self.filter(dynamics, h);
         tolerance.norm(&self.error_q, &self.error_v)
     }
@@ -297,9 +304,14 @@ impl Radau {
         }
     }
 
-    fn factor(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64], h: f64) -> bool {
+    fn factor(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        (time, q, v): (f64, &[f64], &[f64]),
+        h: f64,
+    ) -> bool {
         if !self.tangent {
-            dynamics.linearize(q, v);
+            dynamics.linearize(time, q, v);
             self.tangent = true;
             self.factored = 0.0;
         }
@@ -324,8 +336,20 @@ impl Method for Radau {
         f64::INFINITY
     }
 
-    fn begin(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64]) {
-        dynamics.acceleration(q, v, &mut self.a);
+    fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
+        dynamics.acceleration(time, q, v, &mut self.a);
+    }
+
+    fn work(&self) -> [f64; 2] {
+        let part = |k: usize| {
+            let powers = self.powers.iter().zip(B);
+            self.attempted * powers.map(|(power, weight)| weight * power[k]).sum::<f64>()
+        };
+        [part(0), part(1)]
+    }
+
+    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
+        dynamics.acceleration(time, q, v, &mut self.a);
         self.last = None;
         self.tangent = false;
         self.factored = 0.0;
@@ -336,11 +360,11 @@ impl Method for Radau {
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (&[f64], &[f64]),
+        state: (f64, &[f64], &[f64]),
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
-        let (q, v) = state;
+        let (time, q, v) = state;
         self.attempted = h;
         let fail = |this: &mut Self, factor: f64| {
             // The stages no longer hold the last step's polynomial.
@@ -348,7 +372,7 @@ impl Method for Radau {
             this.rejected = true;
             Attempt::Failed(factor)
         };
-        if !self.factor(dynamics, q, v, h) {
+        if !self.factor(dynamics, state, h) {
             return fail(self, 0.5);
         }
         self.start(v, h);
@@ -364,7 +388,7 @@ impl Method for Radau {
         if error <= 1.0 {
             // The next error estimate starts from the acceleration at the end.
             self.place(END, q, v);
-            dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.a);
+            dynamics.acceleration(time + h, &self.stage_q, &self.stage_v, &mut self.a);
         } else {
             self.last = None;
             self.rejected = true;

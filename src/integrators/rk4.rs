@@ -25,6 +25,10 @@ pub struct Rk4 {
     stage_a: Vec<f64>,
     sum_q: Vec<f64>,
     sum_v: Vec<f64>,
+    /// Power at the start of the step and at its end, W; work over it, J.
+    power: [f64; 2],
+    end_power: [f64; 2],
+    work: [f64; 2],
 }
 
 impl Rk4 {
@@ -42,6 +46,9 @@ impl Rk4 {
             stage_a: zero.clone(),
             sum_q: zero.clone(),
             sum_v: zero,
+            power: [0.0; 2],
+            end_power: [0.0; 2],
+            work: [0.0; 2],
         }
     }
 
@@ -66,14 +73,23 @@ impl Method for Rk4 {
         self.longest_step
     }
 
-    fn begin(&mut self, dynamics: &mut dyn Dynamics, q: &[f64], v: &[f64]) {
-        dynamics.acceleration(q, v, &mut self.a);
+    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
+        self.refresh(dynamics, time, q, v);
+    }
+
+    fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
+        dynamics.acceleration(time, q, v, &mut self.a);
+        self.power = dynamics.power();
+    }
+
+    fn work(&self) -> [f64; 2] {
+        self.work
     }
 
     fn attempt(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (q, v): (&[f64], &[f64]),
+        (time, q, v): (f64, &[f64], &[f64]),
         h: f64,
         tolerance: &Tolerance,
     ) -> Attempt {
@@ -81,15 +97,22 @@ impl Method for Rk4 {
         self.sum_v.copy_from_slice(v);
         self.stage_v.copy_from_slice(v);
         self.stage_a.copy_from_slice(&self.a);
+        self.work = [0.0; 2];
+        let mut power = self.power;
         for (weight, step) in [(h / 6.0, h / 2.0), (h / 3.0, h / 2.0), (h / 3.0, h)] {
             self.stage(q, v, weight, step);
-            dynamics.acceleration(&self.stage_q, &self.stage_v, &mut self.stage_a);
+            let at = time + step;
+            add(&mut self.work, weight, power);
+            dynamics.acceleration(at, &self.stage_q, &self.stage_v, &mut self.stage_a);
+            power = dynamics.power();
         }
+        add(&mut self.work, h / 6.0, power);
         for i in 0..q.len() {
             self.sum_q[i] += h / 6.0 * self.stage_v[i];
             self.sum_v[i] += h / 6.0 * self.stage_a[i];
         }
-        dynamics.acceleration(&self.sum_q, &self.sum_v, &mut self.end);
+        dynamics.acceleration(time + h, &self.sum_q, &self.sum_v, &mut self.end);
+        self.end_power = dynamics.power();
         for i in 0..q.len() {
             self.stage_v[i] = h / 6.0 * (self.stage_v[i] - self.sum_v[i]);
             self.stage_a[i] = h / 6.0 * (self.stage_a[i] - self.end[i]);
@@ -101,6 +124,7 @@ impl Method for Rk4 {
         q.copy_from_slice(&self.sum_q);
         v.copy_from_slice(&self.sum_v);
         std::mem::swap(&mut self.a, &mut self.end);
+        self.power = self.end_power;
     }
 
     fn acceleration(&self) -> &[f64] {
@@ -109,5 +133,11 @@ impl Method for Rk4 {
 
     fn newton_iterations(&self) -> u64 {
         0
+    }
+}
+
+fn add(sum: &mut [f64; 2], weight: f64, power: [f64; 2]) {
+    for (sum, power) in sum.iter_mut().zip(power) {
+        *sum += weight * power;
     }
 }

@@ -1,7 +1,6 @@
 //! Floor 0. Numerics that know nothing of mechanics: quadrature, structured solves, eigenvalues.
 //! The only users of faer.
 
-pub mod block_tridiagonal;
 pub mod eigen;
 pub mod expression;
 pub mod function;
@@ -9,3 +8,4 @@ mod grammar;
 pub mod householder;
 pub mod quadrature;
 pub mod sparse;
+pub mod row_space;

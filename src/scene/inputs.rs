@@ -55,7 +55,7 @@ impl Motion {
     }
 
     /// How many numbers the master sets for the motion, if it is an input.
-    fn input_count(&self) -> Option<usize> {
+    pub fn input_count(&self) -> Option<usize> {
         let derivatives = self.input_derivatives()?;
         Some(self.coordinates() * (1 + derivatives))
     }

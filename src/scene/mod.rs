@@ -13,7 +13,7 @@ mod mesh;
 mod shape;
 mod validate;
 
-pub use assemble::assemble;
+pub use assemble::{Assembled, assemble};
 pub use description::{
     Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion, Input,
     InputKind, Integrator, Joint, JointKind, Load, LoadKind, LoadValue, Mass, MasterInput,

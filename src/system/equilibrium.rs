@@ -6,7 +6,9 @@
 //!
 //! Source: J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed., sections 3.4 and 10.3.
 
-use super::{Dynamics, Model, State, System, Work};
+use super::frequencies::fastest;
+use super::loads::Load;
+use super::{Dynamics, Model, Signal, State, System, Work};
 
 /// Iterations for one load step.
 const ITERATIONS: usize = 100;
@@ -16,7 +18,7 @@ const SMALLEST: f64 = 1.0 / 256.0;
 const BRANCH: f64 = 1.5;
 /// Largest turn of a slope in one iteration, rad.
 const LARGEST_TURN: f64 = 0.5;
-/// Correction, relative to the length of the body, below which Newton converges quadratically.
+/// Correction, relative to the size of the system, below which Newton converges quadratically.
 const CLOSE: f64 = 1e-7;
 /// Correction at which it cannot get better.
 const EXACT: f64 = 1e-14;
@@ -27,14 +29,14 @@ const NOISE: f64 = 1e-10;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "no stable static equilibrium found beyond {:.4} of the load: after {ITERATIONS} Newton \
-     iterations the correction is {correction:.1e} of the body's length; expected a body that is \
-     held against its loads",
+     iterations the correction is {correction:.1e} of the system's size; expected bodies that are \
+     held against their loads",
     reached
 )]
 pub struct NotFound {
     /// Fraction of the load that was reached.
     pub reached: f64,
-    /// Last Newton correction relative to the length of the body.
+    /// Last Newton correction relative to the size of the system.
     pub correction: f64,
 }
 
@@ -50,16 +52,19 @@ pub fn find(
     state: &mut State,
 ) -> Result<(), NotFound> {
     let (mut reached, mut step) = (0.0, 1.0);
+    let shift = 1e-8 * fastest(system, inputs, work, state).0;
     let mut from = state.clone();
     while reached < 1.0 {
         let target = f64::min(1.0, reached + step);
-        let scaled: Vec<f64> = inputs.iter().map(|input| target * input).collect();
-        let mut model = Model::new(system, &scaled, work);
-        model.gravity = target;
-        let mut outcome = relax(&mut model, state, Guard::Turns);
+        let scaled = scaled(system, inputs, target);
+        let mut model = Model::new(system, &scaled, work, &from);
+        model.fraction = target;
+        let mut outcome = relax(&mut model, state, shift, Guard::Turns);
         if outcome.is_err() {
             state.copy_from(&from);
-            outcome = relax(&mut model, state, Guard::Potential);
+            model = Model::new(system, &scaled, model.work, &from);
+            model.fraction = target;
+            outcome = relax(&mut model, state, shift, Guard::Potential);
         }
         // Far from the last equilibrium there may be another one, with a turn more.
         let turn = model.largest_turn(&from.coordinates, &state.coordinates);
@@ -87,6 +92,19 @@ pub fn find(
     Ok(())
 }
 
+/// Inputs at a fraction of the load; lengths of springs stay.
+fn scaled(system: &System, inputs: &[f64], fraction: f64) -> Vec<f64> {
+    let mut scaled: Vec<f64> = inputs.iter().map(|input| fraction * input).collect();
+    for load in &system.loads {
+        if let Load::Spring(spring) = load
+            && let Signal::Input(index) = spring.length
+        {
+            scaled[index] = inputs[index];
+        }
+    }
+    scaled
+}
+
 /// What a Newton iteration must respect.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Guard {
@@ -98,22 +116,25 @@ enum Guard {
 }
 
 /// Equilibrium under fixed loads; on failure the last correction.
-fn relax(model: &mut Model<'_>, state: &mut State, guard: Guard) -> Result<(), f64> {
+fn relax(
+    model: &mut Model<'_>,
+    state: &mut State,
+    smallest_shift: f64,
+    guard: Guard,
+) -> Result<(), f64> {
     let n = state.coordinates.len();
     let rest = vec![0.0; n];
     let (mut force, mut x, mut trial) = (rest.clone(), rest.clone(), rest.clone());
-    let body = &model.system.body;
-    let size = body.mass().sqrt() * body.length();
-    let smallest_shift = 1e-8 * body.frequency_bound();
+    let (time, size) = (state.time, model.system.scale());
     let (mut shift, mut before) = (0.0_f64, f64::INFINITY);
     let mut correction = f64::INFINITY;
     for _ in 0..ITERATIONS {
         let q = &mut state.coordinates;
-        model.acceleration(q, &rest, &mut force);
+        model.acceleration(time, q, &rest, &mut force);
         if force.iter().all(|f| *f == 0.0) {
             return Ok(());
         }
-        model.linearize(q, &rest);
+        model.linearize(time, q, &rest);
         while !model.factor(shift) {
             shift = (3.0 * shift).max(smallest_shift);
             if !shift.is_finite() {
@@ -126,6 +147,7 @@ fn relax(model: &mut Model<'_>, state: &mut State, guard: Guard) -> Result<(), f
         if shift == 0.0 && correction < CLOSE {
             q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
             model.accepted(state);
+            state.rates.fill(0.0);
             if correction < EXACT || correction > 0.1 * before {
                 return Ok(());
             }
@@ -145,6 +167,7 @@ fn relax(model: &mut Model<'_>, state: &mut State, guard: Guard) -> Result<(), f
         if accepted {
             q.copy_from_slice(&trial);
             model.accepted(state);
+            state.rates.fill(0.0);
             shift = if shift > smallest_shift {
                 shift / 5.0
             } else {

@@ -1,77 +1,155 @@
-//! Floor 3. A system: bodies, joints and loads, constant after assembly; its state, plain numbers;
-//! and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
+//! Floor 3. A system: bodies, joints, motions and loads, constant after assembly; its state, plain
+//! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
 
+mod build;
 pub mod dynamics;
+mod end;
 pub mod equilibrium;
+mod frequencies;
 pub mod joints;
 pub mod loads;
+mod multipliers;
 mod outputs;
+mod placement;
+mod signal;
 mod state;
+mod work;
 
-pub use dynamics::{Dynamics, Model};
+pub use build::{BuildError, Lump, Parts};
+pub use dynamics::{Accepted, Dynamics, Model};
+pub use end::{Angle, End};
+pub use frequencies::{fastest, natural_frequencies};
 pub use outputs::Evaluation;
+pub use placement::NotAssembled;
+pub use signal::{Course, Drive, Signal};
 pub use state::State;
+pub use work::Work;
 
 use nalgebra::Vector2;
 
-use crate::body::{FlexibleBody, Marker, Scratch, Tangent};
+use crate::body::{Chain, Elimination, Node};
 use crate::elements::cable::Cable;
-use crate::elements::{Element, Nodal};
-use joints::Joint;
+use joints::{Constraint, Joint, Linear};
 use loads::Load;
 
-/// Bodies of a planar system.
-pub type PlanarBody = FlexibleBody<Cable<2, 1>, 2, 4>;
+/// Flexible bodies of a planar system.
+pub type PlanarChain = Chain<Cable<2, 1>, 2, 4>;
+
+/// How non-linear constraints are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Constraints {
+    /// Multipliers for accelerations; positions and velocities projected after every step, orthogonal
+    /// in the mass norm.
+    Projection,
+    /// Independent coordinates are integrated, dependent ones follow (report section 7), selected anew
+    /// by pivoting after every step.
+    Partitioning,
+}
 
 /// Everything about a system that does not change in time.
 #[derive(Clone, Debug)]
 pub struct System {
-    body: PlanarBody,
-    gravity: Vector2<f64>,
-    /// Forces of gravity on the elements, N.
-    weight: Vec<Nodal<2>>,
+    /// Coordinates of the nodes where `q` and what drives them are zero.
+    reference: Vec<Node<4>>,
+    chains: Vec<PlanarChain>,
+    lumps: Vec<Lump>,
+    /// Nodes of every body.
+    bodies: Vec<std::ops::Range<usize>>,
+    elimination: Elimination<4>,
     joints: Vec<Joint>,
+    linear: Vec<Linear>,
+    /// For every linear row, its cluster and place there, unless it repeats others.
+    holds: Vec<Option<(usize, usize)>>,
+    driven: Vec<DrivenRow>,
+    /// Non-linear constraints, those of one component together.
+    constraints: Vec<Constraint>,
+    /// Component and number of its constraints.
+    groups: Vec<(usize, usize)>,
+    /// Joints with a row that repeats others.
+    redundant: Vec<usize>,
+    drives: Vec<Drive>,
+    /// Number of motions that inputs drive.
+    courses: usize,
     loads: Vec<Load>,
-    /// Markers whose angle is counted on over full turns.
-    angles: Vec<Marker>,
+    angles: Vec<Angle>,
+    /// For every slide, its constraint.
+    slides: Vec<usize>,
+    gravity: Vector2<f64>,
+    /// Forces of gravity on the nodes, N.
+    weight: Vec<Node<4>>,
+    /// Rate at which the frame turns, rad/s.
+    rotation: f64,
+    method: Constraints,
+    is_damped: bool,
+    /// Whether anything reads rates besides damping.
+    needs_rates: bool,
+    /// Whether work is integrated.
+    tracks_work: bool,
+    breaks: Vec<f64>,
+    grounded: Vec<usize>,
 }
 
-/// Scratch of a system: nothing allocates in a step.
+/// How the nodes follow a row of `Phi` that changes in time.
 #[derive(Clone, Debug)]
-pub struct Work {
-    pub(crate) scratch: Scratch<2>,
-    pub(crate) tangent: Tangent<2, 4>,
-    /// A vector of generalized coordinates.
-    pub(crate) q: Vec<f64>,
+struct DrivenRow {
+    /// Index among the linear rows.
+    row: usize,
+    /// Value in the reference configuration.
+    reference: f64,
+    /// Nodal coordinates per unit.
+    follow: Vec<(usize, Node<4>)>,
+    /// Mass times them.
+    inertia: Vec<(usize, Node<4>)>,
 }
 
 impl System {
-    /// A system of one body; `angles` are the markers whose angle its states count.
-    pub fn new(
-        body: PlanarBody,
-        gravity: Vector2<f64>,
-        joints: Vec<Joint>,
-        loads: Vec<Load>,
-        angles: Vec<Marker>,
-    ) -> Self {
-        let weight = body
-            .elements()
-            .iter()
-            .map(|element| gravity * element.weight().transpose())
-            .collect();
-        Self {
-            body,
-            gravity,
-            weight,
-            joints,
-            loads,
-            angles,
-        }
+    /// Root of the mass times the size of the system, m sqrt(kg): what errors of `q` are measured by.
+    pub fn scale(&self) -> f64 {
+        self.mass().sqrt() * self.size()
     }
 
-    /// The body.
-    pub fn body(&self) -> &PlanarBody {
-        &self.body
+    /// Size: the length of the longest cable, or the largest distance of two nodes if that is more, m.
+    pub fn size(&self) -> f64 {
+        let longest = self.chains.iter().map(PlanarChain::length).fold(0.0, f64::max);
+        if self.chains.len() == 1 && self.bodies.len() == 1 {
+            return longest;
+        }
+        longest.max(placement::extent(&self.reference))
+    }
+
+    /// Number of independent coordinates `q`.
+    pub fn coordinates(&self) -> usize {
+        self.elimination.coordinates()
+    }
+
+    /// Flexible bodies.
+    pub fn chains(&self) -> &[PlanarChain] {
+        &self.chains
+    }
+
+    /// Coordinates of the nodes where `q` and what drives them are zero.
+    pub fn reference(&self) -> &[Node<4>] {
+        &self.reference
+    }
+
+    /// The transformation from `q` to the nodes.
+    pub fn elimination(&self) -> &Elimination<4> {
+        &self.elimination
+    }
+
+    /// Joints, then motions.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Joints that hold, at least in part, what others hold already.
+    pub fn redundant(&self) -> &[usize] {
+        &self.redundant
+    }
+
+    /// Number of non-linear constraints.
+    pub fn constraints(&self) -> usize {
+        self.constraints.len()
     }
 
     /// Gravitational acceleration, m/s^2.
@@ -79,90 +157,46 @@ impl System {
         self.gravity
     }
 
-    /// Number of components of all inputs.
-    pub fn inputs(&self) -> usize {
-        self.loads.iter().map(Load::components).sum()
+    /// Times at which something has a kink or jumps, s, increasing: no step leads across.
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
     }
 
-    /// Scratch for this system.
-    pub fn work(&self) -> Work {
-        Work {
-            scratch: self.body.scratch(),
-            tangent: self.body.tangent(),
-            q: vec![0.0; self.body.coordinates()],
-        }
+    /// Mass, kg.
+    pub fn mass(&self) -> f64 {
+        let chains: f64 = self.chains.iter().map(PlanarChain::mass).sum();
+        chains + self.lumps.iter().map(|lump| lump.mass).sum::<f64>()
     }
 
-    /// The reference configuration at rest; angles are those of the slopes in (-pi, pi] once accepted.
-    pub fn reference_state(&self, time: f64) -> State {
-        let n = self.body.coordinates();
+    /// A state with the sizes of this system: the reference configuration at rest.
+    pub fn blank_state(&self, time: f64) -> State {
+        let n = self.coordinates();
         State {
             time,
             step: 0.0,
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
             angles: vec![0.0; self.angles.len()],
+            travel: vec![0.0; self.slides.len()],
+            driven: vec![[0.0; 3]; self.courses],
+            work: [0.0; 2],
         }
     }
 
     /// Whether a state has the sizes of this system.
     pub fn fits(&self, state: &State) -> bool {
-        let n = self.body.coordinates();
-        let found = (
-            state.coordinates.len(),
-            state.rates.len(),
-            state.angles.len(),
-        );
-        found == (n, n, self.angles.len())
+        state.sizes() == self.blank_state(0.0).sizes()
     }
 
-    /// Rates of a rigid motion: `velocity` of the first end and `spin` about it, as close as the
-    /// constraints allow in the mass norm.
-    pub fn rigid_rates(
-        &self,
-        velocity: Vector2<f64>,
-        spin: f64,
-        work: &mut Work,
-        rates: &mut [f64],
-    ) {
-        let reference = self.body.reference();
-        let turn = nalgebra::Matrix2::new(0.0, -spin, spin, 0.0);
-        let origin: Vector2<f64> = reference[0].column(0).into();
-        let motion: Vec<Nodal<2>> = reference
-            .iter()
-            .map(|e| {
-                let mut rate = turn * e;
-                for column in [0, 2] {
-                    let position = velocity - turn * origin + rate.column(column);
-                    rate.set_column(column, &position);
-                }
-                rate
-            })
-            .collect();
-        self.body.project(&motion, &mut work.scratch, rates);
-    }
-
-    /// Total force on the elements at `work.scratch.e`, `.rate` into `.force`, under a fraction of gravity.
-    fn forces(&self, inputs: &[f64], gravity: f64, work: &mut Work) {
-        let Scratch { e, rate, force, .. } = &mut work.scratch;
-        force
-            .iter_mut()
-            .zip(&self.weight)
-            .for_each(|(f, w)| *f = w * gravity);
-        self.body.add_force(e, rate, force);
-        let mut first = 0;
-        for load in &self.loads {
-            load.add_force(&inputs[first..], e, force);
-            first += load.components();
+    /// `f += s M a` over the nodes.
+    pub fn add_inertia(&self, s: f64, a: &[Node<4>], f: &mut [Node<4>]) {
+        for chain in &self.chains {
+            chain.add_inertia(s, a, f);
         }
-    }
-
-    /// Adds what loads contribute to the tangent.
-    fn load_stiffness(&self, inputs: &[f64], work: &mut Work) {
-        let mut first = 0;
-        for load in &self.loads {
-            load.add_stiffness(&inputs[first..], &work.scratch.e, &mut work.tangent);
-            first += load.components();
+        for lump in &self.lumps {
+            let at = lump.marker.position(a) * (s * lump.mass);
+            let on = lump.marker.direction(a) * (s * lump.inertia);
+            lump.marker.add_force(at, on, f);
         }
     }
 }

@@ -11,8 +11,14 @@ pub struct State {
     pub coordinates: Vec<f64>,
     /// Their rates, m sqrt(kg) / s.
     pub rates: Vec<f64>,
-    /// Angles of the markers that report one, counted on over full turns, rad.
+    /// Angles that are counted on over full turns, rad.
     pub angles: Vec<f64>,
+    /// Where slides are on their cables, m.
+    pub travel: Vec<f64>,
+    /// Motions that inputs drive: value and two derivatives.
+    pub driven: Vec<[f64; 3]>,
+    /// Work that came in from outside and that was dissipated since the start, J.
+    pub work: [f64; 2],
 }
 
 impl State {
@@ -23,5 +29,19 @@ impl State {
         self.coordinates.copy_from_slice(&other.coordinates);
         self.rates.copy_from_slice(&other.rates);
         self.angles.copy_from_slice(&other.angles);
+        self.travel.copy_from_slice(&other.travel);
+        self.driven.copy_from_slice(&other.driven);
+        self.work = other.work;
+    }
+
+    /// Numbers of coordinates, rates, angles, slides and driven motions.
+    pub fn sizes(&self) -> [usize; 5] {
+        [
+            self.coordinates.len(),
+            self.rates.len(),
+            self.angles.len(),
+            self.travel.len(),
+            self.driven.len(),
+        ]
     }
 }

@@ -57,7 +57,19 @@ impl Cholesky {
     pub fn multiply(&self, pattern: &Pattern, x: &mut [f64]) {
         scale(x, &self.roots);
         for column in pattern.columns.iter().rev() {
-            kernels::multiply_lower(pattern, column, &self.factors.values, x);
+            kernels::multiply_lower(pattern, column, &self.factors.values, 0, x);
+        }
+    }
+
+    /// `x <- W x` for one component; `x` holds the variables of this component alone.
+    pub fn multiply_component(&self, pattern: &Pattern, component: usize, x: &mut [f64]) {
+        let component = &pattern.components()[component];
+        let range = component.variables.clone();
+        scale(x, &self.roots[range.clone()]);
+        let order = &pattern.order()[component.vertices.clone()];
+        for vertex in order.iter().rev().filter(|v| !pattern.range(**v).is_empty()) {
+            let column = &pattern.columns[pattern.column_of[*vertex]];
+            kernels::multiply_lower(pattern, column, &self.factors.values, range.start, x);
         }
     }
 

@@ -282,16 +282,22 @@ fn multiply_column<T: Number>(
 }
 
 /// The part of one column in `x <- L x`; later columns come first.
-pub(super) fn multiply_lower(pattern: &Pattern, column: &Column, values: &[f64], x: &mut [f64]) {
-    let size = column.size;
+pub(super) fn multiply_lower(
+    pattern: &Pattern,
+    column: &Column,
+    values: &[f64],
+    base: usize,
+    x: &mut [f64],
+) {
+    let (size, start) = (column.size, column.start - base);
     let (diagonal, mut rest) = values[column.at..].split_at(size * size);
-    let end = column.start + size;
+    let end = start + size;
     let (x, later) = x.split_at_mut(end);
-    let x = &mut x[column.start..];
+    let x = &mut x[start..];
     for row in &pattern.rows[column.rows.clone()] {
         let (block, remaining) = rest.split_at(row.size * size);
         rest = remaining;
-        let y = &mut later[row.start - end..][..row.size];
+        let y = &mut later[row.start - base - end..][..row.size];
         for (y, line) in y.iter_mut().zip(block.chunks_exact(size)) {
             *y += dot(line, x);
         }

@@ -14,7 +14,7 @@ pub struct Pattern {
     /// Variables of every vertex.
     ranges: Vec<Range<usize>>,
     /// Column of every vertex; what stands at an empty vertex has no meaning.
-    column_of: Vec<usize>,
+    pub(super) column_of: Vec<usize>,
     component_of: Vec<usize>,
     order: Vec<usize>,
     components: Vec<Component>,

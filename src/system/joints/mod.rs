@@ -1,60 +1,328 @@
-//! Joints to ground. All of them are linear in nodal coordinates and go into `Phi`.
+//! Joints and motions: one file a kind. What is linear in nodal coordinates becomes rows of `Phi`; the
+//! rest becomes constraints with multipliers.
 
-mod orientation;
-mod revolute;
-mod slider;
-mod weld;
+mod along;
+mod direction;
+mod distance;
+mod position;
+mod unit;
+
+pub use along::Along;
+pub use direction::Parallel;
+pub use distance::Distance;
+pub use unit::Unit;
 
 use nalgebra::Vector2;
 
-use crate::body::{Constraint, Hold};
+use super::PlanarChain;
+use super::end::End;
+use crate::body::{Node, NodeBlock, Row};
 
-/// What a joint holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a joint or a motion holds.
+#[derive(Clone, Debug)]
 pub enum JointKind {
-    /// The position.
+    /// The position of one end on the other: a pin.
     Revolute,
-    /// The position and the direction of the slope.
-    Weld,
-    /// The position across this direction.
+    /// The position, and the direction at this angle from that of the first end (rad).
+    Weld(f64),
+    /// The position across this unit direction (first end: ground).
     Slider(Vector2<f64>),
-    /// The direction of the slope.
-    Orientation,
+    /// The direction, at this angle from that of the first end (rad).
+    Orientation(f64),
+    /// The distance, m.
+    Distance(f64),
+    /// The second end on this chain.
+    Along(usize),
+    /// The direction, at a driven angle from that of the first end.
+    DrivenAngle(usize),
+    /// The position at two driven coordinates (first end: ground).
+    DrivenPosition([usize; 2]),
+    /// The position along this unit direction at a driven way from the first end (ground).
+    DrivenWay(Vector2<f64>, usize),
 }
 
-/// A joint between ground and a node.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A joint or a motion.
+#[derive(Clone, Debug)]
 pub struct Joint {
     /// What it holds.
     pub kind: JointKind,
-    /// Node of the body.
-    pub node: usize,
-    /// Slope there in the reference configuration.
-    pub slope: Vector2<f64>,
+    /// What it joins.
+    pub ends: [End; 2],
+    /// Index of its rotational spring among the loads: a hinge.
+    pub spring: Option<usize>,
 }
 
-impl Joint {
-    /// Rows of `Phi`; `index` names the joint.
-    pub fn constraints(&self, index: usize) -> Vec<Constraint<2>> {
-        let holds = match self.kind {
-            JointKind::Revolute => revolute::holds(),
-            JointKind::Weld => weld::holds(self.slope),
-            JointKind::Slider(direction) => slider::holds(direction),
-            JointKind::Orientation => orientation::holds(self.slope),
-        };
-        let row = |hold| Constraint {
-            node: self.node,
-            hold,
-            joint: index,
-        };
-        holds.into_iter().map(row).collect()
+/// What a row is to equal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// A fixed number.
+    Fixed(f64),
+    /// A driven coordinate plus a number.
+    Value(usize, f64),
+    /// Cosine of a driven angle.
+    Cosine(usize),
+    /// Sine of a driven angle.
+    Sine(usize),
+}
+
+impl Target {
+    /// Whether it changes in time.
+    pub fn is_driven(&self) -> bool {
+        !matches!(self, Self::Fixed(_))
+    }
+
+    /// Value and first two derivatives from those of the driven coordinates.
+    pub fn derivatives(&self, drives: &[[f64; 3]]) -> [f64; 3] {
+        match *self {
+            Self::Fixed(value) => [value, 0.0, 0.0],
+            Self::Value(index, offset) => {
+                let [p, v, a] = drives[index];
+                [p + offset, v, a]
+            }
+            Self::Cosine(index) => {
+                let ([p, v, a], (sin, cos)) = (drives[index], drives[index][0].sin_cos());
+                [cos + 0.0 * p, -sin * v, -cos * v * v - sin * a]
+            }
+            Self::Sine(index) => {
+                let ([p, v, a], (sin, cos)) = (drives[index], drives[index][0].sin_cos());
+                [sin + 0.0 * p, cos * v, cos * a - sin * v * v]
+            }
+        }
     }
 }
 
-/// The unit vector across a direction.
-fn across(direction: Vector2<f64>) -> Vector2<f64> {
-    Vector2::new(-direction.y, direction.x).normalize()
+/// A linear constraint of a joint.
+#[derive(Clone, Debug)]
+pub struct Linear {
+    /// Index of the joint, if it belongs to one.
+    pub joint: Option<usize>,
+    /// The row of `Phi`.
+    pub row: Row<4>,
+    /// What it equals.
+    pub target: Target,
+    /// Its coefficients on position and direction of the second end.
+    pub on_second: [Vector2<f64>; 2],
 }
 
-/// Rows that hold something.
-type Holds = Vec<Hold<2>>;
+/// State of a system as constraints see it.
+pub struct View<'a> {
+    /// Nodal coordinates.
+    pub x: &'a [Node<4>],
+    /// Their rates.
+    pub v: &'a [Node<4>],
+    /// Driven coordinates with two derivatives.
+    pub drives: &'a [[f64; 3]],
+    /// Flexible bodies.
+    pub chains: &'a [PlanarChain],
+    /// Where on their chains slides are, m.
+    pub travel: &'a [f64],
+}
+
+/// A non-linear constraint `g(x, t) = 0` with the force `-J^T lambda`.
+#[derive(Clone, Debug)]
+pub struct Constraint {
+    /// Index of the joint, if it belongs to one.
+    pub joint: Option<usize>,
+    /// What is held.
+    pub kind: ConstraintKind,
+}
+
+/// Kinds of non-linear constraints.
+#[derive(Clone, Debug)]
+pub enum ConstraintKind {
+    /// A rigid body's direction keeps its length.
+    Unit(Unit),
+    /// A direction at an angle from another one.
+    Parallel(Parallel),
+    /// A distance.
+    Distance(Distance),
+    /// A point on a chain.
+    Along(Along),
+}
+
+macro_rules! each {
+    ($self:ident, $c:ident => $call:expr) => {
+        match &$self.kind {
+            ConstraintKind::Unit($c) => $call,
+            ConstraintKind::Parallel($c) => $call,
+            ConstraintKind::Distance($c) => $call,
+            ConstraintKind::Along($c) => $call,
+        }
+    };
+}
+
+impl Constraint {
+    /// `g`.
+    pub fn value(&self, view: &View<'_>) -> f64 {
+        each!(self, c => c.value(view))
+    }
+
+    /// Forces that a unit multiplier takes from position and direction of both ends.
+    pub fn gradient(&self, view: &View<'_>) -> Gradient {
+        each!(self, c => c.gradient(view))
+    }
+
+    /// Derivative of `g` by time alone, 1/s.
+    pub fn rate(&self, view: &View<'_>) -> f64 {
+        match &self.kind {
+            ConstraintKind::Parallel(c) => c.rate(view),
+            _ => 0.0,
+        }
+    }
+
+    /// `d^2 g / dt^2` without the part of accelerations, 1/s^2.
+    pub fn bias(&self, view: &View<'_>) -> f64 {
+        each!(self, c => c.bias(view))
+    }
+
+    /// Second derivatives times the multiplier, block by block of nodes.
+    pub fn stiffness(
+        &self,
+        lambda: f64,
+        view: &View<'_>,
+        add: &mut dyn FnMut(usize, usize, &NodeBlock<4>),
+    ) {
+        match &self.kind {
+            ConstraintKind::Unit(c) => c.stiffness(lambda, add),
+            ConstraintKind::Parallel(c) => c.stiffness(lambda, view, add),
+            ConstraintKind::Distance(c) => c.stiffness(lambda, add),
+            // Small beside inertia, and the blocks move with the point.
+            ConstraintKind::Along(_) => {}
+        }
+    }
+
+    /// Size of `g` to measure its residual by: 1 for directions, m for lengths.
+    pub fn size(&self, chains: &[PlanarChain]) -> f64 {
+        match &self.kind {
+            ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
+            ConstraintKind::Distance(c) => c.length,
+            ConstraintKind::Along(c) => chains[c.chain].length(),
+        }
+    }
+
+    /// Nodes that it ties together.
+    pub fn nodes(&self, chains: &[PlanarChain]) -> Vec<usize> {
+        match &self.kind {
+            ConstraintKind::Unit(c) => vec![c.node],
+            ConstraintKind::Parallel(c) => c.ends.iter().flat_map(End::nodes).collect(),
+            ConstraintKind::Distance(c) => c.ends.iter().flat_map(End::nodes).collect(),
+            ConstraintKind::Along(c) => {
+                let chain = chains[c.chain].nodes(0)[0];
+                c.end.nodes().chain([chain]).collect()
+            }
+        }
+    }
+
+    /// Whether it ties to the ground.
+    pub fn is_grounded(&self) -> bool {
+        let ground = |end: &End| end.marker().is_none();
+        match &self.kind {
+            ConstraintKind::Unit(_) => false,
+            ConstraintKind::Parallel(c) => c.ends.iter().any(ground),
+            ConstraintKind::Distance(c) => c.ends.iter().any(ground),
+            ConstraintKind::Along(c) => ground(&c.end),
+        }
+    }
+}
+
+/// Derivatives of a constraint by position and direction of two ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Gradient {
+    /// The ends and, for each, the derivatives by position and direction.
+    pub ends: [(End, [Vector2<f64>; 2]); 2],
+}
+
+impl Gradient {
+    /// Terms over the nodes.
+    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<4>)) {
+        for (end, [position, direction]) in &self.ends {
+            if let End::Body(marker) = end {
+                let [a, b] = marker.forces(*position, *direction);
+                term(a.0, &a.1);
+                if b.1 != [0.0; 4] {
+                    term(b.0, &b.1);
+                }
+            }
+        }
+    }
+}
+
+impl Joint {
+    /// What the joint adds to the linear and to the non-linear constraints; `index` is its own.
+    pub fn constraints(
+        &self,
+        index: usize,
+        linear: &mut Vec<Linear>,
+        nonlinear: &mut Vec<Constraint>,
+    ) {
+        let mut rows = Rows {
+            joint: index,
+            ends: &self.ends,
+            linear,
+        };
+        let kind = match &self.kind {
+            JointKind::Revolute => return position::pin(&mut rows),
+            JointKind::Weld(angle) => {
+                position::pin(&mut rows);
+                direction::hold(&mut rows, *angle)
+            }
+            JointKind::Slider(along) => return position::slider(&mut rows, *along),
+            JointKind::Orientation(angle) => direction::hold(&mut rows, *angle),
+            JointKind::Distance(length) => Some(ConstraintKind::Distance(Distance {
+                ends: self.ends,
+                length: *length,
+            })),
+            JointKind::Along(chain) => {
+                let before = nonlinear.iter();
+                let slides = before.filter(|c| matches!(c.kind, ConstraintKind::Along(_)));
+                Some(ConstraintKind::Along(Along {
+                    chain: *chain,
+                    end: self.ends[1],
+                    slide: slides.count(),
+                }))
+            }
+            JointKind::DrivenAngle(drive) => direction::drive(&mut rows, *drive),
+            JointKind::DrivenPosition(drives) => return position::drive(&mut rows, *drives),
+            JointKind::DrivenWay(along, drive) => {
+                return position::drive_along(&mut rows, *along, *drive);
+            }
+        };
+        nonlinear.extend(kind.map(|kind| Constraint {
+            joint: Some(index),
+            kind,
+        }));
+    }
+
+    /// Whether it can transmit a force.
+    pub fn has_force(&self) -> bool {
+        !matches!(
+            self.kind,
+            JointKind::Orientation(_) | JointKind::DrivenAngle(_)
+        )
+    }
+}
+
+/// Where joints put their rows.
+struct Rows<'a> {
+    joint: usize,
+    ends: &'a [End; 2],
+    linear: &'a mut Vec<Linear>,
+}
+
+impl Rows<'_> {
+    /// `second . (position, direction of the second end) - first . (of the first end) = target`.
+    fn push(&mut self, first: [Vector2<f64>; 2], second: [Vector2<f64>; 2], target: Target) {
+        let mut row = Row {
+            terms: Vec::new(),
+            is_driven: target.is_driven(),
+        };
+        self.ends[0].add_terms(-first[0], -first[1], &mut row);
+        self.ends[1].add_terms(second[0], second[1], &mut row);
+        self.linear.push(Linear {
+            joint: Some(self.joint),
+            row,
+            target,
+            on_second: second,
+        });
+    }
+}

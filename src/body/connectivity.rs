@@ -1,0 +1,186 @@
+//! Linear constraints between nodes, the rows of `Phi`, and how they are eliminated locally.
+//!
+//! Nodes that rows tie together form a cluster. Inside a cluster one rank-revealing QR of the rows,
+//! `Phi^T = Q1 R`, gives the free coordinates `y` of its nodes: `x = N y + Q1 R^-T c` with `N` the
+//! rest of `Q`, so that `Phi x = c` whatever `y` is. All other nodes are free as they are. That
+//! neighbouring elements share a node is the connectivity of the report's Eqs. 17-18; its QR is known
+//! beforehand and never computed.
+//!
+//! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eqs. 13-20 and 24-28.
+
+use nalgebra::DMatrix;
+
+use crate::math::householder::{norm, reflect, reflector};
+
+/// Coordinates of a node: position, then direction (the slope of a cable, the unit vector of a rigid
+/// body). Also rates of them, or forces on them.
+pub type Node<const B: usize> = [f64; B];
+
+/// Part of a row, relative to its size, below which it depends on the rows before.
+pub const RANK_TOLERANCE: f64 = 1e-10;
+
+/// A linear constraint `sum over terms of coefficients . x = c`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row<const B: usize> {
+    /// Nodes and their coefficients.
+    pub terms: Vec<(usize, Node<B>)>,
+    /// Whether `c` changes in time.
+    pub is_driven: bool,
+}
+
+/// A row that can be had from rows before it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dependent {
+    /// Its index.
+    pub row: usize,
+    /// Whether it or a row that it depends on is driven: then both can only hold by chance.
+    pub is_driven: bool,
+}
+
+/// Nodes tied together, and the QR of what ties them.
+#[derive(Clone, Debug)]
+pub struct Cluster {
+    /// Its nodes.
+    pub nodes: Vec<usize>,
+    /// Orthonormal basis of their free motion: one row per coordinate, one column per free one.
+    pub basis: DMatrix<f64>,
+    /// Independent rows.
+    pub rows: Vec<usize>,
+    /// `R^-1 Q1^T`: multipliers of the rows from the forces that they supply; its transpose gives the
+    /// coordinates that follow `c`.
+    pub multipliers: DMatrix<f64>,
+}
+
+/// Ties nodes together.
+///
+/// Returns the clusters, and rows that depend on others.
+pub fn clusters<const B: usize>(nodes: usize, rows: &[Row<B>]) -> (Vec<Cluster>, Vec<Dependent>) {
+    let mut groups = Groups::new(nodes);
+    for row in rows {
+        for pair in row.terms.windows(2) {
+            groups.join(pair[0].0, pair[1].0);
+        }
+    }
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); nodes];
+    let mut tied = vec![false; nodes];
+    for (node, _) in rows.iter().flat_map(|row| &row.terms) {
+        tied[*node] = true;
+    }
+    for node in (0..nodes).filter(|node| tied[*node]) {
+        members[groups.find(node)].push(node);
+    }
+    let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); nodes];
+    for (index, row) in rows.iter().enumerate() {
+        if let Some((node, _)) = row.terms.first() {
+            of_group[groups.find(*node)].push(index);
+        }
+    }
+    let mut dependent = Vec::new();
+    let clusters = members
+        .into_iter()
+        .zip(of_group)
+        .filter(|(members, _)| !members.is_empty())
+        .map(|(members, own)| factor(members, &own, rows, &mut dependent))
+        .collect();
+    (clusters, dependent)
+}
+
+fn factor<const B: usize>(
+    nodes: Vec<usize>,
+    own: &[usize],
+    rows: &[Row<B>],
+    dependent: &mut Vec<Dependent>,
+) -> Cluster {
+    let size = nodes.len() * B;
+    let place = |node: usize| nodes.binary_search(&node).unwrap_or(0) * B;
+    let mut reflectors: Vec<(Vec<f64>, f64)> = Vec::new();
+    // Columns of R.
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    let mut independent: Vec<usize> = Vec::new();
+    for index in own {
+        let mut column = vec![0.0; size];
+        for (node, coefficients) in &rows[*index].terms {
+            let at = place(*node);
+            for (value, coefficient) in column[at..].iter_mut().zip(coefficients) {
+                *value += coefficient;
+            }
+        }
+        let scale = norm(&column);
+        for (i, (vector, tau)) in reflectors.iter().enumerate() {
+            reflect(vector, *tau, &mut column[i..]);
+        }
+        let rank = reflectors.len();
+        if rank == size || norm(&column[rank..]) <= RANK_TOLERANCE * scale {
+            let used = combination(&columns, &column);
+            let driven = |(i, factor): (usize, &f64)| {
+                factor.abs() > RANK_TOLERANCE && rows[independent[i]].is_driven
+            };
+            dependent.push(Dependent {
+                row: *index,
+                is_driven: rows[*index].is_driven || used.iter().enumerate().any(driven),
+            });
+            continue;
+        }
+        let (tau, diagonal) = reflector(&mut column[rank..]);
+        let mut of_r = column[..rank].to_vec();
+        of_r.push(diagonal);
+        columns.push(of_r);
+        reflectors.push((column[rank..].to_vec(), tau));
+        independent.push(*index);
+    }
+    let rank = independent.len();
+    let mut q = DMatrix::<f64>::identity(size, size);
+    for mut column in q.column_iter_mut() {
+        for (i, (vector, tau)) in reflectors.iter().enumerate().rev() {
+            reflect(vector, *tau, &mut column.as_mut_slice()[i..]);
+        }
+    }
+    let mut multipliers = q.columns(0, rank).transpose();
+    for mut column in multipliers.column_iter_mut() {
+        for i in (0..rank).rev() {
+            let later: f64 = (i + 1..rank).map(|j| columns[j][i] * column[j]).sum();
+            column[i] = (column[i] - later) / columns[i][i];
+        }
+    }
+    Cluster {
+        basis: q.columns(rank, size - rank).into_owned(),
+        nodes,
+        rows: independent,
+        multipliers,
+    }
+}
+
+/// Factors with which independent rows add up to a dependent one.
+fn combination(columns: &[Vec<f64>], column: &[f64]) -> Vec<f64> {
+    let rank = columns.len();
+    let mut factors = column[..rank].to_vec();
+    for i in (0..rank).rev() {
+        for j in i + 1..rank {
+            factors[i] -= columns[j][i] * factors[j];
+        }
+        factors[i] /= columns[i][i];
+    }
+    factors
+}
+
+/// Disjoint sets.
+struct Groups(Vec<usize>);
+
+impl Groups {
+    fn new(count: usize) -> Self {
+        Self((0..count).collect())
+    }
+
+    fn find(&mut self, mut i: usize) -> usize {
+        while self.0[i] != i {
+            self.0[i] = self.0[self.0[i]];
+            i = self.0[i];
+        }
+        i
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.0[a.max(b)] = a.min(b);
+    }
+}

@@ -1,0 +1,228 @@
+//! The row space of a small number of long rows, rank-revealing: the rows of a constraint Jacobian may
+//! depend on each other, always or only in singular configurations.
+//!
+//! Source: modified Gram-Schmidt with column pivoting and a second pass ("twice is enough"):
+//! G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., sections 5.2.8, 5.4.1 and 5.5.5.
+
+/// Size of what is left of a row, relative to the largest row, below which the row counts as dependent.
+const RANK: f64 = 1e-7;
+
+/// Rows `A = P R^T Q`: `Q` has orthonormal rows, `R` is upper triangular, `P` permutes.
+#[derive(Clone, Debug, Default)]
+pub struct RowSpace {
+    length: usize,
+    /// The rows, and after [`RowSpace::factor`] in pivoted order `Q`.
+    rows: Vec<f64>,
+    /// `R` by columns: entry (i, j) at `j * count + i`.
+    r: Vec<f64>,
+    pivots: Vec<usize>,
+    rank: usize,
+    /// Parts along `Q` that were taken out and added last.
+    taken: Vec<f64>,
+    added: Vec<f64>,
+}
+
+impl RowSpace {
+    /// Storage for `count` rows of `length` numbers.
+    pub fn new(count: usize, length: usize) -> Self {
+        Self {
+            length,
+            rows: vec![0.0; count * length],
+            r: vec![0.0; count * count],
+            pivots: (0..count).collect(),
+            rank: 0,
+            taken: vec![0.0; count],
+            added: vec![0.0; count],
+        }
+    }
+
+    /// Number of rows.
+    pub fn count(&self) -> usize {
+        self.pivots.len()
+    }
+
+    /// Number of independent rows.
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Rows that depend on others.
+    pub fn dependent(&self) -> &[usize] {
+        &self.pivots[self.rank..]
+    }
+
+    /// Row `i`, to be filled in before [`RowSpace::factor`].
+    pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.rows[i * self.length..(i + 1) * self.length]
+    }
+
+    /// Orthonormal row `i`, below the rank.
+    pub fn unit(&self, i: usize) -> &[f64] {
+        &self.rows[i * self.length..(i + 1) * self.length]
+    }
+
+    /// Copies another row space of the same size.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.rows.copy_from_slice(&other.rows);
+        self.r.copy_from_slice(&other.r);
+        self.pivots.copy_from_slice(&other.pivots);
+        self.rank = other.rank;
+    }
+
+    /// Makes the rows orthonormal, largest remainder first.
+    pub fn factor(&mut self) {
+        let (count, length) = (self.count(), self.length);
+        self.pivots
+            .iter_mut()
+            .enumerate()
+            .for_each(|(i, p)| *p = i);
+        self.r.fill(0.0);
+        self.rank = 0;
+        let mut largest = 0.0_f64;
+        for k in 0..count {
+            let remainder = |i: usize| norm_squared(&self.rows[i * length..(i + 1) * length]);
+            let (mut best, mut size) = (k, remainder(k));
+            for i in k + 1..count {
+                let other = remainder(i);
+                if other > size {
+                    (best, size) = (i, other);
+                }
+            }
+            if k == 0 {
+                largest = size.sqrt();
+            }
+            self.exchange(k, best);
+            let (done, rest) = self.rows.split_at_mut(k * length);
+            let (pivot, rest) = rest.split_at_mut(length);
+            // Rounding of the first pass is taken out by a second one.
+            for i in 0..k {
+                let unit = &done[i * length..(i + 1) * length];
+                let part = dot(unit, pivot);
+                subtract(part, unit, pivot);
+                self.r[k * count + i] += part;
+            }
+            let size = norm_squared(pivot).sqrt();
+            if size <= RANK * largest || size == 0.0 {
+                return;
+            }
+            self.r[k * count + k] = size;
+            pivot.iter_mut().for_each(|x| *x /= size);
+            for (i, row) in rest.chunks_exact_mut(length).enumerate() {
+                let part = dot(pivot, row);
+                subtract(part, pivot, row);
+                self.r[(k + 1 + i) * count + k] = part;
+            }
+            self.rank = k + 1;
+        }
+    }
+
+    fn exchange(&mut self, a: usize, b: usize) {
+        if a == b {
+            return;
+        }
+        let (count, length) = (self.count(), self.length);
+        self.pivots.swap(a, b);
+        for i in 0..length {
+            self.rows.swap(a * length + i, b * length + i);
+        }
+        for i in 0..count {
+            self.r.swap(a * count + i, b * count + i);
+        }
+    }
+
+    /// `x -= Q^T Q x`.
+    pub fn take_out(&mut self, x: &mut [f64]) {
+        for i in 0..self.rank {
+            let unit = &self.rows[i * self.length..(i + 1) * self.length];
+            let part = dot(unit, x);
+            subtract(part, unit, x);
+            self.taken[i] = part;
+        }
+    }
+
+    /// Adds the smallest `x` with `A x = b` as far as independent rows go: `x += Q^T R^-T b`.
+    pub fn add_least(&mut self, b: &[f64], x: &mut [f64]) {
+        let count = self.count();
+        for i in 0..self.rank {
+            let column = &self.r[i * count..(i + 1) * count];
+            let before = dot(&column[..i], &self.added[..i]);
+            let part = (b[self.pivots[i]] - before) / column[i];
+            self.added[i] = part;
+            let unit = &self.rows[i * self.length..(i + 1) * self.length];
+            subtract(-part, unit, x);
+        }
+    }
+
+    /// Multipliers `A^T lambda` of all that was taken out less all that was added last; zero for
+    /// dependent rows.
+    pub fn multipliers(&self, lambda: &mut [f64]) {
+        let count = self.count();
+        lambda.fill(0.0);
+        for i in (0..self.rank).rev() {
+            let mut value = self.taken[i] - self.added[i];
+            for j in i + 1..self.rank {
+                value -= self.r[j * count + i] * lambda[self.pivots[j]];
+            }
+            lambda[self.pivots[i]] = value / self.r[i * count + i];
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm_squared(a: &[f64]) -> f64 {
+    dot(a, a)
+}
+
+fn subtract(factor: f64, a: &[f64], b: &mut [f64]) {
+    b.iter_mut().zip(a).for_each(|(b, a)| *b -= factor * a);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn filled(rows: &[[f64; 4]]) -> RowSpace {
+        let mut space = RowSpace::new(rows.len(), 4);
+        for (i, row) in rows.iter().enumerate() {
+            space.row_mut(i).copy_from_slice(row);
+        }
+        space.factor();
+        space
+    }
+
+    const ROWS: [[f64; 4]; 3] = [
+        [1.0, 2.0, 0.0, -1.0],
+        [0.5, 1.0, 3.0, 0.0],
+        [2.0, 0.0, 1.0, 1.0],
+    ];
+
+    #[test]
+    fn keeps_the_rows_and_recovers_multipliers() {
+        let mut space = filled(&ROWS);
+        assert_eq!(space.rank(), 3);
+        let (start, b) = ([0.3, -1.0, 2.0, 0.7], [0.1, -0.4, 2.5]);
+        let mut x = start;
+        space.take_out(&mut x);
+        space.add_least(&b, &mut x);
+        for (row, b) in ROWS.iter().zip(b) {
+            assert!((dot(row, &x) - b).abs() < 1e-14);
+        }
+        let mut lambda = [0.0; 3];
+        space.multipliers(&mut lambda);
+        for i in 0..4 {
+            let force: f64 = ROWS.iter().zip(lambda).map(|(row, l)| row[i] * l).sum();
+            assert!((start[i] - x[i] - force).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn finds_dependent_rows() {
+        let sum: [f64; 4] = std::array::from_fn(|i| ROWS[0][i] - ROWS[2][i]);
+        let space = filled(&[ROWS[0], ROWS[1], ROWS[2], sum]);
+        assert_eq!((space.rank(), space.dependent().len()), (3, 1));
+        assert_eq!(filled(&[[0.0; 4]]).rank(), 0);
+    }
+}

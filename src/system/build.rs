@@ -1,0 +1,395 @@
+//! From parts to a system: constraints are sorted into linear and non-linear ones, the linear ones are
+//! eliminated, and what does not change in time is computed.
+
+use std::ops::Range;
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::end::{Angle, End};
+use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
+use super::loads::{Load, coupling};
+use super::signal::{Drive, Signal};
+use super::{Constraints, DrivenRow, PlanarChain, System};
+use crate::body::{Assembly, Dependent, Elimination, Formulation, Marker, Node, Row};
+use crate::math::sparse::Matrix;
+
+/// Part of a gradient that counts as none.
+const NOTHING: f64 = 1e-12;
+
+/// Mass in a point of a body: a point mass, or a rigid body about its centre of mass.
+#[derive(Clone, Copy, Debug)]
+pub struct Lump {
+    /// Where it is.
+    pub marker: Marker,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Inertia of the direction against turning (and of a slope against stretching), kg m^2.
+    pub inertia: f64,
+}
+
+/// What a system is made of.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    /// Nodal coordinates as described; bodies need not fit together yet.
+    pub nodes: Vec<Node<4>>,
+    /// Nodes of every body, in order.
+    pub bodies: Vec<Range<usize>>,
+    /// Flexible bodies.
+    pub chains: Vec<PlanarChain>,
+    /// Rigid bodies and point masses.
+    pub lumps: Vec<Lump>,
+    /// Nodes of rigid bodies, and whether they can turn.
+    pub rigid: Vec<(usize, bool)>,
+    /// Joints, then motions.
+    pub joints: Vec<Joint>,
+    /// Driven coordinates.
+    pub drives: Vec<Drive>,
+    /// Loads.
+    pub loads: Vec<Load>,
+    /// Angles to count.
+    pub angles: Vec<Angle>,
+    /// Gravitational acceleration, m/s^2.
+    pub gravity: Vector2<f64>,
+    /// Rate at which the frame turns about the origin, rad/s.
+    pub rotation: f64,
+    /// How linear constraints are eliminated.
+    pub formulation: Formulation,
+    /// How non-linear constraints are kept.
+    pub constraints: Constraints,
+    /// Whether work is to be integrated.
+    pub tracks_work: bool,
+}
+
+/// Why parts make no system; joints by index.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BuildError {
+    /// A motion prescribes what other joints or motions determine already.
+    Determined(Option<usize>),
+    /// The mass is not positive definite.
+    Massless,
+}
+
+impl System {
+    /// Builds a system.
+    ///
+    /// # Errors
+    /// Motions that contradict other constraints; bodies without mass.
+    pub fn new(parts: Parts) -> Result<Self, BuildError> {
+        let (linear, nonlinear) = constraints(&parts);
+        let rows: Vec<Row<4>> = linear.iter().map(|linear| linear.row.clone()).collect();
+        let links = links(&parts, &nonlinear);
+        let printed = parts.formulation == Formulation::AsPrinted;
+        let eliminated: &[Row<4>] = if printed { &[] } else { &rows };
+        let (assembly, dependent) = Assembly::new(parts.nodes.len(), eliminated, &links);
+        let redundant = redundant(&linear, &dependent)?;
+        let mass = mass(&parts, &assembly);
+        let elimination = if printed {
+            let rows = printed_rows(&parts, &assembly, &rows);
+            Elimination::as_printed(assembly, mass, &rows)
+        } else {
+            Elimination::new(assembly, mass)
+        };
+        let elimination = elimination.ok_or(BuildError::Massless)?;
+        let chains_damped = parts.chains.iter().any(PlanarChain::is_damped);
+        let loads_damped = parts.loads.iter().any(Load::is_damped);
+        let mut system = Self {
+            reference: parts.nodes,
+            courses: (parts.drives.iter())
+                .filter(|drive| matches!(drive, Drive::Input { .. }))
+                .count(),
+            breaks: breaks(&parts.drives, &parts.loads),
+            grounded: grounded(&parts.loads, &nonlinear, parts.rotation, &parts.bodies),
+            is_damped: chains_damped || loads_damped,
+            needs_rates: loads_damped || parts.rotation != 0.0 || parts.tracks_work,
+            chains: parts.chains,
+            lumps: parts.lumps,
+            bodies: parts.bodies,
+            elimination,
+            joints: parts.joints,
+            holds: vec![None; linear.len()],
+            linear,
+            driven: Vec::new(),
+            constraints: Vec::new(),
+            groups: Vec::new(),
+            redundant,
+            drives: parts.drives,
+            loads: parts.loads,
+            angles: parts.angles,
+            slides: Vec::new(),
+            gravity: parts.gravity,
+            weight: Vec::new(),
+            rotation: parts.rotation,
+            method: parts.constraints,
+            tracks_work: parts.tracks_work,
+        };
+        system.settle();
+        system.weigh();
+        system.group(nonlinear);
+        system.needs_rates |= !system.constraints.is_empty();
+        Ok(system)
+    }
+
+    /// Moves the reference onto the fixed rows, and finds how nodes follow the driven ones.
+    fn settle(&mut self) {
+        let mut moves: Vec<(usize, Node<4>)> = Vec::new();
+        for (c, cluster) in self.elimination.assembly.clusters().iter().enumerate() {
+            for (k, row) in cluster.rows.iter().enumerate() {
+                self.holds[*row] = Some((c, k));
+                let linear = &self.linear[*row];
+                let value: f64 = (linear.row.terms.iter())
+                    .map(|(node, c)| dot(c, &self.reference[*node]))
+                    .sum();
+                let column = cluster.multipliers.row(k);
+                let part = |i: usize| std::array::from_fn(|c| column[4 * i + c]);
+                let nodes = cluster.nodes.iter().enumerate();
+                let follow: Vec<(usize, Node<4>)> = nodes.map(|(i, n)| (*n, part(i))).collect();
+                match linear.target {
+                    Target::Fixed(target) => {
+                        let scaled = |(n, c): &(usize, Node<4>)| (*n, c.map(|c| c * (target - value)));
+                        moves.extend(follow.iter().map(scaled));
+                    }
+                    _ => self.driven.push(DrivenRow {
+                        row: *row,
+                        reference: value,
+                        inertia: self.inertia_of(&follow),
+                        follow,
+                    }),
+                }
+            }
+        }
+        for (node, change) in moves {
+            let x = &mut self.reference[node];
+            x.iter_mut().zip(change).for_each(|(x, c)| *x += c);
+        }
+    }
+
+    /// Mass times a sparse nodal vector.
+    fn inertia_of(&self, follow: &[(usize, Node<4>)]) -> Vec<(usize, Node<4>)> {
+        let zero = vec![[0.0; 4]; self.reference.len()];
+        let (mut a, mut f) = (zero.clone(), zero);
+        for (node, value) in follow {
+            a[*node] = *value;
+        }
+        self.add_inertia(1.0, &a, &mut f);
+        let nodes = f.into_iter().enumerate();
+        nodes.filter(|(_, f)| *f != [0.0; 4]).collect()
+    }
+
+    fn weigh(&mut self) {
+        let mut weight = vec![[0.0; 4]; self.reference.len()];
+        for chain in &self.chains {
+            chain.add_weight(&self.gravity, &mut weight);
+        }
+        for lump in &self.lumps {
+            let force = self.gravity * lump.mass;
+            lump.marker.add_force(force, Vector2::zeros(), &mut weight);
+        }
+        self.weight = weight;
+    }
+
+    /// Sorts non-linear constraints by component. One that nothing free can violate drops out.
+    fn group(&mut self, nonlinear: Vec<Constraint>) {
+        let assembly = &self.elimination.assembly;
+        let slides = nonlinear.iter().filter_map(|c| match &c.kind {
+            ConstraintKind::Along(along) => {
+                Some(along.nearest(&self.chains[along.chain], &self.reference))
+            }
+            _ => None,
+        });
+        let travel: Vec<f64> = slides.collect();
+        let drives = vec![[0.0; 3]; self.drives.len()];
+        let view = View {
+            x: &self.reference,
+            v: &self.reference,
+            drives: &drives,
+            chains: &self.chains,
+            travel: &travel,
+        };
+        let mut sorted: Vec<(usize, Constraint)> = Vec::new();
+        let mut y = vec![0.0; assembly.pattern().len()];
+        for constraint in nonlinear {
+            y.fill(0.0);
+            let mut size = 0.0;
+            constraint.gradient(&view).for_each(|node, term| {
+                assembly.gather_node(node, term, 0, &mut y);
+                size += dot(term, term);
+            });
+            let left = y.iter().position(|y| y.abs() > NOTHING * f64::sqrt(size));
+            let home = left.and_then(|at| {
+                let holds = |c: &crate::math::sparse::Component| c.variables.contains(&at);
+                assembly.components().iter().position(holds)
+            });
+            match home {
+                Some(component) => sorted.push((component, constraint)),
+                None => self.redundant.extend(constraint.joint),
+            }
+        }
+        sorted.sort_by_key(|(component, _)| *component);
+        for (component, _) in &sorted {
+            match self.groups.last_mut() {
+                Some((last, count)) if last == component => *count += 1,
+                _ => self.groups.push((*component, 1)),
+            }
+        }
+        self.constraints = sorted.into_iter().map(|(_, c)| c).collect();
+        self.slides = vec![0; travel.len()];
+        for (index, constraint) in self.constraints.iter().enumerate() {
+            if let ConstraintKind::Along(along) = &constraint.kind {
+                self.slides[along.slide] = index;
+            }
+        }
+    }
+}
+
+fn constraints(parts: &Parts) -> (Vec<Linear>, Vec<Constraint>) {
+    let (mut linear, mut nonlinear) = (Vec::new(), Vec::new());
+    for (node, turns) in &parts.rigid {
+        if *turns {
+            nonlinear.push(Constraint {
+                joint: None,
+                kind: ConstraintKind::Unit(Unit { node: *node }),
+            });
+            continue;
+        }
+        // A particle has no direction of its own.
+        for axis in 2..4 {
+            let mut coefficients = [0.0; 4];
+            coefficients[axis] = 1.0;
+            linear.push(Linear {
+                joint: None,
+                row: Row {
+                    terms: vec![(*node, coefficients)],
+                    is_driven: false,
+                },
+                target: Target::Fixed(parts.nodes[*node][axis]),
+                on_second: [Vector2::zeros(); 2],
+            });
+        }
+    }
+    for (index, joint) in parts.joints.iter().enumerate() {
+        joint.constraints(index, &mut linear, &mut nonlinear);
+    }
+    (linear, nonlinear)
+}
+
+/// Pairs of nodes that mass, stiffness or constraints couple.
+fn links(parts: &Parts, nonlinear: &[Constraint]) -> Vec<(usize, usize)> {
+    let mut links = Vec::new();
+    for chain in &parts.chains {
+        links.extend((0..chain.elements().len()).map(|j| <(usize, usize)>::from(chain.nodes(j))));
+    }
+    let mut tie = |nodes: Vec<usize>| {
+        for (i, a) in nodes.iter().enumerate() {
+            links.extend(nodes[i + 1..].iter().map(|b| (*a, *b)));
+        }
+    };
+    for constraint in nonlinear {
+        tie(constraint.nodes(&parts.chains));
+    }
+    for load in &parts.loads {
+        tie(load.ends().iter().flat_map(End::nodes).collect());
+    }
+    for lump in &parts.lumps {
+        tie(lump.marker.nodes.to_vec());
+    }
+    links
+}
+
+fn redundant(linear: &[Linear], dependent: &[Dependent]) -> Result<Vec<usize>, BuildError> {
+    let mut redundant = Vec::new();
+    for found in dependent {
+        let joint = linear[found.row].joint;
+        if found.is_driven {
+            return Err(BuildError::Determined(joint));
+        }
+        redundant.extend(joint);
+    }
+    redundant.sort_unstable();
+    redundant.dedup();
+    Ok(redundant)
+}
+
+fn mass(parts: &Parts, assembly: &Assembly<4>) -> Matrix<f64> {
+    let mut mass = Matrix::zeros(assembly.pattern());
+    for chain in &parts.chains {
+        chain.add_mass(assembly, &mut mass);
+    }
+    for lump in &parts.lumps {
+        let ends = [End::Body(lump.marker), End::Ground(Vector2::zeros())];
+        for (part, size) in [lump.mass, lump.inertia].into_iter().enumerate() {
+            let (k, zero) = (Matrix2::identity() * size, Matrix2::zeros());
+            coupling(&ends, [[k, zero], [zero, zero]], part, &mut |a, b, block| {
+                assembly.add(a, b, block, &mut mass);
+            });
+        }
+    }
+    mass
+}
+
+/// Rows of `Phi`, connectivity and joints, over the free coordinates of elements that stand alone.
+fn printed_rows(parts: &Parts, assembly: &Assembly<4>, joints: &[Row<4>]) -> Vec<Vec<f64>> {
+    let n = assembly.pattern().len();
+    let mut rows = Vec::new();
+    for chain in &parts.chains {
+        for j in 1..chain.elements().len() {
+            for axis in 0..4 {
+                let unit = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
+                let mut row = vec![0.0; n];
+                assembly.gather_node(chain.nodes(j - 1)[1], &unit, 0, &mut row);
+                assembly.gather_node(chain.nodes(j)[0], &unit.map(|u| -u), 0, &mut row);
+                rows.push(row);
+            }
+        }
+    }
+    for joint in joints {
+        let mut row = vec![0.0; n];
+        for (node, coefficients) in &joint.terms {
+            assembly.gather_node(*node, coefficients, 0, &mut row);
+        }
+        rows.push(row);
+    }
+    rows
+}
+
+fn breaks(drives: &[Drive], loads: &[Load]) -> Vec<f64> {
+    let of_drives = drives.iter().flat_map(|drive| match drive {
+        Drive::Function(function) => function.breaks(),
+        Drive::Input { .. } => &[],
+    });
+    let signals = loads.iter().flat_map(Load::signals);
+    let mut breaks: Vec<f64> = of_drives
+        .chain(signals.flat_map(Signal::breaks))
+        .copied()
+        .collect();
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup();
+    breaks
+}
+
+/// Nodes that something besides rows ties to the ground.
+fn grounded(
+    loads: &[Load],
+    nonlinear: &[Constraint],
+    rotation: f64,
+    bodies: &[Range<usize>],
+) -> Vec<usize> {
+    if rotation != 0.0 {
+        return bodies.iter().map(|nodes| nodes.start).collect();
+    }
+    let mut nodes = Vec::new();
+    for load in loads {
+        if let Load::Spring(spring) = load
+            && spring.ends.iter().any(|end| end.marker().is_none())
+        {
+            nodes.extend(spring.ends.iter().flat_map(End::nodes));
+        }
+    }
+    for constraint in nonlinear.iter().filter(|c| c.is_grounded()) {
+        nodes.extend(constraint.nodes(&[]));
+    }
+    nodes
+}
+
+fn dot(a: &Node<4>, b: &Node<4>) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

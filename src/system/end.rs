@@ -1,0 +1,117 @@
+//! What joints and loads are fixed to: the ground or a body.
+
+use nalgebra::Vector2;
+
+use crate::body::{Marker, Node, Row};
+
+/// A point of the ground or of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// A fixed point, m. Its direction is the x axis.
+    Ground(Vector2<f64>),
+    /// A marker.
+    Body(Marker),
+}
+
+impl End {
+    /// Position, m.
+    pub fn position(&self, x: &[Node<4>]) -> Vector2<f64> {
+        match self {
+            Self::Ground(point) => *point,
+            Self::Body(marker) => marker.position(x),
+        }
+    }
+
+    /// Velocity, m/s.
+    pub fn velocity(&self, v: &[Node<4>]) -> Vector2<f64> {
+        match self {
+            Self::Ground(_) => Vector2::zeros(),
+            Self::Body(marker) => marker.position(v),
+        }
+    }
+
+    /// Direction; its length is the stretch of a cable.
+    pub fn direction(&self, x: &[Node<4>]) -> Vector2<f64> {
+        match self {
+            Self::Ground(_) => Vector2::x(),
+            Self::Body(marker) => marker.direction(x),
+        }
+    }
+
+    /// Rate of the direction, 1/s.
+    pub fn direction_rate(&self, v: &[Node<4>]) -> Vector2<f64> {
+        match self {
+            Self::Ground(_) => Vector2::zeros(),
+            Self::Body(marker) => marker.direction(v),
+        }
+    }
+
+    /// Angular velocity of the direction, rad/s.
+    pub fn spin(&self, x: &[Node<4>], v: &[Node<4>]) -> f64 {
+        let u = self.direction(x);
+        u.perp(&self.direction_rate(v)) / u.norm_squared()
+    }
+
+    /// The marker, if it is one.
+    pub fn marker(&self) -> Option<&Marker> {
+        match self {
+            Self::Ground(_) => None,
+            Self::Body(marker) => Some(marker),
+        }
+    }
+
+    /// Whether it is the ground or belongs to a rigid body: its direction keeps its length.
+    pub fn is_rigid(&self) -> bool {
+        self.marker().is_none_or(|m| m.element.is_none())
+    }
+
+    /// Adds forces on position and direction.
+    pub fn add_force(&self, position: Vector2<f64>, direction: Vector2<f64>, f: &mut [Node<4>]) {
+        if let Self::Body(marker) = self {
+            marker.add_force(position, direction, f);
+        }
+    }
+
+    /// Adds a moment, counter-clockwise: `M d(angle)` with `d(angle) = (u x du) / u.u`.
+    pub fn add_moment(&self, moment: f64, x: &[Node<4>], f: &mut [Node<4>]) {
+        let u = self.direction(x);
+        let on_direction = crate::body::left(u) * (moment / u.norm_squared());
+        self.add_force(Vector2::zeros(), on_direction, f);
+    }
+
+    /// Adds what forces on position and direction would do to a row.
+    pub fn add_terms(&self, position: Vector2<f64>, direction: Vector2<f64>, row: &mut Row<4>) {
+        if let Self::Body(marker) = self {
+            marker.add_terms(position, direction, row);
+        }
+    }
+
+    /// Nodes that it depends on.
+    pub fn nodes(&self) -> impl Iterator<Item = usize> + use<> {
+        let nodes = self.marker().map(|marker| marker.nodes);
+        nodes.into_iter().flatten()
+    }
+}
+
+/// Relative direction of two ends, counted on over full turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Angle {
+    /// From here to there.
+    pub ends: [End; 2],
+}
+
+impl Angle {
+    /// The angle that is nearest to `hint`, rad.
+    pub fn value(&self, x: &[Node<4>], hint: f64) -> f64 {
+        let [a, b] = self.ends.map(|end| end.direction(x));
+        let (along, across) = (a.dot(&b), a.perp(&b));
+        let (sin, cos) = hint.sin_cos();
+        // A step turns nothing by half a turn.
+        hint + (cos * across - sin * along).atan2(cos * along + sin * across)
+    }
+
+    /// Its rate, rad/s.
+    pub fn rate(&self, x: &[Node<4>], v: &[Node<4>]) -> f64 {
+        self.ends[1].spin(x, v) - self.ends[0].spin(x, v)
+    }
+}

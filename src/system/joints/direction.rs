@@ -1,0 +1,152 @@
+//! Joints that hold directions: welds, orientation joints and driven angles.
+//!
+//! Where both ends keep the length of their directions (rigid bodies, the ground), the second is the
+//! first one turned: linear. A cable's slope may stretch: against the ground only the component across
+//! is held, which is linear too; otherwise the cross product vanishes, which is not.
+
+use nalgebra::{Rotation2, Vector2};
+
+use super::{ConstraintKind, Gradient, Rows, Target, View};
+use crate::body::{NodeBlock, left};
+use crate::system::end::End;
+
+/// A direction at an angle from another: `(R(angle) u1) x u2 = 0`.
+#[derive(Clone, Debug)]
+pub struct Parallel {
+    /// The two directions.
+    pub ends: [End; 2],
+    /// Fixed angle, rad.
+    pub angle: f64,
+    /// Driven coordinate to add to it.
+    pub drive: Option<usize>,
+}
+
+/// Holds the direction of the second end at a fixed angle from that of the first.
+pub(super) fn hold(rows: &mut Rows<'_>, angle: f64) -> Option<ConstraintKind> {
+    let none = Vector2::zeros();
+    let turned = Rotation2::new(angle) * Vector2::x();
+    let [first, second] = rows.ends;
+    match (first, second.is_rigid()) {
+        (End::Ground(_), true) => {
+            for (axis, value) in [(Vector2::x(), turned.x), (Vector2::y(), turned.y)] {
+                rows.push([none; 2], [none, axis], Target::Fixed(value));
+            }
+        }
+        (End::Ground(_), false) => {
+            rows.push([none; 2], [none, left(turned)], Target::Fixed(0.0));
+        }
+        (End::Body(_), true) if first.is_rigid() => {
+            for axis in [Vector2::x(), Vector2::y()] {
+                let back = Rotation2::new(-angle) * axis;
+                rows.push([none, back], [none, axis], Target::Fixed(0.0));
+            }
+        }
+        _ => {
+            return Some(ConstraintKind::Parallel(Parallel {
+                ends: [*first, *second],
+                angle,
+                drive: None,
+            }));
+        }
+    }
+    None
+}
+
+/// Drives the angle from the direction of the first end to that of the second.
+pub(super) fn drive(rows: &mut Rows<'_>, drive: usize) -> Option<ConstraintKind> {
+    let none = Vector2::zeros();
+    let [first, second] = rows.ends;
+    if matches!(first, End::Ground(_)) && second.is_rigid() {
+        rows.push([none; 2], [none, Vector2::x()], Target::Cosine(drive));
+        rows.push([none; 2], [none, Vector2::y()], Target::Sine(drive));
+        return None;
+    }
+    Some(ConstraintKind::Parallel(Parallel {
+        ends: [*first, *second],
+        angle: 0.0,
+        drive: Some(drive),
+    }))
+}
+
+impl Parallel {
+    /// The turned first direction, and its first two derivatives in time but for the part of
+    /// accelerations.
+    fn turned(&self, view: &View<'_>) -> [Vector2<f64>; 3] {
+        let [theta, rate, second] = self.drive.map_or([0.0; 3], |i| view.drives[i]);
+        let turn = Rotation2::new(self.angle + theta);
+        let w = turn * self.ends[0].direction(view.x);
+        let moved = turn * self.ends[0].direction_rate(view.v);
+        let bias = left(moved) * (2.0 * rate) + left(w) * second - w * (rate * rate);
+        [w, moved + left(w) * rate, bias]
+    }
+
+    pub(super) fn value(&self, view: &View<'_>) -> f64 {
+        self.turned(view)[0].perp(&self.ends[1].direction(view.x))
+    }
+
+    pub(super) fn gradient(&self, view: &View<'_>) -> Gradient {
+        let none = Vector2::zeros();
+        let theta = self.drive.map_or(0.0, |i| view.drives[i][0]);
+        let back = Rotation2::new(-self.angle - theta);
+        let (w, u) = (self.turned(view)[0], self.ends[1].direction(view.x));
+        // w x u = w . (-left u) = u . left w
+        Gradient {
+            ends: [
+                (self.ends[0], [none, -(back * left(u))]),
+                (self.ends[1], [none, left(w)]),
+            ],
+        }
+    }
+
+    pub(super) fn rate(&self, view: &View<'_>) -> f64 {
+        let rate = self.drive.map_or(0.0, |i| view.drives[i][1]);
+        let w = self.turned(view)[0];
+        (left(w) * rate).perp(&self.ends[1].direction(view.x))
+    }
+
+    pub(super) fn bias(&self, view: &View<'_>) -> f64 {
+        let [_, w_rate, w_bias] = self.turned(view);
+        let u = self.ends[1].direction(view.x);
+        w_bias.perp(&u) + 2.0 * w_rate.perp(&self.ends[1].direction_rate(view.v))
+    }
+
+    pub(super) fn stiffness(
+        &self,
+        lambda: f64,
+        view: &View<'_>,
+        add: &mut dyn FnMut(usize, usize, &NodeBlock<4>),
+    ) {
+        let [End::Body(first), End::Body(second)] = &self.ends else {
+            return;
+        };
+        let theta = self.drive.map_or(0.0, |i| view.drives[i][0]);
+        // d^2 g = (R du1) x du2 = du1 . (-R^T left) du2
+        let turn = Rotation2::new(-self.angle - theta).into_inner();
+        let cross = -turn * nalgebra::Matrix2::new(0.0, -1.0, 1.0, 0.0) * lambda;
+        for (a, of_a) in first.jacobian(1) {
+            for (b, of_b) in second.jacobian(1) {
+                let mut block = [[0.0; 4]; 4];
+                for (i, p) in of_a.iter().enumerate() {
+                    for (j, q) in of_b.iter().enumerate() {
+                        let part = p.transpose() * cross * q;
+                        for r in 0..2 {
+                            for c in 0..2 {
+                                block[2 * i + r][2 * j + c] = part[(r, c)];
+                            }
+                        }
+                    }
+                }
+                if a == b {
+                    // Both ends on one node: the symmetric part.
+                    let copy = block;
+                    for r in 0..4 {
+                        for c in 0..4 {
+                            block[r][c] = copy[r][c] + copy[c][r];
+                        }
+                    }
+                }
+                add(a, b, &block);
+            }
+        }
+    }
+}

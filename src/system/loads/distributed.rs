@@ -1,0 +1,68 @@
+//! A dead force per reference length of a cable.
+
+use nalgebra::Vector2;
+
+use super::Instant;
+use crate::body::Node;
+use crate::elements::Element;
+use crate::system::PlanarChain;
+use crate::system::signal::Signal;
+
+/// A distributed force.
+#[derive(Clone, Debug)]
+pub struct Distributed {
+    /// The chain.
+    pub chain: usize,
+    /// Components, N/m.
+    pub components: [Signal; 2],
+}
+
+impl Distributed {
+    fn value(&self, at: Instant<'_>) -> Vector2<f64> {
+        let components = self.components.each_ref();
+        components.map(|c| c.value(at.time, at.inputs)).into()
+    }
+
+    /// Sum over elements of what the load does per unit: as weight does, but for the density.
+    fn each(&self, chain: &PlanarChain, mut add: impl FnMut(usize, [f64; 4])) {
+        for (j, element) in chain.elements().iter().enumerate() {
+            let weight = element.weight();
+            let scale = element.length() / (weight[0] + weight[2]);
+            add(j, (weight * scale).into());
+        }
+    }
+
+    pub(super) fn add_force(&self, at: Instant<'_>, f: &mut [Node<4>]) {
+        let (load, chain) = (self.value(at), &at.chains[self.chain]);
+        self.each(chain, |j, weights| {
+            let [a, b] = chain.nodes(j);
+            for (node, pair) in [(a, [weights[0], weights[1]]), (b, [weights[2], weights[3]])] {
+                for (k, weight) in pair.iter().enumerate() {
+                    f[node][2 * k] += weight * load.x;
+                    f[node][2 * k + 1] += weight * load.y;
+                }
+            }
+        });
+    }
+
+    /// The integral of the load times a nodal field.
+    fn along(&self, at: Instant<'_>, field: &[Node<4>]) -> f64 {
+        let (load, chain) = (self.value(at), &at.chains[self.chain]);
+        let mut sum = 0.0;
+        self.each(chain, |j, weights| {
+            let e = chain.element(j, field);
+            for (k, weight) in weights.iter().enumerate() {
+                sum += weight * (load.x * e[(0, k)] + load.y * e[(1, k)]);
+            }
+        });
+        sum
+    }
+
+    pub(super) fn power(&self, at: Instant<'_>) -> f64 {
+        self.along(at, at.v)
+    }
+
+    pub(super) fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {
+        self.along(before, after.x) - self.along(before, before.x)
+    }
+}

@@ -1,0 +1,202 @@
+//! Loads: what acts on bodies besides gravity and joints. One file a kind. A size that changes is a
+//! [`Signal`]: a function of time or an input.
+
+mod distributed;
+mod force;
+mod moment;
+mod spring;
+
+
+pub use distributed::Distributed;
+pub use force::Force;
+pub use moment::Moment;
+pub use spring::{Rotational, Spring};
+
+
+use super::end::{Angle, End};
+use super::signal::Signal;
+use super::PlanarChain;
+use crate::body::{Node, NodeBlock};
+
+/// What acts.
+#[derive(Clone, Debug)]
+pub enum Load {
+    /// A force at a marker, dead or follower.
+    Force(Force),
+    /// A moment on one end, and its opposite on another.
+    Moment(Moment),
+    /// A dead force per reference length of a cable.
+    Distributed(Distributed),
+    /// A spring with a damper between two ends.
+    Spring(Spring),
+    /// A rotational spring with a damper between two directions.
+    Rotational(Rotational),
+}
+
+/// Time, inputs and state as loads see them.
+#[derive(Clone, Copy)]
+pub struct Instant<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// Inputs.
+    pub inputs: &'a [f64],
+    /// Nodal coordinates.
+    pub x: &'a [Node<4>],
+    /// Their rates.
+    pub v: &'a [Node<4>],
+    /// Flexible bodies.
+    pub chains: &'a [PlanarChain],
+    /// Counted angles of the system and their current values, rad.
+    pub angles: (&'a [Angle], &'a [f64]),
+}
+
+/// Adds a block times a factor to a matrix over nodes: row node, column node, block.
+pub type Add<'a> = &'a mut dyn FnMut(usize, usize, &NodeBlock<4>);
+
+impl Load {
+    /// Adds its forces.
+    pub fn add_force(&self, at: Instant<'_>, f: &mut [Node<4>]) {
+        match self {
+            Self::Force(load) => load.add_force(at, f),
+            Self::Moment(load) => load.add_force(at, f),
+            Self::Distributed(load) => load.add_force(at, f),
+            Self::Spring(load) => load.add_force(at, f),
+            Self::Rotational(load) => load.add_force(at, f),
+        }
+    }
+
+    /// Adds minus the derivative of its forces by coordinates (the symmetric part, which is what
+    /// solves use) and, to `damping`, by rates.
+    pub fn add_tangent(&self, at: Instant<'_>, stiffness: Add<'_>, damping: Add<'_>) {
+        match self {
+            Self::Force(load) => load.add_stiffness(at, stiffness),
+            Self::Moment(load) => load.add_stiffness(at, stiffness),
+            Self::Distributed(_) => {}
+            Self::Spring(load) => load.add_tangent(at, stiffness, damping),
+            Self::Rotational(load) => load.add_tangent(at, stiffness, damping),
+        }
+    }
+
+    /// Power that it supplies from outside and power that it dissipates, W. Springs store.
+    pub fn power(&self, at: Instant<'_>) -> [f64; 2] {
+        match self {
+            Self::Force(load) => [load.power(at), 0.0],
+            Self::Moment(load) => [load.power(at), 0.0],
+            Self::Distributed(load) => [load.power(at), 0.0],
+            Self::Spring(load) => load.power(at),
+            Self::Rotational(load) => [0.0, load.dissipation(at)],
+        }
+    }
+
+    /// Energy that it stores, J.
+    pub fn energy(&self, at: Instant<'_>) -> f64 {
+        match self {
+            Self::Spring(load) => load.energy(at),
+            Self::Rotational(load) => load.energy(at),
+            _ => 0.0,
+        }
+    }
+
+    /// Work on the way from `before` to `after` of a load held as it is, for the potential: exact for
+    /// dead loads and springs.
+    pub fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {
+        match self {
+            Self::Force(load) => load.work(before, after),
+            Self::Moment(load) => load.work(before, after),
+            Self::Distributed(load) => load.work(before, after),
+            Self::Spring(_) | Self::Rotational(_) => self.energy(before) - self.energy(after),
+        }
+    }
+
+    /// Whether it dissipates.
+    pub fn is_damped(&self) -> bool {
+        match self {
+            Self::Spring(load) => load.damping > 0.0,
+            Self::Rotational(load) => load.damping > 0.0,
+            _ => false,
+        }
+    }
+
+    /// Whether it stores energy.
+    pub fn is_spring(&self) -> bool {
+        matches!(self, Self::Spring(_) | Self::Rotational(_))
+    }
+
+    /// Its sizes that change in time.
+    pub fn signals(&self) -> Vec<&Signal> {
+        match self {
+            Self::Force(load) => load.components.iter().collect(),
+            Self::Moment(load) => vec![&load.size],
+            Self::Distributed(load) => load.components.iter().collect(),
+            Self::Spring(load) => vec![&load.length],
+            Self::Rotational(_) => vec![],
+        }
+    }
+
+    /// Ends between which its tangent couples.
+    pub fn ends(&self) -> Vec<End> {
+        match self {
+            Self::Force(load) => vec![End::Body(load.marker)],
+            Self::Moment(load) => load.ends.to_vec(),
+            Self::Distributed(_) => vec![],
+            Self::Spring(load) => load.ends.to_vec(),
+            Self::Rotational(load) => load.ends.to_vec(),
+        }
+    }
+}
+
+/// Stiffness of a potential whose second derivative by the way between two ends is `k` times the
+/// identity.
+pub fn isotropic(ends: &[End; 2], k: f64, add: Add<'_>) {
+    between(ends, nalgebra::Matrix2::identity() * k, 0, add);
+}
+
+/// Stiffness `k` between the positions (`part` 0) or directions (1) of two ends.
+pub(super) fn between(ends: &[End; 2], k: nalgebra::Matrix2<f64>, part: usize, add: Add<'_>) {
+    coupling(ends, [[k, -k], [-k, k]], part, add);
+}
+
+/// Adds the symmetric matrix `k` over positions (`part` 0) or directions (1) of two ends.
+pub(super) fn coupling(
+    ends: &[End; 2],
+    k: [[nalgebra::Matrix2<f64>; 2]; 2],
+    part: usize,
+    add: Add<'_>,
+) {
+    let none = (usize::MAX, [nalgebra::Matrix2::zeros(); 2]);
+    let mut terms = [none; 4];
+    for (i, end) in ends.iter().enumerate() {
+        if let End::Body(marker) = end {
+            let jacobian = marker.jacobian(part);
+            terms[2 * i] = jacobian[0];
+            if !marker.is_nodal() {
+                terms[2 * i + 1] = jacobian[1];
+            }
+        }
+    }
+    for (i, (a, of_a)) in terms.iter().enumerate() {
+        for (j, (b, of_b)) in terms.iter().enumerate() {
+            // Each pair of nodes once; a node that both ends share in full.
+            if *a == usize::MAX || *b == usize::MAX || a > b || (a == b && i > j) {
+                continue;
+            }
+            let k = k[i / 2][j / 2];
+            let mut block = [[0.0; 4]; 4];
+            for (p, left) in of_a.iter().enumerate() {
+                for (q, right) in of_b.iter().enumerate() {
+                    let mut part = left.transpose() * k * right;
+                    if a == b && i != j {
+                        let other = of_b[p].transpose() * k.transpose() * of_a[q];
+                        part += other;
+                    }
+                    for r in 0..2 {
+                        for c in 0..2 {
+                            block[2 * p + r][2 * q + c] = part[(r, c)];
+                        }
+                    }
+                }
+            }
+            add(*a, *b, &block);
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! Non-linear constraints: accelerations with multipliers, projection of positions and velocities.
+//!
+//! With identity inertia the augmented system (report Eq. 35 with `C_q = C_e T`)
+//! `[I J^T; J 0] [q''; lambda] = [Q; b]` is solved by taking the rows of `J` out of `Q` and adding the smallest
+//! acceleration that `b` asks for. Rows that depend on others, always or in a singular configuration, drop
+//! out: what is left is the minimum-norm solution. After a step, positions and velocities are brought
+//! back to the constraints along the shortest way in the mass norm: no drift, nothing to tune, and the
+//! order of the integrator stays.
+//!
+//! Source: A. A. Shabana, report MBS97-2-UIC (1997), section 7; projection: E. Hairer, C. Lubich, G. Wanner,
+//! Geometric Numerical Integration, 2nd ed., section IV.4; minimum norm in singular configurations:
+//! F. E. Udwadia, R. E. Kalaba, Analytical Dynamics (1996).
+
+use std::ops::Range;
+
+use super::joints::View;
+use super::{System, Work};
+use crate::body::Node;
+use crate::math::row_space::RowSpace;
+
+/// Most iterations of a projection.
+const ITERATIONS: usize = 20;
+/// Residual at which positions are on the constraints.
+const EXACT: f64 = 1e-14;
+
+/// Constraints of one component of a system.
+#[derive(Clone, Debug)]
+pub(super) struct Group {
+    component: usize,
+    /// Its constraints and its coordinates.
+    constraints: Range<usize>,
+    coordinates: Range<usize>,
+    pub(super) rows: RowSpace,
+    right: Vec<f64>,
+    pub(super) lambda: Vec<f64>,
+    /// Dependent coordinates, under partitioning.
+    pub(super) dependent: Vec<usize>,
+    square: Vec<f64>,
+}
+
+impl Group {
+    pub(super) fn all(system: &System) -> Vec<Self> {
+        let mut first = 0;
+        let groups = system.groups.iter().map(|(component, count)| {
+            let part = &system.elimination.assembly.components()[*component];
+            let coordinates = part.variables.clone();
+            let constraints = first..first + count;
+            first += count;
+            Self {
+                component: *component,
+                rows: RowSpace::new(*count, coordinates.len()),
+                coordinates,
+                constraints,
+                right: vec![0.0; *count],
+                lambda: vec![0.0; *count],
+                dependent: Vec::with_capacity(*count),
+                square: vec![0.0; count * (count + 1)],
+            }
+        });
+        groups.collect()
+    }
+}
+
+impl System {
+    /// Fills in the Jacobians at the nodal coordinates in `work`; `then` may use the rows before they
+    /// are made orthonormal.
+    fn jacobians(&self, work: &mut Work) {
+        let mut groups = std::mem::take(&mut work.groups);
+        let view = self.view(work);
+        for group in &mut groups {
+            let first = group.coordinates.start;
+            for (i, constraint) in self.constraints[group.constraints.clone()].iter().enumerate() {
+                let row = group.rows.row_mut(i);
+                row.fill(0.0);
+                constraint.gradient(&view).for_each(|node, term| {
+                    self.elimination.assembly.gather_node(node, term, first, row);
+                });
+                self.elimination.project_component(group.component, row);
+            }
+        }
+        work.groups = groups;
+    }
+
+    /// The state in `work` as constraints see it.
+    pub(super) fn view<'a>(&'a self, work: &'a Work) -> View<'a> {
+        View {
+            x: &work.x,
+            v: &work.v,
+            drives: &work.drives,
+            chains: &self.chains,
+            travel: &work.travel,
+        }
+    }
+
+    /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`.
+    pub(super) fn constrain(&self, work: &mut Work, a: &mut [f64]) {
+        self.jacobians(work);
+        let mut groups = std::mem::take(&mut work.groups);
+        self.driven_acceleration(&work.drives, &mut work.other);
+        let view = self.view(work);
+        for group in &mut groups {
+            let constraints = &self.constraints[group.constraints.clone()];
+            for (right, constraint) in group.right.iter_mut().zip(constraints) {
+                *right = -constraint.bias(&view);
+                constraint.gradient(&view).for_each(|node, term| {
+                    *right -= dot(term, &work.other[node]);
+                });
+            }
+            group.rows.factor();
+            let a = &mut a[group.coordinates.clone()];
+            group.rows.take_out(a);
+            group.rows.add_least(&group.right, a);
+            group.rows.multipliers(&mut group.lambda);
+        }
+        work.groups = groups;
+    }
+
+    /// Nodal accelerations of what is driven.
+    pub(super) fn driven_acceleration(&self, drives: &[[f64; 3]], out: &mut [Node<4>]) {
+        out.fill([0.0; 4]);
+        self.follow(drives, 2, out);
+    }
+
+    /// Projects positions onto the constraints at a time. Returns the largest residual left, relative
+    /// to the size of its constraint.
+    pub(super) fn project_positions(&self, time: f64, q: &mut [f64], work: &mut Work) -> f64 {
+        let mut before = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            self.place(time, q, None, work);
+            let residual = self.position_residual(work);
+            // Two and more iterations are quadratic; what does not shrink is roundoff.
+            if residual <= EXACT || residual > 0.5 * before {
+                return residual;
+            }
+            before = residual;
+            self.jacobians(work);
+            let mut groups = std::mem::take(&mut work.groups);
+            let view = self.view(work);
+            for group in &mut groups {
+                let constraints = &self.constraints[group.constraints.clone()];
+                for (right, constraint) in group.right.iter_mut().zip(constraints) {
+                    *right = -constraint.value(&view);
+                }
+            }
+            for group in &mut groups {
+                let q = &mut q[group.coordinates.clone()];
+                if self.method == super::Constraints::Partitioning && !group.dependent.is_empty() {
+                    group.move_dependent(q);
+                } else {
+                    group.rows.factor();
+                    group.rows.add_least(&group.right, q);
+                }
+            }
+            work.groups = groups;
+        }
+        before
+    }
+
+    /// Projects velocities onto the constraints at the positions and drives in `work`.
+    pub(super) fn project_velocities(&self, v: &mut [f64], work: &mut Work) {
+        self.jacobians(work);
+        self.place_rates(v, work);
+        let mut groups = std::mem::take(&mut work.groups);
+        let view = self.view(work);
+        for group in &mut groups {
+            let constraints = &self.constraints[group.constraints.clone()];
+            for (right, constraint) in group.right.iter_mut().zip(constraints) {
+                *right = -constraint_rate(constraint, &view);
+            }
+            let v = &mut v[group.coordinates.clone()];
+            if self.method == super::Constraints::Partitioning && !group.dependent.is_empty() {
+                group.move_dependent(v);
+            } else {
+                group.rows.factor();
+                group.rows.add_least(&group.right, v);
+            }
+        }
+        work.groups = groups;
+    }
+
+    /// Selects dependent coordinates by pivoting, at the positions in `work`.
+    pub(super) fn select(&self, work: &mut Work) {
+        self.jacobians(work);
+        for group in &mut work.groups {
+            group.select();
+        }
+    }
+
+    /// Largest residual of positions in `work`, relative to the size of the constraint.
+    pub(super) fn position_residual(&self, work: &Work) -> f64 {
+        let view = self.view(work);
+        let residual = |c: &super::Constraint| c.value(&view).abs() / c.size(&self.chains);
+        self.constraints.iter().map(residual).fold(0.0, larger)
+    }
+
+    /// Largest residual of velocities in `work`, relative to the size of the constraint, 1/s.
+    pub(super) fn velocity_residual(&self, work: &Work) -> f64 {
+        let view = self.view(work);
+        let residual = |c: &super::Constraint| constraint_rate(c, &view).abs() / c.size(&self.chains);
+        self.constraints.iter().map(residual).fold(0.0, larger)
+    }
+
+    /// Non-linear constraints that depend on others at the positions in `work`.
+    pub(super) fn dependent_constraints(&self, work: &mut Work) -> Vec<usize> {
+        self.jacobians(work);
+        let mut found = Vec::new();
+        for group in &mut work.groups {
+            group.rows.factor();
+            let first = group.constraints.start;
+            found.extend(group.rows.dependent().iter().map(|i| first + i));
+        }
+        found
+    }
+}
+
+/// `dg/dt` at the coordinates and rates in place.
+fn constraint_rate(constraint: &super::Constraint, view: &View<'_>) -> f64 {
+    let mut rate = constraint.rate(view);
+    constraint.gradient(view).for_each(|node, term| {
+        rate += dot(term, &view.v[node]);
+    });
+    rate
+}
+
+impl Group {
+    /// Where its coordinates are.
+    pub(super) fn range(&self) -> Range<usize> {
+        self.coordinates.clone()
+    }
+
+    /// Its constraints with their multipliers.
+    pub(super) fn multiplied<'a>(
+        &'a self,
+        constraints: &'a [super::Constraint],
+    ) -> impl Iterator<Item = (&'a super::Constraint, f64)> {
+        let own = &constraints[self.constraints.clone()];
+        own.iter().zip(self.lambda.iter().copied())
+    }
+
+    /// Selects as many coordinates as there are rows, by elimination with complete pivoting.
+    fn select(&mut self) {
+        let (m, n) = (self.rows.count(), self.coordinates.len());
+        self.dependent.clear();
+        for k in 0..m {
+            let (mut best, mut size) = ((k, 0), 0.0);
+            for i in k..m {
+                for (j, value) in self.rows.unit(i).iter().enumerate() {
+                    if value.abs() > size && !self.dependent.contains(&j) {
+                        (best, size) = ((i, j), value.abs());
+                    }
+                }
+            }
+            let (pivot_row, column) = best;
+            if size == 0.0 {
+                return;
+            }
+            for j in 0..n {
+                let value = self.rows.unit(k)[j];
+                self.rows.row_mut(k)[j] = self.rows.unit(pivot_row)[j];
+                self.rows.row_mut(pivot_row)[j] = value;
+            }
+            self.dependent.push(column);
+            for i in k + 1..m {
+                let factor = self.rows.unit(i)[column] / self.rows.unit(k)[column];
+                for j in 0..n {
+                    let part = factor * self.rows.unit(k)[j];
+                    self.rows.row_mut(i)[j] -= part;
+                }
+            }
+        }
+    }
+
+    /// Moves dependent coordinates alone so that the rows come to the right-hand sides: Gaussian
+    /// elimination with row pivoting.
+    fn move_dependent(&mut self, q: &mut [f64]) {
+        let m = self.dependent.len();
+        let w = m + 1;
+        for i in 0..m {
+            for (k, column) in self.dependent.iter().enumerate() {
+                self.square[i * w + k] = self.rows.unit(i)[*column];
+            }
+            self.square[i * w + m] = self.right[i];
+        }
+        let a = &mut self.square;
+        for k in 0..m {
+            let size = |i: &usize| a[i * w + k].abs();
+            let pivot = (k..m)
+                .max_by(|i, j| size(i).total_cmp(&size(j)))
+                .unwrap_or(k);
+            for c in 0..w {
+                a.swap(k * w + c, pivot * w + c);
+            }
+            for i in k + 1..m {
+                let factor = a[i * w + k] / a[k * w + k];
+                for c in k..w {
+                    a[i * w + c] -= factor * a[k * w + c];
+                }
+            }
+        }
+        for k in (0..m).rev() {
+            let later: f64 = (k + 1..m).map(|c| a[k * w + c] * a[c * w + m]).sum();
+            a[k * w + m] = (a[k * w + m] - later) / a[k * w + k];
+            q[self.dependent[k]] += a[k * w + m];
+        }
+    }
+}
+
+fn dot(a: &Node<4>, b: &Node<4>) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The larger number; unlike `f64::max` it does not hide a NaN.
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b + 0.0 * a }
+}

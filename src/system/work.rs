@@ -1,0 +1,70 @@
+//! Scratch of a system: nothing allocates in a step.
+
+use super::multipliers::Group;
+use super::signal::Course;
+use super::{State, System};
+use crate::body::{Node, Tangent};
+
+/// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
+#[derive(Clone, Debug)]
+pub struct Work {
+    /// Nodal coordinates, m; rates; forces, N.
+    pub x: Vec<Node<4>>,
+    pub v: Vec<Node<4>>,
+    pub f: Vec<Node<4>>,
+    /// Nodal accelerations, or another nodal vector; forces that linear constraints supply.
+    pub(super) other: Vec<Node<4>>,
+    pub(super) supply: Vec<Node<4>>,
+    /// Vectors of free coordinates.
+    pub(super) y: Vec<f64>,
+    pub(super) p: Vec<f64>,
+    pub(super) u: Vec<f64>,
+    /// Driven coordinates with two derivatives, and the courses of those that inputs drive.
+    pub(super) drives: Vec<[f64; 3]>,
+    pub(super) courses: Vec<Course>,
+    pub(super) angles: Vec<f64>,
+    pub(super) travel: Vec<f64>,
+    pub(super) groups: Vec<Group>,
+    pub(super) tangent: Tangent<2, 4>,
+    /// Power that comes in and that is dissipated at the last acceleration, W.
+    pub(super) power: [f64; 2],
+}
+
+impl Work {
+    /// For a system.
+    pub fn new(system: &System) -> Self {
+        let nodes = vec![[0.0; 4]; system.reference.len()];
+        let scratch = vec![0.0; system.elimination.scratch()];
+        Self {
+            x: nodes.clone(),
+            v: nodes.clone(),
+            f: nodes.clone(),
+            other: nodes.clone(),
+            supply: nodes,
+            y: scratch.clone(),
+            p: scratch.clone(),
+            u: scratch,
+            drives: vec![[0.0; 3]; system.drives.len()],
+            courses: vec![Course::default(); system.courses],
+            angles: vec![0.0; system.angles.len()],
+            travel: vec![0.0; system.slides.len()],
+            groups: Group::all(system),
+            tangent: Tangent::new(
+                &system.elimination,
+                system.is_damped,
+                &system.groups,
+                &system.grounded,
+            ),
+            power: [0.0; 2],
+        }
+    }
+
+    /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.
+    pub fn follow(&mut self, state: &State) {
+        self.angles.copy_from_slice(&state.angles);
+        self.travel.copy_from_slice(&state.travel);
+        for (course, driven) in self.courses.iter_mut().zip(&state.driven) {
+            *course = Course::hold(state.time, *driven);
+        }
+    }
+}
