@@ -1,11 +1,13 @@
 //! A system with its scratch, integrator and evaluated outputs.
 
+use super::variables::{has_rest_length_input, start_inputs};
 use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
 use crate::body::Marker;
 use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
-use crate::math::eigen::symmetric_eigenvalues;
-use crate::scene::{Initial, Scene, assemble};
-use crate::system::{Dynamics, Evaluation, Model, State, System, Work, equilibrium};
+use crate::scene::{Assembled, Initial, MarkerReference, Scene, assemble};
+use crate::system::{
+    End, Evaluation, Model, NotAssembled, State, Work, equilibrium, natural_frequencies,
+};
 
 /// How much of the outputs belongs to the current state and inputs.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,7 +19,7 @@ enum Evaluated {
 
 pub(super) struct Engine {
     scene: Scene,
-    system: System,
+    assembled: Assembled,
     work: Work,
     method: Box<dyn Method>,
     tolerance: Tolerance,
@@ -27,31 +29,54 @@ pub(super) struct Engine {
     markers: Vec<Option<Marker>>,
     /// Number of natural frequencies wanted.
     frequencies: usize,
+    /// Whether inputs that jump do work on springs.
+    sets_springs: bool,
 }
 
 impl Engine {
     /// Builds the system of a valid scene.
     pub(super) fn new(scene: &Scene, variables: &[Variable]) -> Result<Self, Error> {
-        let system = assemble(scene)?;
-        let mut work = system.work();
-        let (tolerance, method) = method::choose(scene, &system, &mut work);
+        let assembled = assemble(scene)?;
+        let system = &assembled.system;
+        let (mut work, mut evaluation) = (Work::new(system), Evaluation::new(system));
         let marker = |variable: &Variable| {
             let Source::Output(quantity) = variable.source else {
                 return None;
             };
-            coordinate(quantity).map(|at| system.body().marker(at))
+            Some(assembled.marker(marker_of(quantity)?))
         };
-        let is_frequency = |v: &&Variable| matches!(v.source, Source::NaturalFrequency(_));
+        let markers = variables.iter().map(marker).collect();
+        let frequencies = variables
+            .iter()
+            .filter_map(|variable| match variable.source {
+                Source::NaturalFrequency(number) => Some(number + 1),
+                _ => None,
+            });
+        // From nothing but the scene, so that a restored state goes on with the same method.
+        let inputs = start_inputs(variables);
+        let described = (&assembled.nodes[..], &assembled.rates[..]);
+        let state = system
+            .initial_state(0.0, &inputs, described, &mut work)
+            .unwrap_or_else(|_| system.blank_state(0.0));
+        evaluation.kinematics(system, &state, &mut work);
+        let start = method::Start {
+            system,
+            state: &state,
+            kinetic: evaluation.kinetic_energy(system),
+            inputs: &inputs,
+        };
+        let (tolerance, method) = method::choose(scene, &start, &mut work);
         Ok(Self {
             scene: scene.clone(),
-            evaluation: Evaluation::new(&system),
             evaluated: Evaluated::Nothing,
-            markers: variables.iter().map(marker).collect(),
-            frequencies: variables.iter().filter(is_frequency).count(),
+            frequencies: frequencies.max().unwrap_or(0),
+            sets_springs: has_rest_length_input(scene),
+            evaluation,
+            markers,
             work,
             method,
             tolerance,
-            system,
+            assembled,
         })
     }
 
@@ -61,48 +86,63 @@ impl Engine {
         time: f64,
         inputs: &[f64],
     ) -> Result<(State, Vec<f64>), Error> {
-        let mut state = self.system.reference_state(time);
-        Model::new(&self.system, inputs, &mut self.work).accepted(&mut state);
-        match self.scene.initial {
-            Initial::AsShaped => {
-                let rates = &mut state.rates;
-                method::rigid_motion(&self.scene, &self.system, &mut self.work, rates);
-            }
-            Initial::StaticEquilibrium => {
-                equilibrium::find(&self.system, inputs, &mut self.work, &mut state)?;
-            }
+        let Assembled {
+            system,
+            nodes,
+            rates,
+            ..
+        } = &self.assembled;
+        let described = (&nodes[..], &rates[..]);
+        let state = system.initial_state(time, inputs, described, &mut self.work);
+        let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
+        if self.scene.initial == Initial::StaticEquilibrium {
+            equilibrium::find(system, inputs, &mut self.work, &mut state)?;
         }
+        let count = self.frequencies;
+        let frequencies = match count {
+            0 => Vec::new(),
+            _ => natural_frequencies(system, inputs, &mut self.work, &state, count),
+        };
         self.forget();
-        let frequencies = self.natural_frequencies(&state, inputs);
+        state.work[0] -= self.set_energy(&state, inputs);
+        self.forget();
         Ok((state, frequencies))
     }
 
-    /// Lowest eigenvalues of the tangent as frequencies; negative ones are unstable.
-    fn natural_frequencies(&mut self, state: &State, inputs: &[f64]) -> Vec<f64> {
-        if self.frequencies == 0 {
-            return Vec::new();
+    fn open_joints(&self, error: &NotAssembled) -> String {
+        if error.gaps.is_empty() {
+            return "expected joints and motions that agree, found some that contradict each other"
+                .into();
         }
-        let rest = vec![0.0; state.rates.len()];
-        Model::new(&self.system, inputs, &mut self.work).linearize(&state.coordinates, &rest);
-        let stiffness = self.system.body().reduced_stiffness(&mut self.work.tangent);
-        let entry = |i: usize, j: usize| 0.5 * (stiffness[i][j] + stiffness[j][i]);
-        let values = symmetric_eigenvalues(stiffness.len(), entry).unwrap_or_default();
-        let frequency = |value: &f64| value.signum() * value.abs().sqrt();
-        let mut frequencies: Vec<f64> = values
-            .iter()
-            .take(self.frequencies)
-            .map(frequency)
-            .collect();
-        frequencies.resize(self.frequencies, 0.0);
-        frequencies
+        let gaps = error.gaps.iter();
+        let words = gaps.map(|(joint, gap)| match *gap < 1e-3 {
+            true => format!("{} {gap:.1e} m", self.name(*joint)),
+            false => format!("{} {gap:.3} m", self.name(*joint)),
+        });
+        format!(
+            "expected bodies that fit together, found gaps: {}",
+            words.collect::<Vec<_>>().join(", ")
+        )
     }
 
-    /// Names of the joints that hold, at least in part, what others hold already.
+    /// Name of a joint or motion of the system.
+    fn name(&self, index: usize) -> &str {
+        let joints = &self.scene.joints;
+        match (joints.get(index), index.checked_sub(joints.len())) {
+            (Some(joint), _) => &joint.name,
+            (None, place) => {
+                let motion = place.and_then(|place| self.scene.motions.get(place));
+                motion.map_or("", |motion| &motion.name)
+            }
+        }
+    }
+
+    /// Names of the joints and motions that hold, at least in part, what others hold already.
     pub(super) fn redundant_joints(&self) -> Vec<String> {
-        let mut joints = self.system.body().redundant().to_vec();
+        let mut joints = self.assembled.system.redundant().to_vec();
         joints.sort_unstable();
         joints.dedup();
-        let name = |joint: usize| self.scene.joints[joint].name.clone();
+        let name = |joint: usize| self.name(joint).to_owned();
         joints.into_iter().map(name).collect()
     }
 
@@ -114,9 +154,14 @@ impl Engine {
         until: f64,
     ) -> Result<Report, StepFailure> {
         self.forget();
-        let mut model = Model::new(&self.system, inputs, &mut self.work);
+        state.work[0] += self.set_energy(state, inputs);
+        let system = &self.assembled.system;
+        let mut model = Model::new(system, inputs, &mut self.work, state).until(state, until);
         let (counts, result) =
             advance(&mut *self.method, &mut model, state, until, &self.tolerance);
+        self.forget();
+        state.work[0] -= self.set_energy(state, inputs);
+        self.forget();
         match result {
             Ok(()) => Ok(Report {
                 method: self.method.name(),
@@ -131,6 +176,17 @@ impl Engine {
         }
     }
 
+    /// Energy in springs whose length inputs may set. Between steps the work in a state is short of it,
+    /// so that the work of an input that jumps is counted by the energy it leaves behind.
+    fn set_energy(&mut self, state: &State, inputs: &[f64]) -> f64 {
+        if !self.sets_springs {
+            return 0.0;
+        }
+        self.evaluate(Evaluated::Kinematics, state, inputs);
+        self.evaluation
+            .spring_energy(&self.assembled.system, inputs)
+    }
+
     fn explain(&self, stop: Stop) -> String {
         let (method, tolerance) = (self.method.name(), self.tolerance.relative);
         match stop {
@@ -143,12 +199,14 @@ impl Engine {
             Stop::NotFinite => {
                 format!("{method}: velocities or accelerations are no longer finite")
             }
+            Stop::RanOff(joint) => format!("slider `{}` has left its cable", self.name(joint)),
+            Stop::Broken => format!("{method}: constraints cannot be kept"),
         }
     }
 
     /// Whether a state has the sizes of this system.
     pub(super) fn fits(&self, state: &State) -> bool {
-        self.system.fits(state)
+        self.assembled.system.fits(state)
     }
 
     /// The state has changed.
@@ -170,56 +228,87 @@ impl Engine {
         inputs: &[f64],
     ) -> f64 {
         use Quantity::*;
-        let needs = match quantity {
-            Acceleration(..) | Reaction(..) | ReactionMoment(_) => Evaluated::Dynamics,
-            Angle(..) | KineticEnergy => Evaluated::Nothing,
-            _ => Evaluated::Kinematics,
+        self.evaluate(needs(quantity), state, inputs);
+        let work_of_jumps = match quantity {
+            Input => self.set_energy(state, inputs),
+            _ => 0.0,
         };
-        self.evaluate(needs, state, inputs);
-        let (values, system) = (&self.evaluation, &self.system);
+        let (values, system) = (&self.evaluation, &self.assembled.system);
         let at = self.markers[index].as_ref();
         let on = |f: &dyn Fn(&Marker) -> f64| at.map_or(0.0, f);
         match quantity {
-            Position(_, axis) => on(&|m| m.position(&values.e)[axis]),
-            Velocity(_, axis) => on(&|m| m.position(&values.rate)[axis]),
+            Position(_, axis) => on(&|m| m.position(&values.x)[axis]),
+            Velocity(_, axis) => on(&|m| m.position(&values.v)[axis]),
             Acceleration(_, axis) => on(&|m| m.position(&values.acceleration)[axis]),
-            Angle(_, place) => state.angles[place],
-            AngularVelocity(_) => on(&|m| values.angular_velocity(m)),
+            Angle(place) => state.angles[self.assembled.angles[place]],
+            AngularVelocity(_) => on(&|m| End::Body(*m).spin(&values.x, &values.v)),
+            JointVelocity(joint) => {
+                let spin = |end: &End| end.spin(&values.x, &values.v);
+                let [a, b] = &system.joints()[joint].ends;
+                spin(b) - spin(a)
+            }
             Strain(_) => on(&|m| values.strain(system, m).0),
             Curvature(_) => on(&|m| values.strain(system, m).1),
-            Reaction(joint, axis) => values.reaction(system, joint)[axis],
-            ReactionMoment(joint) => values.reaction_moment(system, joint),
-            KineticEnergy => Evaluation::kinetic_energy(state),
+            AxialForce(_) => on(&|m| values.section(system, m).0),
+            BendingMoment(_) => on(&|m| values.section(system, m).1),
+            ConnectivityForce(_, axis) => {
+                on(&|m| values.connectivity_force(system, inputs, m)[axis])
+            }
+            Travel(place) => state.travel[place],
+            Reaction(joint, axis) => values.reaction(system, inputs, joint).0[axis],
+            ReactionMoment(joint) => values.reaction(system, inputs, joint).1,
+            KineticEnergy => values.kinetic_energy(system),
             StrainEnergy => values.strain_energy(system),
             GravityEnergy => values.gravity_energy(system),
+            SpringEnergy => values.spring_energy(system, inputs),
+            Input => state.work[0] + work_of_jumps,
+            Dissipated => state.work[1],
+            Momentum(axis) => values.momentum(system).0[axis],
+            AngularMomentum => values.momentum(system).1,
+            CenterOfMass(axis) => values.center_of_mass(system)[axis],
+            Residual(of) => values.residuals()[of],
         }
     }
 
     fn evaluate(&mut self, needs: Evaluated, state: &State, inputs: &[f64]) {
+        let system = &self.assembled.system;
         if needs >= Evaluated::Kinematics && self.evaluated < Evaluated::Kinematics {
-            self.evaluation
-                .kinematics(&self.system, state, &mut self.work);
+            self.evaluation.kinematics(system, state, &mut self.work);
             self.evaluated = Evaluated::Kinematics;
         }
         if needs > self.evaluated {
             self.evaluation
-                .dynamics(&self.system, state, inputs, &mut self.work);
+                .dynamics(system, state, inputs, &mut self.work);
             self.evaluated = needs;
         }
     }
 }
 
-/// Material coordinate of the marker that a quantity belongs to.
-fn coordinate(quantity: Quantity) -> Option<f64> {
+/// What a quantity is computed from.
+fn needs(quantity: Quantity) -> Evaluated {
+    use Quantity::*;
+    match quantity {
+        Acceleration(..) | ConnectivityForce(..) | Reaction(..) | ReactionMoment(_) => {
+            Evaluated::Dynamics
+        }
+        Angle(_) | Travel(_) | Input | Dissipated => Evaluated::Nothing,
+        _ => Evaluated::Kinematics,
+    }
+}
+
+/// The marker that a quantity belongs to.
+fn marker_of(quantity: Quantity) -> Option<MarkerReference> {
     use Quantity::*;
     match quantity {
         Position(at, _)
         | Velocity(at, _)
         | Acceleration(at, _)
-        | Angle(at, _)
         | AngularVelocity(at)
         | Strain(at)
-        | Curvature(at) => Some(at),
-        Reaction(..) | ReactionMoment(_) | KineticEnergy | StrainEnergy | GravityEnergy => None,
+        | Curvature(at)
+        | AxialForce(at)
+        | BendingMoment(at)
+        | ConnectivityForce(at, _) => Some(at),
+        _ => None,
     }
 }

@@ -10,6 +10,7 @@ pub use variables::{Parameter, Quantity, Source, Unit, Variable, variables};
 use crate::scene::{Error as SceneError, Scene};
 use crate::system::State;
 use engine::Engine;
+use variables::start_inputs;
 
 /// Why a simulation cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -17,6 +18,9 @@ pub enum Error {
     /// A parameter makes the scene invalid.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// Joints and motions that contradict each other, or bodies too far from fitting together.
+    #[error("joints: {0}")]
+    NotAssembled(String),
     /// No static equilibrium.
     #[error("initial: {0}")]
     Equilibrium(#[from] crate::system::equilibrium::NotFound),
@@ -78,7 +82,7 @@ pub struct Simulation {
     variables: Vec<Variable>,
     /// Parameters and inputs, one per variable.
     values: Vec<f64>,
-    /// Input components in the order of the system.
+    /// Inputs in the order of the system ([`crate::scene::InputLayout`]).
     inputs: Vec<f64>,
     engine: Option<Engine>,
     state: State,
@@ -95,11 +99,11 @@ impl Simulation {
     pub fn new(scene: Scene) -> Self {
         let variables = variables(&scene);
         let values = variables.iter().map(|v| v.start.unwrap_or(0.0)).collect();
-        let mut simulation = Self {
+        Self {
+            inputs: start_inputs(&variables),
             scene,
             variables,
             values,
-            inputs: Vec::new(),
             engine: None,
             state: State::default(),
             frequencies: Vec::new(),
@@ -111,9 +115,7 @@ impl Simulation {
                 rejected: 0,
                 newton_iterations: 0,
             },
-        };
-        simulation.collect_inputs();
-        simulation
+        }
     }
 
     /// The scene as packaged.
@@ -136,8 +138,8 @@ impl Simulation {
         self.report
     }
 
-    /// Names of the joints that hold, at least in part, what others hold already; empty before
-    /// [`Self::initialize`]. They do no harm: what is held twice is held once.
+    /// Names of the joints and motions that hold, at least in part, what others hold already; empty
+    /// before [`Self::initialize`]. They do no harm: what is held twice is held once.
     pub fn redundant_joints(&self) -> Vec<String> {
         let engine = self.engine.as_ref();
         engine.map(Engine::redundant_joints).unwrap_or_default()
@@ -275,20 +277,19 @@ impl Simulation {
     /// A snapshot with other sizes, with parameters out of range or with numbers that are not finite;
     /// nothing has changed then.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        let state = &snapshot.state;
         let numbers = [
             &snapshot.values,
             &snapshot.frequencies,
-            &snapshot.state.coordinates,
-            &snapshot.state.rates,
-            &snapshot.state.angles,
+            &state.coordinates,
+            &state.rates,
+            &state.angles,
+            &state.travel,
+            state.driven.as_flattened(),
+            &[state.time, state.step],
+            &state.work,
         ];
-        let times = [snapshot.state.time, snapshot.state.step];
-        if !numbers
-            .into_iter()
-            .flatten()
-            .chain(&times)
-            .all(|x| x.is_finite())
-        {
+        if !numbers.into_iter().flatten().all(|x| x.is_finite()) {
             return Err(Error::Snapshot("expected finite numbers".into()));
         }
         if snapshot.started && !snapshot.initialized {
@@ -341,13 +342,9 @@ impl Simulation {
         let engine = rebuilt.as_ref().or(self.engine.as_ref());
         let found = &snapshot.state;
         if engine.is_some_and(|engine| !engine.fits(found)) {
-            let sizes = (
-                found.coordinates.len(),
-                found.rates.len(),
-                found.angles.len(),
-            );
             return Err(Error::Snapshot(format!(
-                "expected a state of this scene, found sizes {sizes:?}"
+                "expected a state of this scene, found sizes {:?}",
+                found.sizes()
             )));
         }
         Ok(rebuilt)
@@ -398,26 +395,16 @@ impl Simulation {
             let Source::Parameter(parameter) = variable.source else {
                 continue;
             };
-            match parameter {
-                Parameter::YoungsModulus(i) => scene.bodies[i].material.youngs_modulus = *value,
-                Parameter::Density(i) => scene.bodies[i].material.density = *value,
-                Parameter::DampingTime(i) => scene.bodies[i].material.damping_time = *value,
-                Parameter::Area(i) => scene.bodies[i].section.area = *value,
-                Parameter::SecondMoment(i) => scene.bodies[i].section.second_moment = *value,
-                Parameter::Elements(i) => scene.bodies[i].elements = value.max(0.0) as u32,
-                Parameter::Gravity(axis) => scene.gravity[axis] = *value,
-                Parameter::RelativeTolerance => scene.accuracy.relative_tolerance = *value,
-            }
+            set_parameter(&mut scene, parameter, *value);
         }
         scene.validate()?;
         Ok(scene)
     }
 
     fn collect_inputs(&mut self) {
-        self.inputs.clear();
         for (variable, value) in self.variables.iter().zip(&self.values) {
-            if matches!(variable.source, Source::Input(..)) {
-                self.inputs.push(*value);
+            if let Source::Input(place) = variable.source {
+                self.inputs[place] = *value;
             }
         }
     }
@@ -435,5 +422,43 @@ impl Simulation {
             name,
             message: message.into(),
         }
+    }
+}
+
+/// Puts the value of a parameter into the scene that it came from.
+fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
+    use Parameter::*;
+    match parameter {
+        YoungsModulus(i) | Density(i) | DampingTime(i) | Area(i) | SecondMoment(i)
+        | Elements(i) => {
+            let Some(cable) = scene.bodies[i].cable_mut() else {
+                return;
+            };
+            match parameter {
+                YoungsModulus(_) => cable.material.youngs_modulus = value,
+                Density(_) => cable.material.density = value,
+                DampingTime(_) => cable.material.damping_time = value,
+                Area(_) => cable.section.area = value,
+                SecondMoment(_) => cable.section.second_moment = value,
+                _ => cable.elements = value.max(0.0) as u32,
+            }
+        }
+        Mass(i) | Inertia(i) => {
+            let Some(body) = scene.bodies[i].rigid_mut() else {
+                return;
+            };
+            match parameter {
+                Mass(_) => body.mass = value,
+                _ => body.inertia = value,
+            }
+        }
+        LumpedMass(i) => scene.masses[i].mass = value,
+        HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
+        HingeDamping(i) => scene.joints[i].damping = Some(value),
+        SpringStiffness(i) => scene.loads[i].stiffness = Some(value),
+        SpringDamping(i) => scene.loads[i].damping = Some(value),
+        Gravity(axis) => scene.gravity[axis] = value,
+        Rotation => scene.rotation = value,
+        RelativeTolerance => scene.accuracy.relative_tolerance = value,
     }
 }

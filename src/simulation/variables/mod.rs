@@ -1,0 +1,216 @@
+//! The one list of variables that a scene gives rise to. A variable's index is its FMI value
+//! reference; the XML, get and set, axis labels, the GUID and the documentation derive from it.
+
+mod inputs;
+mod outputs;
+mod parameters;
+#[cfg(test)]
+mod tests;
+mod unit;
+
+pub(super) use outputs::has_rest_length_input;
+pub use unit::Unit;
+
+use crate::scene::{MarkerReference, Scene};
+use unit::SECOND;
+
+/// A scalar variable of a simulation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Structured name, e.g. `rod.tip.position[1]`.
+    pub name: String,
+    /// One sentence for a person.
+    pub description: String,
+    /// Unit, where the variable has one.
+    pub unit: Option<Unit>,
+    /// What it stands for.
+    pub source: Source,
+    /// Start value of parameters and inputs, from the scene.
+    pub start: Option<f64>,
+    /// Of an input: whether it acts at once, as loads do; a driven motion moves in the next step. Of
+    /// an output: whether it follows at once from such inputs.
+    pub is_direct: bool,
+}
+
+/// What a variable stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Source {
+    /// Simulated time.
+    Time,
+    /// Parameter that may be set until initialization ends.
+    Parameter(Parameter),
+    /// Input: its place among the numbers that the master sets ([`crate::scene::InputLayout`]).
+    Input(usize),
+    /// Output computed from the state.
+    Output(Quantity),
+    /// Natural frequency about the initial configuration, lowest is 0.
+    NaturalFrequency(usize),
+}
+
+/// Parameters by name; bodies, masses, joints and loads by index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// Young's modulus of a cable.
+    YoungsModulus(usize),
+    /// Density of a cable.
+    Density(usize),
+    /// Kelvin-Voigt damping time of a cable.
+    DampingTime(usize),
+    /// Area of a cable's cross section.
+    Area(usize),
+    /// Second moment of area of a cable's cross section.
+    SecondMoment(usize),
+    /// Number of elements of a cable; the one integer variable.
+    Elements(usize),
+    /// Mass of a rigid body.
+    Mass(usize),
+    /// Moment of inertia of a rigid body.
+    Inertia(usize),
+    /// Mass lumped at a marker.
+    LumpedMass(usize),
+    /// Stiffness of a hinge.
+    HingeStiffness(usize),
+    /// Damping of a hinge.
+    HingeDamping(usize),
+    /// Stiffness of a spring-damper.
+    SpringStiffness(usize),
+    /// Damping of a spring-damper.
+    SpringDamping(usize),
+    /// Component of gravity.
+    Gravity(usize),
+    /// Rate of the frame.
+    Rotation,
+    /// Relative tolerance of the integrator.
+    RelativeTolerance,
+}
+
+/// Outputs; constraints by index: joints, then motions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Quantity {
+    /// Component of the position of a marker.
+    Position(MarkerReference, usize),
+    /// Component of the velocity of a marker.
+    Velocity(MarkerReference, usize),
+    /// Component of the acceleration of a marker.
+    Acceleration(MarkerReference, usize),
+    /// Continuous angle of a marker or a joint, by its place among the outputs of this kind.
+    Angle(usize),
+    /// Angular velocity of the direction at a marker.
+    AngularVelocity(MarkerReference),
+    /// Angular velocity of the second marker of a joint less that of its first.
+    JointVelocity(usize),
+    /// Axial strain at a marker.
+    Strain(MarkerReference),
+    /// Curvature at a marker.
+    Curvature(MarkerReference),
+    /// Axial force at a marker.
+    AxialForce(MarkerReference),
+    /// Bending moment at a marker.
+    BendingMoment(MarkerReference),
+    /// Component of the force that the part of a cable before a marker exerts on the part after it.
+    ConnectivityForce(MarkerReference, usize),
+    /// Where a slide is on its cable, by its place among the joints of kind `along`.
+    Travel(usize),
+    /// Component of the force of a joint or motion.
+    Reaction(usize, usize),
+    /// Moment of a joint or motion.
+    ReactionMoment(usize),
+    /// Kinetic energy.
+    KineticEnergy,
+    /// Strain energy.
+    StrainEnergy,
+    /// Potential energy of gravity, zero at the origin.
+    GravityEnergy,
+    /// Energy in springs and hinges.
+    SpringEnergy,
+    /// Work done from outside since the start.
+    Input,
+    /// Energy dissipated since the start.
+    Dissipated,
+    /// Component of the linear momentum.
+    Momentum(usize),
+    /// Angular momentum about the origin.
+    AngularMomentum,
+    /// Component of the centre of mass.
+    CenterOfMass(usize),
+    /// Largest residual of the constraints: 0 of positions, 1 of velocities.
+    Residual(usize),
+}
+
+impl Variable {
+    /// Whether the value is an integer; all others are real numbers.
+    pub fn is_integer(&self) -> bool {
+        matches!(self.source, Source::Parameter(Parameter::Elements(_)))
+    }
+
+    /// Whether it is an output that follows at once from inputs that act at once (direct feedthrough).
+    pub fn depends_on_inputs(&self) -> bool {
+        matches!(self.source, Source::Output(_)) && self.is_direct
+    }
+
+    /// Whether it is an input that acts at once.
+    pub fn acts_at_once(&self) -> bool {
+        matches!(self.source, Source::Input(_)) && self.is_direct
+    }
+}
+
+/// The variables of a scene: time, parameters, inputs, outputs, natural frequencies.
+///
+/// The scene must be valid.
+pub fn variables(scene: &Scene) -> Vec<Variable> {
+    let mut list = List(Vec::new());
+    list.add("time", "Simulated time", Some(SECOND), Source::Time, None);
+    parameters::add(&mut list, scene);
+    inputs::add(&mut list, scene);
+    outputs::add(&mut list, scene);
+    list.0
+}
+
+/// Start values of all inputs, in the order of [`crate::scene::InputLayout`].
+pub(super) fn start_inputs(variables: &[Variable]) -> Vec<f64> {
+    let places = variables
+        .iter()
+        .filter_map(|variable| match variable.source {
+            Source::Input(place) => Some((place, variable.start.unwrap_or(0.0))),
+            _ => None,
+        });
+    let mut starts: Vec<(usize, f64)> = places.collect();
+    starts.sort_by_key(|(place, _)| *place);
+    starts.into_iter().map(|(_, start)| start).collect()
+}
+
+/// Name of a component of a vector, counted from 0.
+fn component(name: &str, axis: usize) -> String {
+    format!("{name}[{}]", axis + 1)
+}
+
+const AXES: [&str; 2] = ["x", "y"];
+
+struct List(Vec<Variable>);
+
+impl List {
+    fn add(
+        &mut self,
+        name: impl Into<String>,
+        description: impl Into<String>,
+        unit: Option<Unit>,
+        source: Source,
+        start: Option<f64>,
+    ) {
+        self.0.push(Variable {
+            name: name.into(),
+            description: description.into(),
+            unit,
+            source,
+            start,
+            is_direct: false,
+        });
+    }
+
+    /// Inputs and outputs from this index on are direct.
+    fn mark_direct(&mut self, first: usize) {
+        for variable in &mut self.0[first..] {
+            variable.is_direct = true;
+        }
+    }
+}

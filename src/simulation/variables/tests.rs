@@ -1,0 +1,138 @@
+use super::*;
+
+/// A scene with driven motions of every kind, springs, hinges and masses.
+fn scene() -> Scene {
+    let text = r#"{ "name": "all", "dimension": 2,
+      "bodies": [
+        { "name": "crank", "element": "rigid", "mass": 0.1, "inertia": 1.0e-3, "position": [1.0, 2.0],
+          "angle": 0.5, "markers": { "a": [0.0, 0.0], "b": [1.0, 0.0] } },
+        { "name": "cart", "element": "rigid", "mass": 1.0, "inertia": 0.0, "position": [4.0, 0.0],
+          "markers": { "centre": [0.0, 0.0] } },
+        { "name": "rod", "element": "cable", "elements": 4,
+          "material": { "youngs_modulus": 1.0e6, "density": 1000.0 },
+          "section": { "area": 1.0e-3, "second_moment": 1.0e-8 },
+          "shape": { "line": { "from": [0.0, 0.0], "to": [0.0, 1.0] } },
+          "markers": { "root": 0.0, "tip": 1.0 } } ],
+      "masses": [ { "marker": "rod.tip", "mass": 2.0 } ],
+      "joints": [
+        { "name": "elbow", "kind": "hinge", "markers": ["rod.tip", "crank.a"], "damping": 0.1 },
+        { "name": "rail", "kind": "slider", "markers": ["ground", "cart.centre"],
+          "direction": [2.0, 0.0], "point": [1.0, 0.0] } ],
+      "motions": [
+        { "name": "turn", "kind": "angle", "joint": "elbow", "value": { "input": 2 } },
+        { "name": "place", "kind": "position", "marker": "crank.b", "value": { "input": 1 } },
+        { "name": "known", "kind": "angle", "marker": "rod.root", "value": "t" },
+        { "name": "feed", "kind": "displacement", "joint": "rail", "value": { "input": 0 } } ],
+      "loads": [
+        { "name": "hoist", "kind": "spring_damper", "markers": ["rod.root", "cart.centre"],
+          "stiffness": 50.0 } ],
+      "inputs": [
+        { "kind": "force", "marker": "rod.tip", "follower": true, "start": [1.0, -1.0] },
+        { "kind": "distributed", "body": "rod" },
+        { "kind": "rest_length", "load": "hoist" } ],
+      "outputs": [
+        { "kind": "angle", "joint": "elbow" }, { "kind": "reaction_moment", "motion": "turn" },
+        { "kind": "energy" }, { "kind": "work" } ] }"#;
+    Scene::from_json(text).expect("a valid scene")
+}
+
+fn inputs(list: &[Variable]) -> Vec<(&str, usize, f64)> {
+    let found = list.iter().filter_map(|variable| match variable.source {
+        Source::Input(place) => Some((&variable.name[..], place, variable.start.unwrap_or(-99.0))),
+        _ => None,
+    });
+    found.collect()
+}
+
+#[test]
+fn inputs_are_listed_by_derivative_and_placed_by_coordinate() {
+    let list = variables(&scene());
+    let angle = 0.5 - std::f64::consts::FRAC_PI_2;
+    let expected = [
+        ("rod.tip.follower_force[1]", 0, 1.0),
+        ("rod.tip.follower_force[2]", 1, -1.0),
+        ("rod.distributed_force[1]", 2, 0.0),
+        ("rod.distributed_force[2]", 3, 0.0),
+        ("hoist.rest_length", 4, 4.0),
+        ("turn.angle", 5, angle),
+        ("turn.angular_velocity", 6, 0.0),
+        ("turn.angular_acceleration", 7, 0.0),
+        ("place.position[1]", 8, 1.0 + 0.5_f64.cos()),
+        ("place.position[2]", 10, 2.0 + 0.5_f64.sin()),
+        ("place.velocity[1]", 9, 0.0),
+        ("place.velocity[2]", 11, 0.0),
+        ("feed.displacement", 12, 3.0),
+    ];
+    let found = inputs(&list);
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert_eq!((found.0, found.1), (expected.0, expected.1));
+        assert!((found.2 - expected.2).abs() < 1e-14, "{}", found.0);
+    }
+    let starts = start_inputs(&list);
+    assert_eq!(starts.len(), scene().input_layout().total);
+    assert_eq!(starts[8..10], [1.0 + 0.5_f64.cos(), 0.0]);
+}
+
+#[test]
+fn parameters_are_those_of_bodies_masses_hinges_and_springs() {
+    let list = variables(&scene());
+    let of = |name: &str| {
+        let found = list.iter().find(|variable| variable.name == name);
+        found.map(|variable| (variable.start, variable.unit.map_or("", |unit| unit.name)))
+    };
+    for (name, start, unit) in [
+        ("crank.mass", 0.1, "kg"),
+        ("crank.inertia", 1e-3, "kg.m2"),
+        ("cart.inertia", 0.0, "kg.m2"),
+        ("rod.elements", 4.0, ""),
+        ("rod.tip.mass", 2.0, "kg"),
+        ("elbow.stiffness", 0.0, "N.m/rad"),
+        ("elbow.damping", 0.1, "N.m.s/rad"),
+        ("hoist.stiffness", 50.0, "N/m"),
+        ("hoist.damping", 0.0, "N.s/m"),
+    ] {
+        assert_eq!(of(name), Some((Some(start), unit)), "{name}");
+    }
+    assert_eq!(of("rotation"), None);
+    let mut turning = scene();
+    turning.rotation = 3.0;
+    assert!(variables(&turning).iter().any(|v| v.name == "rotation"));
+}
+
+#[test]
+fn what_jumps_with_an_input_is_direct() {
+    let list = variables(&scene());
+    let direct = |name: &str| {
+        let found = list.iter().find(|variable| variable.name == name);
+        found.map(|variable| (variable.acts_at_once(), variable.depends_on_inputs()))
+    };
+    for (name, acts, depends) in [
+        ("hoist.rest_length", true, false),
+        ("rod.tip.follower_force[2]", true, false),
+        ("turn.angle", false, false),
+        ("place.velocity[2]", false, false),
+        ("elbow.angle", false, false),
+        ("turn.reaction_moment", false, true),
+        ("energy.kinetic", false, false),
+        ("energy.spring", false, true),
+        ("energy.input", false, true),
+        ("energy.dissipated", false, false),
+    ] {
+        assert_eq!(direct(name), Some((acts, depends)), "{name}");
+    }
+    let mut without = scene();
+    without.inputs.pop();
+    let list = variables(&without);
+    let spring = list
+        .iter()
+        .find(|variable| variable.name == "energy.spring");
+    assert!(spring.is_some_and(|variable| !variable.depends_on_inputs()));
+}
+
+#[test]
+fn names_are_unique() {
+    let list = variables(&scene());
+    let names: std::collections::BTreeSet<_> = list.iter().map(|v| &v.name).collect();
+    assert_eq!(names.len(), list.len());
+}

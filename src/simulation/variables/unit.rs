@@ -1,0 +1,42 @@
+//! Units of variables.
+
+/// A unit: its name and exponents of the SI base units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unit {
+    /// Name as written in the model description.
+    pub name: &'static str,
+    /// Exponents of kg, m, s and rad.
+    pub exponents: [i32; 4],
+}
+
+const fn unit(name: &'static str, kg: i32, m: i32, s: i32, rad: i32) -> Unit {
+    Unit {
+        name,
+        exponents: [kg, m, s, rad],
+    }
+}
+
+pub(super) const SECOND: Unit = unit("s", 0, 0, 1, 0);
+pub(super) const PER_SECOND: Unit = unit("1/s", 0, 0, -1, 0);
+pub(super) const METRE: Unit = unit("m", 0, 1, 0, 0);
+pub(super) const SQUARE_METRE: Unit = unit("m2", 0, 2, 0, 0);
+pub(super) const METRE_4: Unit = unit("m4", 0, 4, 0, 0);
+pub(super) const PER_METRE: Unit = unit("1/m", 0, -1, 0, 0);
+pub(super) const METRE_PER_SECOND: Unit = unit("m/s", 0, 1, -1, 0);
+pub(super) const METRE_PER_SECOND_2: Unit = unit("m/s2", 0, 1, -2, 0);
+pub(super) const RADIAN: Unit = unit("rad", 0, 0, 0, 1);
+pub(super) const RADIAN_PER_SECOND: Unit = unit("rad/s", 0, 0, -1, 1);
+pub(super) const RADIAN_PER_SECOND_2: Unit = unit("rad/s2", 0, 0, -2, 1);
+pub(super) const PASCAL: Unit = unit("Pa", 1, -1, -2, 0);
+pub(super) const DENSITY: Unit = unit("kg/m3", 1, -3, 0, 0);
+pub(super) const KILOGRAM: Unit = unit("kg", 1, 0, 0, 0);
+pub(super) const INERTIA: Unit = unit("kg.m2", 1, 2, 0, 0);
+pub(super) const NEWTON: Unit = unit("N", 1, 1, -2, 0);
+pub(super) const NEWTON_PER_METRE: Unit = unit("N/m", 1, 0, -2, 0);
+pub(super) const NEWTON_SECOND: Unit = unit("N.s", 1, 1, -1, 0);
+pub(super) const NEWTON_SECOND_PER_METRE: Unit = unit("N.s/m", 1, 0, -1, 0);
+pub(super) const NEWTON_METRE: Unit = unit("N.m", 1, 2, -2, 0);
+pub(super) const NEWTON_METRE_SECOND: Unit = unit("N.m.s", 1, 2, -1, 0);
+pub(super) const NEWTON_METRE_PER_RADIAN: Unit = unit("N.m/rad", 1, 2, -2, -1);
+pub(super) const NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", 1, 2, -1, -1);
+pub(super) const JOULE: Unit = unit("J", 1, 2, -2, 0);
