@@ -188,22 +188,19 @@ pub(super) fn limits(variable: &Variable) -> (Option<f64>, Option<f64>) {
         return (None, None);
     };
     match parameter {
-        Parameter::Gravity(_) => (None, None),
+        Parameter::Gravity(_) | Parameter::Rotation => (None, None),
         Parameter::Elements(_) => (
             Some(f64::from(*ELEMENTS.start())),
             Some(f64::from(*ELEMENTS.end())),
         ),
         Parameter::RelativeTolerance => (Some(*TOLERANCE.start()), Some(*TOLERANCE.end())),
-        Parameter::YoungsModulus(_)
-        | Parameter::Density(_)
-        | Parameter::DampingTime(_)
-        | Parameter::Area(_)
-        | Parameter::SecondMoment(_) => (Some(0.0), None),
+        _ => (Some(0.0), None),
     }
 }
 
 /// Outputs with what they depend on: state-like ones on no input, so that masters see no loop
-/// where there is none; those with direct feedthrough on all inputs. An initial unknown without
+/// where there is none; those with direct feedthrough on all inputs that act at once. A driven motion
+/// does not: it moves in the next step. An initial unknown without
 /// `dependencies` depends on everything, which is true after a change of any parameter.
 fn model_structure(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
     let of = |causality: Causality| -> Vec<usize> {
@@ -215,8 +212,10 @@ fn model_structure(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
     };
     // The standard counts ScalarVariables from 1 here.
     let index = |reference: &usize| (reference + 1).to_string();
-    let inputs: Vec<String> = of(Causality::Input).iter().map(index).collect();
-    let (inputs, outputs) = (inputs.join(" "), of(Causality::Output));
+    let (loads, outputs) = (of(Causality::Input), of(Causality::Output));
+    let loads = loads.iter().filter(|i| variables[**i].acts_at_once());
+    let inputs: Vec<String> = loads.map(index).collect();
+    let inputs = inputs.join(" ");
     let mut unknowns = [outputs.clone(), of(Causality::CalculatedParameter)].concat();
     unknowns.sort_unstable();
     xml.create_element("ModelStructure")
@@ -286,7 +285,7 @@ mod tests {
         let list = variables(&scene);
         let text = model_description(&scene);
         let inputs: Vec<String> = (1..=list.len())
-            .filter(|index| Causality::of(&list[index - 1]) == Causality::Input)
+            .filter(|index| list[index - 1].acts_at_once())
             .map(|index| index.to_string())
             .collect();
         for (reference, variable) in list.iter().enumerate() {

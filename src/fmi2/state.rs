@@ -1,7 +1,7 @@
 //! A saved FMU state, and its bytes: versioned, tied to one model, checksummed, without pointers.
 //!
 //! Layout, little-endian: magic, format version, GUID, lifecycle state, flags, start time, stop
-//! time, time, sub-step, five lengths, the numbers, SHA-256 of all before.
+//! time, time, sub-step, work of both kinds, seven lengths, the numbers, SHA-256 of all before.
 
 use std::mem::MaybeUninit;
 
@@ -13,12 +13,14 @@ use crate::simulation::Snapshot;
 use crate::system::State;
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const GUID_BYTES: usize = 38;
 const HASH_BYTES: usize = 32;
-const ARRAYS: usize = 5;
-/// Magic, version, GUID, two bytes, four numbers, five lengths.
-const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + 4 * 8 + ARRAYS * 8;
+const ARRAYS: usize = 7;
+/// Numbers of every motion that inputs drive.
+const DRIVEN: usize = 3;
+/// Magic, version, GUID, two bytes, six numbers, seven lengths.
+const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + 6 * 8 + ARRAYS * 8;
 const INITIALIZED: u8 = 1;
 const STARTED: u8 = 2;
 const STOP_DEFINED: u8 = 4;
@@ -62,7 +64,8 @@ impl SavedState {
         let flags = flag(*initialized, INITIALIZED) | flag(*started, STARTED) | stop_defined;
         bytes.extend([self.lifecycle as u8, flags]);
         let stop = self.stop_time.unwrap_or(0.0);
-        for number in [self.start_time, stop, state.time, state.step] {
+        let [input, lost] = state.work;
+        for number in [self.start_time, stop, state.time, state.step, input, lost] {
             bytes.extend(number.to_le_bytes());
         }
         for array in self.arrays() {
@@ -110,7 +113,7 @@ impl SavedState {
                 "names a lifecycle state that its numbers do not belong to",
             ));
         }
-        let [start_time, stop, time, step] = reader.numbers()?;
+        let [start_time, stop, time, step, input, lost] = reader.numbers()?;
         let mut lengths = [0; ARRAYS];
         for length in &mut lengths {
             *length = u64::from_le_bytes(reader.take()?);
@@ -122,13 +125,28 @@ impl SavedState {
         if !reader.0.is_empty() {
             return Err(refused("is longer than it says"));
         }
-        let [values, frequencies, coordinates, rates, angles] = arrays;
+        let [
+            values,
+            frequencies,
+            coordinates,
+            rates,
+            angles,
+            travel,
+            driven,
+        ] = arrays;
+        let (driven, rest) = driven.as_chunks::<DRIVEN>();
+        if !rest.is_empty() {
+            return Err(refused("holds a part of a driven motion"));
+        }
         let state = State {
             time,
             step,
             coordinates,
             rates,
             angles,
+            travel,
+            driven: driven.to_vec(),
+            work: [input, lost],
         };
         Ok(Self {
             guid: guid.into(),
@@ -158,6 +176,8 @@ impl SavedState {
             &state.coordinates,
             &state.rates,
             &state.angles,
+            &state.travel,
+            state.driven.as_flattened(),
         ]
     }
 }
@@ -264,6 +284,9 @@ mod tests {
                     coordinates: vec![0.1, 0.2],
                     rates: vec![0.3, 0.4],
                     angles: vec![7.0],
+                    travel: vec![0.5],
+                    driven: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
+                    work: [8.0, -9.0],
                 },
             },
         }
@@ -320,8 +343,8 @@ mod tests {
         other.guid = GUID.replace('f', "0");
         assert!(reason(other.to_bytes()).contains("expected one of the model"));
         let mut version = bytes.clone();
-        version[8] = 2;
-        assert!(reason(version).contains("format version 1, found 2"));
+        version[8] = 1;
+        assert!(reason(version).contains("format version 2, found 1"));
         let mut mode = bytes.clone();
         mode[50] = 64;
         assert!(reason(mode).contains("lifecycle"));
@@ -331,6 +354,11 @@ mod tests {
         let mut length = bytes.clone();
         length[HEADER_BYTES - 1] = 0xff;
         assert!(reason(length).contains("cut off"));
+        let mut driven = bytes.clone();
+        // One number more in the list of driven motions, one less in the one before.
+        driven[HEADER_BYTES - 8] = 7;
+        driven[HEADER_BYTES - 16] = 0;
+        assert!(reason(driven).contains("driven motion"));
         let mut state = example();
         state.snapshot.state.rates[1] = f64::NAN;
         assert!(reason(state.to_bytes()).contains("not finite"));
