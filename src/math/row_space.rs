@@ -4,10 +4,13 @@
 //! Source: modified Gram-Schmidt with column pivoting and a second pass ("twice is enough"):
 //! G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., sections 5.2.8, 5.4.1 and 5.5.5.
 
-/// Size of what is left of a row, relative to the largest row, below which the row counts as dependent.
-const RANK: f64 = 1e-7;
+/// Size of what other rows leave of a row, relative to it, below which it counts as dependent. Close to a
+/// singular configuration (at a distance `d`) a residual of roundoff tilts the dependent row by `1e-15 / d^2`,
+/// and leaving it out changes accelerations for a time in proportion to `d`: this is in between
+/// (docs/decisions/0009-constraints.md).
+const RANK: f64 = 1e-4;
 
-/// Rows `A = P R^T Q`: `Q` has orthonormal rows, `R` is upper triangular, `P` permutes.
+/// Rows `A = D P R^T Q` with `D` the sizes of the rows: `Q` has orthonormal rows, `R` is upper triangular, `P` permutes.
 #[derive(Clone, Debug, Default)]
 pub struct RowSpace {
     length: usize,
@@ -16,6 +19,8 @@ pub struct RowSpace {
     /// `R` by columns: entry (i, j) at `j * count + i`.
     r: Vec<f64>,
     pivots: Vec<usize>,
+    /// Sizes of the rows as they were filled in.
+    sizes: Vec<f64>,
     rank: usize,
     /// Parts along `Q` that were taken out and added last.
     taken: Vec<f64>,
@@ -30,6 +35,7 @@ impl RowSpace {
             rows: vec![0.0; count * length],
             r: vec![0.0; count * count],
             pivots: (0..count).collect(),
+            sizes: vec![0.0; count],
             rank: 0,
             taken: vec![0.0; count],
             added: vec![0.0; count],
@@ -61,14 +67,6 @@ impl RowSpace {
         &self.rows[i * self.length..(i + 1) * self.length]
     }
 
-    /// Copies another row space of the same size.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.rows.copy_from_slice(&other.rows);
-        self.r.copy_from_slice(&other.r);
-        self.pivots.copy_from_slice(&other.pivots);
-        self.rank = other.rank;
-    }
-
     /// Makes the rows orthonormal, largest remainder first.
     pub fn factor(&mut self) {
         let (count, length) = (self.count(), self.length);
@@ -78,7 +76,12 @@ impl RowSpace {
             .for_each(|(i, p)| *p = i);
         self.r.fill(0.0);
         self.rank = 0;
-        let mut largest = 0.0_f64;
+        for (row, size) in self.rows.chunks_exact_mut(length.max(1)).zip(&mut self.sizes) {
+            *size = norm_squared(row).sqrt();
+            if *size > 0.0 {
+                row.iter_mut().for_each(|x| *x /= *size);
+            }
+        }
         for k in 0..count {
             let remainder = |i: usize| norm_squared(&self.rows[i * length..(i + 1) * length]);
             let (mut best, mut size) = (k, remainder(k));
@@ -87,9 +90,6 @@ impl RowSpace {
                 if other > size {
                     (best, size) = (i, other);
                 }
-            }
-            if k == 0 {
-                largest = size.sqrt();
             }
             self.exchange(k, best);
             let (done, rest) = self.rows.split_at_mut(k * length);
@@ -102,7 +102,7 @@ impl RowSpace {
                 self.r[k * count + i] += part;
             }
             let size = norm_squared(pivot).sqrt();
-            if size <= RANK * largest || size == 0.0 {
+            if size.is_nan() || size <= RANK {
                 return;
             }
             self.r[k * count + k] = size;
@@ -146,7 +146,8 @@ impl RowSpace {
         for i in 0..self.rank {
             let column = &self.r[i * count..(i + 1) * count];
             let before = dot(&column[..i], &self.added[..i]);
-            let part = (b[self.pivots[i]] - before) / column[i];
+            let pivot = self.pivots[i];
+            let part = (b[pivot] / self.sizes[pivot] - before) / column[i];
             self.added[i] = part;
             let unit = &self.rows[i * self.length..(i + 1) * self.length];
             subtract(-part, unit, x);
@@ -164,6 +165,11 @@ impl RowSpace {
                 value -= self.r[j * count + i] * lambda[self.pivots[j]];
             }
             lambda[self.pivots[i]] = value / self.r[i * count + i];
+        }
+        for (lambda, size) in lambda.iter_mut().zip(&self.sizes) {
+            if *size > 0.0 {
+                *lambda /= size;
+            }
         }
     }
 }

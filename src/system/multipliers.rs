@@ -21,7 +21,7 @@ use crate::math::row_space::RowSpace;
 /// Most iterations of a projection.
 const ITERATIONS: usize = 20;
 /// Residual at which positions are on the constraints.
-const EXACT: f64 = 1e-14;
+const EXACT: f64 = 2e-15;
 
 /// Constraints of one component of a system.
 #[derive(Clone, Debug)]
