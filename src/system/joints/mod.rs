@@ -2,14 +2,18 @@
 //! rest becomes constraints with multipliers.
 
 mod along;
-mod direction;
 mod distance;
-mod position;
+mod motion;
+mod orientation;
+mod revolute;
+mod slider;
 mod unit;
+mod weld;
 
 pub use along::Along;
-pub use direction::Parallel;
+
 pub use distance::Distance;
+pub use orientation::Parallel;
 pub use unit::Unit;
 
 use nalgebra::Vector2;
@@ -261,13 +265,10 @@ impl Joint {
             linear,
         };
         let kind = match &self.kind {
-            JointKind::Revolute => return position::pin(&mut rows),
-            JointKind::Weld(angle) => {
-                position::pin(&mut rows);
-                direction::hold(&mut rows, *angle)
-            }
-            JointKind::Slider(along) => return position::slider(&mut rows, *along),
-            JointKind::Orientation(angle) => direction::hold(&mut rows, *angle),
+            JointKind::Revolute => return revolute::hold(&mut rows),
+            JointKind::Weld(angle) => weld::hold(&mut rows, *angle),
+            JointKind::Slider(along) => return slider::hold(&mut rows, *along),
+            JointKind::Orientation(angle) => orientation::hold(&mut rows, *angle),
             JointKind::Distance(length) => Some(ConstraintKind::Distance(Distance {
                 ends: self.ends,
                 length: *length,
@@ -281,11 +282,9 @@ impl Joint {
                     slide: slides.count(),
                 }))
             }
-            JointKind::DrivenAngle(drive) => direction::drive(&mut rows, *drive),
-            JointKind::DrivenPosition(drives) => return position::drive(&mut rows, *drives),
-            JointKind::DrivenWay(along, drive) => {
-                return position::drive_along(&mut rows, *along, *drive);
-            }
+            JointKind::DrivenAngle(drive) => motion::angle(&mut rows, *drive),
+            JointKind::DrivenPosition(drives) => return motion::position(&mut rows, *drives),
+            JointKind::DrivenWay(along, drive) => return motion::way(&mut rows, *along, *drive),
         };
         nonlinear.extend(kind.map(|kind| Constraint {
             joint: Some(index),
@@ -324,5 +323,16 @@ impl Rows<'_> {
             target,
             on_second: second,
         });
+    }
+
+    /// Holds the position of the second end along an axis against that of the first; `target` takes
+    /// where a first end on the ground is along it.
+    fn hold_position(&mut self, axis: Vector2<f64>, target: impl Fn(f64) -> Target) {
+        let none = Vector2::zeros();
+        let start = match self.ends[0] {
+            End::Ground(point) => axis.dot(&point),
+            End::Body(_) => 0.0,
+        };
+        self.push([axis, none], [axis, none], target(start));
     }
 }

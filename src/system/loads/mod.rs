@@ -3,19 +3,19 @@
 
 mod distributed;
 mod force;
+mod hinge;
 mod moment;
 mod spring;
 
-
 pub use distributed::Distributed;
 pub use force::Force;
+pub use hinge::Rotational;
 pub use moment::Moment;
-pub use spring::{Rotational, Spring};
+pub use spring::Spring;
 
-
+use super::PlanarChain;
 use super::end::{Angle, End};
 use super::signal::Signal;
-use super::PlanarChain;
 use crate::body::{Node, NodeBlock};
 
 /// What acts.

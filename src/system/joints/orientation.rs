@@ -1,4 +1,5 @@
-//! Joints that hold directions: welds, orientation joints and driven angles.
+//! Orientation joint: the direction of the second end keeps its angle from that of the first. With a
+//! slider it makes a prismatic joint.
 //!
 //! Where both ends keep the length of their directions (rigid bodies, the ground), the second is the
 //! first one turned: linear. A cable's slope may stretch: against the ground only the component across
@@ -50,22 +51,6 @@ pub(super) fn hold(rows: &mut Rows<'_>, angle: f64) -> Option<ConstraintKind> {
         }
     }
     None
-}
-
-/// Drives the angle from the direction of the first end to that of the second.
-pub(super) fn drive(rows: &mut Rows<'_>, drive: usize) -> Option<ConstraintKind> {
-    let none = Vector2::zeros();
-    let [first, second] = rows.ends;
-    if matches!(first, End::Ground(_)) && second.is_rigid() {
-        rows.push([none; 2], [none, Vector2::x()], Target::Cosine(drive));
-        rows.push([none; 2], [none, Vector2::y()], Target::Sine(drive));
-        return None;
-    }
-    Some(ConstraintKind::Parallel(Parallel {
-        ends: [*first, *second],
-        angle: 0.0,
-        drive: Some(drive),
-    }))
 }
 
 impl Parallel {
