@@ -6,7 +6,8 @@ use super::lifecycle::Causality;
 use super::logger::Category;
 use super::model_description::limits;
 use super::number::number;
-use crate::scene::{Body, Formulation, Initial, Integrator, Scene, Strain};
+use super::parts::parts;
+use crate::scene::{Body, Constraints, Formulation, Initial, Integrator, Scene, Strain};
 use crate::simulation::{Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
@@ -18,6 +19,7 @@ pub fn documentation(scene: &Scene) -> String {
         summary(scene),
         format!("<figure>\n{}</figure>\n", drawing(scene)),
         model(scene),
+        parts(scene),
         parameters(&variables),
         inputs(&variables),
         outputs(&variables),
@@ -41,35 +43,62 @@ pub fn documentation(scene: &Scene) -> String {
 }
 
 fn summary(scene: &Scene) -> String {
-    let bodies: Vec<String> = scene.bodies.iter().map(body_in_words).collect();
+    let shown = scene.bodies.iter().take(MOST_BODIES).map(body_in_words);
+    let mut bodies: Vec<String> = shown.collect();
+    if let Some(others @ 1..) = scene.bodies.len().checked_sub(MOST_BODIES) {
+        bodies.push(format!("and {others} more"));
+    }
+    let frame = match scene.rotation {
+        0.0 => String::new(),
+        rate => format!(
+            " The frame turns about the origin at {} rad/s; everything is seen from it.",
+            number(rate)
+        ),
+    };
     format!(
         "<h1>{}</h1>\n<p>A co-simulation unit (FMI 2.0) of a planar scene: {}. All quantities are \
-         in SI units, angles in rad, vectors in global axes, x to the right and y upwards.</p>\n",
+         in SI units, angles in rad, vectors in global axes, x to the right and y upwards.{frame}\
+         </p>\n",
         escape(&scene.name),
         bodies.join("; ")
     )
 }
 
+/// Most bodies that are told one by one.
+const MOST_BODIES: usize = 12;
+
 fn body_in_words(body: &Body) -> String {
-    let plural = if body.elements == 1 {
-        "element"
-    } else {
-        "elements"
-    };
-    format!(
-        "the flexible body <em>{}</em>, {} m long, of {} cable {plural}",
-        escape(&body.name),
-        // A length along an arc need not be a short number; four digits are enough to read.
-        number((body.shape.length() * 1e4).round() / 1e4),
-        body.elements
-    )
+    let name = escape(body.name());
+    match body {
+        Body::Cable(cable) => {
+            let plural = if cable.elements == 1 {
+                "element"
+            } else {
+                "elements"
+            };
+            format!(
+                "the flexible body <em>{name}</em>, {} m long, of {} cable {plural}",
+                // A length along an arc need not be a short number; four digits are enough to read.
+                number((cable.shape.length() * 1e4).round() / 1e4),
+                cable.elements
+            )
+        }
+        Body::Rigid(rigid) => {
+            let kind = if rigid.inertia > 0.0 {
+                "rigid body"
+            } else {
+                "particle"
+            };
+            format!("the {kind} <em>{name}</em> of {} kg", number(rigid.mass))
+        }
+    }
 }
 
 fn model(scene: &Scene) -> String {
     let formulation = match scene.method.formulation {
         Formulation::MassWeighted => {
-            "element coordinates joined by a QR factorization weighted with the square root of the \
-             mass: connectivity and joints hold exactly, and the inertia is the identity"
+            "joints that are linear in the coordinates are eliminated by QR factorizations and the \
+             mass by its Cholesky factor: they hold exactly, and the inertia is the identity"
         }
         Formulation::AsPrinted => {
             "report MBS97-2-UIC, Eqs. 23 to 34, as printed; for comparison only, because it does \
@@ -82,22 +111,44 @@ fn model(scene: &Scene) -> String {
         Integrator::Rk4 => "Runge-Kutta of order 4, explicit",
     };
     let initial = match scene.initial {
-        Initial::AsShaped => "the unstressed shape, with its rigid motion",
+        Initial::AsShaped => "the bodies as described, moved as far as their joints ask for",
         Initial::StaticEquilibrium => {
-            "the equilibrium under gravity and the inputs of initialization, at rest"
+            "the equilibrium under gravity, loads and the inputs of initialization, at rest"
         }
     };
-    let strains = scene.bodies.iter().map(|body| strain_in_words(body.strain));
+    let constraints = match scene.method.constraints {
+        Constraints::Projection => {
+            "multipliers for those that are not linear; positions and velocities are projected \
+             after every step"
+        }
+        Constraints::Partitioning => {
+            "independent coordinates are integrated, the others follow (report MBS97-2-UIC, \
+             Section 7)"
+        }
+    };
+    let mut strains: Vec<&str> = Vec::new();
+    for cable in scene.bodies.iter().filter_map(Body::cable) {
+        let strain = strain_in_words(cable.strain);
+        if !strains.contains(&strain) {
+            strains.push(strain);
+        }
+    }
     let mut rows = vec![
         row(&[
-            "Elements",
-            "absolute nodal coordinates: positions and slopes, no rotations",
+            "Coordinates",
+            "of cables absolute nodal ones: positions and slopes, no rotations; of rigid bodies \
+             natural ones: the centre of mass and a unit vector",
         ]),
         row(&["Formulation", formulation]),
+        row(&["Constraints", constraints]),
         row(&["Integrator", integrator]),
         row(&["Start", initial]),
     ];
-    rows.extend(strains.map(|strain| row(&["Strain measure", strain])));
+    rows.extend(
+        strains
+            .iter()
+            .map(|strain| row(&["Strain measure", strain])),
+    );
     format!(
         "<h2>Model</h2>\n<table class=\"facts\">\n{}</table>\n",
         rows.concat()
@@ -140,11 +191,20 @@ fn inputs(variables: &[Variable]) -> String {
         let start = variable.start.map(number).unwrap_or_default();
         row(&[&code(variable), unit(variable), &start, &meaning(variable)])
     });
-    let note = "<p>An input keeps its value during a communication step and may jump between two.\
-                </p>\n";
+    let is_motion = |variable: &Variable| !variable.acts_at_once();
+    let motions = if of(variables, Causality::Input).any(is_motion) {
+        " A driven motion never jumps: during a step it moves smoothly from where it is to where \
+         its inputs, continued with the derivatives given, are at the end of the step."
+    } else {
+        ""
+    };
+    let note = format!(
+        "<p>An input keeps its value during a communication step and may jump between two.\
+         {motions}</p>\n"
+    );
     table(
         "Inputs",
-        note,
+        &note,
         &["Name", "Unit", "Start", "Meaning"],
         rows.collect(),
     )
@@ -183,7 +243,7 @@ fn usage(scene: &Scene) -> String {
         "<h2>How to use it</h2>\n<ul>\n\
          <li><strong>Accuracy is set by a tolerance, not by the step.</strong> \
          <code>relative_tolerance</code> (here {tolerance}) bounds the error in time of a step of \
-         the solver, relative to the length of the body. A tolerance in \
+         the solver, relative to the size of the scene. A tolerance in \
          <code>fmi2SetupExperiment</code> replaces it. The error of the mesh is another matter: it \
          falls with <code>elements</code>.</li>\n\
          <li><strong>A communication step may have any positive length.</strong> Within it the \
@@ -216,7 +276,8 @@ fn statuses() -> String {
         ]),
         row(&[
             "<code>fmi2Error</code> from initialization",
-            "there is no initial state, for instance no equilibrium",
+            "there is no initial state, for instance no equilibrium, or bodies that do not fit \
+             together",
             "<code>fmi2Reset</code>, or restore a saved state; then other values",
         ]),
         row(&[
@@ -268,7 +329,7 @@ fn range(variable: &Variable) -> String {
 }
 
 /// A section with a table; nothing where there are no rows.
-fn table(title: &str, note: &str, heads: &[&str], rows: Vec<String>) -> String {
+pub(super) fn table(title: &str, note: &str, heads: &[&str], rows: Vec<String>) -> String {
     if rows.is_empty() {
         return String::new();
     }
@@ -280,7 +341,8 @@ fn table(title: &str, note: &str, heads: &[&str], rows: Vec<String>) -> String {
     format!("<h2>{title}</h2>\n{note}<table>\n<tr>{heads}</tr>\n{rows}</table>\n")
 }
 
-fn row(cells: &[&str]) -> String {
+/// A row of a table.
+pub(super) fn row(cells: &[&str]) -> String {
     let cells: String = cells
         .iter()
         .map(|cell| format!("<td>{cell}</td>"))

@@ -13,6 +13,7 @@ mod location;
 mod logger;
 mod model_description;
 mod number;
+mod parts;
 mod state;
 mod status;
 mod symbols;

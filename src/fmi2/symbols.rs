@@ -1,10 +1,14 @@
-//! Symbols of joints and loads, as textbooks draw them. `unit` is the size of a symbol in pixels.
+//! Symbols of joints, springs, motions and loads, as textbooks draw them. `unit` is the size of a symbol in pixels.
 
-use super::canvas::{Canvas, Point, Style, moved};
+use super::canvas::{Canvas, Point, Style, direction, moved};
 
 const GROUND: &str = "#3a3f45";
 /// Colour of loads and of their names.
 pub const LOAD: &str = "#c2571a";
+/// Colour of driven motions and of their names.
+pub const MOTION: &str = "#2e7d4f";
+/// Colour of springs and of their names.
+pub const SPRING: &str = "#6f4a9e";
 
 fn line(width: f64) -> Style {
     Style {
@@ -24,6 +28,87 @@ fn ground(canvas: &mut Canvas, centre: Point, along: Point, behind: Point, half:
         let top = moved(centre, along, at);
         let bottom = moved(moved(top, behind, 0.5 * unit), along, -0.4 * unit);
         canvas.polyline(&[top, bottom], false, line(0.09 * unit));
+    }
+}
+
+/// A pin between two bodies.
+pub fn pin(canvas: &mut Canvas, at: Point, unit: f64) {
+    let style = Style {
+        fill: "#ffffff",
+        ..line(0.16 * unit)
+    };
+    canvas.circle(at, 0.42 * unit, style);
+}
+
+/// A ring that a cable runs through.
+pub fn ring(canvas: &mut Canvas, at: Point, unit: f64) {
+    canvas.circle(at, 0.75 * unit, line(0.22 * unit));
+}
+
+/// Two bodies in one piece.
+pub fn block(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
+    let style = Style {
+        fill: GROUND,
+        ..line(0.0)
+    };
+    canvas.polyline(&square(at, along, 0.5 * unit), true, style);
+}
+
+/// A massless link.
+pub fn link(canvas: &mut Canvas, from: Point, to: Point, unit: f64) {
+    canvas.polyline(&[from, to], false, line(0.24 * unit));
+}
+
+/// A spring: straight ends and a zigzag between.
+pub fn spring(canvas: &mut Canvas, from: Point, to: Point, unit: f64) {
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let (length, along) = (way[0].hypot(way[1]), direction(way));
+    let across = [-along[1], along[0]];
+    let straight = (0.2 * length).min(1.5 * unit);
+    let teeth = ((length - 2.0 * straight) / (0.45 * unit))
+        .round()
+        .clamp(4.0, 24.0) as usize;
+    let mut points = vec![from, moved(from, along, straight)];
+    for tooth in 0..teeth {
+        let part = (tooth as f64 + 0.5) / teeth as f64;
+        let at = moved(from, along, straight + part * (length - 2.0 * straight));
+        let side = if tooth % 2 == 0 { 0.55 } else { -0.55 };
+        points.push(moved(at, across, side * unit));
+    }
+    points.extend([moved(to, along, -straight), to]);
+    let style = Style {
+        stroke: SPRING,
+        ..line(0.16 * unit)
+    };
+    canvas.polyline(&points, false, style);
+}
+
+/// A spiral spring around a pin.
+pub fn spiral(canvas: &mut Canvas, at: Point, unit: f64) {
+    let points: Vec<Point> = (0..=48)
+        .map(|number| {
+            let part = f64::from(number) / 48.0;
+            let (angle, radius) = (4.0 * std::f64::consts::PI * part, (0.5 + 0.8 * part) * unit);
+            [at[0] + radius * angle.cos(), at[1] - radius * angle.sin()]
+        })
+        .collect();
+    let style = Style {
+        stroke: SPRING,
+        ..line(0.12 * unit)
+    };
+    canvas.polyline(&points, false, style);
+}
+
+/// A driven way, to and fro.
+pub fn way(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
+    let style = Style {
+        stroke: MOTION,
+        ..line(0.2 * unit)
+    };
+    for sign in [-1.0, 1.0] {
+        let tip = moved(at, along, sign * 2.2 * unit);
+        let start = moved(at, along, sign * 0.5 * unit);
+        canvas.arrow(start, tip, 0.6 * unit, style);
     }
 }
 
@@ -68,15 +153,20 @@ pub fn slider(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
 
 /// A block that may move but not turn.
 pub fn orientation(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
-    let across = [-along[1], along[0]];
-    let corner = |a: f64, b: f64| moved(moved(at, along, a * unit), across, b * unit);
-    let corners = [
-        corner(-0.8, -0.8),
-        corner(0.8, -0.8),
-        corner(0.8, 0.8),
-        corner(-0.8, 0.8),
-    ];
+    let corners = square(at, along, 0.8 * unit);
     canvas.polyline(&corners, true, line(0.16 * unit));
+}
+
+/// Corners of a square with sides along a direction.
+fn square(at: Point, along: Point, half: f64) -> [Point; 4] {
+    let across = [-along[1], along[0]];
+    let corner = |a: f64, b: f64| moved(moved(at, along, a * half), across, b * half);
+    [
+        corner(-1.0, -1.0),
+        corner(1.0, -1.0),
+        corner(1.0, 1.0),
+        corner(-1.0, 1.0),
+    ]
 }
 
 /// A force that ends at the body; gives back where its arrow begins.
@@ -91,10 +181,10 @@ pub fn force(canvas: &mut Canvas, at: Point, along: Point, unit: f64) -> Point {
     tail
 }
 
-/// A counter-clockwise moment.
-pub fn moment(canvas: &mut Canvas, at: Point, unit: f64) {
+/// A counter-clockwise moment or rotation.
+pub fn turn(canvas: &mut Canvas, at: Point, unit: f64, colour: &'static str) {
     let style = Style {
-        stroke: LOAD,
+        stroke: colour,
         width: 0.2 * unit,
         fill: "none",
     };

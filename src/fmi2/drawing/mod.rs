@@ -1,16 +1,17 @@
 //! A drawing of a scene: with names for the documentation, square and without text as an icon.
 
+mod actions;
+mod bodies;
+mod joints;
+mod names;
+
 use super::canvas::{Canvas, Point, Style, direction, moved};
-use super::symbols;
-use crate::scene::{Body, Input, InputKind, JointKind, Scene};
+use crate::scene::{At, GROUND, Scene};
 
 const BODY: &str = "#2b5c8a";
+const INSIDE: &str = "#dce6f0";
 const INK: &str = "#24292f";
 const FAINT: &str = "#8a929b";
-/// Parts of the polyline that stands for a curved body.
-const PARTS: u32 = 96;
-/// With more elements than this, nodes would only blacken the line.
-const MOST_NODES: u32 = 64;
 
 /// The scene as an SVG image, with the names of its parts.
 pub fn drawing(scene: &Scene) -> String {
@@ -27,22 +28,34 @@ pub fn icon(scene: &Scene) -> String {
     Picture::new(scene, [256.0, 256.0], 56.0, 17.0, false).draw()
 }
 
-/// The corners of the box around all bodies, m.
+/// The corners of the box around all bodies and all points of the ground, m.
 fn bounds(scene: &Scene) -> [[f64; 2]; 2] {
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
-    for point in scene.bodies.iter().flat_map(outline) {
+    let joints = scene.joints.iter().filter_map(|joint| joint.point);
+    let loads = scene.loads.iter().filter_map(|load| load.point);
+    let outlines = scene.bodies.iter().flat_map(bodies::outline);
+    for point in outlines.chain(joints).chain(loads) {
         for axis in 0..2 {
             low[axis] = low[axis].min(point[axis]);
             high[axis] = high[axis].max(point[axis]);
         }
     }
+    if low == high {
+        // A single particle.
+        return [low.map(|x| x - 0.5), high.map(|x| x + 0.5)];
+    }
     [low, high]
 }
 
-/// Points along a body, m.
-fn outline(body: &Body) -> impl Iterator<Item = [f64; 2]> {
-    (0..=PARTS).map(|part| body.shape.point(f64::from(part) / f64::from(PARTS)))
+/// A marker in the image.
+#[derive(Clone, Copy)]
+struct Place {
+    at: At,
+    /// Where it is, pixels.
+    point: Point,
+    /// Its direction, y downwards.
+    direction: Point,
 }
 
 struct Picture<'a> {
@@ -76,13 +89,16 @@ impl<'a> Picture<'a> {
     }
 
     fn draw(mut self) -> String {
-        for body in &self.scene.bodies {
-            self.body(body);
+        for index in 0..self.scene.bodies.len() {
+            self.body(index);
         }
         self.joints();
-        self.markers();
-        self.inputs();
+        self.springs();
+        self.marks();
+        self.actions();
+        self.motions();
         if self.names {
+            self.name_all();
             self.gravity();
         }
         self.canvas
@@ -97,156 +113,28 @@ impl<'a> Picture<'a> {
         ]
     }
 
-    fn body(&mut self, body: &Body) {
-        let points: Vec<Point> = outline(body).map(|point| self.at(point)).collect();
-        let style = Style {
-            stroke: BODY,
-            width: 0.42 * self.unit,
-            fill: "none",
+    /// The marker of this name.
+    fn place(&self, name: &str) -> Option<Place> {
+        let scene = self.scene;
+        let marker = scene.marker(name)?;
+        let [x, y] = scene.direction(marker);
+        Some(Place {
+            at: marker.at,
+            point: self.at(scene.position(marker)),
+            direction: [x, -y],
+        })
+    }
+
+    /// Where the two ends of a joint or spring are. The ground is at `point`, or where the second
+    /// marker is.
+    fn ends(&self, markers: &[String; 2], point: Option<[f64; 2]>) -> Option<[Point; 2]> {
+        let second = self.place(&markers[1])?.point;
+        let first = match point {
+            Some(point) => self.at(point),
+            None if markers[0] == GROUND => second,
+            None => self.place(&markers[0])?.point,
         };
-        self.canvas.polyline(&points, false, style);
-        if self.names && body.elements <= MOST_NODES {
-            let node = Style {
-                stroke: BODY,
-                width: 0.8,
-                fill: "#dce6f0",
-            };
-            let same = |other: &Body| other.name == body.name;
-            let index = self.scene.bodies.iter().position(same).unwrap_or(0);
-            for along in self.scene.nodes(index).unwrap_or_default() {
-                let centre = self.at(body.shape.point(along));
-                self.canvas.circle(centre, 0.26 * self.unit, node);
-            }
-        }
-        if self.names {
-            // A quarter along the way, where markers are rare, on the side without their names.
-            let side = self.name_side(body, 0.25).map(|part| -part);
-            let at = moved(self.at(body.shape.point(0.25)), side, 1.5 * self.unit);
-            self.canvas.texts(at, side, &[(&body.name, BODY)]);
-        }
-    }
-
-    /// The side of the body for names, in the image: above it, or to the right if it is upright.
-    fn name_side(&self, body: &Body, along: f64) -> Point {
-        let [x, y] = body.shape.tangent(along);
-        let normal = [-y, -x];
-        let wrong = if normal[1].abs() < 0.3 {
-            normal[0] < 0.0
-        } else {
-            normal[1] > 0.0
-        };
-        if wrong {
-            normal.map(|part| -part)
-        } else {
-            normal
-        }
-    }
-
-    /// Body, material coordinate and place of a marker.
-    fn marker(&self, name: &str) -> Option<(&'a Body, f64, Point)> {
-        let marker = self.scene.marker(name)?;
-        let body = &self.scene.bodies[marker.body];
-        Some((
-            body,
-            marker.coordinate,
-            self.at(body.shape.point(marker.coordinate)),
-        ))
-    }
-
-    fn joints(&mut self) {
-        for joint in &self.scene.joints {
-            let Some((body, along, at)) = self.marker(&joint.markers[1]) else {
-                continue;
-            };
-            let [x, y] = body.shape.tangent(along);
-            let (tangent, unit) = ([x, -y], self.unit);
-            let outward = if along < 0.5 {
-                tangent.map(|part| -part)
-            } else {
-                tangent
-            };
-            let canvas = &mut self.canvas;
-            match joint.kind {
-                JointKind::Revolute => symbols::revolute(canvas, at, unit),
-                JointKind::Weld => symbols::weld(canvas, at, outward, unit),
-                JointKind::Slider => {
-                    let [x, y] = joint.direction.unwrap_or([1.0, 0.0]);
-                    symbols::slider(canvas, at, direction([x, -y]), unit);
-                }
-                JointKind::Orientation => symbols::orientation(canvas, at, tangent, unit),
-            }
-        }
-    }
-
-    fn markers(&mut self) {
-        let style = Style {
-            stroke: INK,
-            width: 0.0,
-            fill: INK,
-        };
-        for body in &self.scene.bodies {
-            for (name, along) in &body.markers {
-                let at = self.at(body.shape.point(*along));
-                self.canvas.circle(at, 0.3 * self.unit, style);
-                if self.names {
-                    self.names_at(body, name, *along);
-                }
-            }
-        }
-    }
-
-    /// The name of a marker and of all that is there, but for forces, which have theirs at the
-    /// tail.
-    fn names_at(&mut self, body: &Body, marker: &str, along: f64) {
-        let full = format!("{}.{marker}", body.name);
-        let mut lines = vec![(marker, INK)];
-        let joints = self
-            .scene
-            .joints
-            .iter()
-            .filter(|joint| joint.markers[1] == full);
-        lines.extend(joints.map(|joint| (joint.name.as_str(), FAINT)));
-        let mut side = self.name_side(body, along);
-        for input in self
-            .scene
-            .inputs
-            .iter()
-            .filter(|input| input.marker == full)
-        {
-            match input.kind {
-                InputKind::Moment => lines.push(("moment", symbols::LOAD)),
-                InputKind::Force => {
-                    let [x, y] = force_direction(input);
-                    // The side from which the arrow comes is taken.
-                    if side[0] * x + side[1] * y < -0.5 {
-                        side = side.map(|part| -part);
-                    }
-                }
-            }
-        }
-        let distance = if lines.len() > 1 { 2.8 } else { 1.5 };
-        let at = moved(self.at(body.shape.point(along)), side, distance * self.unit);
-        self.canvas.texts(at, side, &lines);
-    }
-
-    fn inputs(&mut self) {
-        for input in &self.scene.inputs {
-            let Some((_, _, at)) = self.marker(&input.marker) else {
-                continue;
-            };
-            match input.kind {
-                InputKind::Moment => symbols::moment(&mut self.canvas, at, self.unit),
-                InputKind::Force => {
-                    let along = force_direction(input);
-                    let tail = symbols::force(&mut self.canvas, at, along, self.unit);
-                    if self.names {
-                        let back = along.map(|part| -part);
-                        let at = moved(tail, back, 0.8 * self.unit);
-                        self.canvas.texts(at, back, &[("force", symbols::LOAD)]);
-                    }
-                }
-            }
-        }
+        Some([first, second])
     }
 
     /// An arrow in the upper right corner, where no body is drawn.
@@ -270,15 +158,6 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// Direction of a force in the image. One that starts at zero has none yet; obliquely from below it
-/// keeps clear of the names above.
-fn force_direction(input: &Input) -> Point {
-    match input.start[..] {
-        [x, y] if x != 0.0 || y != 0.0 => direction([x, -y]),
-        _ => direction([-1.0, -1.0]),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -296,7 +175,8 @@ mod tests {
     fn every_name_is_in_the_drawing_and_every_number_is_finite() {
         let picture = drawing(&example());
         for name in [
-            "rod", "root", "middle", "tip", "pivot", "rail", "force", "moment", "g",
+            "rod", "root", "middle", "tip", "pivot", "rail", "force", "moment", "g", "crank",
+            "elbow", "pin", "drive", "hoist", "push", "wind", "ball", "link", "ring", "torque",
         ] {
             assert!(picture.contains(&format!(">{name}</text>")), "{name}");
         }
@@ -305,9 +185,14 @@ mod tests {
 
     #[test]
     fn an_upright_and_a_level_body_fit_into_the_image() {
-        let mut scene = example();
+        let text = r#"{ "name": "one", "dimension": 2,
+          "bodies": [ { "name": "rod", "element": "cable", "elements": 2,
+            "material": { "youngs_modulus": 7.0e5, "density": 5540.0 },
+            "section": { "area": 1.8e-3, "second_moment": 1.215e-8 },
+            "shape": { "line": { "from": [0.0, 0.0], "to": [1.0, 0.0] } } } ] }"#;
+        let mut scene = Scene::from_json(text).expect("a valid scene");
         for to in [[0.0, 2.0], [2.0, 0.0], [1e-9, -1e-9]] {
-            scene.bodies[0].shape = crate::scene::Shape::Line {
+            scene.bodies[0].cable_mut().expect("a cable").shape = crate::scene::Shape::Line {
                 from: [0.0, 0.0],
                 to,
             };
@@ -317,5 +202,14 @@ mod tests {
                 "{to:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_particle_alone_fits_into_the_image() {
+        let text = r#"{ "name": "one", "dimension": 2, "bodies": [ { "name": "ball",
+          "element": "rigid", "mass": 1.0, "inertia": 0.0, "position": [3.0, 4.0] } ] }"#;
+        let picture = drawing(&Scene::from_json(text).expect("a valid scene"));
+        assert!(picture.contains(">ball</text>"));
+        assert!(!picture.contains("NaN") && !picture.contains("inf"));
     }
 }

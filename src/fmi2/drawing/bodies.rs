@@ -1,0 +1,146 @@
+//! Bodies, their markers and masses.
+
+use super::{BODY, INK, INSIDE, Picture};
+use crate::fmi2::canvas::{Point, Style};
+use crate::scene::{At, Body, CableBody, RigidBody};
+
+/// Parts of the polyline that stands for a cable.
+const PARTS: u32 = 96;
+/// With more elements than this, nodes would only blacken the line.
+const MOST_NODES: u32 = 64;
+
+/// Points along a cable; corners around a rigid body's markers and its centre, m.
+pub(super) fn outline(body: &Body) -> Vec<[f64; 2]> {
+    match body {
+        Body::Cable(cable) => (0..=PARTS)
+            .map(|part| cable.shape.point(f64::from(part) / f64::from(PARTS)))
+            .collect(),
+        Body::Rigid(rigid) => {
+            let markers = rigid.markers.values();
+            let points = markers.map(|point| body.position(At::Point(*point)));
+            hull(points.chain([rigid.position]).collect())
+        }
+    }
+}
+
+/// Corners of the smallest convex polygon around points, counter-clockwise; the two ends where all lie
+/// on a line.
+///
+/// Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
+fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let half = |points: &mut dyn Iterator<Item = &[f64; 2]>| {
+        let mut corners: Vec<[f64; 2]> = Vec::new();
+        for point in points {
+            while let [.., a, b] = corners[..] {
+                let left = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
+                if left > 0.0 {
+                    break;
+                }
+                corners.pop();
+            }
+            corners.push(*point);
+        }
+        corners.pop();
+        corners
+    };
+    let mut corners = half(&mut points.iter());
+    corners.extend(half(&mut points.iter().rev()));
+    corners
+}
+
+impl Picture<'_> {
+    pub(super) fn body(&mut self, index: usize) {
+        let scene = self.scene;
+        let body = &scene.bodies[index];
+        let points: Vec<Point> = outline(body).iter().map(|point| self.at(*point)).collect();
+        match body {
+            Body::Cable(cable) => self.cable(index, cable, &points),
+            Body::Rigid(rigid) => self.rigid(rigid, &points),
+        }
+    }
+
+    fn cable(&mut self, index: usize, body: &CableBody, points: &[Point]) {
+        let style = Style {
+            stroke: BODY,
+            width: 0.42 * self.unit,
+            fill: "none",
+        };
+        self.canvas.polyline(points, false, style);
+        if !self.names || body.elements > MOST_NODES {
+            return;
+        }
+        let node = Style {
+            stroke: BODY,
+            width: 0.8,
+            fill: INSIDE,
+        };
+        for along in self.scene.nodes(index).unwrap_or_default() {
+            let centre = self.at(body.shape.point(along));
+            self.canvas.circle(centre, 0.26 * self.unit, node);
+        }
+    }
+
+    fn rigid(&mut self, body: &RigidBody, points: &[Point]) {
+        let style = Style {
+            stroke: BODY,
+            width: 0.28 * self.unit,
+            fill: INSIDE,
+        };
+        let centre = self.at(body.position);
+        if points.len() > 1 {
+            self.canvas.polyline(points, true, style);
+            self.canvas.circle(centre, 0.34 * self.unit, style);
+        } else {
+            self.canvas.circle(centre, 0.8 * self.unit, style);
+        }
+    }
+
+    /// Masses, then markers.
+    pub(super) fn marks(&mut self) {
+        let mass = Style {
+            stroke: BODY,
+            width: 0.0,
+            fill: BODY,
+        };
+        for of in &self.scene.masses {
+            if let Some(place) = self.place(&of.marker) {
+                self.canvas.circle(place.point, 0.7 * self.unit, mass);
+            }
+        }
+        let mark = Style {
+            stroke: INK,
+            width: 0.0,
+            fill: INK,
+        };
+        for body in &self.scene.bodies {
+            for at in body
+                .marker_names()
+                .iter()
+                .filter_map(|name| body.marker(name))
+            {
+                let centre = self.at(body.position(at));
+                self.canvas.circle(centre, 0.3 * self.unit, mark);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hull;
+
+    #[test]
+    fn a_hull_keeps_corners_and_ends() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.5], [1.0, 1.0], [0.0, 1.0]];
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        assert_eq!(hull(square.to_vec()), corners);
+        let line = vec![[2.0, 2.0], [0.0, 0.0], [1.0, 1.0]];
+        assert_eq!(hull(line), [[0.0, 0.0], [2.0, 2.0]]);
+        assert_eq!(hull(vec![[1.0, 2.0]; 3]), [[1.0, 2.0]]);
+    }
+}
