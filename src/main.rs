@@ -53,8 +53,8 @@ struct Simulate {
     /// CSV file; standard output if it is not given.
     #[arg(long)]
     output: Option<PathBuf>,
-    /// JSON file for the natural frequencies and for what the steps took: integrator, sub-steps,
-    /// Newton iterations, CPU time (s).
+    /// JSON file for the natural frequencies, for what the steps took (integrator, sub-steps, Newton
+    /// iterations, CPU time in s) and for joints that hold what others hold already.
     #[arg(long)]
     report: Option<PathBuf>,
 }
@@ -78,19 +78,22 @@ impl Cost {
         self.cpu_time += cpu_time;
     }
 
-    /// One line of JSON; CPU time in seconds. Names of variables need no escapes.
-    fn json(&self, calculated: &[(String, f64)]) -> String {
+    /// One line of JSON; CPU time in seconds. Names of variables and joints need no escapes.
+    fn json(&self, calculated: &[(String, f64)], redundant: &[String]) -> String {
         let pair = |(name, value): &(String, f64)| format!("\"{name}\": {value:?}");
         let calculated: Vec<String> = calculated.iter().map(pair).collect();
+        let quoted = |name: &String| format!("\"{name}\"");
+        let redundant: Vec<String> = redundant.iter().map(quoted).collect();
         format!(
             "{{\"method\": \"{}\", \"steps\": {}, \"rejected\": {}, \"newton_iterations\": {}, \
-             \"cpu_time\": {:?}, \"calculated\": {{{}}}}}\n",
+             \"cpu_time\": {:?}, \"calculated\": {{{}}}, \"redundant\": [{}]}}\n",
             self.method,
             self.steps,
             self.rejected,
             self.newton_iterations,
             self.cpu_time.as_secs_f64(),
-            calculated.join(", ")
+            calculated.join(", "),
+            redundant.join(", ")
         )
     }
 }
@@ -145,8 +148,9 @@ fn simulate(arguments: &Simulate) -> Outcome<()> {
     }
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
-    for joint in simulation.redundant_joints() {
-        eprintln!("flexbody: joint {joint} holds what others hold already");
+    let redundant = simulation.redundant_joints();
+    for joint in &redundant {
+        eprintln!("flexbody: {joint} holds what others hold already");
     }
     let cost = match &arguments.output {
         Some(path) => {
@@ -162,7 +166,7 @@ fn simulate(arguments: &Simulate) -> Outcome<()> {
     }?;
     match &arguments.report {
         Some(path) => {
-            let json = cost.json(&calculated(&mut simulation)?);
+            let json = cost.json(&calculated(&mut simulation)?, &redundant);
             fs::write(path, json).map_err(|error| at(path, error))
         }
         None => Ok(()),
