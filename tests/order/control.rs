@@ -14,7 +14,7 @@ fn started() -> State {
         step: 0.0,
         coordinates: vec![x, 0.0],
         rates: vec![v, 1.0],
-        angles: Vec::new(),
+        ..State::default()
     }
 }
 
@@ -98,7 +98,7 @@ fn a_tolerance_that_cannot_be_met_ends_the_step() {
             }
             CHOSEN.set(acceleration);
             let mut problem = Problem::new(
-                |q, _| Vector2::new(CHOSEN.get()(q), 0.0),
+                |_, q, _| Vector2::new(CHOSEN.get()(q), 0.0),
                 |_, _| [Matrix2::zeros(); 2],
             );
             let (mut method, mut state) = ((row.make)(), started());
@@ -122,7 +122,7 @@ fn a_tolerance_that_cannot_be_met_ends_the_step() {
 #[test]
 fn a_singular_tangent_ends_the_step() {
     let mut problem = Problem::new(
-        |q, _| -q,
+        |_, q, _| -q,
         |_, _| [Matrix2::from_element(f64::NAN), Matrix2::zeros()],
     );
     let mut state = started();
@@ -132,7 +132,7 @@ fn a_singular_tangent_ends_the_step() {
 
 #[test]
 fn a_step_keeps_to_the_longest_that_stability_allows() {
-    let mut problem = Problem::new(|q, _| -q * 1e4, |_, _| [Matrix2::zeros(); 2]);
+    let mut problem = Problem::new(|_, q, _| -q * 1e4, |_, _| [Matrix2::zeros(); 2]);
     let mut method = Rk4::new(2, 100.0, 0.0);
     let mut state = started();
     (state.coordinates, state.rates) = (vec![1e-9, 0.0], vec![0.0, 0.0]);
@@ -150,7 +150,7 @@ fn a_step_keeps_to_the_longest_that_stability_allows() {
 #[test]
 fn communication_points_far_ahead_are_met_exactly() {
     for row in &ROWS {
-        let mut problem = Problem::new(|_, _| Vector2::zeros(), |_, _| [Matrix2::zeros(); 2]);
+        let mut problem = Problem::new(|_, _, _| Vector2::zeros(), |_, _| [Matrix2::zeros(); 2]);
         let (mut method, mut state) = ((row.make)(), started());
         state.step = 10.0;
         let (mut until, mut rounded) = (1e-6, 0);
@@ -173,7 +173,7 @@ fn a_sudden_push_is_not_overlooked() {
     }
     for row in &ROWS {
         let mut problem = Problem::new(
-            |q, _| Vector2::new(push(q.y), 0.0),
+            |_, q, _| Vector2::new(push(q.y), 0.0),
             |q, _| {
                 let by_time = 2.0 * (q.y - 2.0) / (WIDTH * WIDTH) * push(q.y);
                 [Matrix2::new(0.0, by_time, 0.0, 0.0), Matrix2::zeros()]

@@ -3,6 +3,7 @@
 
 mod control;
 mod problem;
+mod work;
 
 use flexbody::integrators::{Attempt, Method, Radau, Rk4, Tolerance};
 use nalgebra::{Matrix2, Vector2};
@@ -43,22 +44,18 @@ fn exact(t: f64) -> [f64; 2] {
 }
 
 /// A driven Duffing oscillator with damping that depends on the position; the second coordinate is
-/// time, so that the equation knows it.
+/// time.
 fn driven() -> Problem {
     fn drive(t: f64) -> f64 {
         let [x, v] = exact(t);
         -2.0 * (2.0 * t).sin() + x * x * x + 0.3 * x * v
     }
-    fn drive_rate(t: f64) -> f64 {
-        let ([x, v], a) = (exact(t), -2.0 * (2.0 * t).sin());
-        -4.0 * (2.0 * t).cos() + 3.0 * x * x * v + 0.3 * (v * v + x * a)
-    }
     Problem::new(
-        |q, v| Vector2::new(drive(q.y) - q.x.powi(3) - 0.3 * q.x * v.x, 0.0),
+        |t, q, v| Vector2::new(drive(t) - q.x.powi(3) - 0.3 * q.x * v.x, 0.0),
         |q, v| {
             let by_x = 3.0 * q.x * q.x + 0.3 * v.x;
             [
-                Matrix2::new(by_x, -drive_rate(q.y), 0.0, 0.0),
+                Matrix2::new(by_x, 0.0, 0.0, 0.0),
                 Matrix2::new(0.3 * q.x, 0.0, 0.0, 0.0),
             ]
         },
@@ -66,10 +63,15 @@ fn driven() -> Problem {
 }
 
 /// One step of a given length, whatever its error; returns the estimate of it.
-fn force(method: &mut dyn Method, problem: &mut Problem, state: &mut [Vec<f64>; 2], h: f64) -> f64 {
+fn force(
+    method: &mut dyn Method,
+    problem: &mut Problem,
+    (time, state): (f64, &mut [Vec<f64>; 2]),
+    h: f64,
+) -> f64 {
     let [q, v] = state;
-    method.begin(problem, q, v);
-    match method.attempt(problem, (q, v), h, &TIGHT) {
+    method.begin(problem, time, q, v);
+    match method.attempt(problem, (time, q, v), h, &TIGHT) {
         Attempt::Done(error) => {
             method.accept(q, v);
             error * TIGHT.relative
@@ -91,8 +93,9 @@ fn run(
     let mut state = [vec![x, 0.0], vec![v, 1.0]];
     let h = time / f64::from(steps);
     let mut first = None;
-    for _ in 0..steps {
-        let estimate = force(&mut *method, &mut problem, &mut state, h);
+    for step in 0..steps {
+        let at = (f64::from(step) * h, &mut state);
+        let estimate = force(&mut *method, &mut problem, at, h);
         first.get_or_insert(estimate);
     }
     let [x, v] = exact(time);
@@ -140,7 +143,7 @@ fn growth(method: &mut dyn Method, frequency: f64, ratio: f64) -> f64 {
     }
     LINEAR.set([frequency * frequency, 2.0 * ratio * frequency]);
     let mut problem = Problem::new(
-        |q, v| {
+        |_, q, v| {
             let [k, r] = LINEAR.get();
             -q * k - v * r
         },
@@ -149,7 +152,7 @@ fn growth(method: &mut dyn Method, frequency: f64, ratio: f64) -> f64 {
     let mut state = [vec![1.0, 0.0], vec![0.0, 0.0]];
     let mut largest = [0.0_f64; 2];
     for step in 0..400 {
-        force(method, &mut problem, &mut state, 1.0);
+        force(method, &mut problem, (0.0, &mut state), 1.0);
         let size = (state[0][0].powi(2) + (state[1][0] / frequency).powi(2)).sqrt();
         largest[step / 200] = largest[step / 200].max(size);
     }
@@ -201,7 +204,7 @@ fn stiff() -> Problem {
         turn * Matrix2::new(SLOW, 0.0, 0.0, FAST) * turn.transpose()
     }
     Problem::new(
-        |q, _| -(stiffness() * q),
+        |_, q, _| -(stiffness() * q),
         |_, _| [stiffness(), Matrix2::zeros()],
     )
 }
@@ -213,12 +216,8 @@ fn radau_keeps_its_order_beside_a_stiff_mode() {
         let (mut method, mut problem) = (Radau::new(2), stiff());
         let mut state = [vec![cos, sin], vec![0.0, 0.0]];
         for _ in 0..steps {
-            force(
-                &mut method,
-                &mut problem,
-                &mut state,
-                2.0 / f64::from(steps),
-            );
+            let h = 2.0 / f64::from(steps);
+            force(&mut method, &mut problem, (0.0, &mut state), h);
         }
         let slow = state[0][0] * cos + state[0][1] * sin;
         let fast = state[0][1] * cos - state[0][0] * sin;
@@ -235,11 +234,8 @@ fn radau_follows_a_driven_stiff_spring() {
     // q'' = -w^2 (q - sin t) - sin t: Prothero and Robinson's problem of second order.
     let problem = || {
         Problem::new(
-            |q, _| Vector2::new(-1e8 * (q.x - q.y.sin()) - q.y.sin(), 0.0),
-            |q, _| {
-                let by_time = -1e8 * q.y.cos() + q.y.cos();
-                [Matrix2::new(1e8, by_time, 0.0, 0.0), Matrix2::zeros()]
-            },
+            |t, q, _| Vector2::new(-1e8 * (q.x - t.sin()) - t.sin(), 0.0),
+            |_, _| [Matrix2::new(1e8, 0.0, 0.0, 0.0), Matrix2::zeros()],
         )
     };
     let row = &ROWS[1];

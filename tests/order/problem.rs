@@ -1,11 +1,14 @@
 //! Small problems with the face of a mechanical system.
 
-use flexbody::system::{Dynamics, State};
+use flexbody::system::{Accepted, Dynamics, State};
 use nalgebra::{Complex, Matrix2, Vector2};
 
-/// `q'' = a(q, v)` in two coordinates with `K = -da/dq` and `R = -da/dv`.
+/// Acceleration from time, coordinates and rates.
+pub type Law = fn(f64, Vector2<f64>, Vector2<f64>) -> Vector2<f64>;
+
+/// `q'' = a(t, q, v)` in two coordinates with `K = -da/dq` and `R = -da/dv`.
 pub struct Problem {
-    acceleration: fn(Vector2<f64>, Vector2<f64>) -> Vector2<f64>,
+    acceleration: Law,
     tangent: fn(Vector2<f64>, Vector2<f64>) -> [Matrix2<f64>; 2],
     stiffness: Matrix2<f64>,
     damping: Matrix2<f64>,
@@ -14,11 +17,18 @@ pub struct Problem {
     /// Calls of `acceleration`, and accepted steps.
     calls: u32,
     pub steps: u32,
+    /// Power that comes in and that is dissipated, from time and rates.
+    pub powers: fn(f64, Vector2<f64>) -> [f64; 2],
+    power: [f64; 2],
+    /// Times that no step may lead across.
+    pub breaks: Vec<f64>,
+    /// What becomes of accepted states.
+    pub settle: fn(&mut State) -> Accepted,
 }
 
 impl Problem {
     pub fn new(
-        acceleration: fn(Vector2<f64>, Vector2<f64>) -> Vector2<f64>,
+        acceleration: Law,
         tangent: fn(Vector2<f64>, Vector2<f64>) -> [Matrix2<f64>; 2],
     ) -> Self {
         Self {
@@ -30,6 +40,10 @@ impl Problem {
             complex: Matrix2::zeros(),
             calls: 0,
             steps: 0,
+            powers: |_, _| [0.0; 2],
+            power: [0.0; 2],
+            breaks: Vec::new(),
+            settle: |_| Accepted::AsIs,
         }
     }
 }
@@ -39,13 +53,18 @@ fn pair(x: &[f64]) -> Vector2<f64> {
 }
 
 impl Dynamics for Problem {
-    fn acceleration(&mut self, q: &[f64], v: &[f64], a: &mut [f64]) {
+    fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         self.calls += 1;
         assert!(self.calls < 1_000_000, "an endless crawl at {q:?}");
-        a.copy_from_slice((self.acceleration)(pair(q), pair(v)).as_slice());
+        a.copy_from_slice((self.acceleration)(time, pair(q), pair(v)).as_slice());
+        self.power = (self.powers)(time, pair(v));
     }
 
-    fn linearize(&mut self, q: &[f64], v: &[f64]) {
+    fn power(&self) -> [f64; 2] {
+        self.power
+    }
+
+    fn linearize(&mut self, _time: f64, q: &[f64], v: &[f64]) {
         [self.stiffness, self.damping] = (self.tangent)(pair(q), pair(v));
     }
 
@@ -101,7 +120,12 @@ impl Dynamics for Problem {
         0.0
     }
 
-    fn accepted(&mut self, _state: &mut State) {
+    fn accepted(&mut self, state: &mut State) -> Accepted {
         self.steps += 1;
+        (self.settle)(state)
+    }
+
+    fn breaks(&self) -> &[f64] {
+        &self.breaks
     }
 }
