@@ -1,3 +1,5 @@
+//! What a scene with driven motions, springs and hinges lists.
+
 use super::*;
 
 /// A scene with driven motions of every kind, springs, hinges and masses.
