@@ -1,17 +1,36 @@
-//! Random bodies with joints, and the same bodies as dense matrices.
+//! Random cables with joints at their nodes, and the same bodies as dense matrices over the coordinates
+//! of all elements, not yet connected.
 
 use std::f64::consts::PI;
 
-use flexbody::body::Formulation;
+use flexbody::body::{Formulation, Marker, Node};
 use flexbody::elements::cable::{Cable, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
-use flexbody::system::PlanarBody;
 use flexbody::system::joints::{Joint, JointKind};
+use flexbody::system::loads::Load;
+use flexbody::system::{Constraints, End, Parts, PlanarChain, State, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 use crate::specimen::{decades, noise, strains};
+
+/// What a joint to the ground holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hold {
+    Revolute,
+    Weld,
+    /// Along a line in this direction.
+    Slider(Vector2<f64>),
+    Orientation,
+}
+
+/// A joint at a node.
+#[derive(Clone, Copy, Debug)]
+pub struct Held {
+    pub hold: Hold,
+    pub node: usize,
+}
 
 /// Everything a random body is made from.
 #[derive(Clone, Debug)]
@@ -19,7 +38,7 @@ pub struct Chain {
     pub elements: Vec<Cable<2, 1>>,
     /// Position and slope.
     pub nodes: Vec<[Vector2<f64>; 2]>,
-    pub joints: Vec<Joint>,
+    pub joints: Vec<Held>,
     /// As many random numbers as anybody needs, in (-1, 1).
     pub noise: Vec<Nodal<2>>,
 }
@@ -90,14 +109,13 @@ fn build(
     }
     let joint = |(kind, place, angle): &(usize, f64, f64)| {
         let node = (place * nodes.len() as f64) as usize;
-        let kind = match kind {
-            0 => JointKind::Revolute,
-            1 => JointKind::Weld,
-            2 => JointKind::Slider(direction(*angle) * 3.0),
-            _ => JointKind::Orientation,
+        let hold = match kind {
+            0 => Hold::Revolute,
+            1 => Hold::Weld,
+            2 => Hold::Slider(direction(*angle)),
+            _ => Hold::Orientation,
         };
-        let slope = nodes[node][1];
-        Joint { kind, node, slope }
+        Held { hold, node }
     };
     Chain {
         joints: joints.iter().map(joint).collect(),
@@ -108,17 +126,79 @@ fn build(
 }
 
 impl Chain {
-    /// The body itself.
-    pub fn body(&self, formulation: Formulation) -> PlanarBody {
-        let constraints: Vec<_> = (self.joints.iter().enumerate())
-            .flat_map(|(index, joint)| joint.constraints(index))
-            .collect();
-        PlanarBody::new(
-            self.elements.clone(),
-            &self.nodes,
-            &constraints,
+    /// The flexible body.
+    pub fn flexible(&self, formulation: Formulation) -> PlanarChain {
+        let connected = formulation == Formulation::MassWeighted;
+        PlanarChain::new(self.elements.clone(), 0, connected)
+    }
+
+    /// The element that a node belongs to, the last for the last two, and which end it is.
+    pub fn place(&self, node: usize) -> (usize, usize) {
+        let element = node.min(self.elements.len() - 1);
+        (element, node - element)
+    }
+
+    /// A node as a point of the body.
+    pub fn marker(&self, formulation: Formulation, node: usize) -> Marker {
+        let (element, end) = self.place(node);
+        Marker::inside(0, &self.flexible(formulation), element, end as f64)
+    }
+
+    fn joint(&self, formulation: Formulation, held: &Held) -> Joint {
+        let [position, slope] = self.nodes[held.node];
+        let angle = slope.y.atan2(slope.x);
+        let kind = match held.hold {
+            Hold::Revolute => JointKind::Revolute,
+            Hold::Weld => JointKind::Weld(angle),
+            Hold::Slider(along) => JointKind::Slider(along),
+            Hold::Orientation => JointKind::Orientation(angle),
+        };
+        let second = End::Body(self.marker(formulation, held.node));
+        Joint {
+            kind,
+            ends: [End::Ground(position), second],
+            spring: None,
+        }
+    }
+
+    /// What the system is made of.
+    pub fn parts(&self, formulation: Formulation) -> Parts {
+        let node = |[p, s]: &[Vector2<f64>; 2]| [p.x, p.y, s.x, s.y];
+        let nodes: Vec<Node<4>> = match formulation {
+            Formulation::MassWeighted => self.nodes.iter().map(node).collect(),
+            Formulation::AsPrinted => self.nodes.windows(2).flatten().map(node).collect(),
+        };
+        let joints = self.joints.iter();
+        Parts {
+            bodies: vec![0..nodes.len()],
+            nodes,
+            chains: vec![self.flexible(formulation)],
+            lumps: Vec::new(),
+            rigid: Vec::new(),
+            joints: joints.map(|held| self.joint(formulation, held)).collect(),
+            drives: Vec::new(),
+            loads: Vec::new(),
+            angles: Vec::new(),
+            gravity: Vector2::zeros(),
+            rotation: 0.0,
             formulation,
-        )
+            constraints: Constraints::Projection,
+            tracks_work: false,
+        }
+    }
+
+    /// The system, without gravity.
+    pub fn system(&self, formulation: Formulation) -> System {
+        System::new(self.parts(formulation)).expect("a body with mass")
+    }
+
+    /// The system under loads.
+    pub fn loaded(&self, loads: Vec<Load>) -> System {
+        let parts = Parts {
+            loads,
+            ..self.parts(Formulation::MassWeighted)
+        };
+        System::new(parts).expect("a body with mass")
     }
 
     /// Number of coordinates of all elements.
@@ -126,8 +206,7 @@ impl Chain {
         8 * self.elements.len()
     }
 
-    /// Rows of connectivity and joints over all elements, with the joint that asks for each; a
-    /// joint's position comes before anybody's component, as in the elimination.
+    /// Rows of connectivity and joints over all elements, with the joint that asks for each.
     pub fn constraints(&self) -> Vec<(Option<usize>, DVector<f64>)> {
         let mut rows = Vec::new();
         for left in 0..self.elements.len() - 1 {
@@ -139,31 +218,27 @@ impl Chain {
             }
         }
         let across = |v: Vector2<f64>| Vector2::new(-v.y, v.x) / v.norm();
-        let mut positions = Vec::new();
-        let mut components = Vec::new();
         for (index, joint) in self.joints.iter().enumerate() {
-            let element = joint.node.min(self.elements.len() - 1);
-            let first = 8 * element + 4 * (joint.node - element);
+            let (element, end) = self.place(joint.node);
+            let first = 8 * element + 4 * end;
             let row = |at: usize, v: Vector2<f64>| {
                 let mut row = DVector::zeros(self.size());
                 row[first + at] = v.x;
                 row[first + at + 1] = v.y;
                 (Some(index), row)
             };
-            if matches!(joint.kind, JointKind::Revolute | JointKind::Weld) {
-                positions.push(row(0, Vector2::x()));
-                positions.push(row(0, Vector2::y()));
+            if matches!(joint.hold, Hold::Revolute | Hold::Weld) {
+                rows.push(row(0, Vector2::x()));
+                rows.push(row(0, Vector2::y()));
             }
-            match joint.kind {
-                JointKind::Revolute => {}
-                JointKind::Slider(along) => components.push(row(0, across(along))),
-                JointKind::Weld | JointKind::Orientation => {
-                    components.push(row(2, across(joint.slope)));
+            match joint.hold {
+                Hold::Revolute => {}
+                Hold::Slider(along) => rows.push(row(0, across(along))),
+                Hold::Weld | Hold::Orientation => {
+                    rows.push(row(2, across(self.nodes[joint.node][1])));
                 }
             }
         }
-        rows.append(&mut positions);
-        rows.append(&mut components);
         rows
     }
 
@@ -204,63 +279,93 @@ impl Chain {
 
     /// A deformed state that respects the constraints: coordinates from random displacements of a
     /// fraction of the shortest element.
-    pub fn coordinates(&self, body: &PlanarBody, fraction: f64) -> Vec<f64> {
-        let shortest = self
-            .elements
-            .iter()
-            .map(Element::length)
-            .fold(f64::INFINITY, f64::min);
-        let displacements: Vec<Nodal<2>> = (0..self.elements.len())
-            .map(|j| {
-                let (a, b) = (&self.noise[j], &self.noise[j + 1]);
-                let positions = shortest * fraction;
-                Nodal::from_columns(&[
-                    a.column(0) * positions,
-                    a.column(1) * fraction,
-                    b.column(0) * positions,
-                    b.column(1) * fraction,
-                ])
-            })
-            .collect();
-        let mut q = vec![0.0; body.coordinates()];
-        body.project(&displacements, &mut body.scratch(), &mut q);
-        q
+    pub fn coordinates(&self, system: &System, fraction: f64) -> Vec<f64> {
+        let lengths = self.elements.iter().map(Element::length);
+        let shortest = lengths.fold(f64::INFINITY, f64::min);
+        let displacement = |j: usize| -> Node<4> {
+            let noise = &self.noise[j];
+            let positions = noise.column(0) * (shortest * fraction);
+            let slopes = noise.column(1) * fraction;
+            [positions.x, positions.y, slopes.x, slopes.y]
+        };
+        let displacements: Vec<Node<4>> = (0..self.nodes.len()).map(displacement).collect();
+        project(system, &displacements)
     }
 
-    /// Random forces on all elements.
-    pub fn forces(&self) -> Vec<Nodal<2>> {
-        self.noise[..self.elements.len()].to_vec()
+    /// Random forces on the nodes.
+    pub fn forces(&self) -> Vec<Node<4>> {
+        let force = |j: usize| -> Node<4> {
+            let [a, b] = [2, 3].map(|k| self.noise[j].column(k));
+            [a.x, a.y, b.x, b.y]
+        };
+        (0..self.nodes.len()).map(force).collect()
     }
 }
 
-/// Numbers of all elements in one vector.
-pub fn flat(elements: &[Nodal<2>]) -> DVector<f64> {
-    DVector::from_iterator(8 * elements.len(), elements.iter().flatten().copied())
+/// Coordinates whose rates come closest to nodal ones in the mass norm.
+pub fn project(system: &System, rates: &[Node<4>]) -> Vec<f64> {
+    let mut f = vec![[0.0; 4]; rates.len()];
+    system.add_inertia(1.0, rates, &mut f);
+    let (mut y, mut q) = scratch(system);
+    system.elimination().reduce(&f, &mut y, &mut q);
+    q
 }
 
-/// The matrix `T`, column by column.
-pub fn expansion(body: &PlanarBody) -> DMatrix<f64> {
-    let (n, mut scratch) = (body.coordinates(), body.scratch());
-    let mut t = DMatrix::zeros(8 * body.elements().len(), n);
-    for column in 0..n {
-        let mut q = vec![0.0; n];
-        q[column] = 1.0;
-        body.rates(&q, &mut scratch.border, &mut scratch.rate);
-        t.set_column(column, &flat(&scratch.rate));
+/// Scratch of the elimination and storage of coordinates.
+pub fn scratch(system: &System) -> (Vec<f64>, Vec<f64>) {
+    let elimination = system.elimination();
+    let y = vec![0.0; elimination.scratch()];
+    (y, vec![0.0; elimination.coordinates()])
+}
+
+/// A state of these coordinates and rates with all that it needs beside.
+pub fn state(system: &System, q: &[f64], v: &[f64]) -> (State, Work) {
+    let mut state = system.blank_state(0.0);
+    state.coordinates.copy_from_slice(q);
+    state.rates.copy_from_slice(v);
+    (state, Work::new(system))
+}
+
+/// Nodal rates from those of the coordinates.
+pub fn expand(system: &System, q: &[f64]) -> Vec<Node<4>> {
+    let (mut y, _) = scratch(system);
+    let mut x = vec![[0.0; 4]; system.reference().len()];
+    system.elimination().expand(q, &mut y, &mut x);
+    x
+}
+
+/// Numbers of all elements in one vector, from those of the nodes.
+pub fn flat(chain: &PlanarChain, x: &[Node<4>]) -> DVector<f64> {
+    let elements = 0..chain.elements().len();
+    let numbers = elements.flat_map(|j| chain.nodes(j).map(|node| x[node]));
+    DVector::from_vec(numbers.flatten().collect())
+}
+
+/// The matrix `T` over all elements, column by column.
+pub fn expansion(system: &System) -> DMatrix<f64> {
+    let columns: Vec<DVector<f64>> = (0..system.coordinates())
+        .map(|column| {
+            let mut q = vec![0.0; system.coordinates()];
+            q[column] = 1.0;
+            flat(&system.chains()[0], &expand(system, &q))
+        })
+        .collect();
+    match columns.is_empty() {
+        true => DMatrix::zeros(8 * system.chains()[0].elements().len(), 0),
+        false => DMatrix::from_columns(&columns),
     }
-    t
 }
 
-/// The transposed matrix as `reduce` applies it, column by column.
-pub fn reduction(body: &PlanarBody) -> DMatrix<f64> {
-    let (n, mut scratch) = (body.coordinates(), body.scratch());
-    let size = 8 * body.elements().len();
-    let mut t = DMatrix::zeros(n, size);
+/// The transposed matrix as `reduce` applies it to forces on elements, column by column.
+pub fn reduction(system: &System) -> DMatrix<f64> {
+    let chain = &system.chains()[0];
+    let size = 8 * chain.elements().len();
+    let mut t = DMatrix::zeros(system.coordinates(), size);
     for column in 0..size {
-        let mut force = vec![Nodal::<2>::zeros(); body.elements().len()];
-        force[column / 8].as_mut_slice()[column % 8] = 1.0;
-        let mut q = vec![0.0; n];
-        body.reduce(&force, &mut scratch.border, &mut q);
+        let mut force = vec![[0.0; 4]; system.reference().len()];
+        force[chain.nodes(column / 8)[column % 8 / 4]][column % 4] = 1.0;
+        let (mut y, mut q) = scratch(system);
+        system.elimination().reduce(&force, &mut y, &mut q);
         t.set_column(column, &DVector::from_vec(q));
     }
     t
