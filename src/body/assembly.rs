@@ -34,11 +34,7 @@ pub struct Assembly<const B: usize> {
 impl<const B: usize> Assembly<B> {
     /// For nodes under these rows, with matrices that couple the nodes of every link. Also says which
     /// rows depend on others.
-    pub fn new(
-        nodes: usize,
-        rows: &[Row<B>],
-        links: &[(usize, usize)],
-    ) -> (Self, Vec<Dependent>) {
+    pub fn new(nodes: usize, rows: &[Row<B>], links: &[(usize, usize)]) -> (Self, Vec<Dependent>) {
         let (clusters, dependent) = clusters(nodes, rows);
         let mut tied = vec![None; nodes];
         for (index, cluster) in clusters.iter().enumerate() {
@@ -100,6 +96,11 @@ impl<const B: usize> Assembly<B> {
     /// Nodes that rows tie together.
     pub fn clusters(&self) -> &[Cluster] {
         &self.clusters
+    }
+
+    /// Where the free coordinates of a cluster are.
+    pub fn cluster_range(&self, cluster: usize) -> Range<usize> {
+        self.ranges[cluster].clone()
     }
 
     /// Number of nodes.
@@ -181,7 +182,11 @@ impl<const B: usize> Assembly<B> {
                 let values = &mut matrix.values[slot.at..slot.at + B * B];
                 for (r, row) in block.iter().enumerate() {
                     for (c, value) in row.iter().enumerate() {
-                        values[if slot.transposed { c * B + r } else { r * B + c }] += value;
+                        values[if slot.transposed {
+                            c * B + r
+                        } else {
+                            r * B + c
+                        }] += value;
                     }
                 }
             }
@@ -209,7 +214,11 @@ impl<const B: usize> Assembly<B> {
                         value += left * sum.sum::<f64>();
                     }
                 }
-                let at = if slot.transposed { c * m + r } else { r * n + c };
+                let at = if slot.transposed {
+                    c * m + r
+                } else {
+                    r * n + c
+                };
                 matrix.values[slot.at + at] += value;
                 if a != b && va == vb {
                     matrix.values[slot.at + c * n + r] += value;

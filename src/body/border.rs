@@ -88,7 +88,8 @@ impl<T: Number> Schur<T> {
                 let solution = &self.solutions[i * n..(i + 1) * n];
                 let mut value = product(&forces[j * n..(j + 1) * n], solution);
                 for k in 0..j {
-                    value = value - self.s[i * rank + k] * self.s[j * rank + k] * self.s[k * rank + k];
+                    value =
+                        value - self.s[i * rank + k] * self.s[j * rank + k] * self.s[k * rank + k];
                 }
                 if i == j {
                     value.inverse()?;

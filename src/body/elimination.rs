@@ -63,11 +63,7 @@ impl<const B: usize> Elimination<B> {
 
     /// Elimination as printed of these rows over the nodal coordinates (dense), which the assembly
     /// must leave alone. `None` where the mass is not positive definite.
-    pub fn as_printed(
-        assembly: Assembly<B>,
-        mass: Matrix<f64>,
-        rows: &[Vec<f64>],
-    ) -> Option<Self> {
+    pub fn as_printed(assembly: Assembly<B>, mass: Matrix<f64>, rows: &[Vec<f64>]) -> Option<Self> {
         let pattern = assembly.pattern();
         let n = pattern.len();
         let cholesky = Cholesky::new(pattern, &mass)?;

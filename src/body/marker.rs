@@ -131,7 +131,11 @@ impl Marker {
 
     /// Jacobian of position (`part` 0) or direction (1) by the coordinates of each node.
     pub fn jacobian(&self, part: usize) -> [(usize, [Matrix2<f64>; 2]); 2] {
-        let weights = if part == 0 { &self.values } else { &self.slopes };
+        let weights = if part == 0 {
+            &self.values
+        } else {
+            &self.slopes
+        };
         let turn = Matrix2::new(0.0, -1.0, 1.0, 0.0);
         let across = if part == 0 { self.across } else { 0.0 };
         let one = Matrix2::identity();

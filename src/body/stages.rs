@@ -7,6 +7,10 @@
 //! forth again. Mass is isotropic and hardly notices; what is left of the turn only slows convergence
 //! down in proportion (docs/decisions/0005-corotated-newton.md).
 //!
+//! Nodes that are tied together turn differently, and what is common to them cannot follow all. It
+//! follows the stiff directions: a displacement is taken to the one that stretches every cable at the
+//! joint as much as before, forces the opposite way.
+//!
 //! Turning every node by itself changes sums over nodes. The translation of a part that nothing holds
 //! is therefore put right before and after, so that momentum is kept exactly however far the
 //! iteration goes.
@@ -17,7 +21,7 @@ use nalgebra::{Complex, SVector};
 
 use super::Tangent;
 use super::assembly::Assembly;
-use super::connectivity::Node;
+use super::connectivity::{Cluster, Node};
 use super::elimination::Elimination;
 
 /// Vectors of three stages and how far the directions of nodes have turned.
@@ -28,7 +32,30 @@ pub struct Stages<const D: usize, const B: usize> {
     base: Vec<SVector<f64, D>>,
     /// Unit directions at the stages.
     turned: [Vec<SVector<f64, D>>; 3],
+    knots: Vec<Knot>,
+    /// Whether nodes belong to cables.
+    elastic: Vec<bool>,
     floating: Vec<Floating>,
+}
+
+/// Weights by which the motion of tied nodes follows each of them: along a cable, across it, and a
+/// rigid body.
+const ALONG: f64 = 1.0;
+const ACROSS: f64 = 1e-3;
+const RIGID: f64 = 1e-6;
+/// Difference of turns, rad, from which on tied nodes cannot each turn by itself.
+const APART: f64 = 3e-3;
+
+/// How the free coordinates of a cluster with cables turn at three stages: square matrices by rows.
+#[derive(Clone, Debug)]
+struct Knot {
+    cluster: usize,
+    range: Range<usize>,
+    turns: [Vec<f64>; 3],
+    /// Stages at which its nodes turn apart: at others each node may turn by itself.
+    active: [bool; 3],
+    normal: Vec<f64>,
+    y: Vec<f64>,
 }
 
 /// A component that may move as a whole.
@@ -43,11 +70,13 @@ struct Floating {
 }
 
 impl<const D: usize, const B: usize> Stages<D, B> {
-    pub(super) fn new(elimination: &Elimination<B>, grounded: &[usize]) -> Self {
+    pub(super) fn new(elimination: &Elimination<B>, grounded: &[usize], elastic: &[bool]) -> Self {
         let nodes = elimination.assembly.nodes();
         let directions = || vec![SVector::zeros(); nodes];
         Self {
             floating: floating::<D, B>(elimination, grounded),
+            knots: knots(&elimination.assembly, elastic),
+            elastic: elastic.to_vec(),
             nodes: vec![[0.0; B]; nodes],
             base: directions(),
             turned: [directions(), directions(), directions()],
@@ -63,8 +92,17 @@ impl<const D: usize, const B: usize> Stages<D, B> {
     }
 
     /// Sets the configuration of a stage.
-    pub fn set(&mut self, stage: usize, x: &[Node<B>]) {
+    pub fn set(&mut self, assembly: &Assembly<B>, stage: usize, x: &[Node<B>]) {
         unit_directions(x, &mut self.turned[stage]);
+        let (base, turned) = (&self.base, &self.turned[stage]);
+        for knot in &mut self.knots {
+            knot.tie(
+                &assembly.clusters()[knot.cluster],
+                stage,
+                &self.elastic,
+                (base, turned),
+            );
+        }
     }
 
     /// Turns the forces on a stage back to where the tangent was made; their sum stays.
@@ -72,8 +110,19 @@ impl<const D: usize, const B: usize> Stages<D, B> {
         for f in &mut self.floating {
             f.remember(|f| &f.translation, y);
         }
+        for knot in &mut self.knots {
+            knot.y.copy_from_slice(&y[knot.range.clone()]);
+        }
         let (from, to) = (&self.turned[stage], &self.base);
         turn_all(assembly, &mut self.nodes, (from, to), y);
+        for knot in self.knots.iter().filter(|knot| knot.active[stage]) {
+            let n = knot.range.len();
+            let y = &mut y[knot.range.clone()];
+            y.fill(0.0);
+            for (row, force) in knot.turns[stage].chunks_exact(n).zip(&knot.y) {
+                y.iter_mut().zip(row).for_each(|(y, r)| *y += force * r);
+            }
+        }
         for f in &self.floating {
             f.restore((&f.translation, &f.momentum), y);
         }
@@ -84,10 +133,110 @@ impl<const D: usize, const B: usize> Stages<D, B> {
         for f in &mut self.floating {
             f.remember(|f| &f.momentum, y);
         }
+        for knot in &mut self.knots {
+            knot.y.copy_from_slice(&y[knot.range.clone()]);
+        }
         let (from, to) = (&self.base, &self.turned[stage]);
         turn_all(assembly, &mut self.nodes, (from, to), y);
+        for knot in self.knots.iter().filter(|knot| knot.active[stage]) {
+            let rows = knot.turns[stage].chunks_exact(knot.range.len());
+            for (y, row) in y[knot.range.clone()].iter_mut().zip(rows) {
+                *y = dot(row, &knot.y);
+            }
+        }
         for f in &self.floating {
             f.restore((&f.momentum, &f.translation), y);
+        }
+    }
+}
+
+fn knots<const B: usize>(assembly: &Assembly<B>, elastic: &[bool]) -> Vec<Knot> {
+    let clusters = assembly.clusters().iter().enumerate();
+    // A single node turns as it is; without a cable nothing is stiff.
+    let stiff = clusters.filter(|(_, c)| c.nodes.len() > 1 && c.nodes.iter().any(|n| elastic[*n]));
+    stiff
+        .filter(|(_, cluster)| cluster.basis.ncols() > 0)
+        .map(|(index, cluster)| {
+            let n = cluster.basis.ncols();
+            let zeros = vec![0.0; n * n];
+            Knot {
+                cluster: index,
+                range: assembly.cluster_range(index),
+                turns: [zeros.clone(), zeros.clone(), zeros.clone()],
+                active: [false; 3],
+                normal: zeros,
+                y: vec![0.0; n],
+            }
+        })
+        .collect()
+}
+
+impl Knot {
+    /// The least-squares turn `(N^T W N)^-1 N^T W R N`.
+    fn tie<const D: usize>(
+        &mut self,
+        cluster: &Cluster,
+        stage: usize,
+        elastic: &[bool],
+        (base, turned): (&[SVector<f64, D>], &[SVector<f64, D>]),
+    ) {
+        // How differently two nodes turn the direction of the first one.
+        let first = cluster.nodes[0];
+        let apart = |node: &usize| {
+            let other = rotated(&base[*node], &turned[*node], &base[first]);
+            (turned[first] - other).norm()
+        };
+        self.active[stage] = cluster.nodes.iter().map(apart).fold(0.0, f64::max) > APART;
+        if !self.active[stage] {
+            return;
+        }
+        let n = self.range.len();
+        let turn_matrix = &mut self.turns[stage];
+        turn_matrix.fill(0.0);
+        self.normal.fill(0.0);
+        for (i, node) in cluster.nodes.iter().enumerate() {
+            let (from, to) = (&base[*node], &turned[*node]);
+            for part in 0..2 {
+                let rows = cluster.basis.fixed_rows::<D>((2 * i + part) * D);
+                for c in 0..n {
+                    let column: SVector<f64, D> = rows.column(c).into();
+                    let before = rotated(from, to, &column);
+                    let [plain, moved] = [column, before].map(|v| {
+                        if elastic[*node] {
+                            to * (to.dot(&v) * (ALONG - ACROSS)) + v * ACROSS
+                        } else {
+                            v * RIGID
+                        }
+                    });
+                    for r in 0..n {
+                        let row = rows.column(r);
+                        self.normal[r * n + c] += row.dot(&plain);
+                        turn_matrix[r * n + c] += row.dot(&moved);
+                    }
+                }
+            }
+        }
+        solve_square(&mut self.normal, n, turn_matrix);
+    }
+}
+
+/// Solves `A X = B` in place of `B` for a positive definite `A` (rows, n x n), whose content is lost.
+fn solve_square(a: &mut [f64], n: usize, b: &mut [f64]) {
+    for k in 0..n {
+        for i in k + 1..n {
+            let factor = a[i * n + k] / a[k * n + k];
+            for j in k..n {
+                a[i * n + j] -= factor * a[k * n + j];
+            }
+            for j in 0..n {
+                b[i * n + j] -= factor * b[k * n + j];
+            }
+        }
+    }
+    for k in (0..n).rev() {
+        for j in 0..n {
+            let later: f64 = (k + 1..n).map(|i| a[k * n + i] * b[i * n + j]).sum();
+            b[k * n + j] = (b[k * n + j] - later) / a[k * n + k];
         }
     }
 }
@@ -138,7 +287,9 @@ fn floating<const D: usize, const B: usize>(
                 held[assembly.component(node)] = true;
             }
         }
-        elimination.mass.multiply(assembly.pattern(), &y, &mut product);
+        elimination
+            .mass
+            .multiply(assembly.pattern(), &y, &mut product);
         translation.push(y);
         momentum.push(product);
     }
@@ -213,7 +364,8 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
                 .real
                 .correct(rows, |i| real * mixed(&forward[0], i), x);
             let z = &mut self.z[border.range.clone()];
-            let target = |i: usize| complex * Complex::new(mixed(&forward[1], i), mixed(&forward[2], i));
+            let target =
+                |i: usize| complex * Complex::new(mixed(&forward[1], i), mixed(&forward[2], i));
             border.complex.correct(rows, target, z);
         }
     }
@@ -245,17 +397,25 @@ fn turn<const D: usize, const B: usize>(
     to: &SVector<f64, D>,
     x: &mut Node<B>,
 ) {
+    for vector in x.chunks_exact_mut(D) {
+        let v = SVector::<f64, D>::from_column_slice(vector);
+        vector.copy_from_slice(rotated(from, to, &v).as_slice());
+    }
+}
+
+/// A vector turned by the smallest rotation that takes the unit vector `from` to `to`.
+fn rotated<const D: usize>(
+    from: &SVector<f64, D>,
+    to: &SVector<f64, D>,
+    v: &SVector<f64, D>,
+) -> SVector<f64, D> {
     let sum = from + to;
     let scale = 1.0 + from.dot(to);
     if scale < 1e-6 {
         // Opposite directions have no smallest rotation, and the step is far too long anyway.
-        return;
+        return *v;
     }
-    for vector in x.chunks_exact_mut(D) {
-        let v = SVector::<f64, D>::from_column_slice(vector);
-        let turned = v - sum * (sum.dot(&v) / scale) + to * (2.0 * from.dot(&v));
-        vector.copy_from_slice(turned.as_slice());
-    }
+    v - sum * (sum.dot(v) / scale) + to * (2.0 * from.dot(v))
 }
 
 fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {

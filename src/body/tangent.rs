@@ -30,12 +30,13 @@ pub struct Tangent<const D: usize, const B: usize> {
 
 impl<const D: usize, const B: usize> Tangent<D, B> {
     /// Storage. `borders` lists, for components with non-linear constraints, how many; `grounded` are
-    /// nodes that something else than rows ties to the ground.
+    /// nodes that something else than rows ties to the ground; `elastic` says which belong to cables.
     pub fn new(
         elimination: &Elimination<B>,
         is_damped: bool,
         borders: &[(usize, usize)],
         grounded: &[usize],
+        elastic: &[bool],
     ) -> Self {
         let pattern = elimination.assembly.pattern();
         let zeros = Matrix::zeros(pattern);
@@ -44,7 +45,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             Border::new(*component, range, *count)
         };
         Self {
-            stages: Stages::new(elimination, grounded),
+            stages: Stages::new(elimination, grounded, elastic),
             stiffness: zeros.clone(),
             damping: zeros.clone(),
             is_damped,
@@ -82,7 +83,13 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     pub fn factor(&mut self, elimination: &Elimination<B>, s: f64) -> bool {
         self.s.0 = s;
         let damping = self.is_damped.then_some(&self.damping);
-        combine(&elimination.mass, damping, &self.stiffness, s, &mut self.real);
+        combine(
+            &elimination.mass,
+            damping,
+            &self.stiffness,
+            s,
+            &mut self.real,
+        );
         let pattern = elimination.assembly.pattern();
         let Some(negative) = self.real.factor(pattern) else {
             return false;
@@ -107,7 +114,13 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     pub fn factor_complex(&mut self, elimination: &Elimination<B>, s: Complex<f64>) -> bool {
         self.s.1 = s;
         let damping = self.is_damped.then_some(&self.damping);
-        combine(&elimination.mass, damping, &self.stiffness, s, &mut self.complex);
+        combine(
+            &elimination.mass,
+            damping,
+            &self.stiffness,
+            s,
+            &mut self.complex,
+        );
         let pattern = elimination.assembly.pattern();
         if self.complex.factor(pattern).is_none() {
             return false;

@@ -71,10 +71,12 @@ const B: [f64; 3] = [0.376_403_062_700_467_3, 0.512_485_826_188_421_6, 1.0 / 9.0
 const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_749, -1.0 / 3.0];
 /// Size of the error that Newton's method leaves, in units of the tolerance.
 const NEWTON: f64 = 0.03;
+/// Growth of the first correction beyond which the iteration diverges.
+const DIVERGING: f64 = 2.0;
 /// The last stage is the end of the step.
 const END: usize = 2;
 /// Most Newton iterations.
-const ITERATIONS: i32 = 7;
+const ITERATIONS: i32 = 10;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
 const LARGEST_TURN: f64 = 1.5;
 /// Rate of convergence below which the tangent is kept for the next step.
@@ -239,13 +241,17 @@ impl Radau {
                     (ratio * ratio_before).sqrt()
                 };
                 ratio_before = ratio;
-                if theta >= 0.99 {
+                // Stiff directions that turn apart converge in pairs of iterations: the first ratio says
+                // little.
+                let early = k == 1;
+                if theta >= if early { DIVERGING } else { 0.99 } {
                     return Err(0.5);
                 }
+                let theta = theta.min(0.99);
                 factor = theta / (1.0 - theta);
                 let left = f64::from(ITERATIONS - 1 - k);
                 let predicted = factor * size * theta.powf(left) / goal;
-                if predicted >= 1.0 {
+                if predicted >= 1.0 && !early {
                     let wanted = predicted.clamp(1e-4, 20.0);
                     return Err(0.8 * wanted.powf(-1.0 / (4.0 + left)));
                 }

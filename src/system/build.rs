@@ -145,7 +145,8 @@ impl System {
                 let follow: Vec<(usize, Node<4>)> = nodes.map(|(i, n)| (*n, part(i))).collect();
                 match linear.target {
                     Target::Fixed(target) => {
-                        let scaled = |(n, c): &(usize, Node<4>)| (*n, c.map(|c| c * (target - value)));
+                        let scaled =
+                            |(n, c): &(usize, Node<4>)| (*n, c.map(|c| c * (target - value)));
                         moves.extend(follow.iter().map(scaled));
                     }
                     _ => self.driven.push(DrivenRow {
@@ -318,9 +319,14 @@ fn mass(parts: &Parts, assembly: &Assembly<4>) -> Matrix<f64> {
         let ends = [End::Body(lump.marker), End::Ground(Vector2::zeros())];
         for (part, size) in [lump.mass, lump.inertia].into_iter().enumerate() {
             let (k, zero) = (Matrix2::identity() * size, Matrix2::zeros());
-            coupling(&ends, [[k, zero], [zero, zero]], part, &mut |a, b, block| {
-                assembly.add(a, b, block, &mut mass);
-            });
+            coupling(
+                &ends,
+                [[k, zero], [zero, zero]],
+                part,
+                &mut |a, b, block| {
+                    assembly.add(a, b, block, &mut mass);
+                },
+            );
         }
     }
     mass

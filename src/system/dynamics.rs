@@ -260,7 +260,8 @@ impl Dynamics for Model<'_> {
 
     fn set_stage(&mut self, stage: usize) {
         let Work { tangent, x, .. } = &mut *self.work;
-        tangent.stages.set(stage, x);
+        let assembly = &self.system.elimination.assembly;
+        tangent.stages.set(assembly, stage, x);
     }
 
     fn solve_stages(
@@ -288,7 +289,9 @@ impl Dynamics for Model<'_> {
         for (a, b) in self.work.other.iter().zip(&self.work.x) {
             let (along, across) = (a[2] * b[2] + a[3] * b[3], a[2] * b[3] - a[3] * b[2]);
             let stretch = b[2].hypot(b[3]) / a[2].hypot(a[3]);
-            largest = largest.max(across.atan2(along).abs()).max(stretch.ln().abs());
+            largest = largest
+                .max(across.atan2(along).abs())
+                .max(stretch.ln().abs());
         }
         largest
     }
@@ -443,7 +446,10 @@ impl System {
         }
         if self.rotation != 0.0 {
             let square = self.rotation * self.rotation;
-            let pairs = stiffness.values.iter_mut().zip(&self.elimination.mass.values);
+            let pairs = stiffness
+                .values
+                .iter_mut()
+                .zip(&self.elimination.mass.values);
             pairs.for_each(|(k, m)| *k -= square * m);
         }
         let view = View {

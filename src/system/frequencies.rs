@@ -106,7 +106,9 @@ fn gyroscopic(
         (false, false) => -coupling[j - n][i - n],
     };
     let values = eigenvalues(2 * n, entry).unwrap_or_default();
-    let size = values.iter().fold(0.0_f64, |m, (re, im)| m.max(re.hypot(*im)));
+    let size = values
+        .iter()
+        .fold(0.0_f64, |m, (re, im)| m.max(re.hypot(*im)));
     let mut found: Vec<f64> = (values.iter())
         .filter(|(re, im)| *im >= 0.0 && (*im > 1e-12 * size || *re >= 0.0))
         .map(|(re, im)| if *re > 1e-6 * size { -re } else { *im })
@@ -155,7 +157,12 @@ fn lanczos(n: usize, mut apply: impl FnMut(&mut [f64])) -> f64 {
         apply(&mut w);
         let alpha = dot(&v, &w);
         for i in 0..n {
-            w[i] -= alpha * v[i] + if diagonal.is_empty() { 0.0 } else { beta * before[i] };
+            w[i] -= alpha * v[i]
+                + if diagonal.is_empty() {
+                    0.0
+                } else {
+                    beta * before[i]
+                };
         }
         diagonal.push(alpha);
         before = std::mem::replace(&mut v, w);
@@ -171,7 +178,9 @@ fn lanczos(n: usize, mut apply: impl FnMut(&mut [f64])) -> f64 {
         _ => 0.0,
     };
     let values = symmetric_eigenvalues(diagonal.len(), entry).unwrap_or_default();
-    values.last().map_or(0.0, |largest| MARGIN * largest.max(0.0))
+    values
+        .last()
+        .map_or(0.0, |largest| MARGIN * largest.max(0.0))
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

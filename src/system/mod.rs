@@ -110,7 +110,11 @@ impl System {
 
     /// Size: the length of the longest cable, or the largest distance of two nodes if that is more, m.
     pub fn size(&self) -> f64 {
-        let longest = self.chains.iter().map(PlanarChain::length).fold(0.0, f64::max);
+        let longest = self
+            .chains
+            .iter()
+            .map(PlanarChain::length)
+            .fold(0.0, f64::max);
         if self.chains.len() == 1 && self.bodies.len() == 1 {
             return longest;
         }

@@ -69,11 +69,16 @@ impl System {
         let view = self.view(work);
         for group in &mut groups {
             let first = group.coordinates.start;
-            for (i, constraint) in self.constraints[group.constraints.clone()].iter().enumerate() {
+            for (i, constraint) in self.constraints[group.constraints.clone()]
+                .iter()
+                .enumerate()
+            {
                 let row = group.rows.row_mut(i);
                 row.fill(0.0);
                 constraint.gradient(&view).for_each(|node, term| {
-                    self.elimination.assembly.gather_node(node, term, first, row);
+                    self.elimination
+                        .assembly
+                        .gather_node(node, term, first, row);
                 });
                 self.elimination.project_component(group.component, row);
             }
@@ -196,7 +201,8 @@ impl System {
     /// Largest residual of velocities in `work`, relative to the size of the constraint, 1/s.
     pub(super) fn velocity_residual(&self, work: &Work) -> f64 {
         let view = self.view(work);
-        let residual = |c: &super::Constraint| constraint_rate(c, &view).abs() / c.size(&self.chains);
+        let residual =
+            |c: &super::Constraint| constraint_rate(c, &view).abs() / c.size(&self.chains);
         self.constraints.iter().map(residual).fold(0.0, larger)
     }
 

@@ -71,7 +71,10 @@ impl Evaluation {
         system.supply(&self.q, work);
         self.acceleration.copy_from_slice(&work.other);
         self.supply.copy_from_slice(&work.supply);
-        let multiplied = work.groups.iter().flat_map(|g| g.multiplied(&system.constraints));
+        let multiplied = work
+            .groups
+            .iter()
+            .flat_map(|g| g.multiplied(&system.constraints));
         for (lambda, (_, value)) in self.lambda.iter_mut().zip(multiplied) {
             *lambda = value;
         }
@@ -107,11 +110,18 @@ impl Evaluation {
         let Some((chain, j, xi)) = system.element(marker) else {
             return Vector2::zeros();
         };
-        let (element, right) = if xi < 0.5 { (j.wrapping_sub(1), 2) } else { (j, 2) };
+        let (element, right) = if xi < 0.5 {
+            (j.wrapping_sub(1), 2)
+        } else {
+            (j, 2)
+        };
         if element >= chain.elements().len() {
             return Vector2::zeros();
         }
-        let (e, v) = (chain.element(element, &self.x), chain.element(element, &self.v));
+        let (e, v) = (
+            chain.element(element, &self.x),
+            chain.element(element, &self.v),
+        );
         let part = &chain.elements()[element];
         let mut lack: Nodal<2> = part.force(&e, &v);
         lack += system.gravity * part.weight().transpose();

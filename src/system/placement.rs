@@ -195,7 +195,8 @@ impl System {
             let body = of_node[node];
             let about = center(&x[self.bodies[body].clone()]);
             let p = x[node];
-            let turn = c[1] * (p[0] - about.x) - c[0] * (p[1] - about.y) + c[3] * p[2] - c[2] * p[3];
+            let turn =
+                c[1] * (p[0] - about.x) - c[0] * (p[1] - about.y) + c[3] * p[2] - c[2] * p[3];
             for (k, part) in [c[0] * size, c[1] * size, turn].into_iter().enumerate() {
                 jacobian[(row, 3 * body + k)] += part / scale;
             }

@@ -34,6 +34,11 @@ impl Work {
     /// For a system.
     pub fn new(system: &System) -> Self {
         let nodes = vec![[0.0; 4]; system.reference.len()];
+        let mut elastic = vec![false; nodes.len()];
+        for chain in &system.chains {
+            let first = chain.nodes(0)[0];
+            elastic[first..first + chain.node_count()].fill(true);
+        }
         let scratch = vec![0.0; system.elimination.scratch()];
         Self {
             x: nodes.clone(),
@@ -54,6 +59,7 @@ impl Work {
                 system.is_damped,
                 &system.groups,
                 &system.grounded,
+                &elastic,
             ),
             power: [0.0; 2],
         }
