@@ -97,14 +97,18 @@ fn factor<const B: usize>(
     // Columns of R.
     let mut columns: Vec<Vec<f64>> = Vec::new();
     let mut independent: Vec<usize> = Vec::new();
+    // Coordinate at every place. The pivot of a row is its largest coefficient, so that coordinates it
+    // does not hold stay as they are: positions and slopes of a short element differ in scale.
+    let mut order: Vec<usize> = (0..size).collect();
     for index in own {
-        let mut column = vec![0.0; size];
+        let mut plain = vec![0.0; size];
         for (node, coefficients) in &rows[*index].terms {
             let at = place(*node);
-            for (value, coefficient) in column[at..].iter_mut().zip(coefficients) {
+            for (value, coefficient) in plain[at..].iter_mut().zip(coefficients) {
                 *value += coefficient;
             }
         }
+        let mut column: Vec<f64> = order.iter().map(|at| plain[*at]).collect();
         let scale = norm(&column);
         for (i, (vector, tau)) in reflectors.iter().enumerate() {
             reflect(vector, *tau, &mut column[i..]);
@@ -121,6 +125,13 @@ fn factor<const B: usize>(
             });
             continue;
         }
+        let largest = (rank..size).max_by(|a, b| column[*a].abs().total_cmp(&column[*b].abs()));
+        let pivot = largest.unwrap_or(rank);
+        order.swap(rank, pivot);
+        column.swap(rank, pivot);
+        for (i, (vector, _)) in reflectors.iter_mut().enumerate() {
+            vector.swap(rank - i, pivot - i);
+        }
         let (tau, diagonal) = reflector(&mut column[rank..]);
         let mut of_r = column[..rank].to_vec();
         of_r.push(diagonal);
@@ -129,10 +140,15 @@ fn factor<const B: usize>(
         independent.push(*index);
     }
     let rank = independent.len();
-    let mut q = DMatrix::<f64>::identity(size, size);
-    for mut column in q.column_iter_mut() {
+    let mut q = DMatrix::<f64>::zeros(size, size);
+    for k in 0..size {
+        let mut column = vec![0.0; size];
+        column[k] = 1.0;
         for (i, (vector, tau)) in reflectors.iter().enumerate().rev() {
-            reflect(vector, *tau, &mut column.as_mut_slice()[i..]);
+            reflect(vector, *tau, &mut column[i..]);
+        }
+        for (value, at) in column.iter().zip(&order) {
+            q[(*at, k)] = *value;
         }
     }
     let mut multipliers = q.columns(0, rank).transpose();

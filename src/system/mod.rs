@@ -5,6 +5,7 @@ mod build;
 pub mod dynamics;
 mod end;
 pub mod equilibrium;
+mod forces;
 mod frequencies;
 pub mod joints;
 pub mod loads;

@@ -1,0 +1,238 @@
+//! Configuration, forces and tangent of a system at a state, over its nodes.
+
+use super::joints::{ConstraintKind, View};
+use super::loads::Instant;
+use super::signal::Drive;
+use super::{PlanarChain, System, Work};
+use crate::body::Node;
+use crate::elements::Element;
+
+impl System {
+    /// Puts the nodal coordinates and, if given, rates of a state into `work`.
+    pub(super) fn place(&self, time: f64, q: &[f64], v: Option<&[f64]>, work: &mut Work) {
+        let mut courses = work.courses.iter();
+        for (value, drive) in work.drives.iter_mut().zip(&self.drives) {
+            *value = match drive {
+                Drive::Function(function) => function.derivatives(time),
+                Drive::Input { .. } => {
+                    let course = courses.next();
+                    course.map_or([0.0; 3], |course| course.derivatives(time))
+                }
+            };
+        }
+        self.elimination.expand(q, &mut work.y, &mut work.x);
+        for (x, reference) in work.x.iter_mut().zip(&self.reference) {
+            for k in 0..4 {
+                x[k] += reference[k];
+            }
+        }
+        self.follow(&work.drives, 0, &mut work.x);
+        for (i, constraint) in self.slides.iter().enumerate() {
+            if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
+                let chain: &PlanarChain = &self.chains[along.chain];
+                work.travel[i] = along.travel(chain, &work.x, work.travel[i]);
+            }
+        }
+        if let Some(v) = v {
+            self.place_rates(v, work);
+        }
+    }
+
+    /// Puts nodal rates into `work`; what drives them is that of the last [`System::place`].
+    pub(super) fn place_rates(&self, v: &[f64], work: &mut Work) {
+        self.elimination.expand(v, &mut work.y, &mut work.v);
+        self.follow(&work.drives, 1, &mut work.v);
+    }
+
+    /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
+    pub(super) fn follow(&self, drives: &[[f64; 3]], order: usize, out: &mut [Node<4>]) {
+        for driven in &self.driven {
+            let mut value = self.linear[driven.row].target.derivatives(drives)[order];
+            if order == 0 {
+                value -= driven.reference;
+            }
+            add(&driven.follow, value, out);
+        }
+    }
+
+    pub(super) fn instant<'a>(
+        &'a self,
+        time: f64,
+        inputs: &'a [f64],
+        work: &'a Work,
+    ) -> Instant<'a> {
+        Instant {
+            time,
+            inputs,
+            x: &work.x,
+            v: &work.v,
+            chains: &self.chains,
+            angles: (&self.angles, &work.angles),
+        }
+    }
+
+    /// Total force on the nodes in `work`, but for constraints.
+    pub(super) fn forces(&self, time: f64, inputs: &[f64], fraction: f64, work: &mut Work) {
+        let mut force = std::mem::take(&mut work.f);
+        for (f, weight) in force.iter_mut().zip(&self.weight) {
+            *f = weight.map(|w| w * fraction);
+        }
+        for chain in &self.chains {
+            chain.add_force(&work.x, &work.v, &mut force);
+        }
+        let at = self.instant(time, inputs, work);
+        for load in &self.loads {
+            load.add_force(at, &mut force);
+        }
+        if self.rotation != 0.0 {
+            let rate = self.rotation;
+            self.add_inertia(rate * rate, &work.x, &mut force);
+            for (turned, v) in work.other.iter_mut().zip(&work.v) {
+                *turned = [-v[1], v[0], -v[3], v[2]];
+            }
+            self.add_inertia(-2.0 * rate, &work.other, &mut force);
+        }
+        work.f = force;
+    }
+
+    /// Generalized forces `T^T (f - M G c'')` of the nodal forces in `work`, which stay.
+    pub(super) fn reduce(&self, work: &mut Work, a: &mut [f64]) {
+        let change = |sign: f64, work: &mut Work| {
+            for driven in &self.driven {
+                let second = self.linear[driven.row].target.derivatives(&work.drives)[2];
+                add(&driven.inertia, sign * second, &mut work.f);
+            }
+        };
+        change(-1.0, work);
+        self.elimination.reduce(&work.f, &mut work.y, a);
+        change(1.0, work);
+    }
+
+    /// Tangent at the state in `work`, with the multipliers of its last acceleration.
+    pub(super) fn assemble(&self, time: f64, inputs: &[f64], work: &mut Work) {
+        let assembly = &self.elimination.assembly;
+        let Work { tangent, x, v, .. } = work;
+        let (drives, travel, angles) = (&work.drives, &work.travel, &work.angles);
+        tangent.stages.set_base(x);
+        tangent.clear();
+        let (stiffness, damping) = (&mut tangent.stiffness, &mut tangent.damping);
+        for chain in &self.chains {
+            chain.add_tangent((x, v), assembly, stiffness, damping);
+        }
+        let at = Instant {
+            time,
+            inputs,
+            x,
+            v,
+            chains: &self.chains,
+            angles: (&self.angles, angles),
+        };
+        for load in &self.loads {
+            load.add_tangent(
+                at,
+                &mut |a, b, block| assembly.add(a, b, block, stiffness),
+                &mut |a, b, block| assembly.add(a, b, block, damping),
+            );
+        }
+        if self.rotation != 0.0 {
+            let square = self.rotation * self.rotation;
+            let pairs = stiffness
+                .values
+                .iter_mut()
+                .zip(&self.elimination.mass.values);
+            pairs.for_each(|(k, m)| *k -= square * m);
+        }
+        let view = View {
+            x,
+            v,
+            drives,
+            chains: &self.chains,
+            travel,
+        };
+        for (i, group) in work.groups.iter().enumerate() {
+            for (constraint, lambda) in group.multiplied(&self.constraints) {
+                constraint.stiffness(lambda, &view, &mut |a, b, block| {
+                    assembly.add(a, b, block, &mut tangent.stiffness);
+                });
+            }
+            tangent.set_border(&self.elimination, i, &group.rows);
+        }
+    }
+
+    /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.supply`:
+    /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
+    pub(super) fn supply(&self, a: &[f64], work: &mut Work) {
+        self.elimination.expand(a, &mut work.y, &mut work.other);
+        self.follow(&work.drives, 2, &mut work.other);
+        for (supply, f) in work.supply.iter_mut().zip(&work.f) {
+            *supply = f.map(|f| -f);
+        }
+        self.add_inertia(1.0, &work.other, &mut work.supply);
+        let mut supply = std::mem::take(&mut work.supply);
+        let view = self.view(work);
+        for group in &work.groups {
+            for (constraint, lambda) in group.multiplied(&self.constraints) {
+                constraint.gradient(&view).for_each(|node, term| {
+                    add(&[(node, *term)], lambda, &mut supply);
+                });
+            }
+        }
+        work.supply = supply;
+    }
+
+    /// Power that comes in through loads and motions and that is dissipated, W, at the state and
+    /// accelerations in place.
+    pub(super) fn powers(&self, time: f64, inputs: &[f64], a: &[f64], work: &mut Work) -> [f64; 2] {
+        let mut power = [0.0; 2];
+        if !self.drives.is_empty() {
+            self.supply(a, work);
+            for driven in &self.driven {
+                let rate = self.linear[driven.row].target.derivatives(&work.drives)[1];
+                let multiplier: f64 = (driven.follow.iter())
+                    .map(|(node, c)| (0..4).map(|k| c[k] * work.supply[*node][k]).sum::<f64>())
+                    .sum();
+                power[0] += multiplier * rate;
+            }
+            let view = self.view(work);
+            for group in &work.groups {
+                for (constraint, lambda) in group.multiplied(&self.constraints) {
+                    power[0] += lambda * constraint.rate(&view);
+                }
+            }
+        }
+        let at = self.instant(time, inputs, work);
+        for load in &self.loads {
+            let [supplied, dissipated] = load.power(at);
+            power[0] += supplied;
+            power[1] += dissipated;
+        }
+        for chain in &self.chains {
+            power[1] += chain.dissipation(&work.x, &work.v);
+        }
+        power
+    }
+
+    /// Energy of the centrifugal force in a turning frame, negative, J.
+    pub(super) fn centrifugal(&self, x: &[Node<4>]) -> f64 {
+        let mut sum = 0.0;
+        for chain in &self.chains {
+            for (j, element) in chain.elements().iter().enumerate() {
+                let e = chain.element(j, x);
+                sum += (e * element.mass()).dot(&e);
+            }
+        }
+        for lump in &self.lumps {
+            sum += lump.mass * lump.marker.position(x).norm_squared()
+                + lump.inertia * lump.marker.direction(x).norm_squared();
+        }
+        0.5 * self.rotation * self.rotation * sum
+    }
+}
+
+fn add(terms: &[(usize, Node<4>)], factor: f64, out: &mut [Node<4>]) {
+    for (node, term) in terms {
+        for k in 0..4 {
+            out[*node][k] += factor * term[k];
+        }
+    }
+}
