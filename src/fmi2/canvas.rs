@@ -6,6 +6,9 @@ use std::fmt::Write;
 /// A point or a direction in pixels, y downwards.
 pub type Point = [f64; 2];
 
+/// From one line of text to the next, pixels.
+pub const LINE: f64 = 16.0;
+
 /// How a shape is drawn.
 #[derive(Clone, Copy)]
 pub struct Style {
@@ -100,7 +103,7 @@ impl Canvas {
             _ => "middle",
         };
         // The block ends, begins or is centred at the point, as it lies above, below or beside.
-        let (spacing, last) = (16.0, lines.len() as f64 - 1.0);
+        let last = lines.len() as f64 - 1.0;
         let above = match anchor {
             "middle" if side[1] < 0.0 => 1.0,
             "middle" => 0.0,
@@ -108,7 +111,7 @@ impl Canvas {
         };
         for (number, (text, colour)) in lines.iter().enumerate() {
             // A third of its size lower, a letter is centred on the line.
-            let y = at[1] + spacing * (number as f64 - above * last) + 4.5;
+            let y = at[1] + LINE * (number as f64 - above * last) + 4.5;
             let (x, y, text) = (pixels(at[0]), pixels(y), escape(text));
             let line = format_args!(
                 "  <text x=\"{x}\" y=\"{y}\" font-family=\"sans-serif\" font-size=\"13\" \

@@ -13,14 +13,21 @@ const INSIDE: &str = "#dce6f0";
 const INK: &str = "#24292f";
 const FAINT: &str = "#8a929b";
 
+/// Width of a drawing, and its margin where no block of names needs more, pixels.
+const WIDTH: f64 = 760.0;
+const MARGIN: f64 = 84.0;
+
 /// The scene as an SVG image, with the names of its parts.
 pub fn drawing(scene: &Scene) -> String {
-    let [low, high] = bounds(scene);
-    let (width, margin) = (760.0, 84.0);
-    let [across, up] = [high[0] - low[0], high[1] - low[1]];
-    let inner = (width - 2.0 * margin) * up / across.max(1e-3 * up);
-    let height = inner.clamp(40.0, 360.0) + 2.0 * margin;
-    Picture::new(scene, [width, height], margin, 11.0, true).draw()
+    let picture = |margin: f64| {
+        let [low, high] = bounds(scene);
+        let [across, up] = [high[0] - low[0], high[1] - low[1]];
+        let inner = (WIDTH - 2.0 * margin) * up / across.max(1e-3 * up);
+        let height = inner.clamp(40.0, 360.0) + 2.0 * margin;
+        Picture::new(scene, [WIDTH, height], margin, 11.0, true)
+    };
+    let room = picture(MARGIN).room();
+    picture(MARGIN.max(room)).draw()
 }
 
 /// The scene as a square SVG image without text.

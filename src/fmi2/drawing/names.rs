@@ -1,8 +1,9 @@
 //! Names beside what they name.
 
 use super::actions::{ActionKind, actions};
+use super::bodies::outline;
 use super::{BODY, FAINT, INK, Picture};
-use crate::fmi2::canvas::{Point, direction, moved};
+use crate::fmi2::canvas::{LINE, Point, direction, moved};
 use crate::fmi2::symbols;
 use crate::scene::{At, Body, CableBody, JointKind, LoadKind, Scene};
 
@@ -31,16 +32,42 @@ impl<'a> Picture<'a> {
         if self.scene.bodies.len() > MOST_BODIES {
             return;
         }
-        let mut labels = self.marker_labels();
-        self.add_joints(&mut labels);
-        self.add_actions(&mut labels);
-        for label in labels {
+        for label in self.labels() {
             let distance = if label.is_far { 2.8 } else { 1.5 };
             let at = moved(label.at, label.side, distance * self.unit);
             self.canvas.texts(at, label.side, &label.lines);
         }
         self.name_bodies();
         self.name_links();
+    }
+
+    /// Room that the longest block of names takes, pixels.
+    pub(super) fn room(&self) -> f64 {
+        let lines = self.labels().into_iter().map(|label| label.lines.len());
+        LINE * lines.max().unwrap_or(0) as f64 + 2.8 * self.unit
+    }
+
+    /// Names at markers; none where they would only cover each other.
+    fn labels(&self) -> Vec<Label<'a>> {
+        if self.scene.bodies.len() > MOST_BODIES {
+            return Vec::new();
+        }
+        let mut labels = self.marker_labels();
+        self.add_particles(&mut labels);
+        self.add_joints(&mut labels);
+        self.add_actions(&mut labels);
+        labels
+    }
+
+    /// A particle has no side of its own to be named at.
+    fn add_particles(&self, labels: &mut [Label<'a>]) {
+        for body in &self.scene.bodies {
+            if let [point] = outline(body)[..]
+                && let Some(label) = self.label_at(labels, self.at(point))
+            {
+                label.lines.insert(0, (body.name(), BODY));
+            }
+        }
     }
 
     /// One label for all markers at the same place.
@@ -128,6 +155,9 @@ impl<'a> Picture<'a> {
                     (self.at(cable.shape.point(0.25)), side, 1.5)
                 }
                 Body::Rigid(rigid) => {
+                    if outline(body).len() < 2 && !rigid.markers.is_empty() {
+                        continue;
+                    }
                     let side = self.side(body, At::Point([0.0; 2])).map(|part| -part);
                     (self.at(rigid.position), side, 1.8)
                 }
@@ -169,7 +199,7 @@ impl<'a> Picture<'a> {
             (Body::Cable(cable), At::Along(along)) => cable_side(cable, along),
             (Body::Cable(cable), At::Point(_)) => cable_side(cable, 0.0),
             (Body::Rigid(rigid), _) => {
-                let corners = super::bodies::outline(body);
+                let corners = outline(body);
                 let p = body.position(at);
                 let out = [p[0] - rigid.position[0], p[1] - rigid.position[1]];
                 match corners[..] {
