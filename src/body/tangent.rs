@@ -23,6 +23,7 @@ pub struct Tangent<const D: usize, const B: usize> {
     pub(super) s: (f64, Complex<f64>),
     pub(super) borders: Vec<Border<f64, Complex<f64>>>,
     pub(super) x: Vec<f64>,
+    product: Vec<f64>,
     pub(super) z: Vec<Complex<f64>>,
     /// Stages of an implicit method.
     pub stages: Stages<D, B>,
@@ -54,6 +55,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             s: (0.0, Complex::new(0.0, 0.0)),
             borders: borders.iter().map(border).collect(),
             x: vec![0.0; pattern.len()],
+            product: vec![0.0; pattern.len()],
             z: vec![Complex::new(0.0, 0.0); pattern.len()],
         }
     }
@@ -162,7 +164,12 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     /// `T^T R T q`, in place; does nothing to an undamped system but set zero.
     pub fn apply_damping(&mut self, elimination: &Elimination<B>, q: &mut [f64]) {
         if self.is_damped {
-            Self::apply(&self.damping, elimination, &mut self.x, q);
+            apply(
+                &self.damping,
+                elimination,
+                (&mut self.x, &mut self.product),
+                q,
+            );
         } else {
             q.fill(0.0);
         }
@@ -175,7 +182,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             .map(|column| {
                 let mut q = vec![0.0; n];
                 q[column] = 1.0;
-                Self::apply(&self.stiffness, elimination, &mut self.x, &mut q);
+                self.apply_stiffness(elimination, &mut q);
                 q
             })
             .collect()
@@ -183,15 +190,25 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
 
     /// `T^T K T q`, in place.
     pub fn apply_stiffness(&mut self, elimination: &Elimination<B>, q: &mut [f64]) {
-        Self::apply(&self.stiffness, elimination, &mut self.x, q);
+        apply(
+            &self.stiffness,
+            elimination,
+            (&mut self.x, &mut self.product),
+            q,
+        );
     }
+}
 
-    fn apply(matrix: &Matrix<f64>, elimination: &Elimination<B>, y: &mut [f64], q: &mut [f64]) {
-        elimination.displacements(q, y);
-        matrix.multiply(elimination.assembly.pattern(), y, q);
-        y.copy_from_slice(q);
-        elimination.project(y, q);
-    }
+/// `T^T A T q`, in place.
+fn apply<const B: usize>(
+    matrix: &Matrix<f64>,
+    elimination: &Elimination<B>,
+    (y, product): (&mut [f64], &mut [f64]),
+    q: &mut [f64],
+) {
+    elimination.displacements(q, y);
+    matrix.multiply(elimination.assembly.pattern(), y, product);
+    elimination.project(product, q);
 }
 
 /// `out = s^2 M + s R + K`.

@@ -3,6 +3,8 @@
 
 mod engine;
 mod method;
+#[cfg(test)]
+mod tests;
 mod variables;
 
 pub use variables::{Parameter, Quantity, Source, Unit, Variable, variables};

@@ -204,16 +204,14 @@ impl Dynamics for Model<'_> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         let system = self.system;
         if system.method == Constraints::Partitioning && !system.constraints.is_empty() {
-            let (mut p, mut u) = (
-                std::mem::take(&mut self.work.p),
-                std::mem::take(&mut self.work.u),
-            );
+            let mut p = std::mem::take(&mut self.work.q);
+            let mut u = std::mem::take(&mut self.work.u);
             p.copy_from_slice(q);
             u.copy_from_slice(v);
             system.project_positions(time, &mut p, self.work);
             system.project_velocities(&mut u, self.work);
             self.place(time, &p, &u);
-            self.work.p = p;
+            self.work.q = p;
             self.work.u = u;
         } else {
             self.place(time, q, v);
@@ -236,9 +234,9 @@ impl Dynamics for Model<'_> {
         let system = self.system;
         if !system.constraints.is_empty() {
             // Multipliers stiffen, and the border needs the Jacobian here.
-            let mut a = std::mem::take(&mut self.work.p);
+            let mut a = std::mem::take(&mut self.work.a);
             self.acceleration(time, q, v, &mut a);
-            self.work.p = a;
+            self.work.a = a;
         } else {
             self.place(time, q, v);
         }

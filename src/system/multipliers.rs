@@ -13,7 +13,7 @@
 
 use std::ops::Range;
 
-use super::joints::View;
+use super::joints::{ConstraintKind, View};
 use super::{System, Work};
 use crate::body::Node;
 use crate::math::row_space::RowSpace;
@@ -206,16 +206,29 @@ impl System {
         self.constraints.iter().map(residual).fold(0.0, larger)
     }
 
-    /// Non-linear constraints that depend on others at the positions in `work`.
-    pub(super) fn dependent_constraints(&self, work: &mut Work) -> Vec<usize> {
+    /// Joints that hold, at least in part, what others hold already, at the start; and bodies that need
+    /// not be kept rigid, since joints do.
+    pub fn redundant_at(&self, state: &super::State, work: &mut Work) -> (Vec<usize>, Vec<usize>) {
+        let (mut joints, mut bodies) = (self.redundant.clone(), Vec::new());
+        work.follow(state);
+        self.place(state.time, &state.coordinates, None, work);
         self.jacobians(work);
-        let mut found = Vec::new();
         for group in &mut work.groups {
             group.rows.factor();
-            let first = group.constraints.start;
-            found.extend(group.rows.dependent().iter().map(|i| first + i));
+            for row in group.rows.dependent() {
+                let constraint = &self.constraints[group.constraints.start + row];
+                match (constraint.joint, &constraint.kind) {
+                    (Some(joint), _) => joints.push(joint),
+                    (None, ConstraintKind::Unit(unit)) => {
+                        bodies.extend(self.bodies.iter().position(|b| b.contains(&unit.node)));
+                    }
+                    (None, _) => {}
+                }
+            }
         }
-        found
+        joints.sort_unstable();
+        joints.dedup();
+        (joints, bodies)
     }
 }
 

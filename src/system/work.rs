@@ -8,17 +8,21 @@ use crate::body::{Node, Tangent};
 /// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
 #[derive(Clone, Debug)]
 pub struct Work {
-    /// Nodal coordinates, m; rates; forces, N.
+    /// Nodal coordinates, m.
     pub x: Vec<Node<4>>,
+    /// Their rates.
     pub v: Vec<Node<4>>,
+    /// Forces on them, N.
     pub f: Vec<Node<4>>,
     /// Nodal accelerations, or another nodal vector; forces that linear constraints supply.
     pub(super) other: Vec<Node<4>>,
     pub(super) supply: Vec<Node<4>>,
-    /// Vectors of free coordinates.
+    /// A vector of free coordinates.
     pub(super) y: Vec<f64>,
-    pub(super) p: Vec<f64>,
+    /// Coordinates, rates and accelerations.
+    pub(super) q: Vec<f64>,
     pub(super) u: Vec<f64>,
+    pub(super) a: Vec<f64>,
     /// Driven coordinates with two derivatives, and the courses of those that inputs drive.
     pub(super) drives: Vec<[f64; 3]>,
     pub(super) courses: Vec<Course>,
@@ -39,16 +43,17 @@ impl Work {
             let first = chain.nodes(0)[0];
             elastic[first..first + chain.node_count()].fill(true);
         }
-        let scratch = vec![0.0; system.elimination.scratch()];
+        let vector = vec![0.0; system.coordinates()];
         Self {
             x: nodes.clone(),
             v: nodes.clone(),
             f: nodes.clone(),
             other: nodes.clone(),
             supply: nodes,
-            y: scratch.clone(),
-            p: scratch.clone(),
-            u: scratch,
+            y: vec![0.0; system.elimination.scratch()],
+            q: vector.clone(),
+            u: vector.clone(),
+            a: vector,
             drives: vec![[0.0; 3]; system.drives.len()],
             courses: vec![Course::default(); system.courses],
             angles: vec![0.0; system.angles.len()],

@@ -1,0 +1,152 @@
+//! What a simulation says and keeps where there are many bodies.
+
+use super::*;
+
+fn simulation(rest: &str) -> Simulation {
+    let text = format!(r#"{{ "name": "test", "dimension": 2, {rest} }}"#);
+    Simulation::new(Scene::from_json(&text).expect("a valid scene"))
+}
+
+fn index(simulation: &Simulation, name: &str) -> usize {
+    let mut names = simulation.variables().iter();
+    let found = names.position(|variable| variable.name == name);
+    found.expect("a variable of this name")
+}
+
+fn get(simulation: &mut Simulation, name: &str) -> f64 {
+    let index = index(simulation, name);
+    simulation.real(index).expect("a real variable")
+}
+
+fn set(simulation: &mut Simulation, name: &str, value: f64) {
+    let index = index(simulation, name);
+    simulation
+        .set_real(index, value)
+        .expect("a settable variable");
+}
+
+/// A weight on a spring whose length at rest is an input.
+const HOIST: &str = r#"
+    "bodies": [ { "name": "ball", "element": "rigid", "mass": 2.0, "inertia": 0.0,
+      "position": [1.0, 0.0], "markers": { "eye": [0.0, 0.0] } } ],
+    "loads": [ { "name": "hoist", "kind": "spring_damper", "markers": ["ground", "ball.eye"],
+      "point": [0.0, 0.0], "stiffness": 50.0, "damping": 1.0 } ],
+    "inputs": [ { "kind": "rest_length", "load": "hoist" } ],
+    "outputs": [ { "kind": "position", "marker": "ball.eye" }, { "kind": "energy" },
+      { "kind": "work" } ],
+    "accuracy": { "relative_tolerance": 1.0e-8 }"#;
+
+#[test]
+fn bodies_that_do_not_fit_are_refused_with_the_names_of_their_joints() {
+    let mut apart = simulation(
+        r#""bodies": [ { "name": "bar", "element": "rigid", "mass": 1.0, "inertia": 1.0,
+             "position": [0.0, 0.0], "markers": { "a": [-0.5, 0.0], "b": [0.5, 0.0] } } ],
+           "joints": [
+             { "name": "left", "kind": "revolute", "markers": ["ground", "bar.a"] },
+             { "name": "right", "kind": "revolute", "markers": ["ground", "bar.b"],
+               "point": [0.8, 0.0] } ]"#,
+    );
+    let error = apart.initialize(0.0).expect_err("a bar that is too short");
+    let text = error.to_string();
+    let begins = "joints: expected bodies that fit together, found gaps: ";
+    assert!(text.starts_with(begins), "{text}");
+    assert!(
+        text.contains("left 0.") && text.contains("right 0."),
+        "{text}"
+    );
+}
+
+#[test]
+fn work_of_a_rest_length_that_jumps_is_counted() {
+    let mut hoist = simulation(HOIST);
+    hoist.initialize(0.0).expect("a valid scene");
+    hoist.start().expect("a valid scene");
+    assert_eq!(get(&mut hoist, "energy.input"), 0.0);
+    set(&mut hoist, "hoist.rest_length", 0.8);
+    let jump = get(&mut hoist, "energy.input");
+    assert!((jump - 0.5 * 50.0 * 0.2 * 0.2).abs() < 1e-12);
+    for step in 1..=20 {
+        hoist.step(0.05 * f64::from(step)).expect("a step");
+        let length = 0.8 + 0.02 * f64::from(step % 3);
+        set(&mut hoist, "hoist.rest_length", length);
+        let [kinetic, spring, input, lost] = ["kinetic", "spring", "input", "dissipated"]
+            .map(|of| get(&mut hoist, &format!("energy.{of}")));
+        let balance = kinetic + spring + lost - input;
+        assert!(balance.abs() < 1e-6, "{step}: {balance}");
+        assert!(lost > 0.0);
+    }
+}
+
+#[test]
+fn another_instance_goes_on_bit_for_bit() {
+    let cart = r#""gravity": [0.0, -9.81],
+        "bodies": [
+          { "name": "cart", "element": "rigid", "mass": 1.0, "inertia": 0.0, "position": [0.0, 0.0],
+            "markers": { "pin": [0.0, 0.0] } },
+          { "name": "bar", "element": "rigid", "mass": 1.0, "inertia": 0.1, "position": [0.0, -0.5],
+            "angle": -1.0, "markers": { "top": [0.27015115293406986, 0.42073549240394825] } } ],
+        "joints": [
+          { "name": "rail", "kind": "slider", "markers": ["ground", "cart.pin"],
+            "direction": [1.0, 0.0] },
+          { "name": "pin", "kind": "revolute", "markers": ["cart.pin", "bar.top"] } ],
+        "motions": [ { "name": "feed", "kind": "displacement", "joint": "rail",
+          "value": { "input": 0 } } ],
+        "outputs": [ { "kind": "angle", "joint": "pin" }, { "kind": "reaction", "motion": "feed" },
+          { "kind": "work" } ]"#;
+    let run = |simulation: &mut Simulation, from: i32, to: i32| {
+        let mut seen = Vec::new();
+        for step in from..to {
+            let way = 0.1 * (1.0 - (0.3 * f64::from(step)).cos());
+            set(simulation, "feed.displacement", way);
+            simulation.step(0.05 * f64::from(step + 1)).expect("a step");
+            let names = ["pin.angle", "feed.reaction[1]", "energy.input"];
+            seen.push(names.map(|name| get(simulation, name).to_bits()));
+        }
+        seen
+    };
+    let mut first = simulation(cart);
+    first.start().expect("a valid scene");
+    run(&mut first, 0, 5);
+    let snapshot = first.snapshot();
+    let expected = run(&mut first, 5, 10);
+    let mut second = simulation(cart);
+    second
+        .restore(&snapshot)
+        .expect("a snapshot of the same scene");
+    assert_eq!(second.snapshot(), snapshot);
+    assert_eq!(run(&mut second, 5, 10), expected);
+    let mut broken = snapshot;
+    broken.state.driven.clear();
+    let error = second
+        .restore(&broken)
+        .expect_err("a state of another scene");
+    assert!(error.to_string().contains("expected a state of this scene"));
+    broken.state.work[1] = f64::NAN;
+    let error = second.restore(&broken).expect_err("no finite numbers");
+    assert!(error.to_string().contains("finite"));
+}
+
+#[test]
+fn a_ring_that_leaves_its_rope_stops_the_step() {
+    let mut ring = simulation(
+        r#""bodies": [
+             { "name": "rope", "element": "cable", "elements": 4,
+               "material": { "youngs_modulus": 1.0e6, "density": 1000.0 },
+               "section": { "area": 1.0e-3, "second_moment": 1.0e-8 },
+               "shape": { "line": { "from": [0.0, 0.0], "to": [1.0, 0.0] } },
+               "markers": { "a": 0.0, "b": 1.0 } },
+             { "name": "ring", "element": "rigid", "mass": 0.1, "inertia": 0.0,
+               "position": [0.5, 0.0], "motion": { "velocity": [1.0, 0.0] },
+               "markers": { "eye": [0.0, 0.0] } } ],
+           "joints": [
+             { "name": "left", "kind": "weld", "markers": ["ground", "rope.a"] },
+             { "name": "right", "kind": "weld", "markers": ["ground", "rope.b"] },
+             { "name": "slide", "kind": "along", "markers": ["rope", "ring.eye"] } ],
+           "outputs": [ { "kind": "travel", "joint": "slide" } ]"#,
+    );
+    ring.step(0.25).expect("a step along the rope");
+    assert!((get(&mut ring, "slide.travel") - 0.75).abs() < 1e-6);
+    let failure = ring.step(1.0).expect_err("the rope ends");
+    assert!(failure.reason.contains("slider `slide` has left its cable"));
+    assert!(failure.time > 0.4 && failure.time < 1.0);
+}
