@@ -291,15 +291,6 @@ impl Chain {
         let displacements: Vec<Node<4>> = (0..self.nodes.len()).map(displacement).collect();
         project(system, &displacements)
     }
-
-    /// Random forces on the nodes.
-    pub fn forces(&self) -> Vec<Node<4>> {
-        let force = |j: usize| -> Node<4> {
-            let [a, b] = [2, 3].map(|k| self.noise[j].column(k));
-            [a.x, a.y, b.x, b.y]
-        };
-        (0..self.nodes.len()).map(force).collect()
-    }
 }
 
 /// Coordinates whose rates come closest to nodal ones in the mass norm.

@@ -8,6 +8,7 @@ mod elements;
 mod planar;
 mod printed;
 mod solves;
+mod space;
 mod reactions;
 mod spatial;
 mod specimen;

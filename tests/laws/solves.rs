@@ -265,7 +265,9 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
         }
         let elimination = system.elimination();
         let body = &system.chains()[0];
-        let mut tangent: Tangent<2, 4> = Tangent::new(elimination, body.is_damped(), &[], &[]);
+        let elastic = vec![true; x.len()];
+        let mut tangent: Tangent<2, 4> =
+            Tangent::new(elimination, body.is_damped(), &[], &[], &elastic);
         tangent.clear();
         let assembly = &elimination.assembly;
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);
