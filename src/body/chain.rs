@@ -1,10 +1,10 @@
 //! A flexible body: a chain of elements through nodes.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 use super::assembly::{Assembly, NodeBlock};
 use super::connectivity::Node;
-use crate::elements::{Blocks, Element, Nodal};
+use crate::elements::{Blocks, Element, Nodal, shape};
 use crate::math::sparse::Matrix;
 
 /// A chain of elements in `D` dimensions; its nodes have `B = 2 D` coordinates (position, slope) and
@@ -71,6 +71,28 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
             j += 1;
         }
         (j, (length - start) / self.elements[j].length())
+    }
+
+    /// Second derivative of the curve by its length inside element `j`, `xi` in [0, 1], 1/m.
+    pub fn bend(&self, j: usize, xi: f64, x: &[Node<B>]) -> SVector<f64, D> {
+        self.element(j, x) * shape::curvatures(xi, self.elements[j].length())
+    }
+
+    /// Length along the chain to the nearest of a few points of every element, m.
+    pub fn near(&self, point: &SVector<f64, D>, x: &[Node<B>]) -> f64 {
+        let (mut best, mut distance, mut start) = (0.0, f64::INFINITY, 0.0);
+        for (j, element) in self.elements.iter().enumerate() {
+            let (e, length) = (self.element(j, x), element.length());
+            for k in 0..=4 {
+                let xi = 0.25 * f64::from(k);
+                let away = (point - e * shape::values(xi, length)).norm();
+                if away < distance {
+                    (best, distance) = (start + xi * length, away);
+                }
+            }
+            start += length;
+        }
+        best
     }
 
     /// Coordinates of element `j`, or rates or forces.

@@ -139,6 +139,17 @@ fn factor<const B: usize>(
         reflectors.push((column[rank..].to_vec(), tau));
         independent.push(*index);
     }
+    assemble(nodes, independent, (&reflectors, &columns), &order)
+}
+
+/// Basis and multipliers from the reflections and the columns of `R`.
+fn assemble(
+    nodes: Vec<usize>,
+    independent: Vec<usize>,
+    (reflectors, columns): (&[(Vec<f64>, f64)], &[Vec<f64>]),
+    order: &[usize],
+) -> Cluster {
+    let size = order.len();
     let rank = independent.len();
     let mut q = DMatrix::<f64>::zeros(size, size);
     for k in 0..size {
@@ -147,7 +158,7 @@ fn factor<const B: usize>(
         for (i, (vector, tau)) in reflectors.iter().enumerate().rev() {
             reflect(vector, *tau, &mut column[i..]);
         }
-        for (value, at) in column.iter().zip(&order) {
+        for (value, at) in column.iter().zip(order) {
             q[(*at, k)] = *value;
         }
     }

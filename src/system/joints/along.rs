@@ -5,7 +5,6 @@ use nalgebra::Vector2;
 
 use super::{Gradient, View};
 use crate::body::{Marker, Node, left};
-use crate::elements::{Element, shape};
 use crate::system::PlanarChain;
 use crate::system::end::End;
 
@@ -27,15 +26,15 @@ pub struct Along {
 struct Foot {
     marker: Marker,
     /// Second derivative of the curve by length.
-    curvature: Vector2<f64>,
+    bend: Vector2<f64>,
 }
 
 fn foot(chain: &PlanarChain, length: f64, x: &[Node<4>]) -> Foot {
-    let (element, xi) = chain.find(length);
-    let l = chain.elements()[element].length();
-    let curvature = chain.element(element, x) * shape::curvatures(xi, l);
-    let marker = Marker::inside(0, chain, element, xi);
-    Foot { marker, curvature }
+    let (part, xi) = chain.find(length);
+    Foot {
+        marker: Marker::inside(0, chain, part, xi),
+        bend: chain.bend(part, xi, x),
+    }
 }
 
 impl Along {
@@ -47,7 +46,7 @@ impl Along {
             let at = foot(chain, s, x);
             let slope = at.marker.direction(x);
             let away = p - at.marker.position(x);
-            let stiffness = slope.norm_squared() - away.dot(&at.curvature);
+            let stiffness = slope.norm_squared() - away.dot(&at.bend);
             // Far off the curve only the slope counts.
             let step = away.dot(&slope) / stiffness.max(0.5 * slope.norm_squared());
             s += step;
@@ -60,20 +59,8 @@ impl Along {
 
     /// The nearest point of the whole chain, m: where a search begins.
     pub fn nearest(&self, chain: &PlanarChain, x: &[Node<4>]) -> f64 {
-        let p = self.end.position(x);
-        let (mut best, mut distance, mut start) = (0.0, f64::INFINITY, 0.0);
-        for (j, element) in chain.elements().iter().enumerate() {
-            for k in 0..=4 {
-                let xi = 0.25 * f64::from(k);
-                let point = Marker::inside(0, chain, j, xi).position(x);
-                let away = (p - point).norm();
-                if away < distance {
-                    (best, distance) = (start + xi * element.length(), away);
-                }
-            }
-            start += element.length();
-        }
-        self.travel(chain, x, best)
+        let near = chain.near(&self.end.position(x), x);
+        self.travel(chain, x, near)
     }
 
     fn foot(&self, view: &View<'_>) -> (Foot, Vector2<f64>, f64) {
@@ -107,6 +94,6 @@ impl Along {
         let relative = self.end.velocity(view.v) - at.marker.position(view.v);
         let speed = tangent.dot(&relative) / stretch;
         let slope_rate = at.marker.direction(view.v);
-        -left(tangent).dot(&(slope_rate * (2.0 * speed) + at.curvature * (speed * speed)))
+        -left(tangent).dot(&(slope_rate * (2.0 * speed) + at.bend * (speed * speed)))
     }
 }

@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 use super::{Gradient, View};
 use crate::body::NodeBlock;
 use crate::system::end::End;
+use crate::system::loads::isotropic;
 
 /// Two ends at a fixed distance.
 #[derive(Clone, Debug)]
@@ -36,6 +37,6 @@ impl Distance {
     }
 
     pub(super) fn stiffness(&self, lambda: f64, add: &mut dyn FnMut(usize, usize, &NodeBlock<4>)) {
-        super::super::loads::isotropic(&self.ends, lambda / self.length, add);
+        isotropic(&self.ends, lambda / self.length, add);
     }
 }
