@@ -159,6 +159,10 @@ impl<const B: usize> Assembly<B> {
                 y.iter_mut().zip(f).for_each(|(y, f)| *y += f);
             }
             Place::Tied(index, row) => {
+                // Nodes that are held or driven altogether are nowhere in `y`.
+                if self.ranges[index].is_empty() {
+                    return;
+                }
                 let range = self.ranges[index].start - first..self.ranges[index].end - first;
                 let rows = self.clusters[index].basis.rows(row, B);
                 for (y, column) in y[range].iter_mut().zip(rows.column_iter()) {
