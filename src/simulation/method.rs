@@ -1,5 +1,7 @@
 //! Choice of the integrator and the scales of its error.
 
+use std::f64::consts::PI;
+
 use crate::integrators::{Method, Radau, Rk4, Tolerance};
 use crate::scene::{Integrator, JointKind, LoadKind, Scene};
 use crate::system::{State, System, Work, fastest};
@@ -7,7 +9,7 @@ use crate::system::{State, System, Work, fastest};
 /// The explicit method pays up to a frequency of this many natural rates, times the cube root of the
 /// inverse tolerance: where both methods cost the same on soft, middling and steel pendulums
 /// (docs/decisions/0004-integrators.md).
-const EXPLICIT: f64 = 130.0;
+const EXPLICIT: f64 = 75.0;
 
 /// What a choice is made from.
 pub(super) struct Start<'a> {
@@ -63,7 +65,7 @@ fn natural_rate(scene: &Scene, system: &System, kinetic: f64) -> f64 {
     found.unwrap_or(1.0)
 }
 
-/// Slowest bending (or stretching) of the first cable; 0 without one.
+/// Slowest bending (or stretching) of the first cable between supports; 0 without one.
 fn elastic_rate(scene: &Scene) -> f64 {
     let mut cables = scene.bodies.iter().filter_map(|body| body.cable());
     let Some(cable) = cables.next() else {
@@ -72,9 +74,9 @@ fn elastic_rate(scene: &Scene) -> f64 {
     let (material, section, length) = (&cable.material, &cable.section, cable.shape.length());
     let speed = (material.youngs_modulus / material.density).sqrt();
     if section.second_moment > 0.0 {
-        speed * (section.second_moment / section.area).sqrt() / (length * length)
+        PI * PI * speed * (section.second_moment / section.area).sqrt() / (length * length)
     } else {
-        speed / length
+        PI * speed / length
     }
 }
 

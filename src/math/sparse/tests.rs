@@ -1,3 +1,5 @@
+//! Tests of the sparse factorization against dense ones.
+
 use super::*;
 use nalgebra::{Complex, ComplexField, DMatrix, DVector};
 
