@@ -110,6 +110,7 @@ impl System {
             linear,
             driven: Vec::new(),
             constraints: Vec::new(),
+            settled: Vec::new(),
             groups: Vec::new(),
             redundant,
             drives: parts.drives,
@@ -222,7 +223,12 @@ impl System {
             });
             match home {
                 Some(component) => sorted.push((component, constraint)),
-                None => self.redundant.extend(constraint.joint),
+                None => {
+                    self.redundant.extend(constraint.joint);
+                    if !matches!(constraint.kind, ConstraintKind::Along(_)) {
+                        self.settled.push(constraint);
+                    }
+                }
             }
         }
         sorted.sort_by_key(|(component, _)| *component);

@@ -158,7 +158,7 @@ impl<'a> Model<'a> {
 
     /// Brings a state onto the constraints; false where that fails.
     pub fn project(&mut self, state: &mut State) -> bool {
-        if self.system.constraints.is_empty() {
+        if self.system.constraints.is_empty() && self.system.settled.is_empty() {
             return true;
         }
         let (system, time) = (self.system, state.time);
@@ -295,7 +295,7 @@ impl Dynamics for Model<'_> {
     }
 
     fn accepted(&mut self, state: &mut State) -> Accepted {
-        if self.system.constraints.is_empty() {
+        if self.system.constraints.is_empty() && self.system.settled.is_empty() {
             return self.count(state);
         }
         if !self.project(state) {

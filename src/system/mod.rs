@@ -64,6 +64,8 @@ pub struct System {
     driven: Vec<DrivenRow>,
     /// Non-linear constraints, those of one component together.
     constraints: Vec<Constraint>,
+    /// Those that nothing free can violate, though a motion might.
+    settled: Vec<Constraint>,
     /// Component and number of its constraints.
     groups: Vec<(usize, usize)>,
     /// Joints with a row that repeats others.

@@ -195,7 +195,8 @@ impl System {
     pub(super) fn position_residual(&self, work: &Work) -> f64 {
         let view = self.view(work);
         let residual = |c: &super::Constraint| c.value(&view).abs() / c.size(&self.chains);
-        self.constraints.iter().map(residual).fold(0.0, larger)
+        let all = self.constraints.iter().chain(&self.settled);
+        all.map(residual).fold(0.0, larger)
     }
 
     /// Largest residual of velocities in `work`, relative to the size of the constraint, 1/s.

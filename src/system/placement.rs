@@ -147,11 +147,15 @@ impl System {
         Err(NotAssembled { gaps: open })
     }
 
+    fn all_constraints(&self) -> impl Iterator<Item = &Constraint> {
+        self.constraints.iter().chain(&self.settled)
+    }
+
     /// Joints of the entries of [`System::gaps`].
     fn owners(&self) -> Vec<Option<usize>> {
         let linear = self.linear.iter().map(|linear| linear.joint);
         linear
-            .chain(self.constraints.iter().map(|c| c.joint))
+            .chain(self.all_constraints().map(|c| c.joint))
             .collect()
     }
 
@@ -177,7 +181,7 @@ impl System {
             x,
             ..self.view(work)
         };
-        for constraint in &self.constraints {
+        for constraint in self.all_constraints() {
             gaps.push(constraint.value(&view) / constraint_size(constraint, size));
         }
         gaps
@@ -185,7 +189,7 @@ impl System {
 
     /// Derivatives of the gaps by translations (relative to `size`) and turns of all bodies.
     fn rigid_jacobian(&self, x: &[Node<4>], work: &Work, size: f64) -> DMatrix<f64> {
-        let count = self.linear.len() + self.constraints.len();
+        let count = self.linear.len() + self.all_constraints().count();
         let mut jacobian = DMatrix::zeros(count, 3 * self.bodies.len());
         let mut of_node = vec![0; x.len()];
         for (body, nodes) in self.bodies.iter().enumerate() {
@@ -210,7 +214,7 @@ impl System {
             x,
             ..self.view(work)
         };
-        for (i, constraint) in self.constraints.iter().enumerate() {
+        for (i, constraint) in self.all_constraints().enumerate() {
             constraint.gradient(&view).for_each(|node, c| {
                 let scale = constraint_size(constraint, size);
                 enter(self.linear.len() + i, node, c, scale);
