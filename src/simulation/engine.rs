@@ -137,13 +137,15 @@ impl Engine {
         }
     }
 
-    /// Names of the joints and motions that hold, at least in part, what others hold already.
-    pub(super) fn redundant_joints(&self) -> Vec<String> {
-        let mut joints = self.assembled.system.redundant().to_vec();
-        joints.sort_unstable();
-        joints.dedup();
-        let name = |joint: usize| self.name(joint).to_owned();
-        joints.into_iter().map(name).collect()
+    /// Names of the joints and motions that hold, at least in part, what others hold already, and of
+    /// rigid bodies that joints alone keep in shape, at a state.
+    pub(super) fn redundant(&mut self, state: &State) -> Vec<String> {
+        let system = &self.assembled.system;
+        let (joints, bodies) = system.redundant_at(state, &mut self.work);
+        self.forget();
+        let joints = joints.into_iter().map(|joint| self.name(joint).to_owned());
+        let bodies = bodies.into_iter().map(|b| self.scene.bodies[b].name().to_owned());
+        joints.chain(bodies).collect()
     }
 
     /// Advances the state to `until`.

@@ -140,11 +140,12 @@ impl Simulation {
         self.report
     }
 
-    /// Names of the joints and motions that hold, at least in part, what others hold already; empty
-    /// before [`Self::initialize`]. They do no harm: what is held twice is held once.
-    pub fn redundant_joints(&self) -> Vec<String> {
-        let engine = self.engine.as_ref();
-        engine.map(Engine::redundant_joints).unwrap_or_default()
+    /// Names of the joints and motions that hold, at least in part, what others hold already, and of
+    /// rigid bodies that joints alone keep in shape, in the present position; empty before
+    /// [`Self::initialize`]. They do no harm: what is held twice is held once.
+    pub fn redundant_joints(&mut self) -> Vec<String> {
+        let (engine, state) = (self.engine.as_mut(), &self.state);
+        engine.map(|engine| engine.redundant(state)).unwrap_or_default()
     }
 
     /// Sets a real parameter or an input.
