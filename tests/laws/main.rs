@@ -1,15 +1,22 @@
-//! Physical laws on random elements, bodies and systems. What is compared with is written here anew:
-//! quadrature, differences, dense matrices, augmented equations.
+//! Physical laws on random elements, bodies, systems and mechanisms. What is compared with is written
+//! here anew: quadrature, differences, dense matrices, augmented equations.
 
+mod acting;
 mod bodies;
+mod built;
 mod chain;
+mod dense;
 mod differences;
 mod elements;
+mod frames;
+mod mechanics;
+mod mechanism;
+mod motion;
 mod planar;
 mod printed;
+mod random;
+mod reactions;
 mod solves;
 mod space;
-mod reactions;
 mod spatial;
 mod specimen;
-mod motion;

@@ -1,0 +1,232 @@
+//! Loads one by one, on cables and rigid bodies in random states: forces from energies, tangents by
+//! differences, power.
+
+use flexbody::body::Node;
+use flexbody::math::function::Function;
+use flexbody::system::loads::{Instant, Load, Rotational};
+use flexbody::system::{Angle, Signal};
+use nalgebra::{DMatrix, DVector, Vector2};
+use proptest::prelude::*;
+
+use crate::differences::{Outcome, check, within};
+use crate::frames::{Frame, along, frame, frames, slope};
+use crate::mechanism::{Acting, Body, Point, Wave};
+
+const CASES: u32 = 200;
+
+/// A load with the angles that it may count.
+struct Acted<'a> {
+    frame: &'a Frame,
+    load: Load,
+    angles: Vec<Angle>,
+}
+
+impl Acted<'_> {
+    fn at<T>(&self, (x, v, t): (&[Node<4>], &[Node<4>], f64), f: impl Fn(&Load, Instant<'_>) -> T) -> T {
+        let start = &self.frame.x;
+        let hints: Vec<f64> = (self.angles.iter())
+            .map(|angle| angle.value(start, 0.4))
+            .collect();
+        let instant = Instant {
+            time: t,
+            inputs: &[],
+            x,
+            v,
+            chains: &self.frame.chains,
+            angles: (&self.angles, &hints),
+        };
+        f(&self.load, instant)
+    }
+
+    fn force(&self, x: &[Node<4>], v: &[Node<4>], t: f64) -> DVector<f64> {
+        self.at((x, v, t), |load, at| {
+            let mut f = vec![[0.0; 4]; x.len()];
+            load.add_force(at, &mut f);
+            DVector::from_column_slice(f.as_flattened())
+        })
+    }
+
+    fn energy(&self, x: &[Node<4>], t: f64) -> f64 {
+        self.at((x, x, t), |load, at| load.energy(at))
+    }
+
+    /// Work from the frame's configuration to another one, all else held.
+    fn work(&self, to: &[Node<4>], t: f64) -> f64 {
+        let x = &self.frame.x;
+        self.at((x, x, t), |load, at| load.work(at, Instant { x: to, ..at }))
+    }
+
+    /// Stiffness and damping over all nodes.
+    fn tangent(&self, x: &[Node<4>], v: &[Node<4>], t: f64) -> [DMatrix<f64>; 2] {
+        let size = 4 * x.len();
+        let zero = || std::cell::RefCell::new(DMatrix::zeros(size, size));
+        let found = [zero(), zero()];
+        let enter = |which: usize, a: usize, b: usize, block: &[[f64; 4]; 4]| {
+            let mut matrix = found[which].borrow_mut();
+            for r in 0..4 {
+                for c in 0..4 {
+                    matrix[(4 * a + r, 4 * b + c)] += block[r][c];
+                    if a != b {
+                        matrix[(4 * b + c, 4 * a + r)] += block[r][c];
+                    }
+                }
+            }
+        };
+        self.at((x, v, t), |load, at| {
+            load.add_tangent(
+                at,
+                &mut |a, b, block| enter(0, a, b, block),
+                &mut |a, b, block| enter(1, a, b, block),
+            );
+        });
+        found.map(std::cell::RefCell::into_inner)
+    }
+}
+
+fn loads(frame: &Frame) -> Vec<Acted<'_>> {
+    let made = &frame.made;
+    let number = |k: usize| made.noise[k];
+    let wave = |k: usize| Wave {
+        constant: 3.0 * number(k),
+        amplitude: number(k + 1),
+        frequency: 1.0 + number(k + 2),
+    };
+    let between = made.holds[0].ends;
+    let grounded = [Point::Ground(Vector2::new(number(9), number(10))), between[1]];
+    let mut actions = Vec::new();
+    let Point::On(at) = between[0] else {
+        return Vec::new();
+    };
+    for follower in [false, true] {
+        actions.push(Acting::Force {
+            at,
+            follower,
+            size: [wave(11), wave(14)],
+        });
+    }
+    let mut rotational = Vec::new();
+    for ends in [between, grounded] {
+        actions.push(Acting::Moment {
+            ends,
+            size: wave(17),
+        });
+        actions.push(Acting::Spring {
+            ends,
+            stiffness: 4.0 + number(20),
+            damping: 1.0 + number(21),
+            length: wave(22),
+        });
+        let ends = ends.map(|end| made.product_end(end));
+        rotational.push(Acted {
+            frame,
+            load: Load::Rotational(Rotational {
+                ends,
+                angle: 0,
+                stiffness: 3.0 + number(25),
+                damping: 1.0 + number(26),
+                rest: 7.0 * number(27),
+            }),
+            angles: vec![Angle { ends }],
+        });
+    }
+    for (body, kind) in made.bodies.iter().enumerate() {
+        if matches!(kind, Body::Cable(_)) {
+            actions.push(Acting::Distributed {
+                body,
+                size: [wave(28), wave(31)],
+            });
+        }
+    }
+    let acted = |action: &Acting| Acted {
+        frame,
+        load: made.load(action),
+        angles: Vec::new(),
+    };
+    actions.iter().map(acted).chain(rotational).collect()
+}
+
+fn law(acted: &Acted<'_>) -> Outcome {
+    let (frame, t) = (acted.frame, 0.3);
+    let (x, v) = (&frame.x, &frame.v);
+    let size = 4 * x.len();
+    let rest = vec![[0.0; 4]; x.len()];
+    let force = acted.force(x, &rest, t);
+    let follower = matches!(&acted.load, Load::Force(force) if force.follower);
+    let [stiffness, damping] = acted.tangent(x, &rest, t);
+    let (mut by_x, mut by_v) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
+    for i in 0..size {
+        let unit = frame.unit(i);
+        // Forces are minus the gradient of the energy, and the work on a short way.
+        if !follower {
+            let exact = slope(0.01, |s| acted.work(&along(x, &unit, s), t));
+            within("work", (force[i] - exact).abs(), 1e-8)?;
+        }
+        if acted.load.is_spring() {
+            let exact = -slope(0.01, |s| acted.energy(&along(x, &unit, s), t));
+            within("gradient", (force[i] - exact).abs(), 1e-8)?;
+        }
+        for j in 0..size {
+            by_x[(j, i)] = -slope(0.01, |s| acted.force(&along(x, &unit, s), &rest, t)[j]);
+            by_v[(j, i)] = -slope(0.5, |s| acted.force(x, &along(v, &unit, s), t)[j]);
+        }
+    }
+    let symmetric = (&by_x + by_x.transpose()) * 0.5;
+    within("stiffness", (&stiffness - &symmetric).amax(), 1e-7)?;
+    if !follower {
+        within("symmetry", (&by_x - by_x.transpose()).amax(), 1e-7)?;
+    }
+    within("damping", (&damping - &by_v).amax(), 1e-9)?;
+    prop_assert_eq!(acted.load.is_damped(), damping.amax() > 0.0);
+    // Power of the forces, with what is stored, is what comes in less what is dissipated.
+    let moving = DVector::from_column_slice(v.as_flattened());
+    let power = acted.force(x, v, t).dot(&moving);
+    let stored = slope(0.005, |s| acted.energy(&along(x, v, s), t + s));
+    let [supplied, dissipated] = acted.at((x, v, t), |load, at| load.power(at));
+    within("power", (power + stored - supplied + dissipated).abs(), 1e-6)?;
+    prop_assert!(dissipated >= 0.0);
+    Ok(())
+}
+
+#[test]
+fn loads_have_the_forces_tangents_and_power_that_they_say() {
+    check(CASES, frames(), |made| {
+        let frame = frame(made);
+        for acted in loads(&frame) {
+            law(&acted).map_err(|e| TestCaseError::fail(format!("{e} of {:?}", acted.load)))?;
+        }
+        Ok(())
+    });
+}
+
+/// A rotational spring goes on past half a turn: its moment counts turns.
+#[test]
+fn a_rotational_spring_counts_turns() {
+    check(16, frames(), |made| {
+        let frame = frame(made);
+        let acted = loads(&frame).pop();
+        let Some(Acted { load, angles, .. }) = acted else {
+            return Ok(());
+        };
+        let moment = |turns: f64| {
+            let hint = angles[0].value(&frame.x, 0.0) + std::f64::consts::TAU * turns;
+            let Load::Rotational(spring) = &load else {
+                return f64::NAN;
+            };
+            let rest = vec![[0.0; 4]; frame.x.len()];
+            let value = spring.moment(Instant {
+                time: 0.0,
+                inputs: &[],
+                x: &frame.x,
+                v: &rest,
+                chains: &frame.chains,
+                angles: (&angles, &[hint]),
+            });
+            value + spring.stiffness * std::f64::consts::TAU * turns
+        };
+        within("one turn more", (moment(1.0) - moment(0.0)).abs(), 1e-12)?;
+        within("two turns back", (moment(-2.0) - moment(0.0)).abs(), 1e-12)?;
+        // A signal that is a number is one.
+        let held = Signal::Function(Function::constant(2.5));
+        within("a number", (held.value(7.0, &[]) - 2.5).abs(), 0.0)
+    });
+}

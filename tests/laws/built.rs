@@ -1,0 +1,256 @@
+//! From the description of a mechanism to the product's system.
+
+use flexbody::body::{Formulation, Marker};
+use flexbody::system::joints::{Joint, JointKind};
+use flexbody::system::loads::{Distributed, Force, Load, Moment, Rotational, Spring};
+use flexbody::system::{
+    Accepted, Angle, BuildError, Constraints, Drive, End, Evaluation, Lump, Model, NotAssembled, Parts,
+    PlanarChain, Signal, State, System, Work,
+};
+use nalgebra::{DVector, Vector2};
+
+use crate::chain::project;
+use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
+
+/// A system in a state.
+pub struct Moving {
+    pub system: System,
+    pub state: State,
+    pub work: Work,
+}
+
+impl Mechanism {
+    pub fn chains(&self) -> Vec<PlanarChain> {
+        let bodies = self.bodies.iter().zip(&self.firsts);
+        bodies
+            .filter_map(|(body, first)| match body {
+                Body::Cable(elements) => Some(PlanarChain::new(elements.clone(), *first, true)),
+                _ => None,
+            })
+            .collect()
+    }
+
+    /// Number of a cable among the cables.
+    pub fn chain(&self, body: usize) -> usize {
+        let before = self.bodies[..body].iter();
+        before.filter(|b| matches!(b, Body::Cable(_))).count()
+    }
+
+    pub fn marker(&self, place: Place) -> Marker {
+        match place.at {
+            At::Point(point) => Marker::rigid(place.body, self.firsts[place.body], point),
+            At::Part(part) => {
+                let chain = &self.chains()[self.chain(place.body)];
+                Marker::along(place.body, chain, part * chain.length())
+            }
+        }
+    }
+
+    pub fn product_end(&self, point: Point) -> End {
+        match point {
+            Point::Ground(p) => End::Ground(p),
+            Point::On(place) => End::Body(self.marker(place)),
+        }
+    }
+
+    /// The joint of a hold; what drives it is appended.
+    pub fn joint(&self, hold: &Hold, drives: &mut Vec<Drive>) -> Joint {
+        let mut drive = |wave: &Wave| {
+            drives.push(Drive::Function(wave.function()));
+            drives.len() - 1
+        };
+        let kind = match &hold.kind {
+            Kind::Revolute | Kind::Hinge(_) => JointKind::Revolute,
+            Kind::Weld(angle) => JointKind::Weld(*angle),
+            Kind::Slider(along) => JointKind::Slider(*along),
+            Kind::Orientation(angle) => JointKind::Orientation(*angle),
+            Kind::Distance(length) => JointKind::Distance(*length),
+            Kind::Along => {
+                let Point::On(place) = hold.ends[0] else {
+                    panic!("a cable");
+                };
+                JointKind::Along(self.chain(place.body))
+            }
+            Kind::DrivenAngle(wave) => JointKind::DrivenAngle(drive(wave)),
+            Kind::DrivenPosition([a, b]) => JointKind::DrivenPosition([drive(a), drive(b)]),
+            Kind::DrivenWay(along, wave) => JointKind::DrivenWay(*along, drive(wave)),
+        };
+        Joint {
+            kind,
+            ends: hold.ends.map(|end| self.product_end(end)),
+            spring: None,
+        }
+    }
+
+    /// The load of an action.
+    pub fn load(&self, acting: &Acting) -> Load {
+        let signal = |wave: &Wave| Signal::Function(wave.function());
+        let ends = |ends: &[Point; 2]| ends.map(|end| self.product_end(end));
+        match acting {
+            Acting::Force { at, follower, size } => Load::Force(Force {
+                marker: self.marker(*at),
+                follower: *follower,
+                components: size.each_ref().map(signal),
+            }),
+            Acting::Moment { ends: e, size } => Load::Moment(Moment {
+                ends: ends(e),
+                size: signal(size),
+            }),
+            Acting::Distributed { body, size } => Load::Distributed(Distributed {
+                chain: self.chain(*body),
+                components: size.each_ref().map(signal),
+            }),
+            Acting::Spring {
+                ends: e,
+                stiffness,
+                damping,
+                length,
+            } => Load::Spring(Spring {
+                ends: ends(e),
+                stiffness: *stiffness,
+                damping: *damping,
+                length: signal(length),
+            }),
+        }
+    }
+
+    /// What the system is made of.
+    pub fn parts(&self) -> Parts {
+        let (mut rigid, mut lumps) = (Vec::new(), Vec::new());
+        let mut bodies = Vec::new();
+        for (index, (body, first)) in self.bodies.iter().zip(&self.firsts).enumerate() {
+            bodies.push(*first..first + body.sizes()[0]);
+            let (mass, inertia) = match body {
+                Body::Cable(_) => continue,
+                Body::Rigid { mass, inertia } => (*mass, *inertia),
+                Body::Particle { mass } => (*mass, 0.0),
+            };
+            rigid.push((*first, inertia > 0.0));
+            let marker = Marker::rigid(index, *first, [0.0; 2]);
+            lumps.push(Lump {
+                marker,
+                mass,
+                inertia,
+            });
+        }
+        let extra = self.lumps.iter().map(|(place, [mass, inertia])| Lump {
+            marker: self.marker(*place),
+            mass: *mass,
+            inertia: *inertia,
+        });
+        lumps.extend(extra);
+        let (mut joints, mut drives, mut angles) = (Vec::new(), Vec::new(), Vec::new());
+        let mut loads: Vec<Load> = self.loads.iter().map(|load| self.load(load)).collect();
+        for hold in &self.holds {
+            let mut joint = self.joint(hold, &mut drives);
+            if let Kind::Hinge([stiffness, damping, rest]) = hold.kind {
+                joint.spring = Some(loads.len());
+                angles.push(Angle { ends: joint.ends });
+                loads.push(Load::Rotational(Rotational {
+                    ends: joint.ends,
+                    angle: angles.len() - 1,
+                    stiffness,
+                    damping,
+                    rest,
+                }));
+            }
+            joints.push(joint);
+        }
+        Parts {
+            nodes: self.nodes.clone(),
+            bodies,
+            chains: self.chains(),
+            lumps,
+            rigid,
+            joints,
+            drives,
+            loads,
+            angles,
+            gravity: self.gravity,
+            rotation: self.rotation,
+            formulation: Formulation::MassWeighted,
+            constraints: Constraints::Projection,
+            tracks_work: true,
+        }
+    }
+
+    pub fn system(&self) -> Result<System, BuildError> {
+        System::new(self.parts())
+    }
+
+    /// Rates of a rigid motion of every body, random.
+    pub fn rigid_rates(&self, from: usize) -> Vec<[f64; 4]> {
+        let mut rates = Vec::new();
+        for (b, body) in self.bodies.iter().enumerate() {
+            let number = |k: usize| self.noise[(from + 3 * b + k) % self.noise.len()];
+            let origin = self.nodes[self.firsts[b]];
+            let spin = match body {
+                Body::Particle { .. } => 0.0,
+                _ => 2.0 * number(2),
+            };
+            for x in &self.nodes[self.firsts[b]..self.firsts[b] + body.sizes()[0]] {
+                let velocity = [
+                    number(0) - spin * (x[1] - origin[1]),
+                    number(1) + spin * (x[0] - origin[0]),
+                ];
+                rates.push([velocity[0], velocity[1], -spin * x[3], spin * x[2]]);
+            }
+        }
+        rates
+    }
+
+    /// The system as it starts, with random rates.
+    pub fn started(&self, system: System) -> Result<Moving, NotAssembled> {
+        let mut work = Work::new(&system);
+        let described = (&self.nodes[..], &self.rigid_rates(0)[..]);
+        let state = system.initial_state(0.0, &[], described, &mut work)?;
+        Ok(Moving {
+            system,
+            state,
+            work,
+        })
+    }
+
+    /// Numbers of the size of `q`.
+    pub fn random(&self, n: usize, from: usize) -> Vec<f64> {
+        (0..n).map(|i| self.noise[(from + 7 * i) % self.noise.len()]).collect()
+    }
+}
+
+impl Moving {
+    /// Disturbs nodes by parts of the size of an element and rates likewise, and brings them back to
+    /// the constraints; false where that fails or a slide leaves its cable.
+    pub fn disturb(&mut self, mechanism: &Mechanism, size: f64) -> bool {
+        let [dx, dv] = [11, 53].map(|from| {
+            let numbers = mechanism.random(4 * mechanism.nodes.len(), from);
+            let node = |x: &[f64]| [0.3 * x[0], 0.3 * x[1], x[2], x[3]];
+            let nodes: Vec<[f64; 4]> = numbers.chunks_exact(4).map(node).collect();
+            project(&self.system, &nodes)
+        });
+        let add = |sum: &mut [f64], part: &[f64], size: f64| {
+            sum.iter_mut().zip(part).for_each(|(s, p)| *s += size * p);
+        };
+        add(&mut self.state.coordinates, &dx, size);
+        add(&mut self.state.rates, &dv, 10.0 * size);
+        let mut model = Model::new(&self.system, &[], &mut self.work, &self.state);
+        model.project(&mut self.state) && model.count(&mut self.state) == Accepted::AsIs
+    }
+
+    /// Coordinates, rates, accelerations and reactions.
+    pub fn evaluated(&mut self) -> Evaluation {
+        let mut values = Evaluation::new(&self.system);
+        values.kinematics(&self.system, &self.state, &mut self.work);
+        values.dynamics(&self.system, &self.state, &[], &mut self.work);
+        values
+    }
+
+    /// Force and moment of every joint on its second end.
+    pub fn reactions(&self, values: &Evaluation) -> Vec<(Vector2<f64>, f64)> {
+        let joints = 0..self.system.joints().len();
+        joints.map(|joint| values.reaction(&self.system, &[], joint)).collect()
+    }
+
+    pub fn velocity(&self) -> DVector<f64> {
+        DVector::from_column_slice(&self.state.rates)
+    }
+}
