@@ -139,14 +139,15 @@ fn factor<const B: usize>(
         reflectors.push((column[rank..].to_vec(), tau));
         independent.push(*index);
     }
-    assemble(nodes, independent, (&reflectors, &columns), &order)
+    assemble(nodes, independent, &reflectors, &columns, &order)
 }
 
 /// Basis and multipliers from the reflections and the columns of `R`.
 fn assemble(
     nodes: Vec<usize>,
     independent: Vec<usize>,
-    (reflectors, columns): (&[(Vec<f64>, f64)], &[Vec<f64>]),
+    reflectors: &[(Vec<f64>, f64)],
+    columns: &[Vec<f64>],
     order: &[usize],
 ) -> Cluster {
     let size = order.len();
