@@ -7,7 +7,7 @@ use flexbody::system::{
     Accepted, Angle, BuildError, Constraints, Drive, End, Evaluation, Lump, Model, NotAssembled, Parts,
     PlanarChain, Signal, State, System, Work,
 };
-use nalgebra::{DVector, Vector2};
+use nalgebra::Vector2;
 
 use crate::chain::project;
 use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
@@ -248,9 +248,5 @@ impl Moving {
     pub fn reactions(&self, values: &Evaluation) -> Vec<(Vector2<f64>, f64)> {
         let joints = 0..self.system.joints().len();
         joints.map(|joint| values.reaction(&self.system, &[], joint)).collect()
-    }
-
-    pub fn velocity(&self) -> DVector<f64> {
-        DVector::from_column_slice(&self.state.rates)
     }
 }

@@ -44,14 +44,22 @@ fn extrapolate(f: impl Fn(f64) -> DVector<f64>, step: f64) -> DVector<f64> {
 }
 
 /// `B P = Q R`: orthonormal columns, and the order in which those of `B` were taken.
-struct Orthogonal {
-    q: DMatrix<f64>,
+pub struct Orthogonal {
+    pub q: DMatrix<f64>,
     r: DMatrix<f64>,
     order: Vec<usize>,
 }
 
+/// The same columns of length 1.
+fn scaled(mut b: DMatrix<f64>) -> DMatrix<f64> {
+    b.column_iter_mut().for_each(|mut column| {
+        column.normalize_mut();
+    });
+    b
+}
+
 /// By Gram and Schmidt, three times over, largest remainder first.
-fn orthogonal(b: &DMatrix<f64>) -> Orthogonal {
+pub fn orthogonal(b: &DMatrix<f64>) -> Orthogonal {
     let mut rest = b.clone();
     let (mut order, mut q): (Vec<usize>, Vec<DVector<f64>>) = (Vec::new(), Vec::new());
     loop {
@@ -75,7 +83,10 @@ fn orthogonal(b: &DMatrix<f64>) -> Orthogonal {
     let others = (0..b.ncols()).filter(|i| !order.contains(i));
     let others: Vec<usize> = others.collect();
     order.extend(others);
-    let q = DMatrix::from_columns(&q);
+    let q = match q.is_empty() {
+        true => DMatrix::zeros(b.nrows(), 0),
+        false => DMatrix::from_columns(&q),
+    };
     let r = q.transpose() * b.select_columns(&order);
     Orthogonal { q, r, order }
 }
@@ -92,8 +103,6 @@ pub struct Augmented {
     pub redundant: bool,
     /// Size of the smallest independent part of a constraint.
     pub weakest: f64,
-    /// What no acceleration gives constraints that contradict each other.
-    pub contradiction: f64,
 }
 
 impl Mechanism {
@@ -320,6 +329,31 @@ impl Mechanism {
         }
     }
 
+    /// Part of a nodal displacement that constraints do not ask for, relative to it, in the mass norm.
+    pub fn needless(&self, t: f64, x: &DVector<f64>, change: &DVector<f64>) -> f64 {
+        let root = self.mass().cholesky().expect("a positive mass").l();
+        let whole = root.transpose() * change;
+        let b = root.solve_lower_triangular(&self.jacobian(t, x).transpose());
+        let q = orthogonal(&scaled(b.expect("a mass"))).q;
+        (&whole - &q * (q.transpose() * &whole)).norm() / whole.norm()
+    }
+
+    /// How far motions contradict joints: what no rates give constraints.
+    pub fn contradiction(&self, t: f64, x: &DVector<f64>) -> f64 {
+        let c = self.jacobian(t, x);
+        if c.nrows() == 0 {
+            return 0.0;
+        }
+        let r = self.missing_rates(t, x, &DVector::zeros(x.len()));
+        let q = orthogonal(&scaled(c.transpose()));
+        let sizes: Vec<f64> = c.row_iter().map(|row| row.norm()).collect();
+        let sorted = DVector::from_fn(r.len(), |i, _| r[q.order[i]] / sizes[q.order[i]]);
+        let rank = q.q.ncols();
+        let first = q.r.columns(0, rank).into_owned();
+        let step = first.tr_solve_upper_triangular(&sorted.rows(0, rank));
+        (q.r.transpose() * step.expect("independent columns") - sorted).amax()
+    }
+
     /// Puts an acceleration into the augmented equations at a state.
     pub fn augmented(
         &self,
@@ -350,9 +384,6 @@ impl Mechanism {
         let parts = parts.expect("independent columns");
         let mut lambda = DVector::zeros(c.nrows());
         (0..rank).for_each(|i| lambda[order[i]] = parts[i]);
-        let sorted = DVector::from_fn(c.nrows(), |i, _| r[order[i]]);
-        let step = first.tr_solve_upper_triangular(&sorted.rows(0, rank));
-        let step = step.expect("independent columns");
         let size = 1.0 + whole.norm();
         let mut next = 0;
         let reactions = self.holds.iter().map(|hold| {
@@ -368,7 +399,6 @@ impl Mechanism {
             gap: (b.transpose() * whole - &r).norm() / size,
             redundant: rank < c.nrows(),
             weakest: first.diagonal().amin(),
-            contradiction: (upper.transpose() * step - &sorted).amax() / (1.0 + r.amax()),
         }
     }
 

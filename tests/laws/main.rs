@@ -2,6 +2,7 @@
 //! here anew: quadrature, differences, dense matrices, augmented equations.
 
 mod acting;
+mod balance;
 mod bodies;
 mod built;
 mod chain;
@@ -14,9 +15,11 @@ mod mechanism;
 mod motion;
 mod planar;
 mod printed;
+mod projection;
 mod random;
 mod reactions;
 mod solves;
 mod space;
 mod spatial;
 mod specimen;
+mod tangents;

@@ -51,15 +51,6 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// A number that does not change.
-    pub fn still(constant: f64) -> Self {
-        Self {
-            constant,
-            amplitude: 0.0,
-            frequency: 1.0,
-        }
-    }
-
     pub fn value(&self, t: f64) -> f64 {
         self.constant + self.amplitude * (self.frequency * t).sin()
     }

@@ -1,0 +1,102 @@
+//! The tangent of random mechanisms with multipliers, where constraints leave freedom, against
+//! differences of their accelerations.
+
+use flexbody::body::Node;
+use flexbody::system::{Dynamics, Model};
+use nalgebra::{Complex, DMatrix, DVector};
+use proptest::prelude::*;
+
+use crate::chain::expand;
+use crate::dense::{Orthogonal, orthogonal};
+use crate::differences::{Outcome, check, derivative, within};
+use crate::mechanics::moving;
+use crate::mechanism::Mechanism;
+use crate::random::{ALL, Scope, mechanisms};
+
+const CASES: u32 = 100;
+const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// The tangent of slides leaves out what moves along, that of followers is not symmetric, a turning
+/// frame has forces across; what is driven is not at rest.
+const SYMMETRIC: Scope = Scope {
+    bodies: 3,
+    slides: false,
+    drives: false,
+    followers: false,
+    rotates: false,
+    ..ALL
+};
+
+/// Orthonormal directions in `q` that constraints hold at a configuration.
+fn held(mechanism: &Mechanism, system: &flexbody::system::System, x: &[Node<4>]) -> DMatrix<f64> {
+    let n = system.coordinates();
+    let jacobian = mechanism.jacobian(0.0, &mechanism.apart(x));
+    let mut rows = DMatrix::zeros(n, jacobian.nrows());
+    for i in 0..n {
+        let mut q = vec![0.0; n];
+        q[i] = 1.0;
+        let moved = &jacobian * mechanism.apart(&expand(system, &q));
+        rows.row_mut(i).copy_from(&moved.transpose());
+    }
+    // Rows of connections and pins vanish.
+    let Orthogonal { q, .. } = orthogonal(&rows);
+    q
+}
+
+fn tangent(mechanism: &Mechanism) -> Outcome {
+    let Some(mut moving) = moving(mechanism, 0.03)? else {
+        return Ok(());
+    };
+    moving.state.rates.fill(0.0);
+    let values = moving.evaluated();
+    let (system, n) = (&moving.system, moving.system.coordinates());
+    let held = held(mechanism, system, &values.x);
+    if held.ncols() == n {
+        return Ok(());
+    }
+    let free = DMatrix::identity(n, n) - &held * held.transpose();
+    let (q, rest) = (moving.state.coordinates.clone(), vec![0.0; n]);
+    let mut model = Model::new(system, &[], &mut moving.work, &moving.state);
+    let mut slope = |by_rate: bool, i: usize, step: f64| {
+        derivative(step, |t| {
+            let mut at = [q.clone(), rest.clone()];
+            at[usize::from(by_rate)][i] += t;
+            let mut a = vec![0.0; n];
+            model.acceleration(0.0, &at[0], &at[1], &mut a);
+            DVector::from_vec(a)
+        })
+    };
+    let step = 1e-4 * system.scale() / (n as f64).sqrt();
+    let columns = |slope: &mut dyn FnMut(usize) -> DVector<f64>| {
+        let columns: Vec<DVector<f64>> = (0..n).map(slope).collect();
+        -(&free * DMatrix::from_columns(&columns) * &free)
+    };
+    let stiffness = columns(&mut |i| slope(false, i, step));
+    // At rest centrifugal terms are of second order in the rates.
+    let damping = columns(&mut |i| slope(true, i, 10.0 * step));
+    let s = 2.0 * stiffness.amax().sqrt().max(1.0) * (n as f64).sqrt();
+    model.linearize(0.0, &q, &rest);
+    prop_assert!(model.factor(s), "not definite at {s}");
+    let right = &free * DVector::from_vec(mechanism.random(n, 23));
+    let mut x = right.as_slice().to_vec();
+    model.solve(&mut x);
+    let x = DVector::from_vec(x);
+    within("held directions", (held.transpose() * &x).norm(), 1e-7 * x.norm())?;
+    let back = &x * (s * s) + &damping * &x * s + &stiffness * &x;
+    within("real solve", (back - &right).norm() / right.norm(), 1e-5)?;
+
+    let shift = Complex::new(0.8, 0.9) * s;
+    prop_assert!(model.factor_complex(shift));
+    let mut z = [rest.clone(), right.as_slice().to_vec(), rest.clone()];
+    model.solve_stages(&IDENTITY, &IDENTITY, &mut z);
+    let z = DVector::from_fn(n, |i, _| Complex::new(z[1][i], z[2][i]));
+    let complex = |m: &DMatrix<f64>| m.map(|x| Complex::new(x, 0.0));
+    let back = &z * (shift * shift) + complex(&damping) * &z * shift + complex(&stiffness) * &z;
+    let right = right.map(|x| Complex::new(x, 0.0));
+    within("complex solve", (back - &right).norm() / right.norm(), 1e-5)
+}
+
+#[test]
+fn tangents_are_derivatives_of_accelerations_where_constraints_leave_freedom() {
+    check(CASES, mechanisms(SYMMETRIC), |mechanism| tangent(&mechanism));
+}
