@@ -7,8 +7,11 @@ use crate::cargo::Workspace;
 
 mod as_printed;
 mod bench;
+mod bodies;
+mod constraints;
 mod cost;
 mod drift;
+mod energies;
 mod machine;
 mod mesh;
 mod numbers;
@@ -30,6 +33,12 @@ pub enum Chart {
     Drift,
     /// CPU time of a step against the number of elements
     Cost,
+    /// CPU time of a step against the number of bodies
+    Bodies,
+    /// Projection and partitioning: error against CPU time
+    Constraints,
+    /// Energy and residuals of mechanisms over a minute
+    Energies,
     /// What the report's equations do as printed
     AsPrinted,
 }
@@ -41,6 +50,9 @@ impl Chart {
             Self::Time => "time",
             Self::Drift => "drift",
             Self::Cost => "cost",
+            Self::Bodies => "bodies",
+            Self::Constraints => "constraints",
+            Self::Energies => "energies",
             Self::AsPrinted => "as_printed",
         }
     }
@@ -52,6 +64,9 @@ impl Chart {
             Self::Time => time::chart(bench),
             Self::Drift => drift::chart(bench),
             Self::Cost => cost::chart(bench),
+            Self::Bodies => bodies::chart(bench),
+            Self::Constraints => constraints::chart(bench),
+            Self::Energies => energies::chart(bench),
             Self::AsPrinted => as_printed::chart(bench),
         }
     }

@@ -28,6 +28,22 @@ pub fn fitted_slope(points: &[(f64, f64)]) -> Option<f64> {
     (spread > 1e-3).then(|| common / spread)
 }
 
+/// Time needed for an error, from points of time and error, the tolerance tightening from one to the
+/// next: the least over the points that are at least as good and over the straight lines between
+/// neighbours on logarithmic axes. Nothing where no point is as good.
+pub fn needed_for(points: &[(f64, f64)], error: f64) -> Option<f64> {
+    let good = points.iter().filter(|point| point.1 <= error);
+    let between = points.windows(2).filter_map(|pair| {
+        let [a, b] = [pair[0], pair[1]];
+        let inside = (b.1..a.1).contains(&error);
+        let part = (error / a.1).ln() / (b.1 / a.1).ln();
+        inside.then(|| a.0 * (b.0 / a.0).powf(part))
+    });
+    good.map(|point| point.0)
+        .chain(between)
+        .min_by(f64::total_cmp)
+}
+
 /// Largest distance between two plane curves given point by point.
 pub fn largest_distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     a.iter()

@@ -5,7 +5,7 @@ use anyhow::Result;
 use serde_json::Value;
 
 use super::bench::{Bench, Cost, Outcome, REPEATS, Run};
-use super::numbers::{fitted_slope, largest_distance, milliseconds, short};
+use super::numbers::{fitted_slope, largest_distance, milliseconds, needed_for, short};
 use super::page;
 use super::plot::{Axis, Line, Mark, Panel, draw};
 
@@ -152,20 +152,10 @@ fn orders(points: &[Point], uncertainty: f64) -> Option<(f64, f64)> {
     Some((fitted_slope(&counted)?, fitted_slope(last)?))
 }
 
-/// CPU time that a method needs for an error: the least over its points that are at least as good
-/// and over the straight lines between its points on the chart.
+/// CPU time that a method needs for an error.
 fn needed(points: &[Point], error: f64) -> Option<f64> {
-    let good = points.iter().filter(|point| point.error <= error);
-    let between = points.windows(2).filter_map(|pair| {
-        let [a, b] = [&pair[0], &pair[1]];
-        let inside = (b.error..a.error).contains(&error);
-        let part = (error / a.error).ln() / (b.error / a.error).ln();
-        let ratio = b.cost.cpu_time / a.cost.cpu_time;
-        inside.then(|| a.cost.cpu_time * ratio.powf(part))
-    });
-    good.map(|point| point.cost.cpu_time)
-        .chain(between)
-        .min_by(f64::total_cmp)
+    let points = points.iter().map(|p| (p.cost.cpu_time, p.error));
+    needed_for(&points.collect::<Vec<_>>(), error)
 }
 
 /// CPU time of a point over that of the better method at the same error.

@@ -1,0 +1,342 @@
+//! CPU time of a step against the number of bodies, apart from each other and pinned in a chain.
+
+use anyhow::Result;
+use serde_json::{Value, json};
+
+use super::bench::{Bench, Cost, Run};
+use super::numbers::{fitted_slope, three_digits};
+use super::page;
+use super::plot::{Axis, Line, Mark, Panel, draw};
+
+/// Rounds over all runs; many, since the runs of one body are short.
+const ROUNDS: usize = 7;
+const TOLERANCE: f64 = 1e-4;
+/// Simulated time, s.
+const STOP_TIME: f64 = 1.0;
+/// Length of a body, m.
+const LENGTH: f64 = 1.2;
+/// Elements of a cable.
+const ELEMENTS: u32 = 8;
+/// Angles over which bodies apart from each other are spread at the start, rad.
+const SPREAD: f64 = 0.6;
+const METHODS: [&str; 2] = ["radau", "rk4"];
+
+/// A way to put bodies together.
+struct Family {
+    name: &'static str,
+    is_rigid: bool,
+    is_chain: bool,
+    counts: &'static [u32],
+}
+
+const FAMILIES: [Family; 4] = [
+    Family {
+        name: "cables apart",
+        is_rigid: false,
+        is_chain: false,
+        counts: &[1, 10, 100],
+    },
+    Family {
+        name: "chain of cables",
+        is_rigid: false,
+        is_chain: true,
+        counts: &[1, 10, 100],
+    },
+    Family {
+        name: "rigid apart",
+        is_rigid: true,
+        is_chain: false,
+        counts: &[1, 10, 100],
+    },
+    Family {
+        name: "chain of rigid",
+        is_rigid: true,
+        is_chain: true,
+        counts: &[1, 3, 10, 30, 100],
+    },
+];
+
+impl Family {
+    /// The scene of a number of bodies.
+    fn scene(&self, count: u32) -> Value {
+        let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+        for index in 0..count {
+            let (from, angle) = if self.is_chain {
+                ([LENGTH * f64::from(index), 0.0], 0.0)
+            } else {
+                let part = f64::from(index) / f64::from(count.max(2) - 1);
+                ([0.0, 0.0], -SPREAD * part)
+            };
+            bodies.push(if self.is_rigid {
+                rigid(index, from, angle)
+            } else {
+                cable(index, from, angle)
+            });
+            let before = match index.checked_sub(1) {
+                Some(before) if self.is_chain => format!("link{before}.end"),
+                _ => "ground".to_owned(),
+            };
+            joints.push(json!({
+                "name": format!("pin{index}"),
+                "kind": "revolute",
+                "markers": [before, format!("link{index}.start")],
+            }));
+        }
+        json!({
+            "name": "bodies",
+            "dimension": 2,
+            "gravity": [0.0, -9.81],
+            "bodies": bodies,
+            "joints": joints,
+            "outputs": [{ "kind": "energy" }],
+            "accuracy": { "relative_tolerance": TOLERANCE },
+            "experiment": { "stop_time": STOP_TIME, "step": STOP_TIME },
+        })
+    }
+}
+
+/// A cable of the soft pendulum's section and material.
+fn cable(index: u32, from: [f64; 2], angle: f64) -> Value {
+    let (sine, cosine) = angle.sin_cos();
+    let to = [from[0] + LENGTH * cosine, from[1] + LENGTH * sine];
+    json!({
+        "name": format!("link{index}"),
+        "element": "cable",
+        "elements": ELEMENTS,
+        "material": { "youngs_modulus": 0.7e6, "density": 5540.0 },
+        "section": { "area": 0.0018, "second_moment": 1.215e-8 },
+        "shape": { "line": { "from": from, "to": to } },
+        "markers": { "start": 0.0, "end": 1.0 },
+    })
+}
+
+/// A uniform rod of 1 kg.
+fn rigid(index: u32, from: [f64; 2], angle: f64) -> Value {
+    let (sine, cosine) = angle.sin_cos();
+    let half = 0.5 * LENGTH;
+    json!({
+        "name": format!("link{index}"),
+        "element": "rigid",
+        "mass": 1.0,
+        "inertia": LENGTH * LENGTH / 12.0,
+        "position": [from[0] + half * cosine, from[1] + half * sine],
+        "angle": angle,
+        "markers": { "start": [-half, 0.0], "end": [half, 0.0] },
+    })
+}
+
+/// Cost of both methods for a number of bodies.
+struct Row {
+    family: &'static Family,
+    count: u32,
+    radau: Cost,
+    rk4: Cost,
+    /// The method that is chosen.
+    chosen: String,
+}
+
+/// Makes the chart.
+pub fn chart(bench: &Bench) -> Result<String> {
+    let (mut plan, mut runs, mut choices) = (Vec::new(), Vec::new(), Vec::new());
+    for family in &FAMILIES {
+        for &count in family.counts {
+            let scene = family.scene(count);
+            plan.push((family, count));
+            let run = |method: &&str| Run::new(&scene, STOP_TIME, STOP_TIME).integrator(method);
+            runs.extend(METHODS.iter().map(run));
+            choices.push(Run::new(&scene, 1e-3, 1e-3).integrator("auto"));
+        }
+    }
+    let choices = bench.run("bodies, choice", &choices)?;
+    let outcomes = bench.repeat("bodies", &runs, ROUNDS)?;
+    let outcomes = outcomes.chunks(METHODS.len()).zip(&choices);
+    let mut rows = Vec::new();
+    for ((family, count), (outcomes, choice)) in plan.into_iter().zip(outcomes) {
+        rows.push(Row {
+            family,
+            count,
+            radau: outcomes[0].cost()?.clone(),
+            rk4: outcomes[1].cost()?.clone(),
+            chosen: choice.cost()?.method.clone(),
+        });
+    }
+    write(bench, &rows)?;
+    Ok(section(&rows))
+}
+
+fn per_step(cost: &Cost) -> f64 {
+    cost.cpu_time / cost.steps
+}
+
+fn per_iteration(cost: &Cost) -> f64 {
+    cost.cpu_time / cost.newton_iterations
+}
+
+type Quantity = (&'static str, fn(&Row) -> f64);
+
+const QUANTITIES: [Quantity; 3] = [
+    ("radau, a Newton iteration", |row| per_iteration(&row.radau)),
+    ("radau, a step", |row| per_step(&row.radau)),
+    ("rk4, a step", |row| per_step(&row.rk4)),
+];
+
+/// A quantity against the number of bodies of a family.
+fn points(rows: &[Row], family: &Family, quantity: fn(&Row) -> f64) -> Vec<(f64, f64)> {
+    let own = rows.iter().filter(|row| row.family.name == family.name);
+    own.map(|row| (f64::from(row.count), quantity(row)))
+        .collect()
+}
+
+fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
+    let header = [
+        "family",
+        "bodies",
+        "chosen",
+        "radau_steps",
+        "radau_rejected",
+        "radau_newton_iterations",
+        "radau_iteration_s",
+        "radau_step_s",
+        "rk4_steps",
+        "rk4_rejected",
+        "rk4_step_s",
+    ];
+    let cells = |row: &Row| {
+        vec![
+            row.family.name.to_owned(),
+            row.count.to_string(),
+            row.chosen.clone(),
+            row.radau.steps.to_string(),
+            row.radau.rejected.to_string(),
+            row.radau.newton_iterations.to_string(),
+            format!("{:.3e}", per_iteration(&row.radau)),
+            format!("{:.3e}", per_step(&row.radau)),
+            row.rk4.steps.to_string(),
+            row.rk4.rejected.to_string(),
+            format!("{:.3e}", per_step(&row.rk4)),
+        ]
+    };
+    let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
+    page::write_csv(&bench.output("bodies.csv"), &header, &cells)?;
+    let marks = [Mark::Dot, Mark::Triangle, Mark::Ring, Mark::Square];
+    let panel = |&(name, quantity): &Quantity| {
+        let line = |(index, family): (usize, &Family)| {
+            let own = points(rows, family, quantity);
+            let scaled = own.into_iter().map(|(count, time)| (count, 1e6 * time));
+            Line::new(family.name, scaled.collect(), index, marks[index])
+        };
+        let mut lines: Vec<Line> = FAMILIES.iter().enumerate().map(line).collect();
+        lines.push(Line::guide("proportional", (1.0, 3.0), 100.0, 1.0));
+        Panel {
+            title: name.into(),
+            x: Axis::counts("bodies", &[1, 3, 10, 30, 100]),
+            y: Axis::log("CPU time / µs"),
+            lines,
+        }
+    };
+    let panels: Vec<Panel> = QUANTITIES.iter().map(panel).collect();
+    draw(&bench.output("bodies.svg"), &panels)
+}
+
+fn table(rows: &[Row]) -> String {
+    let header = [
+        "scene",
+        "bodies",
+        "`auto` takes",
+        "radau: µs an iteration",
+        "iterations a step",
+        "µs a step",
+        "rejected of steps",
+        "rk4: µs a step",
+        "rejected of steps",
+    ];
+    let cells = |row: &Row| {
+        let rejected = |cost: &Cost| format!("{} of {}", cost.rejected, cost.rejected + cost.steps);
+        vec![
+            row.family.name.to_owned(),
+            row.count.to_string(),
+            row.chosen.clone(),
+            three_digits(1e6 * per_iteration(&row.radau)),
+            format!("{:.1}", row.radau.newton_iterations / row.radau.steps),
+            three_digits(1e6 * per_step(&row.radau)),
+            rejected(&row.radau),
+            three_digits(1e6 * per_step(&row.rk4)),
+            rejected(&row.rk4),
+        ]
+    };
+    page::table(&header, &rows.iter().map(cells).collect::<Vec<_>>())
+}
+
+/// Ratios of the time for many bodies to that for fewer.
+fn growth(rows: &[Row]) -> String {
+    let mut table = Vec::new();
+    for family in &FAMILIES {
+        let mut cells = vec![family.name.to_owned()];
+        for (_, quantity) in QUANTITIES {
+            let own = points(rows, family, quantity);
+            let [from_1, from_10] = [1.0, 10.0].map(|count| ratio(&own, count));
+            let last = own.get(own.len().saturating_sub(2)..).unwrap_or_default();
+            let slope = fitted_slope(last).unwrap_or(f64::NAN);
+            cells.push(format!(
+                "{}, {}, {slope:.2}",
+                three_digits(from_1),
+                three_digits(from_10)
+            ));
+        }
+        table.push(cells);
+    }
+    let names = QUANTITIES.map(|(name, _)| name);
+    page::table(&[&["scene"], names.as_slice()].concat(), &table)
+}
+
+/// Time for 100 bodies over that for fewer.
+fn ratio(points: &[(f64, f64)], count: f64) -> f64 {
+    let at = |count: f64| points.iter().find(|point| point.0 == count);
+    match (at(100.0), at(count)) {
+        (Some(many), Some(few)) => many.1 / few.1,
+        _ => f64::NAN,
+    }
+}
+
+fn section(rows: &[Row]) -> String {
+    let of = |family: usize, quantity: usize| {
+        let own = points(rows, &FAMILIES[family], QUANTITIES[quantity].1);
+        three_digits(ratio(&own, 1.0))
+    };
+    let at = |family: usize, quantity: usize, count: f64| {
+        let own = points(rows, &FAMILIES[family], QUANTITIES[quantity].1);
+        let found = own.iter().find(|point| point.0 == count);
+        found.map_or(f64::NAN, |point| point.1)
+    };
+    let rigid = points(rows, &FAMILIES[3], QUANTITIES[2].1);
+    let last = rigid.get(rigid.len().saturating_sub(2)..);
+    let slope = last.and_then(fitted_slope).unwrap_or(f64::NAN);
+    format!(
+        "\
+## bodies: CPU time of a step against the number of bodies
+
+![Cost of a step against the number of bodies](bodies.svg)
+
+One scene with 1, 10 and 100 bodies of {LENGTH} m: pendulums apart from each other, let go between the horizontal and {SPREAD} rad below it, or a chain let go from the horizontal, each link pinned to the next. Cables are those of the soft pendulum with {ELEMENTS} elements, rigid bodies uniform rods of 1 kg.
+Tolerance {TOLERANCE:e}, {STOP_TIME} s; CPU time of all steps over the number of accepted ones, rejected ones paid for; medians of {ROUNDS} runs that take turns.
+
+{}
+Growth: time for 100 bodies over that for 1, over that for 10, and the slope between the two largest numbers (1 = proportional):
+
+{}
+**What it means.** What is not joined costs in proportion to the number of bodies, and so does a chain of cables: 100 cables apart cost {} times what one costs (a Newton iteration; a step of rk4: {} times), 100 in a chain {} times ({} times). 100 rigid pendulums apart cost {} times ({} times); a step of one alone is mostly overhead. A step of radau costs more in a chain of cables for another reason as well: it takes more iterations and rejects more steps. \
+A chain of *rigid* links does not scale: its multipliers are solved for together by one dense factorization. The cost of a step of rk4 grows with the power {slope:.1} of the number of links at the end, {} times from 1 to 100; ten links cost {:.1} times what ten rigid pendulums apart cost. A hundred cables of {ELEMENTS} elements in a chain cost {:.0} times less than a hundred rigid links: build long chains of cables, whose pins are eliminated.
+",
+        table(rows),
+        growth(rows),
+        of(0, 0),
+        of(0, 2),
+        of(1, 0),
+        of(1, 2),
+        of(2, 0),
+        of(2, 2),
+        of(3, 2),
+        at(3, 2, 10.0) / at(2, 2, 10.0),
+        at(3, 2, 100.0) / at(1, 2, 100.0),
+    )
+}
