@@ -4,12 +4,6 @@
 //! Source: modified Gram-Schmidt with column pivoting and a second pass ("twice is enough"):
 //! G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., sections 5.2.8, 5.4.1 and 5.5.5.
 
-/// Size of what other rows leave of a row, relative to it, below which it counts as dependent. Close to a
-/// singular configuration (at a distance `d`) a residual of roundoff tilts the dependent row by `1e-15 / d^2`,
-/// and leaving it out changes accelerations for a time in proportion to `d`: this is in between
-/// (docs/decisions/0009-constraints.md).
-const RANK: f64 = 1e-4;
-
 /// Rows `A = D P R^T Q` with `D` the sizes of the rows: `Q` has orthonormal rows, `R` is upper triangular, `P` permutes.
 #[derive(Clone, Debug, Default)]
 pub struct RowSpace {
@@ -67,16 +61,18 @@ impl RowSpace {
         &self.rows[i * self.length..(i + 1) * self.length]
     }
 
-    /// Makes the rows orthonormal, largest remainder first.
-    pub fn factor(&mut self) {
+    /// Makes the rows orthonormal, largest remainder first. A row of which others leave less than
+    /// `least`, relative to its size, counts as dependent.
+    pub fn factor(&mut self, least: f64) {
         let (count, length) = (self.count(), self.length);
-        self.pivots
-            .iter_mut()
-            .enumerate()
-            .for_each(|(i, p)| *p = i);
+        self.pivots.iter_mut().enumerate().for_each(|(i, p)| *p = i);
         self.r.fill(0.0);
         self.rank = 0;
-        for (row, size) in self.rows.chunks_exact_mut(length.max(1)).zip(&mut self.sizes) {
+        for (row, size) in self
+            .rows
+            .chunks_exact_mut(length.max(1))
+            .zip(&mut self.sizes)
+        {
             *size = norm_squared(row).sqrt();
             if *size > 0.0 {
                 row.iter_mut().for_each(|x| *x /= *size);
@@ -102,7 +98,7 @@ impl RowSpace {
                 self.r[k * count + i] += part;
             }
             let size = norm_squared(pivot).sqrt();
-            if size.is_nan() || size <= RANK {
+            if size.is_nan() || size <= least {
                 return;
             }
             self.r[k * count + k] = size;
@@ -195,7 +191,7 @@ mod tests {
         for (i, row) in rows.iter().enumerate() {
             space.row_mut(i).copy_from_slice(row);
         }
-        space.factor();
+        space.factor(1e-7);
         space
     }
 

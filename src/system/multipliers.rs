@@ -20,6 +20,12 @@ use crate::math::row_space::RowSpace;
 
 /// Most iterations of a projection.
 const ITERATIONS: usize = 20;
+/// Part of a row of the Jacobian that others must leave for it to count: of accelerations, and of
+/// projections. Close to a singular configuration (at a distance `d`) a residual of roundoff tilts the
+/// dependent row by `1e-15 / d^2`; leaving it out lets inertia rule for a time in proportion to `d`. These are
+/// in between (docs/decisions/0009-constraints.md).
+const RANK: f64 = 1e-4;
+const PROJECTED_RANK: f64 = 1e-5;
 /// Residual at which positions are on the constraints.
 const EXACT: f64 = 2e-15;
 
@@ -111,7 +117,7 @@ impl System {
                     *right -= dot(term, &work.other[node]);
                 });
             }
-            group.rows.factor();
+            group.rows.factor(RANK);
             let a = &mut a[group.coordinates.clone()];
             group.rows.take_out(a);
             group.rows.add_least(&group.right, a);
@@ -152,7 +158,7 @@ impl System {
                 if self.method == super::Constraints::Partitioning && !group.dependent.is_empty() {
                     group.move_dependent(q);
                 } else {
-                    group.rows.factor();
+                    group.rows.factor(PROJECTED_RANK);
                     group.rows.add_least(&group.right, q);
                 }
             }
@@ -176,7 +182,7 @@ impl System {
             if self.method == super::Constraints::Partitioning && !group.dependent.is_empty() {
                 group.move_dependent(v);
             } else {
-                group.rows.factor();
+                group.rows.factor(PROJECTED_RANK);
                 group.rows.add_least(&group.right, v);
             }
         }
@@ -215,7 +221,7 @@ impl System {
         self.place(state.time, &state.coordinates, None, work);
         self.jacobians(work);
         for group in &mut work.groups {
-            group.rows.factor();
+            group.rows.factor(RANK);
             for row in group.rows.dependent() {
                 let constraint = &self.constraints[group.constraints.start + row];
                 match (constraint.joint, &constraint.kind) {

@@ -138,6 +138,7 @@ impl System {
         let mut open: Vec<(usize, f64)> = Vec::new();
         for (gap, owner) in gaps.iter().zip(owners) {
             if let (Some(joint), true) = (owner, gap.is_nan() || gap.abs() > CLOSE) {
+                let gap = self.length_of(joint, gap * size) / size;
                 match open.iter_mut().find(|(other, _)| *other == joint) {
                     Some((_, most)) => *most = most.hypot(gap * size),
                     None => open.push((joint, gap.abs() * size)),
@@ -145,6 +146,16 @@ impl System {
             }
         }
         Err(NotAssembled { gaps: open })
+    }
+
+    /// A gap in m: that of a distance is measured by squares.
+    fn length_of(&self, joint: usize, gap: f64) -> f64 {
+        match self.joints[joint].kind {
+            super::joints::JointKind::Distance(length) => {
+                (length * (length + 2.0 * gap)).max(0.0).sqrt() - length
+            }
+            _ => gap,
+        }
     }
 
     fn all_constraints(&self) -> impl Iterator<Item = &Constraint> {
