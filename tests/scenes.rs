@@ -5,6 +5,7 @@ use flexbody::simulation::Simulation;
 use serde_json::{Value, json};
 
 const SCENE: &str = include_str!("../scenes/cantilever.json");
+const FOUR_BAR: &str = include_str!("../scenes/four_bar.json");
 
 /// Where, what stands there instead, and how the message begins.
 const BAD: [(&str, &str, &str); 20] = [
@@ -139,4 +140,65 @@ fn what_is_held_twice_is_reported_and_held_once() {
     let mut simulation = Simulation::new(scene);
     simulation.initialize(0.0).expect("an equilibrium");
     assert_eq!(simulation.redundant_joints(), ["again"]);
+}
+
+/// What becomes of the four-bar linkage with a value changed: the message, or the redundant joints.
+fn started(change: impl Fn(&mut Value)) -> Result<Vec<String>, String> {
+    let mut scene: Value = serde_json::from_str(FOUR_BAR).expect("a shipped scene");
+    change(&mut scene);
+    let scene = Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())?;
+    let mut simulation = Simulation::new(scene);
+    let told = simulation.initialize(0.0).map_err(|error| error.to_string());
+    told.map(|_| simulation.redundant_joints())
+}
+
+fn push(list: &mut Value, item: Value) {
+    list.as_array_mut().expect("a list").push(item);
+}
+
+#[test]
+fn a_linkage_as_shipped_holds_nothing_twice() {
+    assert_eq!(started(|_| ()), Ok(Vec::new()));
+}
+
+#[test]
+fn bodies_too_far_apart_are_named_with_the_gap() {
+    // The far pivot out of reach of crank, coupler and rocker together.
+    let told = started(|scene| scene["joints"][3]["point"] = json!([0.9, 0.0]));
+    let told = told.expect_err("no linkage");
+    assert!(told.contains("expected bodies that fit together, found gaps: "), "{told}");
+    assert!(told.contains("rocker_pivot 0."), "{told}");
+}
+
+#[test]
+fn bodies_nearly_in_place_are_moved() {
+    let told = started(|scene| {
+        scene["bodies"][2]["position"] = json!([0.27, 0.15]);
+        scene["bodies"][2]["angle"] = json!(1.5);
+    });
+    assert_eq!(told, Ok(Vec::new()));
+}
+
+#[test]
+fn a_motion_of_what_is_held_is_refused_with_its_place() {
+    let told = started(|scene| {
+        let weld = json!({"name": "held", "kind": "weld", "markers": ["ground", "crank.root"]});
+        push(&mut scene["joints"], weld);
+        scene["motions"] = json!([{
+            "name": "drive", "kind": "angle", "marker": "crank.root", "value": "t"
+        }]);
+    });
+    let told = told.expect_err("no motion");
+    assert!(told.starts_with("motions[0]: expected a motion of what joints"), "{told}");
+}
+
+#[test]
+fn a_link_that_others_make_needless_is_reported() {
+    // As far apart as two points of one body are anyway.
+    let told = started(|scene| {
+        let link = json!({"name": "needless", "kind": "distance",
+                          "markers": ["ground", "crank.pin"], "point": [0.0, 0.0]});
+        push(&mut scene["joints"], link);
+    });
+    assert_eq!(told.map(|names| names.len()), Ok(1));
 }
