@@ -6,22 +6,29 @@ use std::path::Path;
 
 use super::Measured;
 use super::claim::{Claim, Critical, Drift, Given, Kind, Order, Series, Values};
-use super::run::{Run, SAME_TIME};
+use super::records::{Demand, Record};
+use super::run::SAME_TIME;
 
 /// Below this relative error the order of convergence drowns in roundoff.
 const ROUNDOFF: f64 = 1e-10;
 /// Steps that a root search may take.
 const MOST_HALVINGS: u32 = 200;
 
-/// Checks one claim of the case in a folder. `Err` is a claim that could not be measured.
-pub fn check(claim: &Claim, folder: &Path, scene: &str) -> Result<Measured, String> {
-    let scene = folder.join(scene);
+/// Checks one claim of the case in a folder, off the run that it asks for if it asks for one.
+/// `Err` is a claim that could not be measured.
+pub fn check(
+    claim: &Claim,
+    folder: &Path,
+    scene: &Path,
+    record: Option<&Record>,
+) -> Result<Measured, String> {
+    let run = || record.ok_or_else(|| "expected a run, found none".to_owned());
     match &claim.kind {
-        Kind::Series(series) => check_series(series, folder, &scene, &claim.values),
-        Kind::Values(values) => check_values(values, &scene, &claim.values),
-        Kind::Order(order) => check_order(order, &scene, &claim.values),
-        Kind::Critical(critical) => check_critical(critical, &scene, &claim.values),
-        Kind::Drift(drift) => check_drift(drift, &scene, &claim.values),
+        Kind::Series(series) => check_series(series, folder, run()?),
+        Kind::Values(values) => check_values(values, run()?),
+        Kind::Order(order) => check_order(order, scene, &claim.values),
+        Kind::Critical(critical) => check_critical(critical, scene, &claim.values),
+        Kind::Drift(drift) => check_drift(drift, run()?),
     }
 }
 
@@ -36,19 +43,9 @@ fn measured(what: String, found: f64, allowed: f64, failure: String) -> Measured
     }
 }
 
-fn check_series(
-    series: &Series,
-    folder: &Path,
-    scene: &Path,
-    given: &Given,
-) -> Result<Measured, String> {
+fn check_series(series: &Series, folder: &Path, record: &Record) -> Result<Measured, String> {
     let (times, columns) = read_reference(&folder.join(&series.reference), &series.columns)?;
-    let mut run = Run::start(scene, given)?;
-    let mut found = vec![(0.0, run.get(series.columns.keys())?)];
-    run.steps(series.stop_time, series.step, |run, time| {
-        found.push((time, run.get(series.columns.keys())?));
-        Ok(())
-    })?;
+    let found = record.until(series.stop_time, series.columns.keys())?;
     let allowed = allowances(series, &columns);
     let mut errors: Vec<(f64, f64, f64, f64, String)> = Vec::new();
     let mut points = 0;
@@ -106,9 +103,12 @@ fn share(error: f64, allowed: f64) -> f64 {
     }
 }
 
-fn check_values(values: &Values, scene: &Path, given: &Given) -> Result<Measured, String> {
-    let names: Vec<String> = values.values.keys().cloned().collect();
-    let found = values_at(scene, given, values.time, values.step, &names)?;
+fn check_values(values: &Values, record: &Record) -> Result<Measured, String> {
+    if values.time > 0.0 && values.step.is_none() {
+        return Err("step: expected one with a time, found nothing".into());
+    }
+    let found = record.until(values.time, values.values.keys())?.pop();
+    let found = found.map_or_else(Vec::new, |(_, found)| found);
     let mut worst: Option<(f64, Measured)> = None;
     for ((name, wanted), value) in values.values.iter().zip(found) {
         let allowed = values.relative * values.scale.max(wanted.abs());
@@ -135,8 +135,7 @@ fn check_order(order: &Order, scene: &Path, given: &Given) -> Result<Measured, S
     for number in &order.over {
         let mut start = given.clone();
         start.set.insert(order.vary.clone(), *number);
-        let names = [order.variable.clone()];
-        let value = values_at(scene, &start, order.time, order.step, &names)?[0];
+        let value = value_at(scene, &start, order.time, order.step, &order.variable)?;
         let scale = if order.value == 0.0 {
             1.0
         } else {
@@ -177,11 +176,10 @@ fn check_order(order: &Order, scene: &Path, given: &Given) -> Result<Measured, S
 }
 
 fn check_critical(critical: &Critical, scene: &Path, given: &Given) -> Result<Measured, String> {
-    let names = [critical.indicator.clone()];
     let indicator = |start: f64| {
         let mut changed = given.clone();
         changed.set.insert(critical.vary.clone(), start);
-        let frequency = values_at(scene, &changed, 0.0, None, &names)?[0];
+        let frequency = value_at(scene, &changed, 0.0, None, &critical.indicator)?;
         // The eigenvalue itself crosses zero smoothly; its signed root does not.
         Ok(frequency * frequency.abs())
     };
@@ -200,32 +198,25 @@ fn check_critical(critical: &Critical, scene: &Path, given: &Given) -> Result<Me
     Ok(measured(what, error, critical.relative, failure))
 }
 
-fn check_drift(drift: &Drift, scene: &Path, given: &Given) -> Result<Measured, String> {
+fn check_drift(drift: &Drift, record: &Record) -> Result<Measured, String> {
     if drift.after >= drift.stop_time {
         return Err(format!(
             "after: expected a time before {}, found {}",
             drift.stop_time, drift.after
         ));
     }
-    let mut run = Run::start(scene, given)?;
-    let total = |run: &mut Run| -> Result<f64, String> {
-        let plus: f64 = run.get(&drift.sum)?.iter().sum();
-        let minus: f64 = run.get(&drift.less)?.iter().sum();
-        Ok(plus - minus)
-    };
-    let mut start = total(&mut run)?;
-    let (mut largest, mut when) = (0.0, 0.0);
-    run.steps(drift.stop_time, drift.step, |run, time| {
+    let rows = record.until(drift.stop_time, drift.sum.iter().chain(&drift.less))?;
+    let (mut start, mut largest, mut when) = (f64::NAN, 0.0, 0.0);
+    for (time, values) in rows {
+        let (plus, minus) = values.split_at(drift.sum.len());
+        let total = plus.iter().sum::<f64>() - minus.iter().sum::<f64>();
+        let change = (total - start).abs();
         if time <= drift.after * (1.0 + SAME_TIME) {
-            start = total(run)?;
-            return Ok(());
-        }
-        let change = (total(run)? - start).abs();
-        if change.total_cmp(&largest).is_gt() {
+            start = total;
+        } else if change.total_cmp(&largest).is_gt() {
             (largest, when) = (change, time);
         }
-        Ok(())
-    })?;
+    }
     let mut what = drift.sum.join(" + ");
     for name in &drift.less {
         what = format!("{what} - {name}");
@@ -238,20 +229,25 @@ fn check_drift(drift: &Drift, scene: &Path, given: &Given) -> Result<Measured, S
     Ok(measured(what, largest, drift.absolute, failure))
 }
 
-/// Values of variables at a time, by default the start.
-fn values_at(
+/// Value of a variable at a time.
+fn value_at(
     scene: &Path,
     given: &Given,
     time: f64,
     step: Option<f64>,
-    names: &[String],
-) -> Result<Vec<f64>, String> {
-    let mut run = Run::start(scene, given)?;
-    if time > 0.0 {
-        let step = step.ok_or("step: expected one with a time, found nothing")?;
-        run.steps(time, step, |_, _| Ok(()))?;
+    name: &String,
+) -> Result<f64, String> {
+    if time > 0.0 && step.is_none() {
+        return Err("step: expected one with a time, found nothing".into());
     }
-    run.get(names)
+    let demand = Demand {
+        stop_time: time,
+        step: step.unwrap_or(1.0),
+        names: vec![name],
+    };
+    let mut rows = demand.record(scene, given)?.until(time, [name])?;
+    let last = rows.pop().and_then(|(_, values)| values.first().copied());
+    last.ok_or_else(|| format!("{name}: expected a value, found none"))
 }
 
 /// The root of a function between two arguments (Illinois variant of false position).

@@ -17,7 +17,7 @@ pub struct Claim {
 }
 
 /// Values that a claim gives to a run.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, PartialEq)]
 pub struct Given {
     /// Start values of parameters and inputs.
     pub set: BTreeMap<String, f64>,
@@ -26,7 +26,7 @@ pub struct Given {
 }
 
 /// Inputs that change at a communication point.
-#[derive(Clone, Deserialize)]
+#[derive(Clone, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Change {
     pub time: f64,

@@ -2,6 +2,7 @@
 
 mod checks;
 mod claim;
+mod records;
 mod run;
 
 use std::fs;
@@ -14,6 +15,7 @@ use std::time::Instant;
 use serde::Deserialize;
 
 use claim::Claim;
+use records::Demand;
 
 /// A case as read.
 pub struct Case {
@@ -111,51 +113,99 @@ pub fn find(filter: &str) -> Result<Vec<Case>, String> {
     Ok(cases)
 }
 
+/// Claims of a case that one run decides, or one that takes runs of its own.
+struct Job<'a> {
+    case: &'a Case,
+    scene: PathBuf,
+    claims: Vec<usize>,
+    demand: Option<Demand<'a>>,
+}
+
 /// Checks all claims on all cores, in the order of the cases.
 pub fn check_all(cases: &[Case]) -> Vec<Verdict> {
-    let jobs: Vec<(&Case, usize)> = cases
-        .iter()
-        .flat_map(|case| (0..case.claims.len()).map(move |index| (case, index)))
-        .collect();
+    let jobs: Vec<Job> = cases.iter().flat_map(jobs).collect();
     let next = AtomicUsize::new(0);
     let verdicts = Mutex::new(Vec::new());
     let threads = thread::available_parallelism().map_or(1, usize::from);
     thread::scope(|scope| {
         for _ in 0..threads.min(jobs.len()) {
             scope.spawn(|| {
-                loop {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    let Some((case, index)) = jobs.get(number) else {
-                        break;
-                    };
-                    let verdict = check(case, *index);
+                while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let found = check(job);
                     let mut verdicts = verdicts.lock().expect("no panic while locked");
-                    verdicts.push((number, verdict));
+                    verdicts.extend(found);
                 }
             });
         }
     });
     let mut verdicts = verdicts.into_inner().expect("no panic while locked");
-    verdicts.sort_by_key(|(number, _)| *number);
+    verdicts.sort_by(|(a, _), (b, _)| a.cmp(b));
     verdicts.into_iter().map(|(_, verdict)| verdict).collect()
 }
 
-fn check(case: &Case, index: usize) -> Verdict {
-    let started = Instant::now();
-    let (kind, outcome) = match &case.claims[index] {
-        Ok(claim) => {
-            let scene = claim.scene.as_deref().unwrap_or(&case.scene);
-            let outcome = checks::check(claim, &case.folder, scene);
-            (claim.kind.name(), outcome)
+/// The claims of a case, those together that one run decides.
+fn jobs(case: &Case) -> Vec<Job<'_>> {
+    let mut jobs: Vec<Job> = Vec::new();
+    for (index, claim) in case.claims.iter().enumerate() {
+        let of = |claim: &Claim| {
+            case.folder
+                .join(claim.scene.as_ref().unwrap_or(&case.scene))
+        };
+        let scene = claim.as_ref().map_or_else(|_| PathBuf::new(), of);
+        let demand = claim.as_ref().ok().and_then(Demand::of);
+        let given = |index: usize| case.claims[index].as_ref().map(|claim| &claim.values).ok();
+        let same = |job: &&mut Job| {
+            let runs = job.demand.as_ref().zip(demand.as_ref());
+            job.scene == scene
+                && given(job.claims[0]) == given(index)
+                && runs.is_some_and(|(one, other)| one.shares(other))
+        };
+        match (jobs.iter_mut().find(same), demand) {
+            (Some(job), Some(demand)) => {
+                job.claims.push(index);
+                if let Some(run) = &mut job.demand {
+                    run.join(demand);
+                }
+            }
+            (_, demand) => jobs.push(Job {
+                case,
+                scene,
+                claims: vec![index],
+                demand,
+            }),
         }
-        Err(message) => ("?", Err(message.clone())),
-    };
-    Verdict {
-        place: format!("{}[{index}]", case.name),
-        kind,
-        outcome,
-        seconds: started.elapsed().as_secs_f64(),
     }
+    jobs
+}
+
+/// Verdicts on the claims of a job, each with the name of the case and its number to sort by. The time
+/// of a run counts for the first claim that it decides.
+fn check<'a>(job: &Job<'a>) -> Vec<((&'a str, usize), Verdict)> {
+    let mut started = Instant::now();
+    let case = job.case;
+    let run = match (&job.demand, &case.claims[job.claims[0]]) {
+        (Some(demand), Ok(claim)) => demand.record(&job.scene, &claim.values).map(Some),
+        _ => Ok(None),
+    };
+    let mut verdicts = Vec::new();
+    for &index in &job.claims {
+        let outcome = match (&case.claims[index], &run) {
+            (Ok(claim), Ok(run)) => checks::check(claim, &case.folder, &job.scene, run.as_ref()),
+            (Err(message), _) | (_, Err(message)) => Err(message.clone()),
+        };
+        let kind = case.claims[index]
+            .as_ref()
+            .map_or("?", |claim| claim.kind.name());
+        let verdict = Verdict {
+            place: format!("{}[{index}]", case.name),
+            kind,
+            outcome,
+            seconds: started.elapsed().as_secs_f64(),
+        };
+        verdicts.push(((case.name.as_str(), index), verdict));
+        started = Instant::now();
+    }
+    verdicts
 }
 
 impl Verdict {
