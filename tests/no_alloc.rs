@@ -169,14 +169,14 @@ const MANY: &str = r#"{ "name": "many", "dimension": 2, "gravity": [0.0, -1.0],
           "method": { METHOD } }"#;
 
 fn scenes() -> Vec<String> {
-    let mut scenes: Vec<String> = [
-        r#""integrator": "radau""#,
-        r#""integrator": "rk4""#,
-    ]
-    .map(|method| MANY.replace("METHOD", method))
-    .into();
+    let mut scenes: Vec<String> = [r#""integrator": "radau""#, r#""integrator": "rk4""#]
+        .map(|method| MANY.replace("METHOD", method))
+        .into();
     let partitioned = r#""integrator": "rk4", "constraints": "partitioning""#;
-    let pinned = MANY.replace(r#""fixed", "kind": "weld""#, r#""fixed", "kind": "revolute""#);
+    let pinned = MANY.replace(
+        r#""fixed", "kind": "weld""#,
+        r#""fixed", "kind": "revolute""#,
+    );
     scenes.push(pinned.replace("METHOD", partitioned));
     for integrator in ["radau", "rk4", "auto"] {
         for damping_time in [0.0, 1e-4] {
@@ -259,7 +259,10 @@ fn a_started_instance_allocates_nothing() {
         let found = requests(|| {
             for step in 0..20 {
                 let change = 0.01 * f64::from(step % 5 - 2);
-                forces.iter_mut().zip(&starts).for_each(|(f, s)| *f = s + change);
+                forces
+                    .iter_mut()
+                    .zip(&starts)
+                    .for_each(|(f, s)| *f = s + change);
                 let (vr, n) = (inputs.as_ptr(), inputs.len());
                 assert_eq!(call!(fmi2SetReal, c, vr, n, forces.as_ptr()), Status::Ok);
                 let time = 0.02 * f64::from(step);

@@ -148,7 +148,9 @@ fn started(change: impl Fn(&mut Value)) -> Result<Vec<String>, String> {
     change(&mut scene);
     let scene = Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())?;
     let mut simulation = Simulation::new(scene);
-    let told = simulation.initialize(0.0).map_err(|error| error.to_string());
+    let told = simulation
+        .initialize(0.0)
+        .map_err(|error| error.to_string());
     told.map(|_| simulation.redundant_joints())
 }
 
@@ -166,7 +168,10 @@ fn bodies_too_far_apart_are_named_with_the_gap() {
     // The far pivot out of reach of crank, coupler and rocker together.
     let told = started(|scene| scene["joints"][3]["point"] = json!([0.9, 0.0]));
     let told = told.expect_err("no linkage");
-    assert!(told.contains("expected bodies that fit together, found gaps: "), "{told}");
+    assert!(
+        told.contains("expected bodies that fit together, found gaps: "),
+        "{told}"
+    );
     assert!(told.contains("rocker_pivot 0."), "{told}");
 }
 
@@ -189,7 +194,10 @@ fn a_motion_of_what_is_held_is_refused_with_its_place() {
         }]);
     });
     let told = told.expect_err("no motion");
-    assert!(told.starts_with("motions[0]: expected a motion of what joints"), "{told}");
+    assert!(
+        told.starts_with("motions[0]: expected a motion of what joints"),
+        "{told}"
+    );
 }
 
 #[test]

@@ -194,11 +194,24 @@ const STRANGERS: [(&str, &[&str]); 6] = [
     ("system/loads/", &["Cable", "joints", "integrators"]),
     (
         "integrators/",
-        &["body", "elements", "joints", "loads", "System", "Constraints", "Marker"],
+        &[
+            "body",
+            "elements",
+            "joints",
+            "loads",
+            "System",
+            "Constraints",
+            "Marker",
+        ],
     ),
     ("elements/", &["node", "nodes", "joint", "body"]),
     ("body/", &["joint", "joints", "load", "loads", "drive"]),
-    ("math/", &["body", "bodies", "element", "joint", "joints", "load", "marker"]),
+    (
+        "math/",
+        &[
+            "body", "bodies", "element", "joint", "joints", "load", "marker",
+        ],
+    ),
 ];
 
 #[test]
@@ -223,9 +236,23 @@ fn no_element_knows_nodes_no_joint_elements_no_integrator_joints() {
 /// and nowhere in what computes with them.
 #[test]
 fn what_computes_does_not_know_kinds_of_joints_and_loads() {
-    let kinds = ["JointKind", "Revolute", "Weld", "Slider", "Hinge", "Rotational", "Distributed"];
+    let kinds = [
+        "JointKind",
+        "Revolute",
+        "Weld",
+        "Slider",
+        "Hinge",
+        "Rotational",
+        "Distributed",
+    ];
     let mut complaints = Vec::new();
-    for file in ["dynamics.rs", "forces.rs", "multipliers.rs", "frequencies.rs", "work.rs"] {
+    for file in [
+        "dynamics.rs",
+        "forces.rs",
+        "multipliers.rs",
+        "frequencies.rs",
+        "work.rs",
+    ] {
         let source = Source::read(&format!("src/system/{file}"));
         for kind in kinds {
             if let Some(at) = words(source.product(), kind).next() {

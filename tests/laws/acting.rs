@@ -22,7 +22,11 @@ struct Acted<'a> {
 }
 
 impl Acted<'_> {
-    fn at<T>(&self, (x, v, t): (&[Node<4>], &[Node<4>], f64), f: impl Fn(&Load, Instant<'_>) -> T) -> T {
+    fn at<T>(
+        &self,
+        (x, v, t): (&[Node<4>], &[Node<4>], f64),
+        f: impl Fn(&Load, Instant<'_>) -> T,
+    ) -> T {
         let start = &self.frame.x;
         let hints: Vec<f64> = (self.angles.iter())
             .map(|angle| angle.value(start, 0.4))
@@ -92,7 +96,10 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
         frequency: 1.0 + number(k + 2),
     };
     let between = made.holds[0].ends;
-    let grounded = [Point::Ground(Vector2::new(number(9), number(10))), between[1]];
+    let grounded = [
+        Point::Ground(Vector2::new(number(9), number(10))),
+        between[1],
+    ];
     let mut actions = Vec::new();
     let Point::On(at) = between[0] else {
         return Vec::new();
@@ -105,7 +112,7 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
         });
     }
     let mut rotational = Vec::new();
-    for ends in [between, grounded] {
+    for ends in [between, grounded, made.holds[1].ends] {
         actions.push(Acting::Moment {
             ends,
             size: wave(17),
@@ -151,6 +158,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
     let size = 4 * x.len();
     let rest = vec![[0.0; 4]; x.len()];
     let force = acted.force(x, &rest, t);
+    let most = 1.0 + force.amax();
     let follower = matches!(&acted.load, Load::Force(force) if force.follower);
     let [stiffness, damping] = acted.tangent(x, &rest, t);
     let (mut by_x, mut by_v) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
@@ -158,31 +166,37 @@ fn law(acted: &Acted<'_>) -> Outcome {
         let unit = frame.unit(i);
         // Forces are minus the gradient of the energy, and the work on a short way.
         if !follower {
-            let exact = slope(0.01, |s| acted.work(&along(x, &unit, s), t));
-            within("work", (force[i] - exact).abs(), 1e-8)?;
+            let exact = slope(5e-3, |s| acted.work(&along(x, &unit, s), t));
+            within("work", (force[i] - exact).abs(), 1e-8 * most)?;
         }
         if acted.load.is_spring() {
-            let exact = -slope(0.01, |s| acted.energy(&along(x, &unit, s), t));
-            within("gradient", (force[i] - exact).abs(), 1e-8)?;
+            let exact = -slope(5e-3, |s| acted.energy(&along(x, &unit, s), t));
+            within("gradient", (force[i] - exact).abs(), 1e-8 * most)?;
         }
         for j in 0..size {
-            by_x[(j, i)] = -slope(0.01, |s| acted.force(&along(x, &unit, s), &rest, t)[j]);
+            by_x[(j, i)] = -slope(5e-3, |s| acted.force(&along(x, &unit, s), &rest, t)[j]);
             by_v[(j, i)] = -slope(0.5, |s| acted.force(x, &along(v, &unit, s), t)[j]);
         }
     }
     let symmetric = (&by_x + by_x.transpose()) * 0.5;
-    within("stiffness", (&stiffness - &symmetric).amax(), 1e-7)?;
+    let size = 1.0 + symmetric.amax();
+    within("stiffness", (&stiffness - &symmetric).amax(), 1e-7 * size)?;
     if !follower {
-        within("symmetry", (&by_x - by_x.transpose()).amax(), 1e-7)?;
+        within("symmetry", (&by_x - by_x.transpose()).amax(), 1e-7 * size)?;
     }
     within("damping", (&damping - &by_v).amax(), 1e-9)?;
-    prop_assert_eq!(acted.load.is_damped(), damping.amax() > 0.0);
+    // Between two places on one rigid body nothing is there to damp.
+    prop_assert!(acted.load.is_damped() || damping.amax() == 0.0);
     // Power of the forces, with what is stored, is what comes in less what is dissipated.
     let moving = DVector::from_column_slice(v.as_flattened());
     let power = acted.force(x, v, t).dot(&moving);
     let stored = slope(0.005, |s| acted.energy(&along(x, v, s), t + s));
     let [supplied, dissipated] = acted.at((x, v, t), |load, at| load.power(at));
-    within("power", (power + stored - supplied + dissipated).abs(), 1e-6)?;
+    within(
+        "power",
+        (power + stored - supplied + dissipated).abs(),
+        1e-6,
+    )?;
     prop_assert!(dissipated >= 0.0);
     Ok(())
 }

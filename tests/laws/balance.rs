@@ -1,7 +1,9 @@
 //! Energy along motions of random mechanisms: what came in less what was dissipated is what is there.
 
+use std::cell::Cell;
+
 use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
-use flexbody::system::{Evaluation, Model, System, fastest};
+use flexbody::system::{Constraints, Evaluation, Model, Parts, System, fastest};
 use proptest::prelude::*;
 
 use crate::built::Moving;
@@ -31,7 +33,7 @@ fn method(moving: &mut Moving, explicit: bool) -> Box<dyn Method> {
     }
 }
 
-fn balance(mechanism: &Mechanism, explicit: bool) -> Outcome {
+fn balance(mechanism: &Mechanism, explicit: bool, seen: &Cell<u32>) -> Outcome {
     let Some(mut moving) = moving(mechanism, 0.02)? else {
         return Ok(());
     };
@@ -51,6 +53,7 @@ fn balance(mechanism: &Mechanism, explicit: bool) -> Outcome {
             return Ok(());
         }
     }
+    seen.set(seen.get() + 1);
     moving.state = state;
     let values = moving.evaluated();
     let [after, size] = energy(&values, &moving.system);
@@ -66,12 +69,72 @@ fn balance(mechanism: &Mechanism, explicit: bool) -> Outcome {
     within("positions", mechanism.missing(0.05, &x).amax(), 1e-11)
 }
 
+/// The same mechanism by both ways to keep constraints, from the same state.
+fn both_ways(mechanism: &Mechanism, seen: &Cell<u32>) -> Outcome {
+    let Some(mut projected) = moving(mechanism, 0.0)? else {
+        return Ok(());
+    };
+    let parts = Parts {
+        constraints: Constraints::Partitioning,
+        ..mechanism.parts()
+    };
+    let system = System::new(parts).map_err(|e| TestCaseError::fail(format!("{e:?}")))?;
+    let started = mechanism.started(system);
+    let mut partitioned = started.map_err(|e| TestCaseError::fail(format!("{e:?}")))?;
+    let twice = partitioned
+        .system
+        .redundant_at(&partitioned.state, &mut partitioned.work);
+    if partitioned.system.constraints() == 0 || !twice.0.is_empty() || !twice.1.is_empty() {
+        return Ok(());
+    }
+    partitioned.state.copy_from(&projected.state);
+    let [a, b] = [projected.evaluated(), partitioned.evaluated()];
+    let [a, b] = [a, b].map(|values| mechanism.apart(&values.acceleration));
+    within("acceleration", (&a - &b).amax() / (1.0 + a.amax()), 1e-9)?;
+    let mut ends = Vec::new();
+    for moving in [&mut projected, &mut partitioned] {
+        let mut method = method(moving, true);
+        let tolerance = Tolerance {
+            relative: 1e-8,
+            position: moving.system.scale(),
+            time: 0.1,
+        };
+        let mut state = moving.state.clone();
+        let mut model = Model::new(&moving.system, &[], &mut moving.work, &state);
+        let (_, result) = advance(&mut *method, &mut model, &mut state, 0.03, &tolerance);
+        if result.is_err() {
+            return Ok(());
+        }
+        moving.state = state;
+        ends.push(mechanism.apart(&moving.evaluated().x));
+    }
+    seen.set(seen.get() + 1);
+    within("positions", (&ends[0] - &ends[1]).amax(), 1e-6)
+}
+
+#[test]
+fn partitioning_moves_as_projection_does() {
+    let seen = Cell::new(0);
+    check(CASES, mechanisms(ALL), |mechanism| {
+        both_ways(&mechanism, &seen)
+    });
+    assert!(seen.get() > CASES / 4, "{} cases", seen.get());
+}
+
 #[test]
 fn energy_is_what_came_in_less_what_was_dissipated() {
-    check(CASES, mechanisms(ALL), |mechanism| balance(&mechanism, false));
+    let seen = Cell::new(0);
+    check(CASES, mechanisms(ALL), |mechanism| {
+        balance(&mechanism, false, &seen)
+    });
+    assert!(seen.get() > CASES / 2, "{} cases", seen.get());
 }
 
 #[test]
 fn so_it_is_with_the_explicit_method() {
-    check(CASES, mechanisms(ALL), |mechanism| balance(&mechanism, true));
+    let seen = Cell::new(0);
+    check(CASES, mechanisms(ALL), |mechanism| {
+        balance(&mechanism, true, &seen)
+    });
+    assert!(seen.get() > CASES / 2, "{} cases", seen.get());
 }

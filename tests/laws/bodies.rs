@@ -6,7 +6,9 @@ use flexbody::system::Evaluation;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-use crate::chain::{Chain, ORDINARY, Spread, chains, expand, expansion, flat, project, reduction, state};
+use crate::chain::{
+    Chain, ORDINARY, Spread, chains, expand, expansion, flat, project, reduction, state,
+};
 use crate::differences::{Outcome, check, within};
 
 const CASES: u32 = 128;
@@ -74,7 +76,11 @@ fn elimination(chain: &Chain, allowed: f64) -> Outcome {
     let identity = DMatrix::<f64>::identity(t.ncols(), t.ncols());
     within("inertia", largest(&(inertia - identity)), allowed)?;
     let difference = reduction(&system) - t.transpose();
-    within("transpose", largest(&difference) / largest(&t).max(1.0), 1e-14)?;
+    within(
+        "transpose",
+        largest(&difference) / largest(&t).max(1.0),
+        1e-14,
+    )?;
     prop_assert_eq!(system.coordinates(), chain.size() - rank(chain));
     Ok(())
 }

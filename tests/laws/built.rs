@@ -4,8 +4,8 @@ use flexbody::body::{Formulation, Marker};
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::loads::{Distributed, Force, Load, Moment, Rotational, Spring};
 use flexbody::system::{
-    Accepted, Angle, BuildError, Constraints, Drive, End, Evaluation, Lump, Model, NotAssembled, Parts,
-    PlanarChain, Signal, State, System, Work,
+    Accepted, Angle, BuildError, Constraints, Drive, End, Evaluation, Lump, Model, NotAssembled,
+    Parts, PlanarChain, Signal, State, System, Work,
 };
 use nalgebra::Vector2;
 
@@ -213,7 +213,9 @@ impl Mechanism {
 
     /// Numbers of the size of `q`.
     pub fn random(&self, n: usize, from: usize) -> Vec<f64> {
-        (0..n).map(|i| self.noise[(from + 7 * i) % self.noise.len()]).collect()
+        (0..n)
+            .map(|i| self.noise[(from + 7 * i) % self.noise.len()])
+            .collect()
     }
 }
 
@@ -247,6 +249,8 @@ impl Moving {
     /// Force and moment of every joint on its second end.
     pub fn reactions(&self, values: &Evaluation) -> Vec<(Vector2<f64>, f64)> {
         let joints = 0..self.system.joints().len();
-        joints.map(|joint| values.reaction(&self.system, &[], joint)).collect()
+        joints
+            .map(|joint| values.reaction(&self.system, &[], joint))
+            .collect()
     }
 }

@@ -1,8 +1,8 @@
 //! Mechanisms with known answers: natural frequencies, what is held twice, parts that know nothing of each
 //! other.
 
-use flexbody::elements::cable::{Cable, Parameters};
 use flexbody::elements::Strain;
+use flexbody::elements::cable::{Cable, Parameters};
 use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
 use flexbody::system::{Model, fastest, natural_frequencies};
 use nalgebra::Vector2;
@@ -84,7 +84,10 @@ fn frequencies(mechanism: &Mechanism, count: usize) -> Vec<f64> {
 fn near(found: &[f64], exact: &[f64]) {
     for (found, exact) in found.iter().zip(exact) {
         let off = (found - exact).abs();
-        assert!(off < 1e-7 * (1.0 + exact.abs()), "{found} instead of {exact}");
+        assert!(
+            off < 1e-7 * (1.0 + exact.abs()),
+            "{found} instead of {exact}"
+        );
     }
 }
 
@@ -94,7 +97,9 @@ fn a_rigid_pendulum_swings_with_its_frequency() {
     let mut pendulum = bodies(&[(rigid(m, j), [0.0, -d, 0.4])]);
     let back = nalgebra::Rotation2::new(-0.4) * Vector2::new(0.0, d);
     let pin = on(0, back.x, back.y);
-    pendulum.holds.push(hold(Kind::Revolute, ground(0.0, 0.0), pin));
+    pendulum
+        .holds
+        .push(hold(Kind::Revolute, ground(0.0, 0.0), pin));
     let exact = (m * G * d / (j + m * d * d)).sqrt();
     near(&frequencies(&pendulum, 1), &[exact]);
     // Upside down it falls: a growing motion counts as negative.
@@ -103,7 +108,10 @@ fn a_rigid_pendulum_swings_with_its_frequency() {
     // A hinge adds its stiffness, relative to the frame that it turns in.
     pendulum.gravity *= -1.0;
     pendulum.holds[0].kind = Kind::Hinge([3.0, 0.0, 0.4]);
-    near(&frequencies(&pendulum, 1), &[((m * G * d + 3.0) / (j + m * d * d)).sqrt()]);
+    near(
+        &frequencies(&pendulum, 1),
+        &[((m * G * d + 3.0) / (j + m * d * d)).sqrt()],
+    );
 }
 
 #[test]
@@ -171,12 +179,20 @@ fn the_fastest_oscillation_is_bounded_closely() {
 /// Three equal cranks under one bar: the third holds nothing that the others do not.
 fn parallelogram(cranks: usize) -> Mechanism {
     let crank = |x: f64| (rigid(0.5, 0.04), [x, 0.25, 0.5 * std::f64::consts::PI]);
-    let mut parts: Vec<_> = [0.0, 1.0, 0.4][..cranks].iter().map(|x| crank(*x)).collect();
+    let mut parts: Vec<_> = [0.0, 1.0, 0.4][..cranks]
+        .iter()
+        .map(|x| crank(*x))
+        .collect();
     parts.push((rigid(1.0, 0.1), [0.5, 0.5, 0.0]));
     let mut made = bodies(&parts);
     for (k, x) in [0.0, 1.0, 0.4][..cranks].iter().enumerate() {
-        made.holds.push(hold(Kind::Revolute, ground(*x, 0.0), on(k, -0.25, 0.0)));
-        made.holds.push(hold(Kind::Revolute, on(k, 0.25, 0.0), on(cranks, x - 0.5, 0.0)));
+        made.holds
+            .push(hold(Kind::Revolute, ground(*x, 0.0), on(k, -0.25, 0.0)));
+        made.holds.push(hold(
+            Kind::Revolute,
+            on(k, 0.25, 0.0),
+            on(cranks, x - 0.5, 0.0),
+        ));
     }
     made
 }
@@ -206,7 +222,10 @@ fn a_third_crank_changes_nothing() {
         let values = moving.evaluated();
         assert!(values.residuals()[0] < 1e-12, "{:?}", values.residuals());
         let bar = values.x[values.x.len() - 1];
-        assert!((bar[2] - 1.0).abs() < 1e-7 && bar[3].abs() < 1e-7, "the bar turns: {bar:?}");
+        assert!(
+            (bar[2] - 1.0).abs() < 1e-7 && bar[3].abs() < 1e-7,
+            "the bar turns: {bar:?}"
+        );
         bar
     });
     for (three, two) in ends[0].iter().zip(&ends[1]) {
@@ -222,17 +241,17 @@ fn a_third_crank_changes_nothing() {
 
 #[test]
 fn what_is_held_twice_is_held_once() {
-    let scope = Scope {
-        extras: 0,
-        ..ALL
-    };
+    let scope = Scope { extras: 0, ..ALL };
     check(100, mechanisms(scope), |mechanism| {
         let Some(mut once) = moving(&mechanism, 0.03)? else {
             return Ok(());
         };
         let mut again = mechanism.clone();
         let still = |hold: &&Hold| {
-            matches!(hold.kind, Kind::Revolute | Kind::Weld(_) | Kind::Distance(_) | Kind::Orientation(_))
+            matches!(
+                hold.kind,
+                Kind::Revolute | Kind::Weld(_) | Kind::Distance(_) | Kind::Orientation(_)
+            )
         };
         let Some(hold) = mechanism.holds.iter().rfind(still) else {
             return Ok(());
@@ -260,7 +279,8 @@ fn what_is_held_twice_is_held_once() {
 fn parts_without_connection_do_not_know_of_each_other() {
     let swing = |x: f64| {
         let mut made = bodies(&[(rigid(1.3, 0.2), [x + 0.4, 0.0, 0.0])]);
-        made.holds.push(hold(Kind::Revolute, ground(x, 0.0), on(0, -0.4, 0.0)));
+        made.holds
+            .push(hold(Kind::Revolute, ground(x, 0.0), on(0, -0.4, 0.0)));
         made
     };
     let cable = || {
@@ -273,21 +293,24 @@ fn parts_without_connection_do_not_know_of_each_other() {
             strain: Strain::ThetaPrime,
         };
         let mut made = bodies(&[]);
-        made.bodies.push(Body::Cable(vec![Cable::new(parameters, None); 2]));
+        made.bodies
+            .push(Body::Cable(vec![Cable::new(parameters, None); 2]));
         made.firsts.push(0);
         made.nodes = [0.0, 0.5, 1.0].map(|x| [x, 0.0, 1.0, 0.0]).to_vec();
         let root = Point::On(Place {
             body: 0,
             at: At::Part(0.0),
         });
-        made.holds.push(hold(Kind::Revolute, ground(0.0, 0.0), root));
+        made.holds
+            .push(hold(Kind::Revolute, ground(0.0, 0.0), root));
         made
     };
     let both = |first: Mechanism, second: Mechanism| {
         let mut made = first;
         let (bodies, nodes) = (made.bodies.len(), made.nodes.len());
         made.bodies.extend(second.bodies);
-        made.firsts.extend(second.firsts.iter().map(|first| first + nodes));
+        made.firsts
+            .extend(second.firsts.iter().map(|first| first + nodes));
         made.nodes.extend(second.nodes);
         for mut hold in second.holds {
             for end in &mut hold.ends {
@@ -303,7 +326,10 @@ fn parts_without_connection_do_not_know_of_each_other() {
     let together = run(&both(swing(0.0), cable()));
     for (alone, together) in apart.iter().flatten().zip(&together) {
         for k in 0..4 {
-            assert!((alone[k] - together[k]).abs() < 1e-12, "{alone:?}, {together:?}");
+            assert!(
+                (alone[k] - together[k]).abs() < 1e-12,
+                "{alone:?}, {together:?}"
+            );
         }
     }
     let reversed = run(&both(cable(), swing(0.0)));

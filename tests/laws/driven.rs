@@ -38,10 +38,28 @@ fn driven_coordinates_go_on_without_jumps() {
                     Vector2::new(p, v)
                 });
                 let [_, v, a] = course.derivatives(t);
-                within("rate of the value", (slope.x - v).abs(), 1e-8 * (1.0 + v.abs()))?;
-                within("rate of the rate", (slope.y - a).abs(), 1e-7 * (1.0 + a.abs()))?;
+                within(
+                    "rate of the value",
+                    (slope.x - v).abs(),
+                    1e-8 * (1.0 + v.abs()),
+                )?;
+                within(
+                    "rate of the rate",
+                    (slope.y - a).abs(),
+                    1e-7 * (1.0 + a.abs()),
+                )?;
             }
             at = course.derivatives(time + h);
+            // At the end it is where the input, with its derivatives, says.
+            let [p, v, a] = [0, 1, 2].map(|k| if k <= derivatives { inputs[k] } else { 0.0 });
+            within(
+                "value at the end",
+                (at[0] - p - h * (v + 0.5 * h * a)).abs(),
+                1e-13,
+            )?;
+            if derivatives > 0 {
+                within("rate at the end", (at[1] - v - h * a).abs(), 1e-12)?;
+            }
         }
         Ok(())
     });
@@ -51,7 +69,9 @@ fn driven_coordinates_go_on_without_jumps() {
 fn driven(derivatives: usize) -> System {
     let mut mechanism = bodies(&[(Body::Particle { mass: 2.0 }, [0.0, 0.0, 0.0])]);
     let still = Kind::DrivenPosition([still(0.0); 2]);
-    mechanism.holds.push(hold(still, ground(0.0, 0.0), on(0, 0.0, 0.0)));
+    mechanism
+        .holds
+        .push(hold(still, ground(0.0, 0.0), on(0, 0.0, 0.0)));
     let drive = |axis: usize| Drive::Input {
         first: axis * (derivatives + 1),
         derivatives,
@@ -80,7 +100,10 @@ fn follows_inputs(rows: &[[f64; 3]], derivatives: usize) -> Outcome {
     for (step, row) in rows.iter().enumerate() {
         let (time, until) = (h * step as f64, h * (step + 1) as f64);
         let of = |axis: usize| -> Vec<f64> {
-            row.iter().take(derivatives + 1).map(|x| x * (1.0 + axis as f64)).collect()
+            row.iter()
+                .take(derivatives + 1)
+                .map(|x| x * (1.0 + axis as f64))
+                .collect()
         };
         let held: Vec<f64> = (0..2).flat_map(of).collect();
         for (axis, course) in courses.iter_mut().enumerate() {
@@ -99,7 +122,11 @@ fn follows_inputs(rows: &[[f64; 3]], derivatives: usize) -> Outcome {
             within("velocity", (values.v[0][axis] - v).abs(), 1e-11)?;
             // What drives it carries and accelerates it.
             let weight = if axis == 1 { 2.0 * G } else { 0.0 };
-            within("force", (force[axis] - 2.0 * a - weight).abs(), 1e-8 * (1.0 + a.abs()))?;
+            within(
+                "force",
+                (force[axis] - 2.0 * a - weight).abs(),
+                1e-8 * (1.0 + a.abs()),
+            )?;
         }
     }
     Ok(())
@@ -116,14 +143,16 @@ fn a_body_goes_where_inputs_say_and_the_reaction_is_what_it_takes() {
 #[test]
 fn a_motion_that_rigidity_contradicts_ends_the_step() {
     let mut rod = bodies(&[(rigid(1.0, 0.1), [0.5, 0.0, 0.0])]);
-    rod.holds.push(hold(Kind::Revolute, ground(0.0, 0.0), on(0, -0.5, 0.0)));
+    rod.holds
+        .push(hold(Kind::Revolute, ground(0.0, 0.0), on(0, -0.5, 0.0)));
     let away = Wave {
         constant: 1.0,
         amplitude: 0.5,
         frequency: 1.0,
     };
     let drive = Kind::DrivenPosition([away, still(0.0)]);
-    rod.holds.push(hold(drive, ground(0.0, 0.0), on(0, 0.5, 0.0)));
+    rod.holds
+        .push(hold(drive, ground(0.0, 0.0), on(0, 0.5, 0.0)));
     let Moving {
         system,
         mut state,

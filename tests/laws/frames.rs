@@ -32,7 +32,10 @@ pub fn frames() -> impl Strategy<Value = Mechanism> {
 pub fn frame(made: Mechanism) -> Frame {
     let part = |from: usize, size: f64| -> Vec<Node<4>> {
         let numbers = made.random(4 * made.nodes.len(), from);
-        numbers.chunks_exact(4).map(|x| [0, 1, 2, 3].map(|k| size * x[k])).collect()
+        numbers
+            .chunks_exact(4)
+            .map(|x| [0, 1, 2, 3].map(|k| size * x[k]))
+            .collect()
     };
     let (dx, v) = (part(5, 0.05), part(29, 1.0));
     let mut x = made.nodes.clone();
@@ -50,7 +53,9 @@ pub fn frame(made: Mechanism) -> Frame {
 /// Nodes moved along others.
 pub fn along(x: &[Node<4>], v: &[Node<4>], s: f64) -> Vec<Node<4>> {
     let pairs = x.iter().zip(v);
-    pairs.map(|(x, v)| [0, 1, 2, 3].map(|k| x[k] + s * v[k])).collect()
+    pairs
+        .map(|(x, v)| [0, 1, 2, 3].map(|k| x[k] + s * v[k]))
+        .collect()
 }
 
 impl Frame {
@@ -127,9 +132,12 @@ fn holds(made: &Mechanism) -> Vec<Hold> {
         frequency: 1.0 + number(k + 2),
     };
     let between = made.holds[0].ends;
-    let grounded = [Point::Ground(Vector2::new(number(3), number(4))), between[1]];
+    let grounded = [
+        Point::Ground(Vector2::new(number(3), number(4))),
+        between[1],
+    ];
     let mut holds = Vec::new();
-    for ends in [between, grounded] {
+    for ends in [between, grounded, made.holds[1].ends] {
         let turning = made.turns(ends[0]) && made.turns(ends[1]);
         holds.push((Kind::Distance(0.5 + 0.4 * number(5)), ends));
         if turning {
@@ -138,7 +146,10 @@ fn holds(made: &Mechanism) -> Vec<Hold> {
             holds.push((Kind::DrivenAngle(wave(8)), ends));
         }
     }
-    holds.into_iter().map(|(kind, ends)| Hold { kind, ends }).collect()
+    holds
+        .into_iter()
+        .map(|(kind, ends)| Hold { kind, ends })
+        .collect()
 }
 
 fn constraint_derivatives(frame: &Frame, hold: &Hold) -> Outcome {
@@ -201,7 +212,9 @@ fn stiffness(frame: &Frame, c: &Constraint, drives: &[Drive], t: f64) -> Outcome
     for i in 0..size {
         let unit = frame.unit(i);
         for j in 0..size {
-            let exact = slope(0.02, |s| frame.gradient(c, drives, &along(x, &unit, s), t)[j]);
+            let exact = slope(0.02, |s| {
+                frame.gradient(c, drives, &along(x, &unit, s), t)[j]
+            });
             within("stiffness", (found[(j, i)] - lambda * exact).abs(), 1e-8)?;
         }
     }

@@ -43,7 +43,11 @@ fn agrees(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
     }
     within("positions", mechanism.missing(0.0, &x).amax(), 1e-10)?;
     let exact = mechanism.augmented(0.0, (&x, &v), &a);
-    within("velocities", mechanism.missing_rates(0.0, &x, &v).amax(), 1e-8)?;
+    within(
+        "velocities",
+        mechanism.missing_rates(0.0, &x, &v).amax(),
+        1e-8,
+    )?;
     let [mut all, mut free, mut skipped] = seen.get();
     all += 1;
     skipped += u32::from(exact.weakest < 1e-3);
@@ -64,16 +68,26 @@ fn agrees(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
     let size = forces.fold(a.norm(), f64::max);
     for (i, (force, moment)) in exact.reactions.iter().enumerate() {
         let off = (found[i].0 - force).amax();
-        within(&format!("reaction of {:?}", mechanism.holds[i]), off / size, 10.0 * loss)?;
+        within(
+            &format!("reaction of {:?}", mechanism.holds[i]),
+            off / size,
+            10.0 * loss,
+        )?;
         let off = (found[i].1 - moment).abs();
-        within(&format!("moment of {:?}", mechanism.holds[i]), off / size, 10.0 * loss)?;
+        within(
+            &format!("moment of {:?}", mechanism.holds[i]),
+            off / size,
+            10.0 * loss,
+        )?;
     }
     Ok(())
 }
 
 fn agree(scope: Scope) {
     let seen = Cell::new([0; 3]);
-    check(CASES, mechanisms(scope), |mechanism| agrees(&mechanism, &seen));
+    check(CASES, mechanisms(scope), |mechanism| {
+        agrees(&mechanism, &seen)
+    });
     let [all, free, skipped] = seen.get();
     println!("{all} of {CASES} move, {free} without redundancy, {skipped} nearly singular");
     assert!(all > CASES / 2 && free > all / 2 && free < all && skipped < all / 5);

@@ -96,7 +96,10 @@ fn a_pinned_beam_falls_as_one_piece() {
 fn as_printed_it_falls_off_its_pin_and_apart() {
     let [pin, gap, tip] = pin_gap_and_tip(Formulation::AsPrinted, 1.0);
     assert!((pin - 9.68).abs() < 5e-3, "the pin moves with {pin} m/s^2");
-    assert!((gap - 0.097).abs() < 1e-3, "the elements part with {gap} m/s^2");
+    assert!(
+        (gap - 0.097).abs() < 1e-3,
+        "the elements part with {gap} m/s^2"
+    );
     assert!((tip + 9.825).abs() < 1e-3, "tip acceleration {tip}");
     // What is printed even depends on the unit of length.
     let [_, _, in_millimetres] = pin_gap_and_tip(Formulation::AsPrinted, 1e-3);
@@ -127,9 +130,7 @@ fn as_printed_connectivity_and_inertia_fail_by_orders_of_magnitude() {
 #[test]
 fn as_printed_every_body_breaks() {
     check(96, chains(ORDINARY), |mut chain| {
-        chain
-            .joints
-            .retain(|joint| joint.hold == Hold::Revolute);
+        chain.joints.retain(|joint| joint.hold == Hold::Revolute);
         if chain.elements.len() < 2 {
             return Ok(());
         }

@@ -47,7 +47,8 @@ pub fn mechanisms(scope: Scope) -> impl Strategy<Value = Mechanism> {
     })
 }
 
-/// Two bodies that can turn, from numbers; a hold names a place on each.
+/// Two bodies that can turn, from numbers; a first hold names a place on each, a second one two places on
+/// the first body.
 pub fn pair(numbers: Vec<f64>) -> Mechanism {
     let mut builder = Builder::new(numbers, ALL);
     for body in 0..2 {
@@ -61,6 +62,15 @@ pub fn pair(numbers: Vec<f64>) -> Mechanism {
     let ends = [0, 1].map(|body| builder.place(body));
     builder.shift(ends[1], Vector2::new(3.0, 2.0));
     let ends = ends.map(Point::On);
+    builder.hold(Kind::Revolute, ends);
+    // Two places on one body, often in one element.
+    let at = match builder.made.bodies[0] {
+        Body::Cable(_) => {
+            [(0.05, 0.4), (0.6, 0.95)].map(|(a, b)| At::Part(builder.dice.between(a, b)))
+        }
+        _ => [-0.4, 0.4].map(|x| At::Point([x, builder.dice.between(-0.5, 0.5)])),
+    };
+    let ends = at.map(|at| Point::On(Place { body: 0, at }));
     builder.hold(Kind::Revolute, ends);
     builder.made
 }
@@ -178,7 +188,11 @@ impl Builder {
         let direction = |heading: f64| Vector2::new(heading.cos(), heading.sin());
         let mut cables = Vec::new();
         let mut ends = vec![[at, direction(heading)]];
-        let damping_time = if self.scope.damped && self.dice.pick(2) == 0 { 0.02 } else { 0.0 };
+        let damping_time = if self.scope.damped && self.dice.pick(2) == 0 {
+            0.02
+        } else {
+            0.0
+        };
         for _ in 0..1 + self.dice.pick(3) {
             let (length, turn) = (self.dice.between(0.3, 0.8), self.dice.between(-0.3, 0.3));
             at += direction(heading + 0.5 * turn) * length;
@@ -262,7 +276,11 @@ impl Builder {
         let (ends, to) = ([first, Point::On(second)], self.end(first)[0]);
         let turns = ends.iter().all(|end| self.made.turns(*end));
         let chosen = self.dice.pick(11);
-        let wanted = if self.scope.drives || chosen < 8 { chosen } else { chosen - 6 };
+        let wanted = if self.scope.drives || chosen < 8 {
+            chosen
+        } else {
+            chosen - 6
+        };
         match wanted {
             0 => {}
             3 if turns => self.hold(Kind::Orientation(self.angle(ends)), ends),
@@ -338,7 +356,10 @@ impl Builder {
             0 => self.hold(Kind::Revolute, [Point::Ground(here), second]),
             1 if a != b && far > 0.1 => self.hold(Kind::Distance(far), [first, second]),
             2 if a != b && self.made.turns(first) && self.made.turns(second) => {
-                self.hold(Kind::Orientation(self.angle([first, second])), [first, second]);
+                self.hold(
+                    Kind::Orientation(self.angle([first, second])),
+                    [first, second],
+                );
             }
             3 if !self.made.holds.is_empty() => {
                 // The same again: redundant.

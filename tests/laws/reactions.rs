@@ -71,7 +71,10 @@ fn case(chain: &Chain) -> Case {
         ..chain.parts(Formulation::MassWeighted)
     };
     let system = System::new(parts).expect("a body with mass");
-    let (q, v) = (chain.coordinates(&system, 0.3), chain.coordinates(&system, 1.0));
+    let (q, v) = (
+        chain.coordinates(&system, 0.3),
+        chain.coordinates(&system, 1.0),
+    );
     let (state, mut work) = state(&system, &q, &v);
     let inputs = [3.0 * numbers[2], 3.0 * numbers[3], 2.0 * numbers[4]];
     let mut values = Evaluation::new(&system);
@@ -214,12 +217,21 @@ fn newton_and_euler(chain: &Chain) -> Outcome {
     // What is given out as momentum is the sum over elements.
     let (linear, angular) = values.momentum(system);
     let (exact, turning) = resultant(&e, &(chain.mass() * rate));
-    within("momentum", (linear - exact).amax(), 1e-12 * (1.0 + exact.amax()))?;
+    within(
+        "momentum",
+        (linear - exact).amax(),
+        1e-12 * (1.0 + exact.amax()),
+    )?;
     let off = (angular - turning).abs();
-    within("angular momentum given out", off, 1e-12 * (1.0 + turning.abs()))?;
+    within(
+        "angular momentum given out",
+        off,
+        1e-12 * (1.0 + turning.abs()),
+    )?;
     // Evaluating leaves the state as it was.
     let before = case.state.clone();
-    case.values.dynamics(&case.system, &case.state, &case.inputs, &mut case.work);
+    case.values
+        .dynamics(&case.system, &case.state, &case.inputs, &mut case.work);
     prop_assert_eq!(before, case.state);
     Ok(())
 }

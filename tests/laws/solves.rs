@@ -30,15 +30,16 @@ fn dense(chain: &Chain, loads: Vec<Load>) -> Dense {
     let body = &system.chains()[0];
     let e = flat(body, system.reference()) + &t * DVector::from_column_slice(&q);
     let rate = &t * DVector::from_column_slice(&v);
-    let part = |x: &DVector<f64>, j: usize| {
-        Nodal::from_column_slice(&x.as_slice()[8 * j..8 * j + 8])
-    };
+    let part =
+        |x: &DVector<f64>, j: usize| Nodal::from_column_slice(&x.as_slice()[8 * j..8 * j + 8]);
     let elements = || chain.elements.iter().enumerate();
     let blocks: Vec<_> = elements()
         .map(|(j, element)| element.stiffness(&part(&e, j), &part(&rate, j)))
         .collect();
     let stiffness = t.transpose() * diagonal(&blocks) * &t;
-    let blocks: Vec<_> = elements().map(|(j, element)| element.damping(&part(&e, j))).collect();
+    let blocks: Vec<_> = elements()
+        .map(|(j, element)| element.damping(&part(&e, j)))
+        .collect();
     let damping = t.transpose() * diagonal(&blocks) * &t;
     Dense {
         system,
@@ -90,7 +91,11 @@ fn real_solve(chain: &Chain, s: f64) -> Outcome {
 #[test]
 fn real_factors_invert_the_shifted_tangent() {
     check(CASES, (chains(ORDINARY), 0.01..2.0), |(chain, s)| {
-        if free(&chain) { real_solve(&chain, s) } else { Ok(()) }
+        if free(&chain) {
+            real_solve(&chain, s)
+        } else {
+            Ok(())
+        }
     });
 }
 
@@ -122,7 +127,11 @@ fn complex_solve(chain: &Chain, size: f64) -> Outcome {
 #[test]
 fn complex_factors_invert_the_shifted_tangent() {
     check(CASES, (chains(ORDINARY), 0.1..2.0), |(chain, size)| {
-        if free(&chain) { complex_solve(&chain, size) } else { Ok(()) }
+        if free(&chain) {
+            complex_solve(&chain, size)
+        } else {
+            Ok(())
+        }
     });
 }
 
@@ -138,7 +147,12 @@ fn turned_solve(chain: &Chain, angle: f64) -> Outcome {
         .map(|(change, reference)| {
             let x: [f64; 4] = std::array::from_fn(|k| reference[k] + change[k]);
             let [p, s] = [[x[0], x[1]], [x[2], x[3]]].map(|v| turn * Vector2::from(v));
-            [p.x - reference[0], p.y - reference[1], s.x - reference[2], s.y - reference[3]]
+            [
+                p.x - reference[0],
+                p.y - reference[1],
+                s.x - reference[2],
+                s.y - reference[3],
+            ]
         })
         .collect();
     let there = project(system, &way);

@@ -77,7 +77,9 @@ fn case((elements, joints, noise): Numbers) -> Case {
             _ => push(vec![(node, unit(2)), (other, unit(2).map(|x| -x))]),
         }
     }
-    let links: Vec<_> = (1..chain.node_count()).map(|node| (node - 1, node)).collect();
+    let links: Vec<_> = (1..chain.node_count())
+        .map(|node| (node - 1, node))
+        .collect();
     let (assembly, _) = Assembly::new(chain.node_count(), &rows, &links);
     let mut mass = Matrix::zeros(assembly.pattern());
     chain.add_mass(&assembly, &mut mass);
@@ -126,7 +128,11 @@ impl Case {
     fn mass(&self) -> DMatrix<f64> {
         self.dense(|j, r, c| {
             let m = self.chain.elements()[j].mass();
-            if r % 3 == c % 3 { m[(r / 3, c / 3)] } else { 0.0 }
+            if r % 3 == c % 3 {
+                m[(r / 3, c / 3)]
+            } else {
+                0.0
+            }
         })
     }
 
@@ -142,18 +148,20 @@ impl Case {
 
     fn tangent(&self, x: &[Node<6>]) -> Tangent<3, 6> {
         let elastic = vec![true; x.len()];
-        let mut tangent: Tangent<3, 6> =
-            Tangent::new(&self.elimination, false, &[], &[], &elastic);
+        let mut tangent: Tangent<3, 6> = Tangent::new(&self.elimination, false, &[], &[], &elastic);
         tangent.clear();
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);
-        self.chain.add_tangent((x, x), &self.elimination.assembly, k, r);
+        self.chain
+            .add_tangent((x, x), &self.elimination.assembly, k, r);
         tangent.stages.set_base(x);
         tangent
     }
 
     fn random(&self, from: usize) -> Vec<f64> {
         let n = self.elimination.coordinates();
-        (0..n).map(|i| self.noise[(from + i / 12) % 9].as_slice()[i % 12]).collect()
+        (0..n)
+            .map(|i| self.noise[(from + i / 12) % 9].as_slice()[i % 12])
+            .collect()
     }
 }
 
@@ -164,7 +172,9 @@ fn elimination(case: &Case) -> Outcome {
         let terms = case.rows[r].terms.iter().filter(|(node, _)| *node == c / 6);
         terms.map(|(_, coefficients)| coefficients[c % 6]).sum()
     });
-    let gap = (&phi * &t).iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let gap = (&phi * &t)
+        .iter()
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
     within("constraints", gap / t.amax(), 1e-13)?;
     let n = t.ncols();
     let inertia = t.transpose() * case.mass() * &t - DMatrix::<f64>::identity(n, n);
@@ -176,7 +186,10 @@ fn elimination(case: &Case) -> Outcome {
     prop_assert_eq!(n, size - held);
     // Forces go the other way.
     let mut f = case.x.clone();
-    f.iter_mut().flatten().zip(0..).for_each(|(f, i)| *f = case.random(i)[0]);
+    f.iter_mut()
+        .flatten()
+        .zip(0..)
+        .for_each(|(f, i)| *f = case.random(i)[0]);
     let (mut y, mut q) = (vec![0.0; case.elimination.scratch()], vec![0.0; n]);
     case.elimination.reduce(&f, &mut y, &mut q);
     let exact = t.transpose() * DVector::from_column_slice(f.as_flattened());
@@ -211,7 +224,8 @@ fn solves(case: &Case) -> Outcome {
     let [re, im] = [case.random(3), case.random(5)];
     let mut x = [right, re.clone(), im.clone()];
     tangent.solve_stages(&case.elimination, (&IDENTITY, &IDENTITY), &mut x);
-    let a = DMatrix::identity(n, n).map(|i: f64| shift * shift * i) + k.map(|k| Complex::new(k, 0.0));
+    let a =
+        DMatrix::identity(n, n).map(|i: f64| shift * shift * i) + k.map(|k| Complex::new(k, 0.0));
     let of = |re: &[f64], im: &[f64]| DVector::from_fn(n, |i, _| Complex::new(re[i], im[i]));
     let residual = a * of(&x[1], &x[2]) - of(&re, &im);
     within("complex solve", residual.camax(), 1e-12)
@@ -240,7 +254,10 @@ fn turned(case: &Case, axis: Vector3<f64>) -> Outcome {
     }
     let turn = Rotation3::new(Vector3::new(0.0, axis.y, axis.z));
     let there = straight.iter().map(|x| {
-        let (p, s) = (turn * Vector3::new(x[0], x[1], x[2]), turn * Vector3::x() * x[3]);
+        let (p, s) = (
+            turn * Vector3::new(x[0], x[1], x[2]),
+            turn * Vector3::x() * x[3],
+        );
         [p.x, p.y, p.z, s.x, s.y, s.z]
     });
     let there: Vec<Node<6>> = there.collect();
@@ -260,7 +277,9 @@ fn turned(case: &Case, axis: Vector3<f64>) -> Outcome {
     let mut found = [right.clone(), right.clone(), right];
     tangent.solve_stages(&case.elimination, (&IDENTITY, &IDENTITY), &mut found);
     for (found, expected) in found.iter().zip(&expected) {
-        let off = (0..n).map(|i| (found[i] - expected[i]).abs()).fold(0.0, f64::max);
+        let off = (0..n)
+            .map(|i| (found[i] - expected[i]).abs())
+            .fold(0.0, f64::max);
         let size = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         within("turned solve", off, 1e-11 * size)?;
     }

@@ -9,10 +9,7 @@ use crate::{ROWS, TIGHT};
 
 /// `q'' = -q` from `q = 0`, `v = 1`, with the power `v cos t` coming in and `v^2` dissipated.
 fn oscillator() -> Problem {
-    let mut problem = Problem::new(
-        |_, q, _| -q,
-        |_, _| [Matrix2::identity(), Matrix2::zeros()],
-    );
+    let mut problem = Problem::new(|_, q, _| -q, |_, _| [Matrix2::identity(), Matrix2::zeros()]);
     problem.powers = |t, v| [v.x * t.cos(), v.x * v.x];
     problem
 }
@@ -38,7 +35,9 @@ fn work_is_the_integral_of_power_with_the_order_of_the_method() {
                 method.begin(&mut problem, time, q, v);
                 method.attempt(&mut problem, (time, q, v), h, &TIGHT);
                 method.accept(q, v);
-                work.iter_mut().zip(method.work()).for_each(|(w, p)| *w += p);
+                work.iter_mut()
+                    .zip(method.work())
+                    .for_each(|(w, p)| *w += p);
             }
             // Both are the integral of cos^2.
             let exact = 1.0 + 0.25 * 4.0_f64.sin();
