@@ -165,8 +165,7 @@ impl<'a> Bench<'a> {
         self.repeat(title, runs, REPEATS)
     }
 
-    /// Runs everything a number of times, going round all runs; CPU times are medians.
-    pub fn repeat(&self, title: &str, runs: &[Run], times: usize) -> Result<Vec<Outcome>> {
+    fn repeat(&self, title: &str, runs: &[Run], times: usize) -> Result<Vec<Outcome>> {
         let bar = progress_bar(title, runs.len() * times);
         let mut outcomes: Vec<Outcome> = Vec::new();
         let mut cpu_times = vec![Vec::new(); runs.len()];

@@ -3,13 +3,11 @@
 use anyhow::Result;
 use serde_json::{Value, json};
 
-use super::bench::{Bench, Cost, Run};
+use super::bench::{Bench, Cost, REPEATS, Run};
 use super::numbers::{fitted_slope, three_digits};
 use super::page;
 use super::plot::{Axis, Line, Mark, Panel, draw};
 
-/// Rounds over all runs; many, since the runs of one body are short.
-const ROUNDS: usize = 7;
 const TOLERANCE: f64 = 1e-4;
 /// Simulated time, s.
 const STOP_TIME: f64 = 1.0;
@@ -148,7 +146,7 @@ pub fn chart(bench: &Bench) -> Result<String> {
         }
     }
     let choices = bench.run("bodies, choice", &choices)?;
-    let outcomes = bench.repeat("bodies", &runs, ROUNDS)?;
+    let outcomes = bench.time("bodies", &runs)?;
     let outcomes = outcomes.chunks(METHODS.len()).zip(&choices);
     let mut rows = Vec::new();
     for ((family, count), (outcomes, choice)) in plan.into_iter().zip(outcomes) {
@@ -318,7 +316,7 @@ fn section(rows: &[Row]) -> String {
 ![Cost of a step against the number of bodies](bodies.svg)
 
 One scene with 1, 10 and 100 bodies of {LENGTH} m: pendulums apart from each other, let go between the horizontal and {SPREAD} rad below it, or a chain let go from the horizontal, each link pinned to the next. Cables are those of the soft pendulum with {ELEMENTS} elements, rigid bodies uniform rods of 1 kg.
-Tolerance {TOLERANCE:e}, {STOP_TIME} s; CPU time of all steps over the number of accepted ones, rejected ones paid for; medians of {ROUNDS} runs that take turns.
+Tolerance {TOLERANCE:e}, {STOP_TIME} s; CPU time of all steps over the number of accepted ones, rejected ones paid for; medians of {REPEATS} runs that take turns.
 
 {}
 Growth: time for 100 bodies over that for 1, over that for 10, and the slope between the two largest numbers (1 = proportional):
