@@ -170,7 +170,7 @@ impl Chain {
         };
         let joints = self.joints.iter();
         Parts {
-            bodies: vec![0..nodes.len()],
+            bodies: Vec::from([0..nodes.len()]),
             nodes,
             chains: vec![self.flexible(formulation)],
             lumps: Vec::new(),

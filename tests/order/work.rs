@@ -131,7 +131,8 @@ fn a_moved_state_is_the_one_to_go_on_from() {
 
 #[test]
 fn what_ends_a_motion_ends_the_step() {
-    const ENDS: [(fn(&mut State) -> Accepted, Stop); 2] = [
+    type Settle = fn(&mut State) -> Accepted;
+    const ENDS: [(Settle, Stop); 2] = [
         (|_| Accepted::Broken, Stop::Broken),
         (|_| Accepted::RanOff(3), Stop::RanOff(3)),
     ];
