@@ -170,7 +170,7 @@ impl Chain {
         };
         let joints = self.joints.iter();
         Parts {
-            bodies: Vec::from([0..nodes.len()]),
+            bodies: std::iter::once(0..nodes.len()).collect(),
             nodes,
             chains: vec![self.flexible(formulation)],
             lumps: Vec::new(),
