@@ -26,6 +26,8 @@ const ITERATIONS: usize = 20;
 /// in between (docs/decisions/0009-constraints.md).
 const RANK: f64 = 1e-4;
 const PROJECTED_RANK: f64 = 1e-5;
+/// Pivot, relative to the first, at which the rest of the rows depends on those before.
+const PIVOT: f64 = 1e-9;
 /// Residual at which positions are on the constraints.
 const EXACT: f64 = 2e-15;
 
@@ -39,8 +41,9 @@ pub(super) struct Group {
     pub(super) rows: RowSpace,
     right: Vec<f64>,
     pub(super) lambda: Vec<f64>,
-    /// Dependent coordinates, under partitioning.
+    /// Dependent coordinates, under partitioning, and the rows that determine them (first).
     pub(super) dependent: Vec<usize>,
+    chosen: Vec<usize>,
     square: Vec<f64>,
 }
 
@@ -60,6 +63,7 @@ impl Group {
                 right: vec![0.0; *count],
                 lambda: vec![0.0; *count],
                 dependent: Vec::with_capacity(*count),
+                chosen: (0..*count).collect(),
                 square: vec![0.0; count * (count + 1)],
             }
         });
@@ -263,10 +267,13 @@ impl Group {
         own.iter().zip(self.lambda.iter().copied())
     }
 
-    /// Selects as many coordinates as there are rows, by elimination with complete pivoting.
+    /// Selects as many coordinates as there are independent rows, by elimination with complete
+    /// pivoting.
     fn select(&mut self) {
         let (m, n) = (self.rows.count(), self.coordinates.len());
         self.dependent.clear();
+        self.chosen.iter_mut().enumerate().for_each(|(i, c)| *c = i);
+        let mut largest = 0.0;
         for k in 0..m {
             let (mut best, mut size) = ((k, 0), 0.0);
             for i in k..m {
@@ -277,9 +284,13 @@ impl Group {
                 }
             }
             let (pivot_row, column) = best;
-            if size == 0.0 {
+            if k == 0 {
+                largest = size;
+            }
+            if size <= PIVOT * largest {
                 return;
             }
+            self.chosen.swap(k, pivot_row);
             for j in 0..n {
                 let value = self.rows.unit(k)[j];
                 self.rows.row_mut(k)[j] = self.rows.unit(pivot_row)[j];
@@ -303,9 +314,9 @@ impl Group {
         let w = m + 1;
         for i in 0..m {
             for (k, column) in self.dependent.iter().enumerate() {
-                self.square[i * w + k] = self.rows.unit(i)[*column];
+                self.square[i * w + k] = self.rows.unit(self.chosen[i])[*column];
             }
-            self.square[i * w + m] = self.right[i];
+            self.square[i * w + m] = self.right[self.chosen[i]];
         }
         let a = &mut self.square;
         for k in 0..m {
