@@ -7,5 +7,5 @@ pub mod function;
 mod grammar;
 pub mod householder;
 pub mod quadrature;
-pub mod sparse;
 pub mod row_space;
+pub mod sparse;

@@ -4,8 +4,8 @@ use nalgebra::Vector2;
 
 use super::{
     At, Body, CableBody, Constraints, Error, Formulation, GROUND, InputKind, InputLayout,
-    JointKind, LoadKind, MarkerReference, Motion, MotionKind, MotionValue, OutputKind, Scene, Strain,
-    Value,
+    JointKind, LoadKind, MarkerReference, Motion, MotionKind, MotionValue, OutputKind, Scene,
+    Strain, Value,
 };
 use crate::body::{self, Marker, Node};
 use crate::elements::{self, Nodal, cable};
@@ -13,8 +13,7 @@ use crate::math::function::Function;
 use crate::system::joints::{self, Joint};
 use crate::system::loads::{self, Load};
 use crate::system::{
-    Angle, BuildError, Drive, End, Lump, Parts, PlanarChain, Signal, System,
-    Constraints as Method,
+    Angle, BuildError, Constraints as Method, Drive, End, Lump, Parts, PlanarChain, Signal, System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -327,7 +326,10 @@ impl Builder<'_> {
                 MotionKind::Angle => joints::JointKind::DrivenAngle(drives[0]),
                 MotionKind::Position => joints::JointKind::DrivenPosition([drives[0], drives[1]]),
                 MotionKind::Displacement => {
-                    let joint = motion.joint.as_deref().and_then(|name| self.scene.joint(name));
+                    let joint = motion
+                        .joint
+                        .as_deref()
+                        .and_then(|name| self.scene.joint(name));
                     let along = direction(self.scene.joints[joint.unwrap_or(0)].direction);
                     joints::JointKind::DrivenWay(along, drives[0])
                 }

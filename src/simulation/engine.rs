@@ -144,7 +144,9 @@ impl Engine {
         let (joints, bodies) = system.redundant_at(state, &mut self.work);
         self.forget();
         let joints = joints.into_iter().map(|joint| self.name(joint).to_owned());
-        let bodies = bodies.into_iter().map(|b| self.scene.bodies[b].name().to_owned());
+        let bodies = bodies
+            .into_iter()
+            .map(|b| self.scene.bodies[b].name().to_owned());
         joints.chain(bodies).collect()
     }
 

@@ -145,7 +145,9 @@ impl Simulation {
     /// [`Self::initialize`]. They do no harm: what is held twice is held once.
     pub fn redundant_joints(&mut self) -> Vec<String> {
         let (engine, state) = (self.engine.as_mut(), &self.state);
-        engine.map(|engine| engine.redundant(state)).unwrap_or_default()
+        engine
+            .map(|engine| engine.redundant(state))
+            .unwrap_or_default()
     }
 
     /// Sets a real parameter or an input.

@@ -67,7 +67,11 @@ impl Cholesky {
         let range = component.variables.clone();
         scale(x, &self.roots[range.clone()]);
         let order = &pattern.order()[component.vertices.clone()];
-        for vertex in order.iter().rev().filter(|v| !pattern.range(**v).is_empty()) {
+        for vertex in order
+            .iter()
+            .rev()
+            .filter(|v| !pattern.range(**v).is_empty())
+        {
             let column = &pattern.columns[pattern.column_of[*vertex]];
             kernels::multiply_lower(pattern, column, &self.factors.values, range.start, x);
         }
