@@ -1,5 +1,7 @@
 //! Natural frequencies about a configuration, and how fast a system is at most.
 
+use nalgebra::DMatrix;
+
 use super::{Dynamics, Model, State, System, Work};
 use crate::math::eigen::{eigenvalues, symmetric_eigenvalues};
 
@@ -72,8 +74,9 @@ fn project_out(units: &[Vec<f64>], a: &mut [Vec<f64>]) {
     }
 }
 
-/// Positive imaginary parts of the eigenvalues of `[0 I; -K -G]`, smallest first; a growing motion counts
-/// as a negative frequency.
+/// Positive imaginary parts of the eigenvalues of `[0 C^T; -C -G]` with `K = C C^T`, smallest first; a growing
+/// motion counts as a negative frequency. Where `K` is not positive definite, those of `[0 I; -K -G]`, whose
+/// roundoff is that of the squares.
 fn gyroscopic(
     system: &System,
     work: &mut Work,
@@ -99,11 +102,15 @@ fn gyroscopic(
         }
         coupling.push(q);
     }
-    let entry = |i: usize, j: usize| match (i < n, j < n) {
-        (true, true) => 0.0,
-        (true, false) => f64::from(u8::from(j - n == i)),
-        (false, true) => -stiffness[j][i - n],
-        (false, false) => -coupling[j - n][i - n],
+    let symmetric = |i: usize, j: usize| 0.5 * (stiffness[i][j] + stiffness[j][i]);
+    let root = DMatrix::from_fn(n, n, symmetric).cholesky().map(|c| c.l());
+    let entry = |i: usize, j: usize| match (i < n, j < n, &root) {
+        (true, true, _) => 0.0,
+        (true, false, Some(root)) => root[(j - n, i)],
+        (true, false, None) => f64::from(u8::from(j - n == i)),
+        (false, true, Some(root)) => -root[(i - n, j)],
+        (false, true, None) => -stiffness[j][i - n],
+        (false, false, _) => -coupling[j - n][i - n],
     };
     let values = eigenvalues(2 * n, entry).unwrap_or_default();
     let size = values
