@@ -54,7 +54,7 @@ pub enum Accepted {
     AsIs,
     /// It was brought back to the constraints.
     Moved,
-    /// A slide has left its cable; the joint.
+    /// A slide would have left its cable; the joint. The state is that before the step.
     RanOff(usize),
     /// It is off the constraints and cannot be brought back.
     Broken,
@@ -81,6 +81,14 @@ impl<'a> Model<'a> {
     /// The system at a state, what inputs drive held.
     pub fn new(system: &'a System, inputs: &'a [f64], work: &'a mut Work, state: &State) -> Self {
         work.follow(state);
+        if !system.slides.is_empty() {
+            work.before.copy_from(state);
+        }
+        if system.method == Constraints::Partitioning {
+            // From the state alone, so that one restored goes on with the same bits.
+            system.place(state.time, &state.coordinates, None, work);
+            system.select(work);
+        }
         Self {
             system,
             inputs,
@@ -193,8 +201,13 @@ impl<'a> Model<'a> {
             };
             let length = system.chains[along.chain].length();
             if !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
-                return Accepted::RanOff(constraint.joint.unwrap_or(0));
+                let joint = constraint.joint.unwrap_or(0);
+                state.copy_from(&self.work.before);
+                return Accepted::RanOff(joint);
             }
+        }
+        if !system.slides.is_empty() {
+            self.work.before.copy_from(state);
         }
         Accepted::AsIs
     }

@@ -28,6 +28,8 @@ pub struct Work {
     pub(super) courses: Vec<Course>,
     pub(super) angles: Vec<f64>,
     pub(super) travel: Vec<f64>,
+    /// The state accepted last, to go back to from a step that leaves a cable.
+    pub(super) before: State,
     pub(super) groups: Vec<Group>,
     pub(super) tangent: Tangent<2, 4>,
     /// Power that comes in and that is dissipated at the last acceleration, W.
@@ -58,6 +60,7 @@ impl Work {
             courses: vec![Course::default(); system.courses],
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
+            before: system.blank_state(0.0),
             groups: Group::all(system),
             tangent: Tangent::new(
                 &system.elimination,

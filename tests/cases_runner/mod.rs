@@ -139,7 +139,7 @@ pub fn check_all(cases: &[Case]) -> Vec<Verdict> {
         }
     });
     let mut verdicts = verdicts.into_inner().expect("no panic while locked");
-    verdicts.sort_by(|(a, _), (b, _)| a.cmp(b));
+    verdicts.sort_by_key(|(a, _)| *a);
     verdicts.into_iter().map(|(_, verdict)| verdict).collect()
 }
 

@@ -5,6 +5,7 @@ is not known here is an error as well: a claim that nobody checks must not pass.
 """
 
 import csv
+import json
 import math
 
 from instance import Instance
@@ -30,8 +31,8 @@ def check_case(case):
         raise AssertionError("claims: expected at least one, found none")
 
 
-def check(claim, folder, fmu):
-    """Checks one claim of the case in a folder."""
+def check(claim, folder, fmu, case=None):
+    """Checks one claim of the case in a folder; other claims of the case may share its run."""
     if claim.get("kind") not in KINDS:
         raise AssertionError(f"kind: expected one of {', '.join(KINDS)}, found {claim.get('kind')!r}")
     function, required, optional = KINDS[claim["kind"]]
@@ -39,25 +40,21 @@ def check(claim, folder, fmu):
     missing = required - claim.keys()
     if missing:
         raise AssertionError(f"the claim lacks {', '.join(sorted(missing))}")
-    function(claim, folder, fmu)
+    function(claim, folder, fmu, case or {"claims": [claim]})
 
 
-def series(claim, folder, fmu):
+def series(claim, folder, fmu, case):
     """Columns of a reference agree at every communication point that it has."""
     reference = read_reference(folder / claim["reference"])
     columns = claim["columns"]
-    found = {}
-    with started(fmu, claim) as instance:
-        found[0.0] = instance.get(columns)
-        for time in steps(instance, claim, claim["stop_time"]):
-            found[time] = instance.get(columns)
+    found = recorded(claim, fmu, case)
     allowed = [allowance(claim, [row[column] for row in reference]) for column in columns.values()]
     errors = []
     for row in reference:
         time = next((t for t in found if abs(t - row["t"]) <= SAME_TIME * max(1.0, t)), None)
         if time is None:
             continue
-        differences = [value - row[column] for value, column in zip(found[time], columns.values())]
+        differences = [value - row[column] for value, column in zip(found[time], columns.values(), strict=True)]
         if claim.get("distance", False):
             errors.append((math.hypot(*differences), max(allowed), time, " and ".join(columns)))
         else:
@@ -75,10 +72,10 @@ def allowance(claim, column):
     return max(claim.get("absolute", 0.0), claim.get("relative", 0.0) * largest)
 
 
-def values(claim, _folder, fmu):
+def values(claim, _folder, fmu, case):
     """Variables have given values at the start or at a time."""
     expected = claim["values"]
-    found = values_at(fmu, claim, claim.get("set", {}), expected)
+    found = list(recorded(claim, fmu, case).values())[-1]
     for (name, wanted), value in zip(expected.items(), found):
         allowed = claim["relative"] * max(claim.get("scale", 0.0), abs(wanted))
         if not abs(value - wanted) <= allowed:
@@ -87,7 +84,7 @@ def values(claim, _folder, fmu):
             )
 
 
-def order(claim, _folder, fmu):
+def order(claim, _folder, fmu, _case):
     """The error of a variable falls with the order that theory gives."""
     numbers, exact = claim["over"], claim["value"]
     errors = []
@@ -111,7 +108,7 @@ def order(claim, _folder, fmu):
         )
 
 
-def critical(claim, _folder, fmu):
+def critical(claim, _folder, fmu, _case):
     """A frequency vanishes at a given start value: buckling."""
 
     def indicator(start):
@@ -128,27 +125,23 @@ def critical(claim, _folder, fmu):
         )
 
 
-def drift(claim, _folder, fmu):
+def drift(claim, _folder, fmu, case):
     """A sum of variables, less others, keeps the value it has at a time, by default the start."""
     plus, minus, after = claim["sum"], claim.get("less", []), claim.get("after", 0.0)
     if after >= claim["stop_time"]:
         raise AssertionError(f"after: expected a time before {claim['stop_time']:g}, found {after:g}")
 
-    def total(instance):
-        return math.fsum([*instance.get(plus), *(-value for value in instance.get(minus))])
-
-    with started(fmu, claim) as instance:
-        start = total(instance)
-        largest, when = 0.0, 0.0
-        for time in steps(instance, claim, claim["stop_time"]):
-            if time <= after * (1.0 + SAME_TIME):
-                start = total(instance)
-                continue
-            change = abs(total(instance) - start)
-            if not change <= largest:
-                largest, when = change, time
-            if math.isnan(change):
-                break  # no later number may hide it
+    largest, when = 0.0, 0.0
+    for time, found in recorded(claim, fmu, case).items():
+        total = math.fsum([*found[: len(plus)], *(-value for value in found[len(plus) :])])
+        if time <= after * (1.0 + SAME_TIME):
+            start = total
+            continue
+        change = abs(total - start)
+        if not change <= largest:
+            largest, when = change, time
+        if math.isnan(change):
+            break  # no later number may hide it
     if not largest <= claim["absolute"]:
         what = " - ".join([" + ".join(plus), *minus])
         raise AssertionError(
@@ -196,6 +189,71 @@ class started:
 
     def __exit__(self, *exception):
         self.instance.__exit__(*exception)
+
+
+def asked(claim):
+    """Names of the variables that a claim asks of its run, and until when."""
+    if claim["kind"] == "series":
+        return list(claim["columns"]), claim["stop_time"]
+    if claim["kind"] == "values":
+        return list(claim["values"]), claim.get("time", 0.0)
+    return [*claim["sum"], *claim.get("less", [])], claim["stop_time"]
+
+
+def sharing(claim, case):
+    """The claims of a case that the same run decides."""
+
+    def key(claim):
+        _, stop_time = asked(claim)
+        count = stop_time / claim.get("step", max(1.0, stop_time))
+        ragged = abs(count - round(count)) > SAME_TIME * count
+        common = [claim.get(name) for name in ("scene", "set", "changes", "step")]
+        return json.dumps([case.get("purpose"), *common, stop_time if ragged else None], sort_keys=True)
+
+    def takes_one_run(claim):
+        kind = claim.get("kind")
+        return kind in ("series", "values", "drift") and KINDS[kind][1] <= claim.keys()
+
+    others = [other for other in case["claims"] if takes_one_run(other)]
+    return key(claim), [other for other in others if key(other) == key(claim)]
+
+
+def recorded(claim, fmu, case):
+    """What a claim asks for by communication point, off a run that serves all claims that it can."""
+    key, others = sharing(claim, case)
+    names, stop_time = asked(claim)
+    if key not in fmu.records:
+        wanted = [asked(other) for other in others]
+        record = Record([name for names, _ in wanted for name in names if name in fmu.variables])
+        fmu.records[key] = record
+        record.run(fmu, claim, max(stop for _, stop in wanted))
+    return fmu.records[key].until(stop_time, [fmu.variable(name).name for name in names])
+
+
+class Record:
+    """Variables at every communication point of a run."""
+
+    def __init__(self, names):
+        self.names = list(dict.fromkeys(names))
+        self.rows = {}
+        self.failure = None
+
+    def run(self, fmu, claim, stop_time):
+        try:
+            with started(fmu, claim) as instance:
+                self.rows[0.0] = instance.get(self.names)
+                if stop_time > 0.0:
+                    for time in steps(instance, claim, stop_time):
+                        self.rows[time] = instance.get(self.names)
+        except Exception as error:
+            self.failure = error
+
+    def until(self, stop_time, names):
+        places = [self.names.index(name) for name in names]
+        end = stop_time * (1.0 + SAME_TIME)
+        if self.failure is not None and max(self.rows, default=-1.0) < stop_time * (1.0 - SAME_TIME):
+            raise self.failure
+        return {time: [row[i] for i in places] for time, row in self.rows.items() if time <= end}
 
 
 def values_at(fmu, claim, start, names):

@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+from itertools import count
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from instance import Fmu, Instance
 
 ROOT = Path(__file__).resolve().parents[2]
 SWING = Path(__file__).with_name("swing.json")
+MECHANISM = Path(__file__).with_name("mechanism.json")
 
 
 def package(scene, output):
@@ -29,11 +31,12 @@ class Library:
     def __init__(self, folder):
         self.folder = folder
         self.fmus = {}
+        self.numbers = count()
 
     def __call__(self, scene):
         scene = Path(scene).resolve()
         if scene not in self.fmus:
-            place = self.folder / str(len(self.fmus))
+            place = self.folder / str(next(self.numbers))
             place.mkdir()
             path = package(scene, place / f"{scene.stem}.fmu")
             self.fmus[scene] = Fmu(path, place / "extracted")
@@ -60,13 +63,20 @@ def instance(swing):
 
 
 @pytest.fixture(scope="session")
-def variant(tmp_path_factory, fmu_of):
+def variant(edited):
     """The FMU of the swing with some keys of its scene replaced."""
+    return lambda **changes: edited(SWING, lambda scene: scene.update(changes))
 
-    def make(**changes):
-        scene = json.loads(SWING.read_text(encoding="utf-8"))
-        path = tmp_path_factory.mktemp("scene") / "variant.json"
-        path.write_text(json.dumps({**scene, **changes}), encoding="utf-8")
+
+@pytest.fixture(scope="session")
+def edited(tmp_path_factory, fmu_of):
+    """The FMU of a scene that a function has changed."""
+
+    def make(scene_file, change):
+        scene = json.loads(scene_file.read_text(encoding="utf-8"))
+        change(scene)
+        path = tmp_path_factory.mktemp("scene") / scene_file.name
+        path.write_text(json.dumps(scene), encoding="utf-8")
         return fmu_of(path)
 
     return make
@@ -77,10 +87,17 @@ def case_files():
 
 
 def all_scenes():
-    """Every ready scene, every scene that a case or a claim of it names, and the swing."""
+    """Every ready scene, every scene that a case or a claim of it names, and those of these tests."""
     scenes = {path for path in (ROOT / "scenes").glob("*.json") if not path.name.endswith(".schema.json")}
     for path in case_files():
         case = json.loads(path.read_text(encoding="utf-8"))
         named = [case, *case["claims"]]
-        scenes.update(path.with_name(item["scene"]).resolve() for item in named if "scene" in item)
-    return [*sorted(scenes), SWING]
+        scenes.update(path.parent.joinpath(item["scene"]).resolve() for item in named if "scene" in item)
+        if any("scene" not in item for item in case["claims"]) and "scene" not in case:
+            scenes.add(path.with_name("scene.json"))
+    return [*sorted(scenes), SWING, MECHANISM]
+
+
+def place_of(path):
+    """A scene's place in the project, as the name of a test."""
+    return "-".join(path.resolve().relative_to(ROOT).with_suffix("").parts)

@@ -25,6 +25,8 @@ class Fmu:
         extract(path, folder)
         self.description = read_model_description(path)
         self.variables = {v.name: v for v in self.description.modelVariables}
+        # Runs that claims share, by what they were given.
+        self.records = {}
 
     def variable(self, name):
         if name not in self.variables:

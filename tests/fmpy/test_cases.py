@@ -27,7 +27,7 @@ def test_case_names_its_source(path):
 def test_claim(folder, case, claim, fmu_of):
     scene = folder / claim.get("scene", case.get("scene", "scene.json"))
     try:
-        claims.check(claim, folder, fmu_of(scene))
+        claims.check(claim, folder, fmu_of(scene), case)
     except Exception as error:
         error.add_note(f"claim: {json.dumps(claim)}")
         raise

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from conftest import ROOT, all_scenes
+from conftest import all_scenes, place_of
 from fmpy.validation import validate_fmu
 from lxml import etree
 
@@ -19,10 +19,7 @@ FUNCTIONS = """
 """.split()
 
 
-@pytest.fixture(
-    params=all_scenes(),
-    ids=lambda path: "-".join(path.resolve().relative_to(ROOT).with_suffix("").parts),
-)
+@pytest.fixture(params=all_scenes(), ids=place_of)
 def fmu(request, fmu_of):
     """The FMU of every scene of the project in turn."""
     return fmu_of(request.param)

@@ -218,6 +218,9 @@ fn section(curves: &[Curve]) -> String {
         let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
             (low.min(value), high.max(value))
         });
+        if low == high {
+            return short(low);
+        }
         format!("{} to {}", short(low), short(high))
     };
     format!(

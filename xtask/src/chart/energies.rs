@@ -221,7 +221,7 @@ fn section(rows: &[Row]) -> String {
 ![Energy drift of mechanisms](energies.svg)
 
 Undamped mechanisms of the cases, `auto`, read every {STEP} s. The drift is the change of the total energy over the largest kinetic energy of the run; negative is loss. Residuals are the largest at communication points; those of the pendulum of cables are zero, since their pins are eliminated.
-The pendulum of cables runs for 10 s: a minute of it at three tolerances takes minutes of CPU time, since it vibrates ever faster.
+The pendulum of cables runs for 10 s: a minute of it at three tolerances takes minutes of CPU time, since its energy goes over into fast vibrations.
 
 {}
 **What it means.** Constraints hold to {} whatever the tolerance and however long the run, with no constant to tune; the tolerance sets the energy alone. Drift at 1e-4, 1e-6 and 1e-8: {}. \

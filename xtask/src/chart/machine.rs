@@ -13,8 +13,17 @@ pub fn describe() -> String {
     };
     format!(
         "{model} ({system}, {processor}), one thread, {compiler}, release profile \
-         (opt-level 3, fat LTO, one codegen unit), {flags}"
+         (opt-level 3, fat LTO, one codegen unit), {flags}{}",
+        load().unwrap_or_default()
     )
+}
+
+/// How busy the machine is with this and everything else, where it tells.
+fn load() -> Option<String> {
+    let text = std::fs::read_to_string("/proc/loadavg").ok()?;
+    let load = text.split_whitespace().next()?;
+    let processors = std::thread::available_parallelism().ok()?;
+    Some(format!("; load average {load} on {processors} processors"))
 }
 
 /// Only Linux tells without a library.

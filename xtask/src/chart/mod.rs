@@ -75,13 +75,14 @@ impl Chart {
 /// Makes the named charts, or all, and says where they are.
 pub fn chart(workspace: &Workspace, charts: &[Chart]) -> Result<()> {
     let bench = Bench::new(workspace)?;
-    let machine = machine::describe();
     let wanted = |chart: &&Chart| charts.is_empty() || charts.contains(chart);
     for chart in Chart::value_variants().iter().filter(wanted) {
         let name = chart.name();
         let section = chart
             .make(&bench)
             .with_context(|| format!("the chart {name} was not made"))?;
+        // After the chart: the load is that of its last minute.
+        let machine = machine::describe();
         let names: Vec<&str> = Chart::value_variants().iter().map(|c| c.name()).collect();
         page::update(&bench.output("README.md"), &names, name, &section, &machine)?;
     }

@@ -57,9 +57,12 @@ pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Two digits, e.g. `3.1e-5`, `0.31`, `31`.
+/// Two digits, e.g. `3.1e-5`, `0.31`, `31`; zero is `0`.
 pub fn short(value: f64) -> String {
     let size = value.abs();
+    if size == 0.0 {
+        return "0".to_owned();
+    }
     if !(0.01..99.5).contains(&size) {
         return format!("{value:.1e}");
     }
