@@ -210,3 +210,52 @@ fn a_link_that_others_make_needless_is_reported() {
     });
     assert_eq!(told.map(|names| names.len()), Ok(1));
 }
+
+/// Runs a shipped scene as it proposes and returns accepted and rejected sub-steps.
+fn experiment(path: &std::path::Path) -> (u64, u64) {
+    let text = std::fs::read_to_string(path).expect("a readable scene");
+    let value: Value = serde_json::from_str(&text).expect("JSON");
+    let proposed = |key: &str| value["experiment"][key].as_f64().expect("a proposal");
+    let (stop, step) = (proposed("stop_time"), proposed("step"));
+    let mut simulation = Simulation::new(Scene::from_json(&text).expect("a scene"));
+    simulation.initialize(0.0).expect("an initial state");
+    let (mut accepted, mut rejected, mut number) = (0, 0, 0_u32);
+    while simulation.time() < stop {
+        number += 1;
+        let until = (f64::from(number) * step).min(stop);
+        simulation.step(until).expect("a step");
+        accepted += simulation.report().steps;
+        rejected += simulation.report().rejected;
+    }
+    assert_eq!(simulation.redundant_joints(), [""; 0]);
+    for index in 0..simulation.variables().len() {
+        let variable = &simulation.variables()[index];
+        if !variable.is_integer() {
+            let name = variable.name.clone();
+            let value = simulation.real(index).expect("a number");
+            assert!(value.is_finite(), "{name}: {value}");
+        }
+    }
+    (accepted, rejected)
+}
+
+#[test]
+fn shipped_scenes_run_without_a_struggle() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).expect("scenes") {
+        let path = entry.expect("a file").path();
+        if path.to_string_lossy().ends_with(".schema.json") {
+            continue;
+        }
+        count += 1;
+        let (accepted, rejected) = experiment(&path);
+        let place = path.display();
+        assert!(
+            2 * rejected < accepted,
+            "{place}: {rejected} rejected, {accepted} accepted"
+        );
+        assert!(accepted < 100_000, "{place}: {accepted} steps");
+    }
+    assert!(count >= 11, "expected the shipped scenes, found {count}");
+}
