@@ -148,5 +148,6 @@ fn a_ring_that_leaves_its_rope_stops_the_step() {
     assert!((get(&mut ring, "slide.travel") - 0.75).abs() < 1e-6);
     let failure = ring.step(1.0).expect_err("the rope ends");
     assert!(failure.reason.contains("slider `slide` has left its cable"));
-    assert!(failure.time > 0.4 && failure.time < 1.0);
+    // It stands at its last sub-step on the rope.
+    assert!(failure.time < 1.0);
 }
