@@ -10,7 +10,8 @@
 
 use nalgebra::DMatrix;
 
-use crate::math::householder::{norm, reflect, reflector};
+use crate::math::householder::{reflect, reflector};
+use crate::math::vector::norm;
 
 /// Coordinates of a node: position, then direction (the slope of a cable, the unit vector of a rigid
 /// body). Also rates of them, or forces on them.

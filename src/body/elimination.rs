@@ -16,8 +16,9 @@ use nalgebra::DMatrix;
 
 use super::assembly::Assembly;
 use super::connectivity::Node;
-use crate::math::householder::{norm, reflect, reflector};
+use crate::math::householder::{reflect, reflector};
 use crate::math::sparse::{Cholesky, Matrix};
+use crate::math::vector::norm;
 
 /// How constraints are eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

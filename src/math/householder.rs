@@ -2,6 +2,8 @@
 //!
 //! Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., algorithm 5.1.1.
 
+use super::vector::{dot, norm};
+
 /// Turns `x` into the vector `v` of a reflection that maps `x` to `beta` times the first unit
 /// vector, with `v[0] = 1`. Returns (`tau`, `beta`); a zero vector gives `tau = 0`.
 pub fn reflector(x: &mut [f64]) -> (f64, f64) {
@@ -20,15 +22,6 @@ pub fn reflector(x: &mut [f64]) -> (f64, f64) {
 pub fn reflect(v: &[f64], tau: f64, x: &mut [f64]) {
     let factor = tau * dot(v, x);
     x.iter_mut().zip(v).for_each(|(x, v)| *x -= factor * v);
-}
-
-/// Euclidean norm.
-pub fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
 #[cfg(test)]

@@ -9,3 +9,4 @@ pub mod householder;
 pub mod quadrature;
 pub mod row_space;
 pub mod sparse;
+pub mod vector;

@@ -4,6 +4,8 @@
 //! Source: modified Gram-Schmidt with column pivoting and a second pass ("twice is enough"):
 //! G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., sections 5.2.8, 5.4.1 and 5.5.5.
 
+use super::vector::{dot, norm};
+
 /// Rows `A = D P R^T Q` with `D` the sizes of the rows: `Q` has orthonormal rows, `R` is upper triangular, `P` permutes.
 #[derive(Clone, Debug, Default)]
 pub struct RowSpace {
@@ -73,13 +75,16 @@ impl RowSpace {
             .chunks_exact_mut(length.max(1))
             .zip(&mut self.sizes)
         {
-            *size = norm_squared(row).sqrt();
+            *size = norm(row);
             if *size > 0.0 {
                 row.iter_mut().for_each(|x| *x /= *size);
             }
         }
         for k in 0..count {
-            let remainder = |i: usize| norm_squared(&self.rows[i * length..(i + 1) * length]);
+            let remainder = |i: usize| {
+                let row = &self.rows[i * length..(i + 1) * length];
+                dot(row, row)
+            };
             let (mut best, mut size) = (k, remainder(k));
             for i in k + 1..count {
                 let other = remainder(i);
@@ -97,7 +102,7 @@ impl RowSpace {
                 subtract(part, unit, pivot);
                 self.r[k * count + i] += part;
             }
-            let size = norm_squared(pivot).sqrt();
+            let size = norm(pivot);
             if size.is_nan() || size <= least {
                 return;
             }
@@ -168,14 +173,6 @@ impl RowSpace {
             }
         }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn norm_squared(a: &[f64]) -> f64 {
-    dot(a, a)
 }
 
 fn subtract(factor: f64, a: &[f64], b: &mut [f64]) {

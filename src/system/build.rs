@@ -12,6 +12,7 @@ use super::signal::{Drive, Signal};
 use super::{Constraints, DrivenRow, PlanarChain, System};
 use crate::body::{Assembly, Dependent, Elimination, Formulation, Marker, Node, Row};
 use crate::math::sparse::Matrix;
+use crate::math::vector::dot;
 
 /// Part of a gradient that counts as none.
 const NOTHING: f64 = 1e-12;
@@ -400,8 +401,4 @@ fn grounded(
         nodes.extend(constraint.nodes(&[]));
     }
     nodes
-}
-
-fn dot(a: &Node<4>, b: &Node<4>) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

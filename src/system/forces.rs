@@ -6,6 +6,7 @@ use super::signal::Drive;
 use super::{PlanarChain, System, Work};
 use crate::body::Node;
 use crate::elements::Element;
+use crate::math::vector::dot;
 
 impl System {
     /// Puts the nodal coordinates and, if given, rates of a state into `work`.
@@ -189,7 +190,7 @@ impl System {
             for driven in &self.driven {
                 let rate = self.linear[driven.row].target.derivatives(&work.drives)[1];
                 let multiplier: f64 = (driven.follow.iter())
-                    .map(|(node, c)| (0..4).map(|k| c[k] * work.supply[*node][k]).sum::<f64>())
+                    .map(|(node, c)| dot(c, &work.supply[*node]))
                     .sum();
                 power[0] += multiplier * rate;
             }

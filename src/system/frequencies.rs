@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::{Dynamics, Model, State, System, Work};
 use crate::math::eigen::{eigenvalues, symmetric_eigenvalues};
+use crate::math::vector::{dot, norm};
 
 /// Steps of the Lanczos iteration, and what is added to its largest value, which it nears from below.
 const STEPS: usize = 40;
@@ -154,7 +155,7 @@ fn lanczos(n: usize, mut apply: impl FnMut(&mut [f64])) -> f64 {
     let mut v: Vec<f64> = (0..n).map(|_| random()).collect();
     let mut before = vec![0.0; n];
     let (mut diagonal, mut off) = (Vec::new(), Vec::new());
-    let mut beta = dot(&v, &v).sqrt();
+    let mut beta = norm(&v);
     for _ in 0..steps {
         if beta <= 0.0 || !beta.is_finite() {
             break;
@@ -173,7 +174,7 @@ fn lanczos(n: usize, mut apply: impl FnMut(&mut [f64])) -> f64 {
         }
         diagonal.push(alpha);
         before = std::mem::replace(&mut v, w);
-        beta = dot(&v, &v).sqrt();
+        beta = norm(&v);
         if beta <= 1e-12 * alpha.abs() {
             break;
         }
@@ -188,8 +189,4 @@ fn lanczos(n: usize, mut apply: impl FnMut(&mut [f64])) -> f64 {
     values
         .last()
         .map_or(0.0, |largest| MARGIN * largest.max(0.0))
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -17,6 +17,7 @@ use super::joints::{ConstraintKind, View};
 use super::{System, Work};
 use crate::body::Node;
 use crate::math::row_space::RowSpace;
+use crate::math::vector::dot;
 
 /// Most iterations of a projection.
 const ITERATIONS: usize = 20;
@@ -340,10 +341,6 @@ impl Group {
             q[self.dependent[k]] += a[k * w + m];
         }
     }
-}
-
-fn dot(a: &Node<4>, b: &Node<4>) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The larger number; unlike `f64::max` it does not hide a NaN.

@@ -6,6 +6,7 @@ use super::loads::{Instant, Load};
 use super::{Dynamics, Model, State, System, Work};
 use crate::body::{Marker, Node};
 use crate::elements::{Element, Nodal};
+use crate::math::vector::dot;
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
@@ -306,8 +307,4 @@ impl System {
             None => 0.0,
         }
     }
-}
-
-fn dot(a: &Node<4>, b: &Node<4>) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

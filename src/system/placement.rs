@@ -9,6 +9,7 @@ use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
 use super::joints::{Constraint, ConstraintKind, View};
 use super::{Dynamics, Model, State, System, Work};
 use crate::body::Node;
+use crate::math::vector::dot;
 
 /// Most iterations.
 const ITERATIONS: usize = 200;
@@ -283,8 +284,4 @@ fn move_body(nodes: &mut [Node<4>], way: Vector2<f64>, angle: f64) {
         let d = turn * Vector2::new(node[2], node[3]);
         *node = [p.x, p.y, d.x, d.y];
     }
-}
-
-fn dot(a: &Node<4>, b: &Node<4>) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
