@@ -270,7 +270,7 @@ impl Engine {
             Momentum(axis) => values.momentum(system).0[axis],
             AngularMomentum => values.momentum(system).1,
             CenterOfMass(axis) => values.center_of_mass(system)[axis],
-            Residual(of) => values.residuals()[of],
+            Residual(of) => values.residuals(system)[of],
         }
     }
 

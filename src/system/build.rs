@@ -95,9 +95,6 @@ impl System {
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let mut system = Self {
             reference: parts.nodes,
-            courses: (parts.drives.iter())
-                .filter(|drive| matches!(drive, Drive::Input { .. }))
-                .count(),
             breaks: breaks(&parts.drives, &parts.loads),
             grounded: grounded(&parts.loads, &nonlinear, parts.rotation, &parts.bodies),
             is_damped: chains_damped || loads_damped,

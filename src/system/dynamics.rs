@@ -5,7 +5,7 @@ use nalgebra::Complex;
 
 use super::joints::ConstraintKind;
 use super::loads::Instant;
-use super::signal::{Course, Drive};
+use super::signal::Course;
 use super::{Constraints, State, System, Work};
 use crate::body::Node;
 use crate::elements::Element;
@@ -101,14 +101,10 @@ impl<'a> Model<'a> {
     /// What inputs drive moves to where they say by `until`.
     pub fn until(self, state: &State, until: f64) -> Self {
         let h = until - state.time;
-        let mut drives = self.system.drives.iter().filter_map(|drive| match drive {
-            Drive::Input { first, derivatives } => Some(*first..first + derivatives + 1),
-            Drive::Function(_) => None,
-        });
         if h > 0.0 {
-            for (course, driven) in self.work.courses.iter_mut().zip(&state.driven) {
-                let range = drives.next().unwrap_or(0..0);
-                *course = Course::new(state.time, h, *driven, &self.inputs[range]);
+            let courses = self.work.courses.iter_mut().zip(self.system.courses());
+            for ((course, inputs), driven) in courses.zip(&state.driven) {
+                *course = Course::new(state.time, h, *driven, &self.inputs[inputs]);
             }
         }
         self

@@ -26,6 +26,8 @@ pub use signal::{Course, Drive, Signal};
 pub use state::State;
 pub use work::Work;
 
+use std::ops::Range;
+
 use nalgebra::Vector2;
 
 use crate::body::{Chain, Elimination, Node};
@@ -55,7 +57,7 @@ pub struct System {
     chains: Vec<PlanarChain>,
     lumps: Vec<Lump>,
     /// Nodes of every body.
-    bodies: Vec<std::ops::Range<usize>>,
+    bodies: Vec<Range<usize>>,
     elimination: Elimination<4>,
     joints: Vec<Joint>,
     linear: Vec<Linear>,
@@ -71,8 +73,6 @@ pub struct System {
     /// Joints with a row that repeats others.
     redundant: Vec<usize>,
     drives: Vec<Drive>,
-    /// Number of motions that inputs drive.
-    courses: usize,
     loads: Vec<Load>,
     angles: Vec<Angle>,
     /// For every slide, its constraint.
@@ -185,9 +185,17 @@ impl System {
             rates: vec![0.0; n],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
-            driven: vec![[0.0; 3]; self.courses],
+            driven: vec![[0.0; 3]; self.courses().count()],
             work: [0.0; 2],
         }
+    }
+
+    /// Inputs of every motion that inputs drive: its value and derivatives.
+    fn courses(&self) -> impl Iterator<Item = Range<usize>> {
+        self.drives.iter().filter_map(|drive| match drive {
+            Drive::Input { first, derivatives } => Some(*first..first + derivatives + 1),
+            Drive::Function(_) => None,
+        })
     }
 
     /// Whether a state has the sizes of this system.

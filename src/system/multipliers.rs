@@ -73,8 +73,7 @@ impl Group {
 }
 
 impl System {
-    /// Fills in the Jacobians at the nodal coordinates in `work`; `then` may use the rows before they
-    /// are made orthonormal.
+    /// Fills in the Jacobians at the nodal coordinates in `work`; their rows are not orthonormal yet.
     fn jacobians(&self, work: &mut Work) {
         let mut groups = std::mem::take(&mut work.groups);
         let view = self.view(work);
@@ -143,31 +142,14 @@ impl System {
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
             self.place(time, q, None, work);
-            let residual = self.position_residual(work);
+            let residual = self.position_residual(&self.view(work));
             // Two and more iterations are quadratic; what does not shrink is roundoff.
             if residual <= EXACT || residual > 0.5 * before {
                 return residual;
             }
             before = residual;
             self.jacobians(work);
-            let mut groups = std::mem::take(&mut work.groups);
-            let view = self.view(work);
-            for group in &mut groups {
-                let constraints = &self.constraints[group.constraints.clone()];
-                for (right, constraint) in group.right.iter_mut().zip(constraints) {
-                    *right = -constraint.value(&view);
-                }
-            }
-            for group in &mut groups {
-                let q = &mut q[group.coordinates.clone()];
-                if self.method == super::Constraints::Partitioning && !group.dependent.is_empty() {
-                    group.move_dependent(q);
-                } else {
-                    group.rows.factor(PROJECTED_RANK);
-                    group.rows.add_least(&group.right, q);
-                }
-            }
-            work.groups = groups;
+            self.correct(q, work, super::Constraint::value);
         }
         before
     }
@@ -176,19 +158,29 @@ impl System {
     pub(super) fn project_velocities(&self, v: &mut [f64], work: &mut Work) {
         self.jacobians(work);
         self.place_rates(v, work);
+        self.correct(v, work, constraint_rate);
+    }
+
+    /// Adds what takes `missing` away to first order, with the Jacobians in `work`.
+    fn correct(
+        &self,
+        q: &mut [f64],
+        work: &mut Work,
+        missing: impl Fn(&super::Constraint, &View<'_>) -> f64,
+    ) {
         let mut groups = std::mem::take(&mut work.groups);
         let view = self.view(work);
         for group in &mut groups {
             let constraints = &self.constraints[group.constraints.clone()];
             for (right, constraint) in group.right.iter_mut().zip(constraints) {
-                *right = -constraint_rate(constraint, &view);
+                *right = -missing(constraint, &view);
             }
-            let v = &mut v[group.coordinates.clone()];
+            let q = &mut q[group.coordinates.clone()];
             if self.method == super::Constraints::Partitioning && !group.dependent.is_empty() {
-                group.move_dependent(v);
+                group.move_dependent(q);
             } else {
                 group.rows.factor(PROJECTED_RANK);
-                group.rows.add_least(&group.right, v);
+                group.rows.add_least(&group.right, q);
             }
         }
         work.groups = groups;
@@ -202,19 +194,17 @@ impl System {
         }
     }
 
-    /// Largest residual of positions in `work`, relative to the size of the constraint.
-    pub(super) fn position_residual(&self, work: &Work) -> f64 {
-        let view = self.view(work);
-        let residual = |c: &super::Constraint| c.value(&view).abs() / c.size(&self.chains);
+    /// Largest residual of positions, relative to the size of the constraint.
+    pub(super) fn position_residual(&self, view: &View<'_>) -> f64 {
+        let residual = |c: &super::Constraint| c.value(view).abs() / c.size(&self.chains);
         let all = self.constraints.iter().chain(&self.settled);
         all.map(residual).fold(0.0, larger)
     }
 
-    /// Largest residual of velocities in `work`, relative to the size of the constraint, 1/s.
-    pub(super) fn velocity_residual(&self, work: &Work) -> f64 {
-        let view = self.view(work);
+    /// Largest residual of velocities, relative to the size of the constraint, 1/s.
+    pub(super) fn velocity_residual(&self, view: &View<'_>) -> f64 {
         let residual =
-            |c: &super::Constraint| constraint_rate(c, &view).abs() / c.size(&self.chains);
+            |c: &super::Constraint| constraint_rate(c, view).abs() / c.size(&self.chains);
         self.constraints.iter().map(residual).fold(0.0, larger)
     }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use super::joints::View;
 use super::loads::{Instant, Load};
 use super::{Dynamics, Model, State, System, Work};
 use crate::body::{Marker, Node};
@@ -25,8 +26,6 @@ pub struct Evaluation {
     angles: Vec<f64>,
     travel: Vec<f64>,
     drives: Vec<[f64; 3]>,
-    /// Residuals of positions, relative, and of velocities, 1/s.
-    residuals: [f64; 2],
     q: Vec<f64>,
 }
 
@@ -44,7 +43,6 @@ impl Evaluation {
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
             drives: vec![[0.0; 3]; system.drives.len()],
-            residuals: [0.0; 2],
             q: vec![0.0; system.coordinates()],
         }
     }
@@ -59,10 +57,6 @@ impl Evaluation {
         self.angles.copy_from_slice(&work.angles);
         self.travel.copy_from_slice(&work.travel);
         self.drives.copy_from_slice(&work.drives);
-        self.residuals = [
-            system.position_residual(work),
-            system.velocity_residual(work),
-        ];
     }
 
     /// Computes accelerations and what constraints supply.
@@ -156,16 +150,9 @@ impl Evaluation {
                 moment += u.perp(&(linear.on_second[1] * lambda));
             }
         }
-        let at = self.instant(system, inputs);
+        let (at, view) = (self.instant(system, inputs), self.view(system));
         for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
             if constraint.joint == Some(joint) {
-                let view = super::joints::View {
-                    x: &self.x,
-                    v: &self.v,
-                    drives: &self.drives,
-                    chains: &system.chains,
-                    travel: &self.travel,
-                };
                 let [position, direction] = constraint.gradient(&view).ends[1].1;
                 force -= position * *lambda;
                 moment -= u.perp(&(direction * *lambda));
@@ -190,10 +177,24 @@ impl Evaluation {
         }
     }
 
+    fn view<'a>(&'a self, system: &'a System) -> View<'a> {
+        View {
+            x: &self.x,
+            v: &self.v,
+            drives: &self.drives,
+            chains: &system.chains,
+            travel: &self.travel,
+        }
+    }
+
     /// Largest residual of non-linear constraints: of positions, relative to their size, and of
     /// velocities, relative to size over time, 1/s.
-    pub fn residuals(&self) -> [f64; 2] {
-        self.residuals
+    pub fn residuals(&self, system: &System) -> [f64; 2] {
+        let view = self.view(system);
+        [
+            system.position_residual(&view),
+            system.velocity_residual(&view),
+        ]
     }
 
     /// Kinetic energy, J.

@@ -79,15 +79,9 @@ impl System {
 
     /// Motions that inputs drive start where the inputs say.
     fn start_courses(&self, state: &mut State, inputs: &[f64]) {
-        let mut driven = state.driven.iter_mut();
-        for drive in &self.drives {
-            if let (super::Drive::Input { first, derivatives }, Some(driven)) =
-                (drive, driven_next(drive, &mut driven))
-            {
-                for (k, value) in driven.iter_mut().enumerate().take(derivatives + 1) {
-                    *value = inputs[first + k];
-                }
-            }
+        for (driven, course) in state.driven.iter_mut().zip(self.courses()) {
+            let given = course.len();
+            driven[..given].copy_from_slice(&inputs[course]);
         }
     }
 
@@ -96,11 +90,7 @@ impl System {
         for (value, angle) in state.angles.iter_mut().zip(&self.angles) {
             *value = angle.value(x, 0.0);
         }
-        for (travel, constraint) in state.travel.iter_mut().zip(&self.slides) {
-            if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
-                *travel = along.nearest(&self.chains[along.chain], x);
-            }
-        }
+        self.find_slides(x, &mut state.travel);
     }
 
     /// Moves bodies as a whole until rows and constraints hold.
@@ -108,7 +98,7 @@ impl System {
         let size = extent(x);
         let mut best = f64::INFINITY;
         for iteration in 0..=ITERATIONS {
-            self.find_slides(x, work);
+            self.find_slides(x, &mut work.travel);
             let gaps = self.gaps(x, work, size);
             let largest = gaps.iter().map(|gap| gap.abs()).fold(0.0, f64::max);
             let done = largest <= EXACT || (largest <= CLOSE && largest > 0.5 * best);
@@ -133,7 +123,7 @@ impl System {
                 move_body(&mut x[nodes.clone()], way, part[2]);
             }
         }
-        self.find_slides(x, work);
+        self.find_slides(x, &mut work.travel);
         let gaps = self.gaps(x, work, size);
         let owners = self.owners();
         let mut open: Vec<(usize, f64)> = Vec::new();
@@ -171,8 +161,9 @@ impl System {
             .collect()
     }
 
-    fn find_slides(&self, x: &[Node<4>], work: &mut Work) {
-        for (travel, constraint) in work.travel.iter_mut().zip(&self.slides) {
+    /// Where slides are on their chains, wherever they were before.
+    fn find_slides(&self, x: &[Node<4>], travel: &mut [f64]) {
+        for (travel, constraint) in travel.iter_mut().zip(&self.slides) {
             if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
                 *travel = along.nearest(&self.chains[along.chain], x);
             }
@@ -233,16 +224,6 @@ impl System {
             });
         }
         jacobian
-    }
-}
-
-fn driven_next<'a>(
-    drive: &super::Drive,
-    driven: &mut std::slice::IterMut<'a, [f64; 3]>,
-) -> Option<&'a mut [f64; 3]> {
-    match drive {
-        super::Drive::Input { .. } => driven.next(),
-        super::Drive::Function(_) => None,
     }
 }
 

@@ -57,7 +57,7 @@ impl Work {
             u: vector.clone(),
             a: vector,
             drives: vec![[0.0; 3]; system.drives.len()],
-            courses: vec![Course::default(); system.courses],
+            courses: vec![Course::default(); system.courses().count()],
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
             before: system.blank_state(0.0),

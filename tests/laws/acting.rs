@@ -5,12 +5,12 @@ use flexbody::body::Node;
 use flexbody::math::function::Function;
 use flexbody::system::loads::{Instant, Load, Rotational};
 use flexbody::system::{Angle, Signal};
-use nalgebra::{DMatrix, DVector, Vector2};
+use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 use crate::differences::{Outcome, check, within};
-use crate::frames::{Frame, along, frame, frames, slope};
-use crate::mechanism::{Acting, Body, Point, Wave};
+use crate::frames::{Frame, along, ends, frame, frames, slope, wave};
+use crate::mechanism::{Acting, Body, Point};
 
 const CASES: u32 = 200;
 
@@ -89,39 +89,28 @@ impl Acted<'_> {
 
 fn loads(frame: &Frame) -> Vec<Acted<'_>> {
     let made = &frame.made;
-    let number = |k: usize| made.noise[k];
-    let wave = |k: usize| Wave {
-        constant: 3.0 * number(k),
-        amplitude: number(k + 1),
-        frequency: 1.0 + number(k + 2),
-    };
-    let between = made.holds[0].ends;
-    let grounded = [
-        Point::Ground(Vector2::new(number(9), number(10))),
-        between[1],
-    ];
     let mut actions = Vec::new();
-    let Point::On(at) = between[0] else {
+    let Point::On(at) = made.holds[0].ends[0] else {
         return Vec::new();
     };
     for follower in [false, true] {
         actions.push(Acting::Force {
             at,
             follower,
-            size: [wave(11), wave(14)],
+            size: [wave(made, 11), wave(made, 14)],
         });
     }
     let mut rotational = Vec::new();
-    for ends in [between, grounded, made.holds[1].ends] {
+    for ends in ends(made) {
         actions.push(Acting::Moment {
             ends,
-            size: wave(17),
+            size: wave(made, 17),
         });
         actions.push(Acting::Spring {
             ends,
-            stiffness: 4.0 + number(20),
-            damping: 1.0 + number(21),
-            length: wave(22),
+            stiffness: 4.0 + made.noise[20],
+            damping: 1.0 + made.noise[21],
+            length: wave(made, 22),
         });
         let ends = ends.map(|end| made.product_end(end));
         rotational.push(Acted {
@@ -129,9 +118,9 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
             load: Load::Rotational(Rotational {
                 ends,
                 angle: 0,
-                stiffness: 3.0 + number(25),
-                damping: 1.0 + number(26),
-                rest: 7.0 * number(27),
+                stiffness: 3.0 + made.noise[25],
+                damping: 1.0 + made.noise[26],
+                rest: 7.0 * made.noise[27],
             }),
             angles: vec![Angle { ends }],
         });
@@ -140,7 +129,7 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
         if matches!(kind, Body::Cable(_)) {
             actions.push(Acting::Distributed {
                 body,
-                size: [wave(28), wave(31)],
+                size: [wave(made, 28), wave(made, 31)],
             });
         }
     }
@@ -169,7 +158,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
             let exact = slope(5e-3, |s| acted.work(&along(x, &unit, s), t));
             within("work", (force[i] - exact).abs(), 1e-8 * most)?;
         }
-        if acted.load.is_spring() {
+        if matches!(acted.load, Load::Spring(_) | Load::Rotational(_)) {
             let exact = -slope(5e-3, |s| acted.energy(&along(x, &unit, s), t));
             within("gradient", (force[i] - exact).abs(), 1e-8 * most)?;
         }

@@ -62,7 +62,7 @@ fn balance(mechanism: &Mechanism, explicit: bool, seen: &Cell<u32>) -> Outcome {
     let size = size + before[1] + supplied.abs() + dissipated.abs() + 1.0;
     within("energy", off / size, 1e-6)?;
     prop_assert!(dissipated >= -1e-12);
-    let [position, velocity] = values.residuals();
+    let [position, velocity] = values.residuals(&moving.system);
     within("residual of positions", position, 1e-12)?;
     within("residual of rates", velocity, 1e-9)?;
     let x = mechanism.apart(&values.x);

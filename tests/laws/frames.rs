@@ -123,27 +123,32 @@ pub fn slope(step: f64, f: impl Fn(f64) -> f64) -> f64 {
     (16.0 * fine - coarse) / 15.0
 }
 
+/// A random function of time.
+pub fn wave(made: &Mechanism, k: usize) -> Wave {
+    Wave {
+        constant: 3.0 * made.noise[k],
+        amplitude: made.noise[k + 1],
+        frequency: 1.0 + made.noise[k + 2],
+    }
+}
+
+/// Ends between the two bodies, from the ground to the second, and on one body.
+pub fn ends(made: &Mechanism) -> [[Point; 2]; 3] {
+    let [between, other] = [0, 1].map(|i| made.holds[i].ends);
+    let ground = Vector2::new(made.noise[3], made.noise[4]);
+    [between, [Point::Ground(ground), between[1]], other]
+}
+
 /// All kinds of holds between the two bodies, and to the ground.
 fn holds(made: &Mechanism) -> Vec<Hold> {
-    let number = |k: usize| made.noise[k];
-    let wave = |k: usize| Wave {
-        constant: 3.0 * number(k),
-        amplitude: number(k + 1),
-        frequency: 1.0 + number(k + 2),
-    };
-    let between = made.holds[0].ends;
-    let grounded = [
-        Point::Ground(Vector2::new(number(3), number(4))),
-        between[1],
-    ];
     let mut holds = Vec::new();
-    for ends in [between, grounded, made.holds[1].ends] {
+    for ends in ends(made) {
         let turning = made.turns(ends[0]) && made.turns(ends[1]);
-        holds.push((Kind::Distance(0.5 + 0.4 * number(5)), ends));
+        holds.push((Kind::Distance(0.5 + 0.4 * made.noise[5]), ends));
         if turning {
-            holds.push((Kind::Weld(3.0 * number(6)), ends));
-            holds.push((Kind::Orientation(3.0 * number(7)), ends));
-            holds.push((Kind::DrivenAngle(wave(8)), ends));
+            holds.push((Kind::Weld(3.0 * made.noise[6]), ends));
+            holds.push((Kind::Orientation(3.0 * made.noise[7]), ends));
+            holds.push((Kind::DrivenAngle(wave(made, 8)), ends));
         }
     }
     holds

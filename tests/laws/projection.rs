@@ -80,7 +80,7 @@ fn shortest(mechanism: &Mechanism) -> Outcome {
     }
     moving.state = state;
     let values = moving.evaluated();
-    let [position, velocity] = values.residuals();
+    let [position, velocity] = values.residuals(&moving.system);
     within("residual of positions", position, 1e-12)?;
     within("residual of rates", velocity, 1e-10)?;
     let missing = mechanism.missing(0.0, &mechanism.apart(&values.x)).amax();

@@ -84,12 +84,14 @@ impl Target {
                 [p + offset, v, a]
             }
             Self::Cosine(index) => {
-                let ([p, v, a], (sin, cos)) = (drives[index], drives[index][0].sin_cos());
-                [cos + 0.0 * p, -sin * v, -cos * v * v - sin * a]
+                let [p, v, a] = drives[index];
+                let (sin, cos) = p.sin_cos();
+                [cos, -sin * v, -cos * v * v - sin * a]
             }
             Self::Sine(index) => {
-                let ([p, v, a], (sin, cos)) = (drives[index], drives[index][0].sin_cos());
-                [sin + 0.0 * p, cos * v, cos * a - sin * v * v]
+                let [p, v, a] = drives[index];
+                let (sin, cos) = p.sin_cos();
+                [sin, cos * v, cos * a - sin * v * v]
             }
         }
     }
@@ -290,14 +292,6 @@ impl Joint {
             joint: Some(index),
             kind,
         }));
-    }
-
-    /// Whether it can transmit a force.
-    pub fn has_force(&self) -> bool {
-        !matches!(
-            self.kind,
-            JointKind::Orientation(_) | JointKind::DrivenAngle(_)
-        )
     }
 }
 

@@ -117,11 +117,6 @@ impl Load {
         }
     }
 
-    /// Whether it stores energy.
-    pub fn is_spring(&self) -> bool {
-        matches!(self, Self::Spring(_) | Self::Rotational(_))
-    }
-
     /// Its sizes that change in time.
     pub fn signals(&self) -> Vec<&Signal> {
         match self {
