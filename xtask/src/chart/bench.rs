@@ -100,6 +100,18 @@ pub struct Cost {
     pub cpu_time: f64,
 }
 
+impl Cost {
+    /// CPU time of an accepted step, s; rejected ones are paid for.
+    pub fn per_step(&self) -> f64 {
+        self.cpu_time / self.steps
+    }
+
+    /// CPU time of a Newton iteration, s.
+    pub fn per_iteration(&self) -> f64 {
+        self.cpu_time / self.newton_iterations
+    }
+}
+
 /// What came out of a run.
 pub struct Outcome {
     /// Outputs at the communication points; those before the failure if there was one.

@@ -162,20 +162,12 @@ pub fn chart(bench: &Bench) -> Result<String> {
     Ok(section(&rows))
 }
 
-fn per_step(cost: &Cost) -> f64 {
-    cost.cpu_time / cost.steps
-}
-
-fn per_iteration(cost: &Cost) -> f64 {
-    cost.cpu_time / cost.newton_iterations
-}
-
 type Quantity = (&'static str, fn(&Row) -> f64);
 
 const QUANTITIES: [Quantity; 3] = [
-    ("radau, a Newton iteration", |row| per_iteration(&row.radau)),
-    ("radau, a step", |row| per_step(&row.radau)),
-    ("rk4, a step", |row| per_step(&row.rk4)),
+    ("radau, a Newton iteration", |row| row.radau.per_iteration()),
+    ("radau, a step", |row| row.radau.per_step()),
+    ("rk4, a step", |row| row.rk4.per_step()),
 ];
 
 /// A quantity against the number of bodies of a family.
@@ -207,11 +199,11 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
             row.radau.steps.to_string(),
             row.radau.rejected.to_string(),
             row.radau.newton_iterations.to_string(),
-            format!("{:.3e}", per_iteration(&row.radau)),
-            format!("{:.3e}", per_step(&row.radau)),
+            format!("{:.3e}", row.radau.per_iteration()),
+            format!("{:.3e}", row.radau.per_step()),
             row.rk4.steps.to_string(),
             row.rk4.rejected.to_string(),
-            format!("{:.3e}", per_step(&row.rk4)),
+            format!("{:.3e}", row.rk4.per_step()),
         ]
     };
     let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
@@ -254,11 +246,11 @@ fn table(rows: &[Row]) -> String {
             row.family.name.to_owned(),
             row.count.to_string(),
             row.chosen.clone(),
-            three_digits(1e6 * per_iteration(&row.radau)),
+            three_digits(1e6 * row.radau.per_iteration()),
             format!("{:.1}", row.radau.newton_iterations / row.radau.steps),
-            three_digits(1e6 * per_step(&row.radau)),
+            three_digits(1e6 * row.radau.per_step()),
             rejected(&row.radau),
-            three_digits(1e6 * per_step(&row.rk4)),
+            three_digits(1e6 * row.rk4.per_step()),
             rejected(&row.rk4),
         ]
     };

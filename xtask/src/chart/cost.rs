@@ -71,20 +71,12 @@ fn explicit_runs(bench: &Bench, scene: &Value) -> Result<Vec<Run>> {
     Ok(runs)
 }
 
-fn per_step(cost: &Cost) -> f64 {
-    cost.cpu_time / cost.steps
-}
-
-fn per_iteration(cost: &Cost) -> f64 {
-    cost.cpu_time / cost.newton_iterations
-}
-
 type Quantity = (&'static str, fn(&Row) -> f64);
 
 const QUANTITIES: [Quantity; 3] = [
-    ("rk4, a step", |row| per_step(&row.rk4)),
-    ("radau, a step", |row| per_step(&row.radau)),
-    ("radau, a Newton iteration", |row| per_iteration(&row.radau)),
+    ("rk4, a step", |row| row.rk4.per_step()),
+    ("radau, a step", |row| row.radau.per_step()),
+    ("radau, a Newton iteration", |row| row.radau.per_iteration()),
 ];
 
 fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
@@ -104,12 +96,12 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
             row.elements.to_string(),
             row.rk4.steps.to_string(),
             row.rk4.rejected.to_string(),
-            format!("{:.3e}", per_step(&row.rk4)),
+            format!("{:.3e}", row.rk4.per_step()),
             row.radau.steps.to_string(),
             row.radau.rejected.to_string(),
             row.radau.newton_iterations.to_string(),
-            format!("{:.3e}", per_step(&row.radau)),
-            format!("{:.3e}", per_iteration(&row.radau)),
+            format!("{:.3e}", row.radau.per_step()),
+            format!("{:.3e}", row.radau.per_iteration()),
         ]
     };
     let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
@@ -155,8 +147,8 @@ fn section(rows: &[Row]) -> String {
     ];
     let cells = |row: &Row| {
         let n = f64::from(row.elements);
-        let (rk4, radau) = (per_step(&row.rk4), per_step(&row.radau));
-        let iteration = per_iteration(&row.radau);
+        let (rk4, radau) = (row.rk4.per_step(), row.radau.per_step());
+        let iteration = row.radau.per_iteration();
         vec![
             row.elements.to_string(),
             three_digits(1e6 * rk4),

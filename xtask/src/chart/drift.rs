@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 
 use super::bench::{Bench, Outcome, Run};
-use super::numbers::{short, three_digits};
+use super::numbers::{peaks, short, three_digits};
 use super::page;
 use super::plot::{Axis, Line, Mark, Panel, draw};
 
@@ -156,16 +156,6 @@ fn write(bench: &Bench, drifts: &[Drift]) -> Result<()> {
         },
     ];
     draw(&bench.output("drift.svg"), &panels)
-}
-
-/// Largest drift so far, second by second.
-fn peaks(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let mut largest = 0.0_f64;
-    let so_far = curve.iter().map(|(time, drift)| {
-        largest = largest.max(drift.abs());
-        (*time, largest)
-    });
-    so_far.skip(10).step_by(10).collect()
 }
 
 fn table(drifts: &[Drift]) -> String {

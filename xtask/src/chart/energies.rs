@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use super::bench::{Bench, Outcome, Run};
-use super::numbers::{short, three_digits};
+use super::numbers::{peaks, short, three_digits};
 use super::page;
 use super::plot::{Axis, Line, Mark, Panel, draw};
 
@@ -166,16 +166,6 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
         },
     ];
     draw(&bench.output("energies.svg"), &panels)
-}
-
-/// Largest drift so far, every half second.
-fn peaks(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let mut largest = 0.0_f64;
-    let so_far = curve.iter().map(|(time, drift)| {
-        largest = largest.max(drift.abs());
-        (*time, largest)
-    });
-    so_far.skip(10).step_by(10).collect()
 }
 
 fn section(rows: &[Row]) -> String {

@@ -11,6 +11,16 @@ pub fn median(values: &[f64]) -> f64 {
     }
 }
 
+/// Largest size so far of a curve over time, at every tenth point.
+pub fn peaks(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut largest = 0.0_f64;
+    let so_far = curve.iter().map(|(time, value)| {
+        largest = largest.max(value.abs());
+        (*time, largest)
+    });
+    so_far.skip(10).step_by(10).collect()
+}
+
 /// Slope of the straight line through two points on logarithmic axes.
 pub fn slope(a: (f64, f64), b: (f64, f64)) -> f64 {
     (b.1 / a.1).ln() / (b.0 / a.0).ln()
