@@ -1,6 +1,10 @@
 //! What the charts compare the product with: integrators and formulations that did not win.
 //! `cargo xtask chart` calls this program as it calls `flexbody`; nothing here is in an FMU.
 
+mod integrate;
+mod integrators;
+mod scene;
+
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -13,8 +17,20 @@ struct Arguments {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    /// Integrates a scene with a named method.
+    Integrate(integrate::Integrate),
+}
 
 fn main() -> ExitCode {
-    match Arguments::parse().command {}
+    let outcome = match Arguments::parse().command {
+        Command::Integrate(arguments) => integrate::integrate(&arguments),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("lab: {message}");
+            ExitCode::FAILURE
+        }
+    }
 }

@@ -1,0 +1,272 @@
+//! `lab integrate`: a scene with a named integrator, at a fixed step or at a tolerance.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use flexbody::body::Marker;
+use flexbody::integrators::{Attempt, Counts, Method, Stop, Tolerance, advance};
+use flexbody::scene::OutputKind;
+use flexbody::system::{Accepted, Dynamics, Evaluation, Model, State, natural_frequencies};
+
+use crate::integrators::{self, Build, Probe, Tally};
+use crate::scene::{Outcome, Start, at, read};
+
+/// Into how many pieces a step is divided at most.
+const MOST_PIECES: f64 = 64.0;
+
+/// What to integrate and how.
+#[derive(clap::Args)]
+pub struct Integrate {
+    /// Scene file.
+    scene: PathBuf,
+    /// Integrator: see `integrators/mod.rs`.
+    #[arg(long)]
+    method: String,
+    /// Longest step, s: fixed steps that divide the time between outputs.
+    #[arg(long)]
+    step: Option<f64>,
+    /// Relative tolerance: of every step where there is no fixed one, else what Newton's method leaves.
+    #[arg(long, default_value_t = 1e-6)]
+    tolerance: f64,
+    /// Time at which to end, s.
+    #[arg(long)]
+    stop_time: f64,
+    /// Time between outputs, s.
+    #[arg(long)]
+    every: f64,
+    /// Value of a body, e.g. `rod.density=7800`; may be repeated.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// CSV file.
+    #[arg(long)]
+    output: PathBuf,
+    /// JSON file.
+    #[arg(long)]
+    report: PathBuf,
+}
+
+/// What all steps took together.
+#[derive(Default)]
+struct Cost {
+    counts: Counts,
+    cpu_time: Duration,
+    tally: Tally,
+}
+
+/// Runs the subcommand.
+pub fn integrate(arguments: &Integrate) -> Outcome<()> {
+    let scene = read(&arguments.scene, &arguments.set)?;
+    let mut start = Start::new(scene)?;
+    let tolerance = Tolerance {
+        relative: arguments.tolerance,
+        position: start.assembled.system.scale(),
+        time: 1.0 / rate(&mut start),
+    };
+    let mut table = Outputs::new(&start);
+    let nodes = Arc::new(Mutex::new(start.assembled.nodes.clone()));
+    let build = Build {
+        start: &start,
+        nodes: nodes.clone(),
+        fixed: arguments.step.is_some(),
+    };
+    let mut method = integrators::build(&arguments.method, &build)?;
+    let watches = arguments.method == "energy_momentum";
+    let (system, inputs) = (&start.assembled.system, &start.inputs[..]);
+    let (mut state, mut work) = (start.state.clone(), start.work.clone());
+    let mut cost = Cost::default();
+    table.add(&start, &state, &mut work);
+    // As many as fit, but for rounding.
+    let points = (arguments.stop_time / arguments.every - 1e-9)
+        .ceil()
+        .max(1.0) as u64;
+    for point in 1..=points {
+        let until = (point as f64 * arguments.every).min(arguments.stop_time);
+        let model = Model::new(system, inputs, &mut work, &state);
+        let mut probe = Probe::new(model, watches.then(|| nodes.clone()));
+        let started = ThreadTime::now();
+        let (counts, outcome) = match arguments.step {
+            Some(step) => fixed(
+                &mut *method,
+                &mut probe,
+                &mut state,
+                (until, step),
+                &tolerance,
+            ),
+            None => advance(&mut *method, &mut probe, &mut state, until, &tolerance),
+        };
+        cost.cpu_time += started.elapsed();
+        cost.tally.add(&probe.tally);
+        cost.counts.steps += counts.steps;
+        cost.counts.rejected += counts.rejected;
+        cost.counts.newton_iterations += counts.newton_iterations;
+        outcome.map_err(|stop| format!("{}: {stop:?} at {} s", arguments.method, state.time))?;
+        table.add(&start, &state, &mut work);
+    }
+    std::fs::write(&arguments.output, table.text).map_err(|e| at(&arguments.output, e))?;
+    let report = cost.json(&arguments.method);
+    std::fs::write(&arguments.report, report).map_err(|e| at(&arguments.report, e))
+}
+
+/// Steps of equal length from one output or jump to the next.
+fn fixed(
+    method: &mut dyn Method,
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+    (until, step): (f64, f64),
+    tolerance: &Tolerance,
+) -> (Counts, Result<(), Stop>) {
+    let mut counts = Counts::default();
+    while state.time < until {
+        let next = dynamics.breaks().iter().find(|t| **t > state.time);
+        let end = next.map_or(until, |t| t.min(until));
+        let (from, way) = (state.time, end - state.time);
+        // History goes on over outputs but not over jumps.
+        if from <= 0.0 || dynamics.breaks().contains(&from) {
+            method.begin(dynamics, from, &state.coordinates, &state.rates);
+        }
+        let before = method.newton_iterations();
+        let pieces = (way / step - 1e-9).ceil().max(1.0) as u64;
+        let h = way / pieces as f64;
+        for piece in 1..=pieces {
+            let target = if piece == pieces {
+                end
+            } else {
+                from + piece as f64 * h
+            };
+            if let Err(stop) = whole(method, dynamics, state, (target, tolerance), &mut counts) {
+                return (counts, Err(stop));
+            }
+        }
+        counts.newton_iterations += method.newton_iterations() - before;
+        if !state.coordinates.iter().all(|q| q.is_finite()) {
+            return (counts, Err(Stop::NotFinite));
+        }
+    }
+    (counts, Ok(()))
+}
+
+/// One step to a time, in halves where the iteration does not converge.
+fn whole(
+    method: &mut dyn Method,
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+    (target, tolerance): (f64, &Tolerance),
+    counts: &mut Counts,
+) -> Result<(), Stop> {
+    let way = target - state.time;
+    let mut h = way;
+    while state.time < target {
+        let now = (state.time, &state.coordinates[..], &state.rates[..]);
+        let left = target - state.time;
+        let last = left <= h * (1.0 + 1e-9);
+        let outcome = method.attempt(dynamics, now, if last { left } else { h }, tolerance);
+        let Attempt::Done(_) = outcome else {
+            counts.rejected += 1;
+            h *= 0.5;
+            if h < way / MOST_PIECES {
+                return Err(Stop::StepTooSmall);
+            }
+            continue;
+        };
+        method.accept(&mut state.coordinates, &mut state.rates);
+        state.time = if last { target } else { state.time + h };
+        counts.steps += 1;
+        match dynamics.accepted(state) {
+            Accepted::AsIs => {}
+            Accepted::Moved => {
+                method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
+            }
+            Accepted::RanOff(joint) => return Err(Stop::RanOff(joint)),
+            Accepted::Broken => return Err(Stop::Broken),
+        }
+    }
+    Ok(())
+}
+
+/// How fast the scene moves, 1/s, as the product has it: by its motion at the start, by gravity; where
+/// it has neither, by its slowest oscillation.
+fn rate(start: &mut Start) -> f64 {
+    let system = &start.assembled.system;
+    let mut evaluation = Evaluation::new(system);
+    evaluation.kinematics(system, &start.state, &mut start.work);
+    let kinetic = evaluation.kinetic_energy(system);
+    let (size, mass) = (system.size(), system.mass());
+    let motion = (2.0 * kinetic / mass).sqrt() / size;
+    let gravity = (system.gravity().norm() / size).sqrt();
+    let rate = motion.max(gravity).max(start.scene.rotation.abs());
+    if rate > 0.0 {
+        return rate;
+    }
+    let few = system.coordinates().min(12);
+    let found = natural_frequencies(system, &start.inputs, &mut start.work, &start.state, few);
+    let least = 1e-3 * found.last().copied().unwrap_or(1.0);
+    found.into_iter().find(|w| *w > least).unwrap_or(1.0)
+}
+
+impl Cost {
+    /// One line of JSON; CPU time in seconds.
+    fn json(&self, method: &str) -> String {
+        format!(
+            "{{\"method\": \"{method}\", \"steps\": {}, \"rejected\": {}, \"newton_iterations\": {}, \
+             \"accelerations\": {}, \"linearizations\": {}, \"factorizations\": {}, \"solves\": {}, \
+             \"cpu_time\": {:?}}}\n",
+            self.counts.steps,
+            self.counts.rejected,
+            self.counts.newton_iterations,
+            self.tally.accelerations,
+            self.tally.linearizations,
+            self.tally.factorizations,
+            self.tally.solves,
+            self.cpu_time.as_secs_f64()
+        )
+    }
+}
+
+/// Positions of markers that the scene reads, energies and momenta, as CSV.
+struct Outputs {
+    markers: Vec<Marker>,
+    evaluation: Evaluation,
+    text: String,
+}
+
+impl Outputs {
+    fn new(start: &Start) -> Self {
+        let read = start.scene.outputs.iter();
+        let names: Vec<&str> = read
+            .filter(|output| output.kind == OutputKind::Position)
+            .filter_map(|output| output.marker.as_deref())
+            .collect();
+        let found = names.iter().filter_map(|name| start.marker(name));
+        let mut header = vec!["time".to_owned()];
+        for name in &names {
+            header.extend([format!("{name}.position[1]"), format!("{name}.position[2]")]);
+        }
+        let rest = ["kinetic", "strain", "gravity"].map(|kind| format!("energy.{kind}"));
+        header.extend(rest);
+        header.extend(["momentum[1]", "momentum[2]", "angular_momentum"].map(str::to_owned));
+        Self {
+            markers: found.map(|marker| start.assembled.marker(marker)).collect(),
+            evaluation: Evaluation::new(&start.assembled.system),
+            text: header.join(",") + "\n",
+        }
+    }
+
+    fn add(&mut self, start: &Start, state: &State, work: &mut flexbody::system::Work) {
+        let (system, values) = (&start.assembled.system, &mut self.evaluation);
+        values.kinematics(system, state, work);
+        let mut row = vec![state.time];
+        for marker in &self.markers {
+            let position = marker.position(&values.x);
+            row.extend([position[0], position[1]]);
+        }
+        row.push(values.kinetic_energy(system));
+        row.push(values.strain_energy(system));
+        row.push(values.gravity_energy(system));
+        let (momentum, angular) = values.momentum(system);
+        row.extend([momentum[0], momentum[1], angular]);
+        let words: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
+        self.text += &(words.join(",") + "\n");
+    }
+}

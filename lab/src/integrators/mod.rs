@@ -1,0 +1,111 @@
+//! Integrators that the product's are compared with: one file a method, all of them methods of the
+//! library's trait, so that one that wins moves over as it is.
+//!
+//! | name | method |
+//! |---|---|
+//! | `verlet` | velocity Verlet |
+//! | `rk4` | the product's, here also at a fixed step |
+//! | `dopri5` | Dormand and Prince 5(4) |
+//! | `rkn43`, `rkn64` | Nystrom pairs of Dormand, El-Mikkawy and Prince |
+//! | `srkn4` | symplectic splitting of Blanes and Moan |
+//! | `gauss6` | Gauss, three stages |
+//! | `radau` | the product's, here also at a fixed step |
+//! | `alpha_1.0`, `alpha_0.8`, `alpha_0.6` | generalized-alpha by its spectral radius |
+//! | `trapezoid`, `midpoint` | trapezoidal rule, implicit midpoint rule |
+//! | `energy_momentum` | conserves energy and momenta |
+
+mod alpha;
+mod dopri5;
+mod energy_momentum;
+mod gauss;
+mod midpoint;
+mod newton;
+mod nystrom;
+#[cfg(test)]
+mod order;
+mod probe;
+mod splitting;
+mod verlet;
+
+use std::sync::{Arc, Mutex};
+
+use flexbody::body::Node;
+use flexbody::integrators::{Method, Radau, Rk4};
+use flexbody::scene::LoadKind;
+use flexbody::system::fastest;
+
+use crate::scene::{Outcome, Start};
+
+pub use probe::{Probe, Tally};
+
+/// What methods are made from.
+pub struct Build<'a> {
+    /// The system at its start.
+    pub start: &'a Start,
+    /// Where the dynamics leave nodal coordinates, for a method that needs them.
+    pub nodes: Arc<Mutex<Vec<Node<4>>>>,
+    /// Whether the step is fixed: nothing reads error estimates.
+    pub fixed: bool,
+}
+
+/// A method by its name.
+pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
+    let n = build.start.state.rates.len();
+    let only_positions = || match reads_rates(build.start) {
+        true => Err(format!(
+            "{name}: expected accelerations that do not read rates"
+        )),
+        false => Ok(()),
+    };
+    Ok(match name {
+        "verlet" => Box::new(verlet::Verlet::new(n)),
+        "rk4" => {
+            let (start, mut work) = (build.start, build.start.work.clone());
+            let system = &start.assembled.system;
+            let (frequency, decay) = fastest(system, &start.inputs, &mut work, &start.state);
+            Box::new(Rk4::new(n, frequency, decay))
+        }
+        "dopri5" => Box::new(dopri5::Dopri5::new(n)),
+        "rkn43" | "rkn64" => {
+            only_positions()?;
+            match name {
+                "rkn43" => Box::new(nystrom::Nystrom::new(&nystrom::RKN43, n)),
+                _ => Box::new(nystrom::Nystrom::new(&nystrom::RKN64, n)),
+            }
+        }
+        "srkn4" => {
+            only_positions()?;
+            Box::new(splitting::Splitting::new(n))
+        }
+        "gauss6" => Box::new(gauss::Gauss::new(n)),
+        "radau" => Box::new(Radau::new(n)),
+        "alpha_1.0" => Box::new(alpha::Alpha::new(alpha::Weights::of(1.0), n, build.fixed)),
+        "alpha_0.8" => Box::new(alpha::Alpha::new(alpha::Weights::of(0.8), n, build.fixed)),
+        "alpha_0.6" => Box::new(alpha::Alpha::new(alpha::Weights::of(0.6), n, build.fixed)),
+        "trapezoid" => Box::new(alpha::Alpha::new(alpha::TRAPEZOID, n, build.fixed)),
+        "midpoint" => Box::new(midpoint::Midpoint::new(n)),
+        "energy_momentum" => {
+            only_positions()?;
+            Box::new(energy_momentum::EnergyMomentum::new(build)?)
+        }
+        _ => return Err(format!("--method {name}: no method of this name")),
+    })
+}
+
+/// Whether accelerations depend on rates.
+fn reads_rates(start: &Start) -> bool {
+    let scene = &start.scene;
+    let damped = |damping: Option<f64>| damping.is_some_and(|d| d != 0.0);
+    let system = &start.assembled.system;
+    system.constraints() > 0
+        || scene.rotation != 0.0
+        || system.chains().iter().any(|chain| chain.is_damped())
+        || scene.joints.iter().any(|joint| damped(joint.damping))
+        || (scene.loads.iter()).any(|l| l.kind == LoadKind::SpringDamper && damped(l.damping))
+}
+
+/// Error of a step of a method whose error shrinks with this power of the step, such that the library's
+/// control, made for power 4, changes the step as it should.
+fn rescaled(error: f64, power: f64) -> f64 {
+    error.powf(4.0 / power)
+}

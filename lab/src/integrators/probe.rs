@@ -1,0 +1,116 @@
+//! A system that counts what integrators ask of it.
+
+use std::sync::{Arc, Mutex};
+
+use flexbody::body::Node;
+use flexbody::system::{Accepted, Dynamics, Model, State};
+use nalgebra::Complex;
+
+/// What was asked.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tally {
+    /// Accelerations.
+    pub accelerations: u64,
+    /// Tangents.
+    pub linearizations: u64,
+    /// Factorizations; a complex one counts as one.
+    pub factorizations: u64,
+    /// Solves; one for three stages counts as one.
+    pub solves: u64,
+}
+
+impl Tally {
+    /// Adds another one.
+    pub fn add(&mut self, other: &Self) {
+        self.accelerations += other.accelerations;
+        self.linearizations += other.linearizations;
+        self.factorizations += other.factorizations;
+        self.solves += other.solves;
+    }
+}
+
+/// A model that counts, and leaves the nodal coordinates of every acceleration where told.
+pub struct Probe<'a> {
+    model: Model<'a>,
+    nodes: Option<Arc<Mutex<Vec<Node<4>>>>>,
+    /// What was asked so far.
+    pub tally: Tally,
+}
+
+impl<'a> Probe<'a> {
+    /// Of a model.
+    pub fn new(model: Model<'a>, nodes: Option<Arc<Mutex<Vec<Node<4>>>>>) -> Self {
+        let tally = Tally::default();
+        Self {
+            model,
+            nodes,
+            tally,
+        }
+    }
+}
+
+impl Dynamics for Probe<'_> {
+    fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        self.tally.accelerations += 1;
+        self.model.acceleration(time, q, v, a);
+        if let Some(nodes) = &self.nodes
+            && let Ok(mut nodes) = nodes.lock()
+        {
+            nodes.copy_from_slice(&self.model.work.x);
+        }
+    }
+
+    fn power(&self) -> [f64; 2] {
+        self.model.power()
+    }
+
+    fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
+        self.tally.linearizations += 1;
+        self.model.linearize(time, q, v);
+    }
+
+    fn factor(&mut self, s: f64) -> bool {
+        self.tally.factorizations += 1;
+        self.model.factor(s)
+    }
+
+    fn factor_complex(&mut self, s: Complex<f64>) -> bool {
+        self.tally.factorizations += 1;
+        self.model.factor_complex(s)
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.tally.solves += 1;
+        self.model.solve(x);
+    }
+
+    fn set_stage(&mut self, stage: usize) {
+        self.model.set_stage(stage);
+    }
+
+    fn solve_stages(
+        &mut self,
+        forward: &[[f64; 3]; 3],
+        back: &[[f64; 3]; 3],
+        stages: &mut [Vec<f64>; 3],
+    ) {
+        self.tally.solves += 1;
+        self.model.solve_stages(forward, back, stages);
+    }
+
+    fn apply_damping(&mut self, x: &mut [f64]) {
+        self.model.apply_damping(x);
+    }
+
+    fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64 {
+        self.model.largest_turn(from, to)
+    }
+
+    fn accepted(&mut self, state: &mut State) -> Accepted {
+        self.model.accepted(state)
+    }
+
+    fn breaks(&self) -> &[f64] {
+        self.model.breaks()
+    }
+}

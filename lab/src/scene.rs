@@ -1,0 +1,110 @@
+//! Scenes with values set, and systems ready to start.
+
+use std::path::Path;
+
+use flexbody::scene::{Assembled, Initial, MarkerReference, Scene, assemble};
+use flexbody::system::{State, Work, equilibrium};
+use serde_json::Value;
+
+/// What is wrong, in words.
+pub type Outcome<T> = Result<T, String>;
+
+/// Reads a scene with values set: `BODY.NAME=NUMBER` (a number of the body, its material or its section;
+/// `BODY` may be `*`: every body that has it) or `relative_tolerance=NUMBER`.
+pub fn read(path: &Path, assignments: &[String]) -> Outcome<Scene> {
+    let text = std::fs::read_to_string(path).map_err(|error| at(path, error))?;
+    let mut json: Value = serde_json::from_str(&text).map_err(|error| at(path, error))?;
+    for assignment in assignments {
+        assign(&mut json, assignment).map_err(|error| format!("--set {assignment}: {error}"))?;
+    }
+    Scene::from_json(&json.to_string()).map_err(|error| at(path, error))
+}
+
+/// An error with the file it is about.
+pub fn at(path: &Path, error: impl std::fmt::Display) -> String {
+    format!("{}: {error}", path.display())
+}
+
+fn assign(scene: &mut Value, assignment: &str) -> Outcome<()> {
+    let (name, value) = assignment.split_once('=').ok_or("expected NAME=VALUE")?;
+    let value: Value = serde_json::from_str(value).map_err(|_| "expected a number")?;
+    if name == "relative_tolerance" {
+        scene["accuracy"][name] = value;
+        return Ok(());
+    }
+    let (wanted, key) = name.split_once('.').ok_or("expected BODY.NAME=VALUE")?;
+    let mut found = false;
+    for body in scene["bodies"].as_array_mut().into_iter().flatten() {
+        let is_wanted = body["name"] == wanted || wanted == "*";
+        if !is_wanted {
+            continue;
+        }
+        for place in ["", "/material", "/section"] {
+            if let Some(part) = body.pointer_mut(place).and_then(Value::as_object_mut)
+                && let Some(number) = part.get_mut(key)
+            {
+                *number = value.clone();
+                found = true;
+            }
+        }
+    }
+    if found {
+        Ok(())
+    } else {
+        Err("no body has such a number".to_owned())
+    }
+}
+
+/// A system at its start.
+pub struct Start {
+    /// The scene.
+    pub scene: Scene,
+    /// Its system.
+    pub assembled: Assembled,
+    /// Values of the inputs.
+    pub inputs: Vec<f64>,
+    /// The state to start from.
+    pub state: State,
+    /// Scratch.
+    pub work: Work,
+}
+
+impl Start {
+    /// Assembles a scene; inputs keep their start values.
+    pub fn new(scene: Scene) -> Outcome<Self> {
+        let assembled = assemble(&scene).map_err(|error| error.to_string())?;
+        if scene
+            .motions
+            .iter()
+            .any(|motion| motion.input_count().is_some())
+        {
+            return Err("motions: expected functions of time, found one driven by inputs".into());
+        }
+        let inputs: Vec<f64> = scene
+            .inputs
+            .iter()
+            .flat_map(|input| scene.input_start(input))
+            .collect();
+        let system = &assembled.system;
+        let mut work = Work::new(system);
+        let described = (&assembled.nodes[..], &assembled.rates[..]);
+        let state = system.initial_state(0.0, &inputs, described, &mut work);
+        let mut state = state.map_err(|error| format!("joints do not fit: {:?}", error.gaps))?;
+        if scene.initial == Initial::StaticEquilibrium {
+            let found = equilibrium::find(system, &inputs, &mut work, &mut state);
+            found.map_err(|error| error.to_string())?;
+        }
+        Ok(Self {
+            scene,
+            assembled,
+            inputs,
+            state,
+            work,
+        })
+    }
+
+    /// The marker that an output names `body.marker`.
+    pub fn marker(&self, name: &str) -> Option<MarkerReference> {
+        self.scene.marker(name)
+    }
+}
