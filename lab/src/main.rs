@@ -3,6 +3,7 @@
 
 mod integrate;
 mod integrators;
+mod overhead;
 mod scene;
 
 use std::process::ExitCode;
@@ -20,11 +21,14 @@ struct Arguments {
 enum Command {
     /// Integrates a scene with a named method.
     Integrate(integrate::Integrate),
+    /// Measures what a unit costs besides its solver.
+    Overhead(overhead::Overhead),
 }
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Integrate(arguments) => integrate::integrate(&arguments),
+        Command::Overhead(arguments) => overhead::overhead(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -58,7 +58,7 @@ impl Workspace {
     pub fn library(&self) -> Result<PathBuf> {
         let mut command = self.cargo("rustc");
         command.args(["--lib", "--crate-type", "cdylib"]);
-        built(&mut command, |artifact| {
+        built(&mut command, "flexbody", |artifact| {
             let is_library = |file: &&str| file.ends_with(std::env::consts::DLL_SUFFIX);
             let files = artifact["filenames"].as_array()?;
             files.iter().filter_map(Value::as_str).find(is_library)
@@ -68,10 +68,17 @@ impl Workspace {
 
     /// Builds the `flexbody` program and returns where it is.
     pub fn binary(&self) -> Result<PathBuf> {
+        self.program("flexbody")
+    }
+
+    /// Builds the program of a package, named like it, and returns where it is.
+    pub fn program(&self, package: &str) -> Result<PathBuf> {
         let mut command = self.cargo("build");
-        command.args(["--bin", "flexbody"]);
-        built(&mut command, |artifact| artifact["executable"].as_str())
-            .context("building the flexbody program")
+        command.args(["--bin", package]);
+        built(&mut command, package, |artifact| {
+            artifact["executable"].as_str()
+        })
+        .with_context(|| format!("building the {package} program"))
     }
 }
 
@@ -79,11 +86,15 @@ fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Builds the package `flexbody` in release and finds a product in cargo's messages.
-fn built(command: &mut Command, product: fn(&Value) -> Option<&str>) -> Result<PathBuf> {
+/// Builds a package in release and finds a product in cargo's messages.
+fn built(
+    command: &mut Command,
+    package: &str,
+    product: fn(&Value) -> Option<&str>,
+) -> Result<PathBuf> {
     let messages = process::stdout(command.args([
         "--package",
-        "flexbody",
+        package,
         "--release",
         "--message-format",
         "json-render-diagnostics",
@@ -91,7 +102,7 @@ fn built(command: &mut Command, product: fn(&Value) -> Option<&str>) -> Result<P
     for line in messages.lines() {
         let message: Value = serde_json::from_str(line)
             .with_context(|| format!("expected a JSON message of cargo, found {line:?}"))?;
-        let is_ours = message["target"]["name"] == "flexbody";
+        let is_ours = message["target"]["name"] == package;
         if is_ours && let Some(path) = product(&message) {
             return Ok(path.into());
         }

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use crate::cargo::Workspace;
-use crate::process::{prepared, shown};
+use crate::process::{prepared, shown, stdout};
 use crate::table::Table;
 
 use super::numbers::median;
@@ -21,6 +21,7 @@ pub const REPEATS: usize = 5;
 pub struct Bench<'a> {
     workspace: &'a Workspace,
     program: PathBuf,
+    lab: PathBuf,
     scratch: PathBuf,
     files: Cell<u64>,
 }
@@ -137,10 +138,11 @@ impl Outcome {
 }
 
 impl<'a> Bench<'a> {
-    /// Builds the program.
+    /// Builds the programs.
     pub fn new(workspace: &'a Workspace) -> Result<Self> {
         Ok(Self {
             program: workspace.binary()?,
+            lab: workspace.program("lab")?,
             scratch: workspace.target("chart"),
             files: Cell::new(0),
             workspace,
@@ -201,6 +203,17 @@ impl<'a> Bench<'a> {
         bar.finish_and_clear();
         eprintln!("{title}: {} runs", runs.len() * times);
         Ok(outcomes)
+    }
+
+    /// Runs a measurement of the lab on a scene and returns its report.
+    pub fn lab(&self, measurement: &str, scene: &Value) -> Result<Value> {
+        let number = self.files.replace(self.files.get() + 1);
+        let file = prepared(&self.scratch.join(format!("{number}.scene.json")))?;
+        std::fs::write(&file, scene.to_string())
+            .with_context(|| format!("cannot write {}", shown(&file)))?;
+        let report = stdout(Command::new(&self.lab).arg(measurement).arg(&file))?;
+        std::fs::remove_file(&file).with_context(|| format!("cannot remove {}", shown(&file)))?;
+        serde_json::from_str(&report).context("the report of the lab is no JSON")
     }
 
     fn execute(&self, run: &Run) -> Result<Outcome> {

@@ -15,6 +15,7 @@ mod energies;
 mod machine;
 mod mesh;
 mod numbers;
+mod overhead;
 mod page;
 mod plot;
 mod time;
@@ -35,6 +36,8 @@ pub enum Chart {
     Cost,
     /// CPU time of a step against the number of bodies
     Bodies,
+    /// What a unit costs besides its solver
+    Overhead,
     /// Projection and partitioning: error against CPU time
     Constraints,
     /// Energy and residuals of mechanisms over a minute
@@ -51,6 +54,7 @@ impl Chart {
             Self::Drift => "drift",
             Self::Cost => "cost",
             Self::Bodies => "bodies",
+            Self::Overhead => "overhead",
             Self::Constraints => "constraints",
             Self::Energies => "energies",
             Self::AsPrinted => "as_printed",
@@ -65,6 +69,7 @@ impl Chart {
             Self::Drift => drift::chart(bench),
             Self::Cost => cost::chart(bench),
             Self::Bodies => bodies::chart(bench),
+            Self::Overhead => overhead::chart(bench),
             Self::Constraints => constraints::chart(bench),
             Self::Energies => energies::chart(bench),
             Self::AsPrinted => as_printed::chart(bench),

@@ -1,0 +1,159 @@
+//! What a unit costs besides its solver: from instantiation to the first step, and at every step.
+
+mod master;
+
+use std::path::PathBuf;
+
+use cpu_time::ThreadTime;
+use flexbody::integrators::{Rk4, Tolerance, advance};
+use flexbody::scene::{Integrator, Scene};
+use flexbody::system::{Model, fastest};
+use master::{Instance, Unit};
+use serde_json::{Value, json};
+
+use crate::scene::{Start, read};
+
+/// Starts of which the median is taken: as many as take this long (s), within these bounds.
+const STARTS: (f64, usize, usize) = (1.0, 5, 101);
+/// Rounds of which the median is taken.
+const ROUNDS: usize = 25;
+/// CPU time of a batch of calls, s: long against what a clock can tell.
+const BATCH: f64 = 5e-3;
+/// Communication step, s: one sub-step of the solver.
+const STEP: f64 = 1e-7;
+/// Outputs read after a step.
+const READ: usize = 12;
+
+/// Arguments.
+#[derive(clap::Args)]
+pub struct Overhead {
+    /// Scene file; the steps are those of rk4.
+    scene: PathBuf,
+}
+
+/// Measures and prints the report: CPU times, s.
+pub fn overhead(arguments: &Overhead) -> Result<(), String> {
+    let scene = read(&arguments.scene, &[])?;
+    let report = json!({ "start": start(&scene)?, "step": step(&scene)? });
+    println!("{report:#}");
+    Ok(())
+}
+
+/// CPU time of a call, s.
+fn timed<T>(call: impl FnOnce() -> Result<T, String>) -> Result<(T, f64), String> {
+    let before = ThreadTime::now();
+    let value = call()?;
+    Ok((value, before.elapsed().as_secs_f64()))
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// CPU times from instantiation to the first step, s.
+fn start(scene: &Scene) -> Result<Value, String> {
+    let unit = Unit::new(scene)?;
+    let mut all: Vec<[f64; 6]> = Vec::new();
+    let (span, least, most) = STARTS;
+    let mut spent = 0.0;
+    while all.len() < most && (all.len() < least || spent < span) {
+        let (instance, instantiate) = timed(|| Instance::new(&unit))?;
+        let ((), set_up) = timed(|| instance.set_up())?;
+        let ((), enter) = timed(|| instance.enter())?;
+        let ((), exit) = timed(|| instance.exit())?;
+        let ((), first) = timed(|| instance.step(0.0, STEP))?;
+        let phases = [instantiate, set_up, enter, exit, first];
+        let whole = phases.iter().sum();
+        spent += whole;
+        all.push([instantiate, set_up, enter, exit, first, whole]);
+    }
+    let of = |phase: usize| median(all.iter().map(|times| times[phase]).collect());
+    Ok(json!({
+        "instantiate": of(0),
+        "set_up": of(1),
+        "enter": of(2),
+        "exit": of(3),
+        "first_step": of(4),
+        "whole": of(5),
+    }))
+}
+
+/// CPU time of one of `count` calls, s.
+fn each(count: usize, mut call: impl FnMut(usize) -> Result<(), String>) -> Result<f64, String> {
+    let run = || (0..count).try_for_each(&mut call);
+    Ok(timed(run)?.1 / count as f64)
+}
+
+/// CPU times at every step, s: rounds of batches that take turns.
+fn step(scene: &Scene) -> Result<Value, String> {
+    let mut scene = scene.clone();
+    scene.method.integrator = Integrator::Rk4;
+    let unit = Unit::new(&scene)?;
+    let [stepped, exchanged] = [begun(&unit)?, begun(&unit)?];
+    let mut saved = begun(&unit)?;
+    let Start {
+        scene,
+        assembled,
+        inputs,
+        mut state,
+        mut work,
+    } = Start::new(scene)?;
+    let system = &assembled.system;
+    let (frequency, decay) = fastest(system, &inputs, &mut work, &state);
+    let mut method = Rk4::new(system.coordinates(), frequency, decay);
+    let tolerance = Tolerance {
+        relative: scene.accuracy.relative_tolerance,
+        position: system.scale(),
+        time: 1.0,
+    };
+    let mut model = Model::new(system, &inputs, &mut work, &state);
+    let mut solve = |until: f64| {
+        let (_, result) = advance(&mut method, &mut model, &mut state, until, &tolerance);
+        result.map_err(|stop| format!("the solver: {stop:?}"))
+    };
+    let outputs = &unit.outputs[..READ.min(unit.outputs.len())];
+    let mut values = vec![0.0; outputs.len()];
+    let count = ((BATCH / each(100, |i| solve(STEP * (i + 1) as f64))?) as usize).max(20);
+    let mut all: Vec<[f64; 6]> = Vec::new();
+    for round in 0..ROUNDS {
+        let time = |i: usize| STEP * (round * count + i) as f64;
+        let alone = each(count, |i| solve(STEP * (101 + round * count + i) as f64))?;
+        let step = each(count, |i| stepped.step(time(i), STEP))?;
+        let exchange = each(count, |i| {
+            exchanged.set(&unit.inputs, &inputs)?;
+            exchanged.step(time(i), STEP)?;
+            exchanged.get(outputs, &mut values)
+        })?;
+        let save = each(count, |_| saved.save())?;
+        let restore = each(count, |_| saved.restore())?;
+        all.push([
+            alone,
+            step - alone,
+            exchange - step,
+            exchange - alone,
+            save,
+            restore,
+        ]);
+    }
+    let of = |part: usize| median(all.iter().map(|times| times[part]).collect());
+    Ok(json!({
+        "solver": of(0),
+        "step": of(1),
+        "exchange": of(2),
+        "outside": of(3),
+        "save": of(4),
+        "restore": of(5),
+        "inputs": inputs.len(),
+        "outputs": outputs.len(),
+    }))
+}
+
+/// An instance at its first communication point.
+fn begun(unit: &Unit) -> Result<Instance, String> {
+    let instance = Instance::new(unit)?;
+    instance.set_up()?;
+    instance.enter()?;
+    instance.exit()?;
+    Ok(instance)
+}
