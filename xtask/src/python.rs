@@ -1,4 +1,4 @@
-//! The Python environment of the project: a virtual environment among the products, with every
+//! The Python environments of the project: virtual environments among the products, with every
 //! version pinned. Nothing outside the products is read or written.
 
 use std::path::{Path, PathBuf};
@@ -9,8 +9,10 @@ use anyhow::{Context, Result, bail};
 use crate::cargo::Workspace;
 use crate::process::{announced, run_quietly, shown};
 
-/// The pinned packages.
-const REQUIREMENTS: &str = "tests/fmpy/requirements.txt";
+/// The pinned packages of tests and pictures, and their folder among the products.
+const PROJECT: (&str, &str) = ("tests/fmpy/requirements.txt", "python");
+/// The same of the programs that charts compare the product with; apart, so that no check needs them.
+const PEERS: (&str, &str) = ("lab/exudyn/requirements.txt", "python-peers");
 /// Oldest Python that the pinned packages run on.
 const OLDEST: (u32, u32) = (3, 11);
 /// Where to look, best first: the version that the pins were made with, then any other.
@@ -35,7 +37,16 @@ pub struct Python {
 impl Python {
     /// The environment, made or brought up to date where needed.
     pub fn prepare(workspace: &Workspace) -> Result<Self> {
-        let folder = workspace.target("python");
+        Self::prepare_one(workspace, PROJECT)
+    }
+
+    /// The environment of the programs to compare with.
+    pub fn prepare_peers(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, PEERS)
+    }
+
+    fn prepare_one(workspace: &Workspace, (requirements, folder): (&str, &str)) -> Result<Self> {
+        let folder = workspace.target(folder);
         let interpreter = if cfg!(windows) {
             folder.join("Scripts").join("python.exe")
         } else {
@@ -48,7 +59,7 @@ impl Python {
         };
         std::fs::create_dir_all(&python.temporary)
             .with_context(|| format!("cannot create the folder {}", shown(&python.temporary)))?;
-        let requirements = workspace.path(REQUIREMENTS);
+        let requirements = workspace.path(requirements);
         let wanted = std::fs::read_to_string(&requirements)
             .with_context(|| format!("cannot read {}", shown(&requirements)))?;
         let stamp = folder.join("installed.txt");

@@ -149,6 +149,11 @@ impl<'a> Bench<'a> {
         })
     }
 
+    /// The workspace.
+    pub fn workspace(&self) -> &Workspace {
+        self.workspace
+    }
+
     /// Where a chart's file belongs.
     pub fn output(&self, name: &str) -> PathBuf {
         self.workspace.path("docs/charts").join(name)

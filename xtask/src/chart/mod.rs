@@ -17,6 +17,7 @@ mod mesh;
 mod numbers;
 mod overhead;
 mod page;
+mod peers;
 mod plot;
 mod time;
 
@@ -42,6 +43,8 @@ pub enum Chart {
     Constraints,
     /// Energy and residuals of mechanisms over a minute
     Energies,
+    /// Exudyn and the product: error against CPU time
+    Peers,
     /// What the report's equations do as printed
     AsPrinted,
 }
@@ -57,6 +60,7 @@ impl Chart {
             Self::Overhead => "overhead",
             Self::Constraints => "constraints",
             Self::Energies => "energies",
+            Self::Peers => "peers",
             Self::AsPrinted => "as_printed",
         }
     }
@@ -72,6 +76,7 @@ impl Chart {
             Self::Overhead => overhead::chart(bench),
             Self::Constraints => constraints::chart(bench),
             Self::Energies => energies::chart(bench),
+            Self::Peers => peers::chart(bench),
             Self::AsPrinted => as_printed::chart(bench),
         }
     }

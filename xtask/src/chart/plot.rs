@@ -64,6 +64,8 @@ pub struct Line {
     pub mark: Mark,
     /// Dashed instead of solid.
     pub dashed: bool,
+    /// Marks alone.
+    pub scattered: bool,
 }
 
 impl Line {
@@ -75,12 +77,19 @@ impl Line {
             colour: Some(colour),
             mark,
             dashed: false,
+            scattered: false,
         }
     }
 
     /// Dashed.
     pub fn dashed(mut self) -> Self {
         self.dashed = true;
+        self
+    }
+
+    /// Without the line.
+    pub fn scattered(mut self) -> Self {
+        self.scattered = true;
         self
     }
 
@@ -93,6 +102,7 @@ impl Line {
             colour: None,
             mark: Mark::None,
             dashed: true,
+            scattered: false,
         }
     }
 
@@ -272,7 +282,9 @@ fn draw_axes(panel: &Panel, area: &Area) -> Result<()> {
         let shown = |&(x, y): &(f64, f64)| (panel.x.shown(x), panel.y.shown(y));
         let points: Vec<(f64, f64)> = line.points.iter().map(shown).collect();
         let style = line.style();
-        if line.dashed {
+        if line.scattered {
+            // Nothing joins the marks.
+        } else if line.dashed {
             let path = DashedPathElement::new(points.clone(), DASH.0, DASH.1, style);
             chart.draw_series(std::iter::once(path))?;
         } else {
@@ -290,7 +302,9 @@ fn draw_legend(panel: &Panel, area: &Area, columns: usize) -> Result<()> {
         let x = 84 + column * (index % columns) as i32;
         let y = 10 + ROW as i32 * (index / columns) as i32;
         let (path, style) = (vec![(x, y), (x + 34, y)], line.style());
-        if line.dashed {
+        if line.scattered {
+            // Nothing joins the marks.
+        } else if line.dashed {
             area.draw(&DashedPathElement::new(path, DASH.0, DASH.1, style))?;
         } else {
             area.draw(&PathElement::new(path, style))?;
