@@ -1,10 +1,12 @@
 //! What the charts compare the product with: integrators and formulations that did not win.
 //! `cargo xtask chart` calls this program as it calls `flexbody`; nothing here is in an FMU.
 
+mod elements;
 mod integrate;
 mod integrators;
 mod overhead;
 mod scene;
+mod space;
 
 use std::process::ExitCode;
 
@@ -21,6 +23,10 @@ struct Arguments {
 enum Command {
     /// Integrates a scene with a named method.
     Integrate(integrate::Integrate),
+    /// Moves one rod in a named discretization.
+    Space(space::Space),
+    /// Bends one rod in a named discretization.
+    Bend(space::Bend),
     /// Measures what a unit costs besides its solver.
     Overhead(overhead::Overhead),
 }
@@ -28,6 +34,8 @@ enum Command {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Integrate(arguments) => integrate::integrate(&arguments),
+        Command::Space(arguments) => space::space(&arguments),
+        Command::Bend(arguments) => space::bend(&arguments),
         Command::Overhead(arguments) => overhead::overhead(&arguments),
     };
     match outcome {
