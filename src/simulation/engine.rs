@@ -31,6 +31,8 @@ pub(super) struct Engine {
     frequencies: usize,
     /// Whether inputs that jump do work on springs.
     sets_springs: bool,
+    /// The state at time 0 under these inputs, until it has been asked for.
+    start: Option<(Vec<f64>, State)>,
 }
 
 impl Engine {
@@ -55,13 +57,13 @@ impl Engine {
         // From nothing but the scene, so that a restored state goes on with the same method.
         let inputs = start_inputs(variables);
         let described = (&assembled.nodes[..], &assembled.rates[..]);
-        let state = system
-            .initial_state(0.0, &inputs, described, &mut work)
-            .unwrap_or_else(|_| system.blank_state(0.0));
-        evaluation.kinematics(system, &state, &mut work);
+        let state = system.initial_state(0.0, &inputs, described, &mut work);
+        let blank = system.blank_state(0.0);
+        let reached = state.as_ref().unwrap_or(&blank);
+        evaluation.kinematics(system, reached, &mut work);
         let start = method::Start {
             system,
-            state: &state,
+            state: reached,
             kinetic: evaluation.kinetic_energy(system),
             inputs: &inputs,
         };
@@ -71,6 +73,7 @@ impl Engine {
             evaluated: Evaluated::Nothing,
             frequencies: frequencies.max().unwrap_or(0),
             sets_springs: has_rest_length_input(scene),
+            start: state.ok().map(|state| (inputs, state)),
             evaluation,
             markers,
             work,
@@ -93,7 +96,10 @@ impl Engine {
             ..
         } = &self.assembled;
         let described = (&nodes[..], &rates[..]);
-        let state = system.initial_state(time, inputs, described, &mut self.work);
+        let state = match self.start.take() {
+            Some((start, state)) if time == 0.0 && start == inputs => Ok(state),
+            _ => system.initial_state(time, inputs, described, &mut self.work),
+        };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
         if self.scene.initial == Initial::StaticEquilibrium {
             equilibrium::find(system, inputs, &mut self.work, &mut state)?;

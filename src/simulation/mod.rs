@@ -368,9 +368,9 @@ impl Simulation {
         }
         let before = self.values[index];
         match self.variables[index].source {
-            Source::Input(..) => {
+            Source::Input(place) => {
                 self.values[index] = value;
-                self.collect_inputs();
+                self.inputs[place] = value;
                 if let Some(engine) = &mut self.engine {
                     engine.inputs_changed();
                 }
