@@ -13,7 +13,7 @@ use clap::Args;
 use cpu_time::ThreadTime;
 use serde_json::json;
 
-use crate::elements::rod::{Material, Rod, Vector};
+use crate::elements::rod::{Rod, Vector};
 use discretization::Discretization;
 use motion::{Motion, STABLE};
 use problem::Problem;
@@ -22,7 +22,8 @@ use statics::Loads;
 /// Iterations of Newton's method that are timed together.
 const TIMED: u32 = 200;
 
-/// Moves the rod of a scene by an explicit method with fixed steps.
+/// Moves the rod of a scene by an explicit method with fixed steps; prints JSON: the path of its end,
+/// steps and CPU times.
 #[derive(Args)]
 pub struct Space {
     /// Scene file: one straight cable, held at its ends or loaded at its start.
@@ -42,36 +43,27 @@ pub struct Space {
     /// Time between outputs, s.
     #[arg(long)]
     every: f64,
-    /// CSV file for the path of the end.
-    #[arg(long)]
-    output: PathBuf,
-    /// JSON file for steps and CPU times.
-    #[arg(long)]
-    report: PathBuf,
 }
 
-/// Bends a cantilever of length 1 and bending stiffness 1 by a force across its tip; prints JSON.
+/// Bends the rod of a scene, clamped at its start, by a force across its tip; prints JSON.
 #[derive(Args)]
 pub struct Bend {
+    /// Scene file: one cable along the first axis.
+    scene: PathBuf,
     /// Discretization.
     #[arg(long)]
     element: Discretization,
     /// Number of elements.
     #[arg(long)]
     elements: usize,
-    /// Axial stiffness.
-    #[arg(long)]
-    axial: f64,
-    /// Force.
+    /// Force, N.
     #[arg(long)]
     force: f64,
 }
 
 /// Moves a rod.
 pub fn space(arguments: &Space) -> Result<(), String> {
-    let text = std::fs::read_to_string(&arguments.scene).map_err(|e| at(&arguments.scene, e))?;
-    let scene = serde_json::from_str(&text).map_err(|e| at(&arguments.scene, e))?;
-    let problem = Problem::read(&scene).map_err(|e| at(&arguments.scene, e))?;
+    let problem = read(&arguments.scene)?;
     match arguments.element.basis().local() {
         4 => move_rod::<4>(arguments, &problem),
         5 => move_rod::<5>(arguments, &problem),
@@ -81,11 +73,18 @@ pub fn space(arguments: &Space) -> Result<(), String> {
 
 /// Bends a rod.
 pub fn bend(arguments: &Bend) -> Result<(), String> {
+    let problem = read(&arguments.scene)?;
     match arguments.element.basis().local() {
-        4 => bend_rod::<4>(arguments),
-        5 => bend_rod::<5>(arguments),
-        _ => bend_rod::<6>(arguments),
+        4 => bend_rod::<4>(arguments, &problem),
+        5 => bend_rod::<5>(arguments, &problem),
+        _ => bend_rod::<6>(arguments, &problem),
     }
+}
+
+fn read(path: &Path) -> Result<Problem, String> {
+    let text = std::fs::read_to_string(path).map_err(|e| at(path, e))?;
+    let scene = serde_json::from_str(&text).map_err(|e| at(path, e))?;
+    Problem::read(&scene).map_err(|e| at(path, e))
 }
 
 fn at(path: &Path, error: impl std::fmt::Display) -> String {
@@ -108,12 +107,12 @@ fn move_rod<const F: usize>(arguments: &Space, problem: &Problem) -> Result<(), 
     let iteration = motion.time_iteration(&c, TIMED);
     let end =
         |motion: &Motion<F>, c: &[Vector]| motion.rod().vector(c, arguments.elements - 1, 1.0, 0);
-    let mut csv = String::from("time,x,y\n");
+    let mut path = Vec::new();
     let mut spent = Duration::ZERO;
     for point in 0..=points {
         let time = point as f64 * arguments.every;
         let [x, y] = end(&motion, &c);
-        csv += &format!("{time:?},{x:?},{y:?}\n");
+        path.push([time, x, y]);
         if point == points {
             break;
         }
@@ -126,8 +125,8 @@ fn move_rod<const F: usize>(arguments: &Space, problem: &Problem) -> Result<(), 
             return Err(format!("expected a finite motion, lost it before {time} s"));
         }
     }
-    std::fs::write(&arguments.output, csv).map_err(|e| at(&arguments.output, e))?;
     let report = json!({
+        "path": path,
         "coordinates": motion.coordinates(),
         "largest_frequency": frequency,
         "steps": points * steps,
@@ -135,17 +134,14 @@ fn move_rod<const F: usize>(arguments: &Space, problem: &Problem) -> Result<(), 
         "acceleration_time": spent.as_secs_f64() / (3 * points * steps) as f64,
         "iteration_time": iteration.as_secs_f64(),
     });
-    std::fs::write(&arguments.report, report.to_string()).map_err(|e| at(&arguments.report, e))
+    println!("{report}");
+    Ok(())
 }
 
-fn bend_rod<const F: usize>(arguments: &Bend) -> Result<(), String> {
-    let material = Material {
-        axial: arguments.axial,
-        bending: 1.0,
-        density: 1.0,
-    };
-    let mesh = arguments.element.mesh(&material, 1.0, arguments.elements);
-    let rod = Rod::<F>::new(material, mesh);
+fn bend_rod<const F: usize>(arguments: &Bend, problem: &Problem) -> Result<(), String> {
+    let element = arguments.element;
+    let mesh = element.mesh(&problem.material, problem.length(), arguments.elements);
+    let rod = Rod::<F>::new(problem.material, mesh);
     let loads = Loads {
         force: [0.0, arguments.force],
         ..Loads::default()

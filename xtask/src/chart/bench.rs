@@ -210,13 +210,13 @@ impl<'a> Bench<'a> {
         Ok(outcomes)
     }
 
-    /// Runs a measurement of the lab on a scene and returns its report.
-    pub fn lab(&self, measurement: &str, scene: &Value) -> Result<Value> {
+    /// Runs a measurement of the lab, its name followed by options, on a scene and returns its report.
+    pub fn lab(&self, measurement: &[&str], scene: &Value) -> Result<Value> {
         let number = self.files.replace(self.files.get() + 1);
         let file = prepared(&self.scratch.join(format!("{number}.scene.json")))?;
         std::fs::write(&file, scene.to_string())
             .with_context(|| format!("cannot write {}", shown(&file)))?;
-        let report = stdout(Command::new(&self.lab).arg(measurement).arg(&file))?;
+        let report = stdout(Command::new(&self.lab).args(measurement).arg(&file))?;
         std::fs::remove_file(&file).with_context(|| format!("cannot remove {}", shown(&file)))?;
         serde_json::from_str(&report).context("the report of the lab is no JSON")
     }

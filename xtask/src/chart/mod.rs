@@ -19,6 +19,7 @@ mod overhead;
 mod page;
 mod peers;
 mod plot;
+mod space;
 mod time;
 
 use bench::Bench;
@@ -29,6 +30,8 @@ use bench::Bench;
 pub enum Chart {
     /// Error against the number of elements
     Mesh,
+    /// Shape functions, meshes, quadratures and masses
+    Space,
     /// Error in time against CPU time
     Time,
     /// Energy drift over a hundred swings
@@ -53,6 +56,7 @@ impl Chart {
     fn name(self) -> &'static str {
         match self {
             Self::Mesh => "mesh",
+            Self::Space => "space",
             Self::Time => "time",
             Self::Drift => "drift",
             Self::Cost => "cost",
@@ -69,6 +73,7 @@ impl Chart {
     fn make(self, bench: &Bench) -> Result<String> {
         match self {
             Self::Mesh => mesh::chart(bench),
+            Self::Space => space::chart(bench),
             Self::Time => time::chart(bench),
             Self::Drift => drift::chart(bench),
             Self::Cost => cost::chart(bench),

@@ -53,7 +53,7 @@ pub fn chart(bench: &Bench) -> Result<String> {
     let cable = bench.case_json(SCENE)?;
     let mut rows = Vec::new();
     for elements in [0].into_iter().chain(MESHES) {
-        let report = bench.lab("overhead", &scene(&cable, elements))?;
+        let report = bench.lab(&["overhead"], &scene(&cable, elements))?;
         rows.push(Row {
             elements,
             start: times(&report["start"], &START)?,
