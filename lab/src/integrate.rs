@@ -5,12 +5,11 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use flexbody::body::Marker;
 use flexbody::integrators::{Attempt, Counts, Method, Stop, Tolerance, advance};
-use flexbody::scene::OutputKind;
 use flexbody::system::{Accepted, Dynamics, Evaluation, Model, State, natural_frequencies};
 
 use crate::integrators::{self, Build, Probe, Tally};
+use crate::outputs::Outputs;
 use crate::scene::{Outcome, Start, at, read};
 
 /// Into how many pieces a step is divided at most.
@@ -221,52 +220,5 @@ impl Cost {
             self.tally.solves,
             self.cpu_time.as_secs_f64()
         )
-    }
-}
-
-/// Positions of markers that the scene reads, energies and momenta, as CSV.
-struct Outputs {
-    markers: Vec<Marker>,
-    evaluation: Evaluation,
-    text: String,
-}
-
-impl Outputs {
-    fn new(start: &Start) -> Self {
-        let read = start.scene.outputs.iter();
-        let names: Vec<&str> = read
-            .filter(|output| output.kind == OutputKind::Position)
-            .filter_map(|output| output.marker.as_deref())
-            .collect();
-        let found = names.iter().filter_map(|name| start.marker(name));
-        let mut header = vec!["time".to_owned()];
-        for name in &names {
-            header.extend([format!("{name}.position[1]"), format!("{name}.position[2]")]);
-        }
-        let rest = ["kinetic", "strain", "gravity"].map(|kind| format!("energy.{kind}"));
-        header.extend(rest);
-        header.extend(["momentum[1]", "momentum[2]", "angular_momentum"].map(str::to_owned));
-        Self {
-            markers: found.map(|marker| start.assembled.marker(marker)).collect(),
-            evaluation: Evaluation::new(&start.assembled.system),
-            text: header.join(",") + "\n",
-        }
-    }
-
-    fn add(&mut self, start: &Start, state: &State, work: &mut flexbody::system::Work) {
-        let (system, values) = (&start.assembled.system, &mut self.evaluation);
-        values.kinematics(system, state, work);
-        let mut row = vec![state.time];
-        for marker in &self.markers {
-            let position = marker.position(&values.x);
-            row.extend([position[0], position[1]]);
-        }
-        row.push(values.kinetic_energy(system));
-        row.push(values.strain_energy(system));
-        row.push(values.gravity_energy(system));
-        let (momentum, angular) = values.momentum(system);
-        row.extend([momentum[0], momentum[1], angular]);
-        let words: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
-        self.text += &(words.join(",") + "\n");
     }
 }

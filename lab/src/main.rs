@@ -4,6 +4,7 @@
 mod elements;
 mod integrate;
 mod integrators;
+mod outputs;
 mod overhead;
 mod scene;
 mod space;

@@ -66,13 +66,13 @@ pub struct Alpha {
 }
 
 impl Alpha {
-    /// For `n` coordinates.
-    pub fn new(weights: Weights, n: usize, fixed: bool) -> Self {
+    /// For `n` coordinates; `turned`: the tangent turns along with directions.
+    pub fn new(weights: Weights, n: usize, fixed: bool, turned: bool) -> Self {
         let zero = vec![0.0; n];
         Self {
             weights,
             fixed,
-            newton: Newton::new(n),
+            newton: Newton::new(n, turned),
             a: zero.clone(),
             alpha: zero.clone(),
             next: zero.clone(),

@@ -227,7 +227,7 @@ impl EnergyMomentum {
             force: nodes,
             y: vec![0.0; system.elimination().scratch()],
             extra: zero.clone(),
-            newton: Newton::new(n),
+            newton: Newton::new(n, false),
             a: zero.clone(),
             q: zero.clone(),
             v: zero,
@@ -323,7 +323,7 @@ impl Method for EnergyMomentum {
             self.v[i] = v[i] + 0.5 * h * self.a[i];
             self.q[i] = q[i] + 0.5 * h * self.v[i];
         }
-        let mut newton = std::mem::replace(&mut self.newton, Newton::new(0));
+        let mut newton = std::mem::replace(&mut self.newton, Newton::new(0, false));
         let mut step = Step {
             scheme: self,
             time: time + 0.5 * h,

@@ -22,7 +22,7 @@ impl Midpoint {
     pub fn new(n: usize) -> Self {
         let zero = vec![0.0; n];
         Self {
-            newton: Newton::new(n),
+            newton: Newton::new(n, false),
             a: zero.clone(),
             q: zero.clone(),
             v: zero,

@@ -57,7 +57,8 @@ pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
         )),
         false => Ok(()),
     };
-    Ok(match name {
+    let turned = name.ends_with("_turned");
+    Ok(match name.trim_end_matches("_turned") {
         "verlet" => Box::new(verlet::Verlet::new(n)),
         "rk4" => {
             let (start, mut work) = (build.start, build.start.work.clone());
@@ -79,10 +80,25 @@ pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
         }
         "gauss6" => Box::new(gauss::Gauss::new(n)),
         "radau" => Box::new(Radau::new(n)),
-        "alpha_1.0" => Box::new(alpha::Alpha::new(alpha::Weights::of(1.0), n, build.fixed)),
-        "alpha_0.8" => Box::new(alpha::Alpha::new(alpha::Weights::of(0.8), n, build.fixed)),
-        "alpha_0.6" => Box::new(alpha::Alpha::new(alpha::Weights::of(0.6), n, build.fixed)),
-        "trapezoid" => Box::new(alpha::Alpha::new(alpha::TRAPEZOID, n, build.fixed)),
+        "alpha_1.0" => Box::new(alpha::Alpha::new(
+            alpha::Weights::of(1.0),
+            n,
+            build.fixed,
+            turned,
+        )),
+        "alpha_0.8" => Box::new(alpha::Alpha::new(
+            alpha::Weights::of(0.8),
+            n,
+            build.fixed,
+            turned,
+        )),
+        "alpha_0.6" => Box::new(alpha::Alpha::new(
+            alpha::Weights::of(0.6),
+            n,
+            build.fixed,
+            turned,
+        )),
+        "trapezoid" => Box::new(alpha::Alpha::new(alpha::TRAPEZOID, n, build.fixed, turned)),
         "midpoint" => Box::new(midpoint::Midpoint::new(n)),
         "energy_momentum" => {
             only_positions()?;

@@ -1,0 +1,57 @@
+//! What runs write: the same columns for every method.
+
+use flexbody::body::Marker;
+use flexbody::scene::OutputKind;
+use flexbody::system::{Evaluation, State, Work};
+
+use crate::scene::Start;
+
+/// Positions of markers that the scene reads, energies and momenta, as CSV.
+pub struct Outputs {
+    markers: Vec<Marker>,
+    evaluation: Evaluation,
+    /// The file so far.
+    pub text: String,
+}
+
+impl Outputs {
+    /// The header.
+    pub fn new(start: &Start) -> Self {
+        let read = start.scene.outputs.iter();
+        let names: Vec<&str> = read
+            .filter(|output| output.kind == OutputKind::Position)
+            .filter_map(|output| output.marker.as_deref())
+            .collect();
+        let found = names.iter().filter_map(|name| start.marker(name));
+        let mut header = vec!["time".to_owned()];
+        for name in &names {
+            header.extend([format!("{name}.position[1]"), format!("{name}.position[2]")]);
+        }
+        let rest = ["kinetic", "strain", "gravity"].map(|kind| format!("energy.{kind}"));
+        header.extend(rest);
+        header.extend(["momentum[1]", "momentum[2]", "angular_momentum"].map(str::to_owned));
+        Self {
+            markers: found.map(|marker| start.assembled.marker(marker)).collect(),
+            evaluation: Evaluation::new(&start.assembled.system),
+            text: header.join(",") + "\n",
+        }
+    }
+
+    /// A row at a state.
+    pub fn add(&mut self, start: &Start, state: &State, work: &mut Work) {
+        let (system, values) = (&start.assembled.system, &mut self.evaluation);
+        values.kinematics(system, state, work);
+        let mut row = vec![state.time];
+        for marker in &self.markers {
+            let position = marker.position(&values.x);
+            row.extend([position[0], position[1]]);
+        }
+        row.push(values.kinetic_energy(system));
+        row.push(values.strain_energy(system));
+        row.push(values.gravity_energy(system));
+        let (momentum, angular) = values.momentum(system);
+        row.extend([momentum[0], momentum[1], angular]);
+        let words: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
+        self.text += &(words.join(",") + "\n");
+    }
+}
