@@ -26,7 +26,8 @@ pub struct Assembly<const B: usize> {
     clusters: Vec<Cluster>,
     /// Where the free coordinates of every cluster are.
     ranges: Vec<Range<usize>>,
-    diagonal: Vec<Slot>,
+    /// Block of a node that is alone with itself.
+    diagonal: Vec<Option<Slot>>,
     /// Block of a node with the one after it, where both are alone and linked.
     next: Vec<Option<Slot>>,
 }
@@ -74,7 +75,12 @@ impl<const B: usize> Assembly<B> {
                 _ => None,
             })
             .collect();
-        let diagonal = (0..nodes).filter_map(|node| slot(node, node)).collect();
+        let diagonal = (0..nodes)
+            .map(|node| match places[node] {
+                Place::Alone(_) => slot(node, node),
+                Place::Tied(..) => None,
+            })
+            .collect();
         let range = |v: &Option<usize>| v.map_or(0..0, |v| pattern.range(v));
         let assembly = Self {
             ranges: of_cluster.iter().map(range).collect(),
@@ -174,27 +180,53 @@ impl<const B: usize> Assembly<B> {
 
     /// Adds a block over the nodes `a` and `b` to a symmetric matrix, and its transpose over `b` and
     /// `a` where they differ.
+    #[inline(always)]
     pub fn add(&self, a: usize, b: usize, block: &NodeBlock<B>, matrix: &mut Matrix<f64>) {
-        match (self.places[a], self.places[b]) {
-            (Place::Alone(_), Place::Alone(_)) => {
-                let slot = match b {
-                    _ if a == b => Some(self.diagonal[a]),
-                    _ if b == a + 1 => self.next[a],
-                    _ => self.pattern.slot(self.vertices[a], self.vertices[b]),
+        let slot = if a == b {
+            self.diagonal[a]
+        } else if b == a + 1 {
+            self.next[a]
+        } else if a == b + 1 {
+            self.next[b].map(Slot::flipped)
+        } else {
+            None
+        };
+        let Some(slot) = slot else {
+            return self.add_apart(a, b, block, matrix);
+        };
+        let values = &mut matrix.values[slot.at..slot.at + B * B];
+        let rows = values.as_chunks_mut::<B>().0;
+        for r in 0..B {
+            for c in 0..B {
+                rows[r][c] += if slot.transposed {
+                    block[c][r]
+                } else {
+                    block[r][c]
                 };
-                let Some(slot) = slot else { return };
-                let values = &mut matrix.values[slot.at..slot.at + B * B];
-                for (r, row) in block.iter().enumerate() {
-                    for (c, value) in row.iter().enumerate() {
-                        values[if slot.transposed {
-                            c * B + r
-                        } else {
-                            r * B + c
-                        }] += value;
-                    }
-                }
             }
-            _ => self.add_tied(a, b, block, matrix),
+        }
+    }
+
+    /// [`Self::add`] where nodes are tied to others or do not follow each other.
+    #[inline(never)]
+    fn add_apart(&self, a: usize, b: usize, block: &NodeBlock<B>, matrix: &mut Matrix<f64>) {
+        let alone = |node: usize| matches!(self.places[node], Place::Alone(_));
+        if !(alone(a) && alone(b)) {
+            return self.add_tied(a, b, block, matrix);
+        }
+        let Some(slot) = self.pattern.slot(self.vertices[a], self.vertices[b]) else {
+            return;
+        };
+        let values = &mut matrix.values[slot.at..slot.at + B * B];
+        for (r, row) in block.iter().enumerate() {
+            for (c, value) in row.iter().enumerate() {
+                let at = if slot.transposed {
+                    c * B + r
+                } else {
+                    r * B + c
+                };
+                values[at] += value;
+            }
         }
     }
 

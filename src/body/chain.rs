@@ -1,21 +1,47 @@
 //! A flexible body: a chain of elements through nodes.
 
+use std::ops::Range;
+
 use nalgebra::{SMatrix, SVector};
 
 use super::assembly::{Assembly, NodeBlock};
 use super::connectivity::Node;
-use crate::elements::{Blocks, Element, Nodal, shape};
+use crate::elements::{BlockPack, Element, Nodal, NodalPack, shape};
+use crate::math::lanes::{PACK, Simd, Work, vectorized};
 use crate::math::sparse::Matrix;
 
 /// A chain of elements in `D` dimensions; its nodes have `B = 2 D` coordinates (position, slope) and
 /// stand in a row in those of the system.
 #[derive(Clone, Debug)]
-pub struct Chain<E, const D: usize, const B: usize> {
+pub struct Chain<E: Element<D>, const D: usize, const B: usize> {
     elements: Vec<E>,
+    packs: Vec<Pack<E::Pack>>,
     first: usize,
     /// Nodes from one element to the next: 1 where they share one, 2 where they do not.
     stride: usize,
     is_damped: bool,
+}
+
+/// Elements that are computed together, at most [`PACK`].
+#[derive(Clone, Debug)]
+struct Pack<P> {
+    elements: Range<usize>,
+    kernel: P,
+}
+
+fn packs<E: Element<D>, const D: usize>(elements: &[E]) -> Vec<Pack<E::Pack>> {
+    let (mut packs, mut start) = (Vec::new(), 0);
+    while start < elements.len() {
+        let rest = &elements[start..];
+        let alike = rest.iter().take_while(|element| rest[0].goes_with(element));
+        let count = alike.take(PACK).count();
+        packs.push(Pack {
+            elements: start..start + count,
+            kernel: E::pack(&rest[..count]),
+        });
+        start += count;
+    }
+    packs
 }
 
 impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
@@ -25,6 +51,7 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
         assert!(B == 2 * D);
         Self {
             is_damped: elements.iter().any(Element::is_damped),
+            packs: packs(&elements),
             elements,
             first,
             stride: if connected { 1 } else { 2 },
@@ -111,17 +138,13 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 
     /// Adds elastic and damping forces.
     pub fn add_force(&self, x: &[Node<B>], rate: &[Node<B>], force: &mut [Node<B>]) {
-        let rest = Nodal::zeros();
-        for (j, element) in self.elements.iter().enumerate() {
-            let e = self.element(j, x);
-            // Only damping reads rates.
-            let f = if self.is_damped {
-                element.force(&e, &self.element(j, rate))
-            } else {
-                element.force(&e, &rest)
-            };
-            self.add_to(j, &f, force);
-        }
+        let chain = self;
+        vectorized(AddForce {
+            chain,
+            x,
+            rate,
+            force,
+        });
     }
 
     /// Strain energy, J.
@@ -161,9 +184,16 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     pub fn add_mass(&self, assembly: &Assembly<B>, matrix: &mut Matrix<f64>) {
         for (j, element) in self.elements.iter().enumerate() {
             let m = element.mass();
-            let blocks: Blocks<D> =
-                std::array::from_fn(|a| std::array::from_fn(|b| SMatrix::identity() * m[(a, b)]));
-            self.add_blocks(j, &blocks, assembly, matrix);
+            let [a, b] = self.nodes(j);
+            for (row, column, at) in [(a, a, (0, 0)), (b, a, (2, 0)), (b, b, (2, 2))] {
+                let of = |r: usize, c: usize| match r % D == c % D {
+                    true => m[(at.0 + r / D, at.1 + c / D)],
+                    false => 0.0,
+                };
+                let block: NodeBlock<B> =
+                    std::array::from_fn(|r| std::array::from_fn(|c| of(r, c)));
+                assembly.add(row, column, &block, matrix);
+            }
         }
     }
 
@@ -175,35 +205,118 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
         stiffness: &mut Matrix<f64>,
         damping: &mut Matrix<f64>,
     ) {
-        for (j, element) in self.elements.iter().enumerate() {
-            let e = self.element(j, x);
-            let blocks = if self.is_damped {
-                element.stiffness(&e, &self.element(j, rate))
-            } else {
-                element.stiffness(&e, &Nodal::zeros())
-            };
-            self.add_blocks(j, &blocks, assembly, stiffness);
-            if self.is_damped {
-                self.add_blocks(j, &element.damping(&e), assembly, damping);
+        let (chain, matrices) = (self, (stiffness, damping));
+        vectorized(AddTangent {
+            chain,
+            x,
+            rate,
+            assembly,
+            matrices,
+        });
+    }
+
+    /// Copies coordinates of the elements of a pack, or rates.
+    #[inline(always)]
+    fn read(&self, pack: &Pack<E::Pack>, x: &[Node<B>], e: &mut NodalPack<D>) {
+        let first = self.first + pack.elements.start * self.stride;
+        for lane in 0..pack.elements.len() {
+            let ends = &x[first + lane * self.stride..][..2];
+            for k in 0..B {
+                e[k / D][k % D][lane] = ends[0][k];
+                e[2 + k / D][k % D][lane] = ends[1][k];
             }
         }
     }
 
+    #[inline(always)]
     fn add_blocks(
         &self,
-        j: usize,
-        blocks: &Blocks<D>,
+        pack: &Pack<E::Pack>,
+        blocks: &BlockPack<D>,
         assembly: &Assembly<B>,
         matrix: &mut Matrix<f64>,
     ) {
-        let part = |row: usize, column: usize| -> NodeBlock<B> {
-            std::array::from_fn(|r| {
-                std::array::from_fn(|c| blocks[row + r / D][column + c / D][(r % D, c % D)])
-            })
-        };
-        let [a, b] = self.nodes(j);
-        assembly.add(a, a, &part(0, 0), matrix);
-        assembly.add(a, b, &part(0, 2), matrix);
-        assembly.add(b, b, &part(2, 2), matrix);
+        for (lane, j) in pack.elements.clone().enumerate() {
+            let [a, b] = self.nodes(j);
+            for (part, (row, column)) in [(a, a), (b, a), (b, b)].into_iter().enumerate() {
+                let mut block = [[0.0; B]; B];
+                for r in 0..B {
+                    for c in 0..B {
+                        block[r][c] = blocks[part][r / D][c / D][r % D][c % D][lane];
+                    }
+                }
+                assembly.add(row, column, &block, matrix);
+            }
+        }
     }
+}
+
+/// [`Chain::add_force`].
+struct AddForce<'a, E: Element<D>, const D: usize, const B: usize> {
+    chain: &'a Chain<E, D, B>,
+    x: &'a [Node<B>],
+    rate: &'a [Node<B>],
+    force: &'a mut [Node<B>],
+}
+
+impl<E: Element<D>, const D: usize, const B: usize> Work for AddForce<'_, E, D, B> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let chain = self.chain;
+        let (mut e, mut v, mut f) = (rest(), rest(), rest());
+        for pack in &chain.packs {
+            chain.read(pack, self.x, &mut e);
+            if chain.is_damped {
+                chain.read(pack, self.rate, &mut v);
+                E::pack_force(simd, &pack.kernel, (&e, Some(&v)), &mut f);
+            } else {
+                E::pack_force(simd, &pack.kernel, (&e, None), &mut f);
+            }
+            let first = chain.first + pack.elements.start * chain.stride;
+            for lane in 0..pack.elements.len() {
+                let ends = &mut self.force[first + lane * chain.stride..][..2];
+                for k in 0..B {
+                    ends[0][k] += f[k / D][k % D][lane];
+                    ends[1][k] += f[2 + k / D][k % D][lane];
+                }
+            }
+        }
+    }
+}
+
+/// [`Chain::add_tangent`].
+struct AddTangent<'a, E: Element<D>, const D: usize, const B: usize> {
+    chain: &'a Chain<E, D, B>,
+    x: &'a [Node<B>],
+    rate: &'a [Node<B>],
+    assembly: &'a Assembly<B>,
+    /// Stiffness and damping.
+    matrices: (&'a mut Matrix<f64>, &'a mut Matrix<f64>),
+}
+
+impl<E: Element<D>, const D: usize, const B: usize> Work for AddTangent<'_, E, D, B> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let (chain, (stiffness, damping)) = (self.chain, self.matrices);
+        let (mut e, mut v) = (rest(), rest());
+        let mut blocks = [[[[[[0.0; PACK]; D]; D]; 2]; 2]; 3];
+        for pack in &chain.packs {
+            chain.read(pack, self.x, &mut e);
+            if chain.is_damped {
+                chain.read(pack, self.rate, &mut v);
+                E::pack_stiffness(simd, &pack.kernel, (&e, Some(&v)), &mut blocks);
+                chain.add_blocks(pack, &blocks, self.assembly, stiffness);
+                E::pack_damping(simd, &pack.kernel, &e, &mut blocks);
+                chain.add_blocks(pack, &blocks, self.assembly, damping);
+            } else {
+                E::pack_stiffness(simd, &pack.kernel, (&e, None), &mut blocks);
+                chain.add_blocks(pack, &blocks, self.assembly, stiffness);
+            }
+        }
+    }
+}
+
+/// Coordinates that any element can be evaluated at, for lanes without one.
+fn rest<const D: usize>() -> NodalPack<D> {
+    [[[1.0; PACK]; D]; 4]
 }

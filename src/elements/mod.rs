@@ -9,12 +9,25 @@ pub mod shape;
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::math::lanes::{PACK, Simd};
+
 /// Coordinates of an element, their rates, or forces on them: the columns are position and slope at
 /// the first end, position and slope at the second (report Eqs. 10-11).
 pub type Nodal<const D: usize> = SMatrix<f64, D, 4>;
 
 /// A symmetric matrix over the coordinates of an element, as 4 x 4 blocks of `D` x `D`.
 pub type Blocks<const D: usize> = [[SMatrix<f64, D, D>; 4]; 4];
+
+/// Coordinates of a pack of elements, their rates, or forces on them: every coordinate of all elements
+/// side by side.
+pub type NodalPack<const D: usize> = [[[f64; PACK]; D]; 4];
+
+/// [`EndBlocks`] of a pack of elements.
+pub type BlockPack<const D: usize> = EndBlocks<[f64; PACK], D>;
+
+/// The lower triangle of a symmetric matrix over the coordinates of an element: first end, second end
+/// with first, second end; each 2 x 2 blocks of `D` x `D`.
+pub type EndBlocks<N, const D: usize> = [[[[[N; D]; D]; 2]; 2]; 3];
 
 /// Strain measures. They agree only for small strains; the energy is half the integral of
 /// `EA axial^2 + EI bending^2` over the reference length.
@@ -30,6 +43,8 @@ pub enum Strain {
 
 /// What a body needs from an element.
 pub trait Element<const D: usize>: Clone + Send + Sync {
+    /// Elements that are computed in lanes.
+    type Pack: Clone + Send + Sync + std::fmt::Debug;
     /// Reference length, m.
     fn length(&self) -> f64;
     /// Scalar mass matrix, kg (report Eq. 12); the full one is its Kronecker product with I.
@@ -48,9 +63,32 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn damping(&self, e: &Nodal<D>) -> Blocks<D>;
     /// Whether the element dissipates.
     fn is_damped(&self) -> bool;
-    /// Axial strain and curvature (1/m) at `xi` in [0, 1], in the strain measure of the element.
+    /// Axial strain and curvature (1/m) of the position field at `xi` in [0, 1], in the strain measure of the element.
     fn strain(&self, e: &Nodal<D>, xi: f64) -> (f64, f64);
+    /// Axial strain at `xi` in [0, 1] as it balances loads: of a higher order than that of the position
+    /// field.
+    fn recovered_strain(&self, e: &Nodal<D>, xi: f64) -> f64;
     /// Axial force (N) and bending moment (N m) at `xi` in [0, 1], conjugate to the strain measure, with
     /// damping; those of a curved shape are measured from its mean strain and curvature.
     fn section(&self, e: &Nodal<D>, rate: &Nodal<D>, xi: f64) -> (f64, f64);
+    /// Whether this element and another can be in one pack.
+    fn goes_with(&self, other: &Self) -> bool;
+    /// Up to [`PACK`] elements, for the calls below; entries beyond the number of elements do not count.
+    fn pack(elements: &[Self]) -> Self::Pack;
+    /// [`Self::force`] of a pack; with rates where it is damped.
+    fn pack_force<S: Simd>(
+        simd: S,
+        pack: &Self::Pack,
+        motion: (&NodalPack<D>, Option<&NodalPack<D>>),
+        out: &mut NodalPack<D>,
+    );
+    /// [`Self::stiffness`] of a pack; with rates where it is damped.
+    fn pack_stiffness<S: Simd>(
+        simd: S,
+        pack: &Self::Pack,
+        motion: (&NodalPack<D>, Option<&NodalPack<D>>),
+        out: &mut BlockPack<D>,
+    );
+    /// [`Self::damping`] of a pack.
+    fn pack_damping<S: Simd>(simd: S, pack: &Self::Pack, e: &NodalPack<D>, out: &mut BlockPack<D>);
 }

@@ -109,6 +109,8 @@ fn model(scene: &Scene) -> String {
         Integrator::Auto => "chosen from the stiffness of the scene and the tolerance",
         Integrator::Radau => "Radau IIA of order 5, implicit",
         Integrator::Rk4 => "Runge-Kutta of order 4, explicit",
+        Integrator::Verlet => "velocity Verlet of order 2, explicit",
+        Integrator::Rkn43 => "Runge-Kutta-Nystrom of order 4, explicit",
     };
     let initial = match scene.initial {
         Initial::AsShaped => "the bodies as described, moved as far as their joints ask for",

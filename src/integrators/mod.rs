@@ -4,9 +4,11 @@
 //! Methods are one-step: nothing of the past survives a communication point but the proposed step, so
 //! that inputs may jump there and a restored state continues bit for bit.
 
+mod nystrom;
 mod radau;
 mod rk4;
 
+pub use nystrom::{Nystrom, RKN43, VERLET};
 pub use radau::Radau;
 pub use rk4::Rk4;
 
@@ -104,6 +106,15 @@ pub enum Stop {
 /// Most attempted steps of one call: a master should hear of it before a night has passed.
 pub const MOST_STEPS: u64 = 10_000_000;
 
+/// The error of an estimate of this power of the step as the driver, which takes the fourth, must see
+/// it to choose the right step.
+fn rescaled(error: f64, power: f64) -> f64 {
+    error.powf(4.0 / power)
+}
+
+/// Growth of the longest step after one whose stage equations were not solved.
+const RELAX: f64 = 1.1;
+
 /// The smallest and largest change of step length from one step to the next, and the safety factor.
 const SHRINK: f64 = 0.2;
 const GROW: f64 = 5.0;
@@ -141,6 +152,8 @@ fn advance_smoothly(
     (tolerance, counts): (&Tolerance, &mut Counts),
 ) -> Result<(), Stop> {
     let mut grow = GROW;
+    // Steps for which stage equations could be solved: nearly those it grows to from one that failed.
+    let mut ceiling = f64::INFINITY;
     method.begin(dynamics, state.time, &state.coordinates, &state.rates);
     if state.step <= 0.0 {
         state.step = first_step(method.acceleration(), &state.rates, tolerance);
@@ -168,11 +181,13 @@ fn advance_smoothly(
             Attempt::Done(error) if error <= 1.0 => {
                 method.accept(&mut state.coordinates, &mut state.rates);
                 state.time = if pieces <= 1.0 { until } else { state.time + h };
+                ceiling *= RELAX;
                 let next = h * (SAFETY * error.max(1e-10).powf(-0.25)).clamp(SHRINK, grow);
+                let next = next.min(ceiling);
                 grow = GROW;
                 // A step cut short by the communication point says nothing against the longer one.
                 state.step = if h < wanted {
-                    next.max(state.step)
+                    next.max(state.step).min(ceiling)
                 } else {
                     next
                 };
@@ -186,19 +201,26 @@ fn advance_smoothly(
                 counts.rejected += 1;
                 // What just failed at this length will not succeed at a longer one.
                 grow = 1.0;
-                let factor = match outcome {
-                    Attempt::Done(error) if error.is_finite() => {
-                        (SAFETY * error.powf(-0.25)).clamp(SHRINK, SAFETY)
-                    }
-                    Attempt::Done(_) => SHRINK,
-                    Attempt::Failed(factor) => factor,
-                };
-                state.step = h * factor;
+                state.step = h * shrink(outcome);
+                if let Attempt::Failed(_) = outcome {
+                    ceiling = state.step;
+                }
                 if state.step <= shortest {
                     return Err(reason(&state.rates, method.acceleration()));
                 }
             }
         }
+    }
+}
+
+/// The part of a step that was not accepted to try instead.
+fn shrink(outcome: Attempt) -> f64 {
+    match outcome {
+        Attempt::Done(error) if error.is_finite() => {
+            (SAFETY * error.powf(-0.25)).clamp(SHRINK, SAFETY)
+        }
+        Attempt::Done(_) => SHRINK,
+        Attempt::Failed(factor) => factor,
     }
 }
 

@@ -71,6 +71,9 @@ const B: [f64; 3] = [0.376_403_062_700_467_3, 0.512_485_826_188_421_6, 1.0 / 9.0
 const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_749, -1.0 / 3.0];
 /// Size of the error that Newton's method leaves, in units of the tolerance.
 const NEWTON: f64 = 0.03;
+/// Tolerance beyond which Newton's method leaves no more: what it leaves strains stiff directions, and
+/// the steps that follow fail (spin-up beam at 1e-2: 1628 rejected steps for 1441, now 560 for 526).
+const LOOSEST: f64 = 1e-4;
 /// Growth of the first correction beyond which the iteration diverges.
 const DIVERGING: f64 = 2.0;
 /// The last stage is the end of the step.
@@ -225,7 +228,8 @@ impl Radau {
         h: f64,
         tolerance: &Tolerance,
     ) -> Result<(), f64> {
-        let goal = NEWTON.max(10.0 * f64::EPSILON / tolerance.relative);
+        let asked = NEWTON * (LOOSEST / tolerance.relative).min(1.0);
+        let goal = asked.max(10.0 * f64::EPSILON / tolerance.relative);
         let (mut before, mut ratio_before, mut theta) = (0.0, 0.0, 0.0_f64);
         for k in 0..ITERATIONS {
             let size = self.iterate(dynamics, state, h, tolerance);

@@ -1,11 +1,12 @@
 //! Floor 0. Numerics that know nothing of mechanics: quadrature, structured solves, eigenvalues.
-//! The only users of faer.
+//! The only users of faer and pulp.
 
 pub mod eigen;
 pub mod expression;
 pub mod function;
 mod grammar;
 pub mod householder;
+pub mod lanes;
 pub mod quadrature;
 pub mod row_space;
 pub mod sparse;

@@ -13,19 +13,24 @@ const fn point(at: f64, weight: f64) -> Point {
     Point { at, weight }
 }
 
-/// sqrt(3) / 6.
-const SQRT_3_6: f64 = 0.288_675_134_594_812_9;
 /// sqrt(15) / 10.
 const SQRT_15_10: f64 = 0.387_298_334_620_741_7;
-
-/// Gauss-Legendre, exact to degree 3.
-pub const GAUSS_2: [Point; 2] = [point(0.5 - SQRT_3_6, 0.5), point(0.5 + SQRT_3_6, 0.5)];
 
 /// Gauss-Legendre, exact to degree 5.
 pub const GAUSS_3: [Point; 3] = [
     point(0.5 - SQRT_15_10, 5.0 / 18.0),
     point(0.5, 8.0 / 18.0),
     point(0.5 + SQRT_15_10, 5.0 / 18.0),
+];
+
+/// sqrt(13/15) / 2.
+const SQRT_13_15_2: f64 = 0.465_474_668_125_631_4;
+
+/// Between Gauss-Legendre and Gauss-Lobatto, exact to degree 3.
+pub const BETWEEN_3: [Point; 3] = [
+    point(0.5 - SQRT_13_15_2, 5.0 / 26.0),
+    point(0.5, 8.0 / 13.0),
+    point(0.5 + SQRT_13_15_2, 5.0 / 26.0),
 ];
 
 /// Gauss-Lobatto, exact to degree 3, with both ends (Simpson's rule).
@@ -45,7 +50,7 @@ mod tests {
 
     #[test]
     fn rules_are_exact_to_their_degree_and_no_further() {
-        for (rule, degree) in [(&GAUSS_2[..], 3), (&GAUSS_3, 5), (&LOBATTO_3, 3)] {
+        for (rule, degree) in [(&GAUSS_3[..], 5), (&BETWEEN_3, 3), (&LOBATTO_3, 3)] {
             for power in 0..=degree {
                 let exact = 1.0 / f64::from(power + 1);
                 assert!((integrate(rule, power) - exact).abs() < 1e-15);

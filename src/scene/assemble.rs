@@ -8,7 +8,8 @@ use super::{
     Strain, Value,
 };
 use crate::body::{self, Marker, Node};
-use crate::elements::{self, Nodal, cable};
+use crate::elements::cable::{self, Inertia};
+use crate::elements::{self, Nodal};
 use crate::math::function::Function;
 use crate::system::joints::{self, Joint};
 use crate::system::loads::{self, Load};
@@ -151,8 +152,12 @@ impl Builder<'_> {
         match &self.scene.bodies[index] {
             Body::Cable(cable) => {
                 let mesh = self.scene.nodes(index)?;
-                let connected = self.scene.method.formulation != Formulation::AsPrinted;
-                let chain = PlanarChain::new(build_elements(cable, &mesh), first, connected);
+                let (connected, inertia) = match self.scene.method.formulation {
+                    Formulation::MassWeighted => (true, Inertia::Corrected),
+                    Formulation::AsPrinted => (false, Inertia::Consistent),
+                };
+                let chain =
+                    PlanarChain::new(build_elements(cable, &mesh, inertia), first, connected);
                 let node = |s: &f64| {
                     let (p, d) = (cable.shape.point(*s), cable.shape.tangent(*s));
                     [p[0], p[1], d[0], d[1]]
@@ -458,7 +463,7 @@ fn direction(direction: Option<[f64; 2]>) -> Vector2<f64> {
     Vector2::from(direction.unwrap_or([1.0, 0.0])).normalize()
 }
 
-fn build_elements(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<2, 1>> {
+fn build_elements(body: &CableBody, nodes: &[f64], inertia: Inertia) -> Vec<cable::Cable<2, 1>> {
     let (material, section) = (&body.material, &body.section);
     let strain = match body.strain {
         Strain::ThetaPrime => elements::Strain::ThetaPrime,
@@ -474,6 +479,7 @@ fn build_elements(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<2, 1>> {
             line_density: material.density * section.area,
             damping_time: material.damping_time,
             strain,
+            inertia,
         };
         let [a, b]: [[Vector2<f64>; 2]; 2] = [end(s[0]), end(s[1])];
         let e = Nodal::from_columns(&[a[0], a[1], b[0], b[1]]);

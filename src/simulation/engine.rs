@@ -67,7 +67,7 @@ impl Engine {
             kinetic: evaluation.kinetic_energy(system),
             inputs: &inputs,
         };
-        let (tolerance, method) = method::choose(scene, &start, &mut work);
+        let (tolerance, method) = method::choose(scene, &start, &mut work)?;
         Ok(Self {
             scene: scene.clone(),
             evaluated: Evaluated::Nothing,

@@ -2,14 +2,21 @@
 
 use std::f64::consts::PI;
 
-use crate::integrators::{Method, Radau, Rk4, Tolerance};
-use crate::scene::{Integrator, JointKind, LoadKind, Scene};
+use crate::integrators::{Method, Nystrom, RKN43, Radau, Rk4, Tolerance, VERLET};
+use crate::scene::{Error, Integrator, JointKind, LoadKind, Scene};
 use crate::system::{State, System, Work, fastest};
 
-/// The explicit method pays up to a frequency of this many natural rates, times the cube root of the
-/// inverse tolerance: where both methods cost the same on soft, middling and steel pendulums
+/// Explicit methods pay up to a frequency of this many natural rates, times the cube root of the inverse
+/// tolerance: where both kinds cost the same on pendulums of 10 to 80 elements from soft to stiff
 /// (docs/decisions/0004-integrators.md).
 const EXPLICIT: f64 = 75.0;
+/// The same for the method that takes dampers and constraints, whose evaluations take it less far.
+const EXPLICIT_WITH_RATES: f64 = 42.0;
+/// Tolerance above which the implicit method takes no longer steps.
+const LOOSE: f64 = 1e-4;
+/// Tolerance from which stability alone sets the steps of the method of order 4, and one of order 2 is
+/// cheaper.
+const LOOSEST: f64 = 5e-3;
 
 /// What a choice is made from.
 pub(super) struct Start<'a> {
@@ -24,11 +31,14 @@ pub(super) struct Start<'a> {
 }
 
 /// Tolerance and integrator for a scene.
+///
+/// # Errors
+/// When the integrator that the scene names cannot take this system.
 pub(super) fn choose(
     scene: &Scene,
     start: &Start<'_>,
     work: &mut Work,
-) -> (Tolerance, Box<dyn Method>) {
+) -> Result<(Tolerance, Box<dyn Method>), Error> {
     let system = start.system;
     let rate = natural_rate(scene, system, start.kinetic);
     let relative = scene.accuracy.relative_tolerance;
@@ -40,15 +50,33 @@ pub(super) fn choose(
     let n = system.coordinates();
     let radau = || -> Box<dyn Method> { Box::new(Radau::new(n)) };
     if scene.method.integrator == Integrator::Radau {
-        return (tolerance, radau());
+        return Ok((tolerance, radau()));
+    }
+    let named = scene.method.integrator;
+    if system.reads_rates() && matches!(named, Integrator::Verlet | Integrator::Rkn43) {
+        let found = format!("{named:?}").to_lowercase();
+        let message = format!(
+            "expected \"auto\", \"radau\" or \"rk4\" where accelerations read rates (damping, joints that \
+             keep multipliers, a turning frame, the energy of inputs), found \"{found}\""
+        );
+        return Err(Error::new("method.integrator", message));
     }
     let (frequency, decay) = fastest(system, start.inputs, work, start.state);
-    let is_soft = frequency.max(decay) <= EXPLICIT * rate / relative.cbrt();
+    let explicit = match system.reads_rates() {
+        true => EXPLICIT_WITH_RATES,
+        false => EXPLICIT,
+    };
+    let is_soft = frequency.max(decay) <= explicit * rate / relative.min(LOOSE).cbrt();
+    let nystrom = |tableau| -> Box<dyn Method> { Box::new(Nystrom::new(tableau, n, frequency)) };
     let method = match scene.method.integrator {
         Integrator::Auto if !is_soft => radau(),
-        _ => Box::new(Rk4::new(n, frequency, decay)),
+        Integrator::Auto if system.reads_rates() => Box::new(Rk4::new(n, frequency, decay)),
+        Integrator::Auto if relative >= LOOSEST => nystrom(&VERLET),
+        Integrator::Auto | Integrator::Rkn43 => nystrom(&RKN43),
+        Integrator::Verlet => nystrom(&VERLET),
+        Integrator::Rk4 | Integrator::Radau => Box::new(Rk4::new(n, frequency, decay)),
     };
-    (tolerance, method)
+    Ok((tolerance, method))
 }
 
 /// How fast the scene moves, 1/s: by gravity, by its motion at the start, by the turning of its frame;

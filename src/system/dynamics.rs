@@ -112,8 +112,7 @@ impl<'a> Model<'a> {
 
     fn place(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.time = time;
-        let rates = self.system.is_damped || self.system.needs_rates;
-        let v = rates.then_some(v);
+        let v = self.system.reads_rates().then_some(v);
         self.system.place(time, q, v, self.work);
     }
 

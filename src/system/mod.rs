@@ -164,6 +164,13 @@ impl System {
         self.gravity
     }
 
+    /// Whether accelerations, or the work that is counted, depend on rates: by damping, by multipliers of
+    /// non-linear constraints, in a turning frame, by loads that read them. Methods for
+    /// `q'' = a(t, q)` are for systems where they do not.
+    pub fn reads_rates(&self) -> bool {
+        self.is_damped || self.needs_rates
+    }
+
     /// Times at which something has a kink or jumps, s, increasing: no step leads across.
     pub fn breaks(&self) -> &[f64] {
         &self.breaks

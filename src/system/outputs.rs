@@ -80,7 +80,8 @@ impl Evaluation {
         let at = system.element(marker);
         at.map_or((0.0, 0.0), |(chain, j, xi)| {
             let e = chain.element(j, &self.x);
-            chain.elements()[j].strain(&e, xi)
+            let element = &chain.elements()[j];
+            (element.recovered_strain(&e, xi), element.strain(&e, xi).1)
         })
     }
 

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use flexbody::body::{Formulation, Marker, Node};
-use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::loads::Load;
@@ -96,6 +96,7 @@ fn build(
         heading += turn;
         nodes.push([position, direction(heading)]);
         let parameters = Parameters {
+            inertia: Inertia::Corrected,
             length: *length,
             axial_stiffness,
             bending_stiffness,

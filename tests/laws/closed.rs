@@ -2,7 +2,7 @@
 //! other.
 
 use flexbody::elements::Strain;
-use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
 use flexbody::system::{Model, fastest, natural_frequencies};
 use nalgebra::Vector2;
@@ -286,6 +286,7 @@ fn parts_without_connection_do_not_know_of_each_other() {
     };
     let cable = || {
         let parameters = Parameters {
+            inertia: Inertia::Corrected,
             length: 0.5,
             axial_stiffness: 200.0,
             bending_stiffness: 0.5,

@@ -1,7 +1,7 @@
 //! Report Eqs. 23-34 as printed fail where the product's formulation holds, by orders of magnitude.
 
 use flexbody::body::Formulation;
-use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};
 use flexbody::system::{Evaluation, Parts, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -17,6 +17,7 @@ const GRAVITY: f64 = -9.81;
 fn beam(unit: f64) -> Chain {
     let length = 0.6 / unit;
     let parameters = Parameters {
+        inertia: Inertia::Consistent,
         length,
         axial_stiffness: 1260.0,
         bending_stiffness: 8.505e-3,

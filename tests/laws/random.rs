@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Nodal, Strain};
 use nalgebra::Vector2;
 use proptest::collection::vec;
@@ -200,6 +200,7 @@ impl Builder {
             let [p, d] = ends[ends.len() - 1];
             ends.push([at, direction(heading)]);
             let parameters = Parameters {
+                inertia: Inertia::Corrected,
                 length,
                 axial_stiffness: 300.0,
                 bending_stiffness: 2.0,

@@ -158,7 +158,8 @@ fn turned_solve(chain: &Chain, angle: f64) -> Outcome {
     let there = project(system, &way);
 
     let (state, mut work) = state(system, &here.q, &here.v);
-    let (s, rest) = (frequency(system), vec![0.0; n]);
+    // Well above the lowest frequency of any compressed state.
+    let (s, rest) = (2.0 * frequency(system), vec![0.0; n]);
     let mut model = Model::new(system, &[], &mut work, &state);
     let right = random(&free, n, 7).as_slice().to_vec();
     model.linearize(0.0, &there, &rest);

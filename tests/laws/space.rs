@@ -1,7 +1,7 @@
 //! Chains of cables in space: what bodies of the plane promise holds for any dimension.
 
 use flexbody::body::{Assembly, Chain, Elimination, Node, Row, Tangent};
-use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Nodal, Strain};
 use flexbody::math::sparse::Matrix;
 use nalgebra::{Complex, DMatrix, DVector, Rotation3, Vector3};
@@ -39,6 +39,7 @@ fn numbers() -> impl Strategy<Value = Numbers> {
 fn case((elements, joints, noise): Numbers) -> Case {
     let cable = |(length, line_density): &(f64, f64)| {
         let parameters = Parameters {
+            inertia: Inertia::Corrected,
             length: *length,
             axial_stiffness: 200.0,
             bending_stiffness: 1.0,

@@ -10,7 +10,7 @@ use crate::specimen::{planar, rigid_motion, spatial};
 const CASES: u32 = 128;
 
 #[test]
-fn mass_and_weight_are_the_integrals_of_the_shape_functions() {
+fn mass_and_weight_are_integrals_of_the_shape_functions() {
     check(CASES, spatial(), |s| elements::inertia(&s));
 }
 

@@ -1,6 +1,6 @@
 //! Random cables: material, size, unstressed shape, deformed state and rates.
 
-use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Nodal, Strain};
 use nalgebra::{SMatrix, SVector};
 use proptest::array::uniform12;
@@ -76,6 +76,7 @@ fn parameters(damped: bool) -> impl Strategy<Value = Parameters> {
     (sizes, decades(-3.0, 3.0), damping, strains()).prop_map(
         |((length, slenderness, bending_stiffness), line_density, damping_time, strain)| {
             Parameters {
+                inertia: Inertia::Corrected,
                 length,
                 axial_stiffness: slenderness * bending_stiffness / (length * length),
                 bending_stiffness,

@@ -5,7 +5,7 @@ use flexbody::system::State;
 use nalgebra::{Matrix2, Vector2};
 
 use crate::problem::Problem;
-use crate::{ROWS, TIGHT, driven, exact};
+use crate::{ROWS, TIGHT, exact};
 
 fn started() -> State {
     let [x, v] = exact(0.0);
@@ -22,7 +22,7 @@ fn started() -> State {
 fn errors_follow_the_tolerance() {
     for row in &ROWS {
         let errors = [1e-3, 1e-5, 1e-7, 1e-9].map(|relative| {
-            let (mut method, mut problem, mut state) = ((row.make)(), driven(), started());
+            let (mut method, mut problem, mut state) = ((row.make)(), row.problem(), started());
             let tolerance = Tolerance { relative, ..TIGHT };
             let (counts, result) = advance(&mut *method, &mut problem, &mut state, 5.0, &tolerance);
             assert_eq!(result, Ok(()));
@@ -44,7 +44,7 @@ fn errors_follow_the_tolerance() {
 #[test]
 fn communication_points_are_met_exactly() {
     for row in &ROWS {
-        let (mut method, mut problem, mut state) = ((row.make)(), driven(), started());
+        let (mut method, mut problem, mut state) = ((row.make)(), row.problem(), started());
         let tolerance = Tolerance {
             relative: 1e-6,
             ..TIGHT

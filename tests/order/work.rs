@@ -24,7 +24,7 @@ fn started() -> State {
 
 #[test]
 fn work_is_the_integral_of_power_with_the_order_of_the_method() {
-    for row in &ROWS {
+    for row in ROWS.iter().filter(|row| row.rates) {
         let errors = [20_u32, 40].map(|steps| {
             let (mut method, mut problem) = ((row.make)(), oscillator());
             let mut state = started();
@@ -53,7 +53,7 @@ fn work_is_the_integral_of_power_with_the_order_of_the_method() {
 
 #[test]
 fn the_driver_adds_up_the_work_of_accepted_steps() {
-    for row in &ROWS {
+    for row in ROWS.iter().filter(|row| row.rates) {
         let (mut method, mut problem, mut state) = ((row.make)(), oscillator(), started());
         let tolerance = Tolerance {
             relative: 1e-8,
@@ -77,7 +77,7 @@ fn no_step_leads_across_a_break() {
     fn push(t: f64) -> f64 {
         (1.0 - 5.0 * (t - 0.9).abs()).max(0.0)
     }
-    for row in &ROWS {
+    for row in ROWS.iter().filter(|row| row.rates) {
         let mut problem = Problem::new(
             |t, _, _| Vector2::new(push(t), 0.0),
             |_, _| [Matrix2::zeros(); 2],
@@ -99,7 +99,7 @@ fn no_step_leads_across_a_break() {
 /// A state that is put right after every step: the method must go on from what became of it.
 #[test]
 fn a_moved_state_is_the_one_to_go_on_from() {
-    for row in &ROWS {
+    for row in ROWS.iter().filter(|row| row.rates) {
         // Distance from the origin grows by itself and is put right: uniform motion on a circle.
         let mut problem = Problem::new(
             |_, q, v| -q * (v.norm_squared() / q.norm_squared()),
@@ -136,7 +136,7 @@ fn what_ends_a_motion_ends_the_step() {
         (|_| Accepted::Broken, Stop::Broken),
         (|_| Accepted::RanOff(3), Stop::RanOff(3)),
     ];
-    for row in &ROWS {
+    for row in ROWS.iter().filter(|row| row.rates) {
         for (settle, stop) in ENDS {
             let (mut method, mut problem, mut state) = ((row.make)(), oscillator(), started());
             problem.settle = settle;

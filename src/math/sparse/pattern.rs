@@ -70,6 +70,14 @@ pub struct Slot {
 }
 
 impl Slot {
+    /// That of the transposed block.
+    pub fn flipped(self) -> Self {
+        Self {
+            transposed: !self.transposed,
+            ..self
+        }
+    }
+
     /// Place, in the values of the matrix, of entry (`row`, `column`) of the block asked for.
     pub fn entry(&self, row: usize, column: usize) -> usize {
         let (row, column) = if self.transposed {

@@ -139,8 +139,13 @@ pub enum Integrator {
     Auto,
     /// Radau IIA of order 5, implicit: for stiff scenes.
     Radau,
-    /// Runge-Kutta of order 4 with an embedded order 3, explicit: for soft scenes.
+    /// Runge-Kutta of order 4 with an embedded order 3, explicit: for soft scenes with damping or
+    /// constraints.
     Rk4,
+    /// Velocity Verlet of order 2, explicit: for soft scenes at loose tolerances.
+    Verlet,
+    /// Runge-Kutta-Nystrom of order 4 with an embedded order 3, explicit: for soft scenes.
+    Rkn43,
 }
 
 /// Default experiment of the FMU.

@@ -1,0 +1,456 @@
+//! The formulas of a cable, for one element or for several in lanes.
+//!
+//! A point of quadrature sees `u = r'` and `w = r''`. Energy densities are functions of
+//! `a = u.u` (axial strain) and of `c = u ^ w` and `a` (curvature); forces and tangents are their
+//! derivatives by the vectors `(r_B - r_A) / l`, slope at A, slope at B. Rigid translation drops out,
+//! which is why sums run over three vectors, not four.
+
+use crate::elements::Strain;
+use crate::math::lanes::{Lanes, PACK, Real, Simd};
+use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point};
+
+/// Weights of the three vectors in `r'` and `l r''`.
+type Combination = [f64; 3];
+type Vector<N, const D: usize> = [N; D];
+type Square<N, const D: usize> = [[N; D]; D];
+
+/// The three vectors and, where damping reads them, their rates.
+type Motion<'a, N, const D: usize> = (&'a [Vector<N, D>; 3], &'a Option<[Vector<N, D>; 3]>);
+
+/// A quadrature point with the weights of the vectors there.
+#[derive(Debug, PartialEq)]
+pub(super) struct Sample {
+    weight: f64,
+    slope: Combination,
+    curvature: Combination,
+}
+
+const fn sample(point: Point) -> Sample {
+    let at = point.at;
+    let square = at * at;
+    Sample {
+        weight: point.weight,
+        slope: [
+            6.0 * (at - square),
+            1.0 - 4.0 * at + 3.0 * square,
+            3.0 * square - 2.0 * at,
+        ],
+        curvature: [6.0 - 12.0 * at, 6.0 * at - 4.0, 6.0 * at - 2.0],
+    }
+}
+
+const BETWEEN: [Sample; 3] = [
+    sample(BETWEEN_3[0]),
+    sample(BETWEEN_3[1]),
+    sample(BETWEEN_3[2]),
+];
+const LOBATTO: [Sample; 3] = [
+    sample(LOBATTO_3[0]),
+    sample(LOBATTO_3[1]),
+    sample(LOBATTO_3[2]),
+];
+const BENDING: [Sample; 3] = [sample(GAUSS_3[0]), sample(GAUSS_3[1]), sample(GAUSS_3[2])];
+
+/// Changes numbers one by one. No closures: they are not inlined everywhere, and then not compiled for
+/// the processor at hand.
+macro_rules! each {
+    ($out:expr, $k:ident => $of:expr) => {{
+        let mut out = $out;
+        for $k in 0..out.len() {
+            out[$k] = $of;
+        }
+        out
+    }};
+}
+
+mod tangent;
+
+pub(super) use tangent::transposed;
+
+#[inline(always)]
+fn combine<N: Real, const D: usize>(weights: &Combination, v: &[Vector<N, D>; 3]) -> Vector<N, D> {
+    // Ends of an element see one vector alone; known when compiling.
+    match weights {
+        [0.0, 1.0, 0.0] => v[1],
+        [0.0, 0.0, 1.0] => v[2],
+        _ => {
+            let [p, q, r] = weights;
+            let [p, q, r] = [
+                v[0][0].constant(*p),
+                v[0][0].constant(*q),
+                v[0][0].constant(*r),
+            ];
+            each!(v[0], i => {
+                v[2][i].times_plus(r, v[1][i].times_plus(q, v[0][i] * p))
+            })
+        }
+    }
+}
+
+#[inline(always)]
+fn dot<N: Real, const K: usize>(a: &[N; K], b: &[N; K]) -> N {
+    let mut sum = a[0] * b[0];
+    for k in 1..K {
+        sum = a[k].times_plus(b[k], sum);
+    }
+    sum
+}
+
+#[inline(always)]
+fn times<N: Real, const K: usize>(a: &[N; K], factor: N) -> [N; K] {
+    each!(*a, k => a[k] * factor)
+}
+
+/// Exterior product u ^ w: the signed area in the plane, the cross product (reordered) in space.
+#[inline(always)]
+fn wedge<N: Real, const D: usize, const C: usize>(u: &Vector<N, D>, w: &Vector<N, D>) -> [N; C] {
+    let (mut c, mut k) = ([u[0]; C], 0);
+    for i in 0..D {
+        for j in i + 1..D {
+            c[k] = u[i] * w[j] - u[j] * w[i];
+            k += 1;
+        }
+    }
+    c
+}
+
+/// Contraction with the exterior product: `act(m, u) . w = m . (u ^ w)`.
+#[inline(always)]
+fn act<N: Real, const D: usize, const C: usize>(m: &[N; C], u: &Vector<N, D>) -> Vector<N, D> {
+    let (mut out, mut k) = ([u[0].constant(0.0); D], 0);
+    for i in 0..D {
+        for j in i + 1..D {
+            out[j] += m[k] * u[i];
+            out[i] = out[i] - m[k] * u[j];
+            k += 1;
+        }
+    }
+    out
+}
+
+/// `u = r'` and `w = r''`, or their rates.
+#[derive(Clone, Copy)]
+pub(super) struct Line<N, const D: usize> {
+    pub u: Vector<N, D>,
+    pub w: Vector<N, D>,
+}
+
+/// Curvature `c a^-p` with `c = u ^ w`; `a^-p`, and `2 p / a`. `p` is 1 for the rotation per reference
+/// length and 3/2 for the curvature of the deformed line.
+pub(super) struct Curvature<N, const C: usize> {
+    pub value: [N; C],
+    scale: N,
+    decay: N,
+    /// 1 / a.
+    inverse: N,
+}
+
+/// Parameters of one element or, in lanes, of several.
+#[derive(Clone, Debug)]
+pub(super) struct Kernel<N, const C: usize> {
+    pub length: N,
+    pub inverse_length: N,
+    pub axial_stiffness: N,
+    pub bending_stiffness: N,
+    pub damping_time: N,
+    /// Axial strain of the unstressed shape at the axial points.
+    pub natural_strain: [N; 3],
+    /// Curvature of the unstressed shape at the bending points, 1/m.
+    pub natural_curvature: [[N; C]; 3],
+    /// Whether axial strain is sampled at Lobatto points, not at those of Gauss.
+    pub is_slender: bool,
+    pub strain: Strain,
+    pub is_damped: bool,
+    pub bends: bool,
+}
+
+impl<const C: usize> Kernel<[f64; PACK], C> {
+    /// A group of the elements of a pack.
+    #[inline(always)]
+    pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>, C> {
+        let read = |numbers: &[f64; PACK]| Lanes::read(simd, numbers, group);
+        let length = read(&self.length);
+        let (mut natural_strain, mut natural_curvature) = ([length; 3], [[length; C]; 3]);
+        for i in 0..3 {
+            natural_strain[i] = read(&self.natural_strain[i]);
+        }
+        for i in 0..3 {
+            for k in 0..C {
+                natural_curvature[i][k] = read(&self.natural_curvature[i][k]);
+            }
+        }
+        Kernel {
+            length,
+            inverse_length: read(&self.inverse_length),
+            axial_stiffness: read(&self.axial_stiffness),
+            bending_stiffness: read(&self.bending_stiffness),
+            damping_time: read(&self.damping_time),
+            natural_strain,
+            natural_curvature,
+            is_slender: self.is_slender,
+            strain: self.strain,
+            is_damped: self.is_damped,
+            bends: self.bends,
+        }
+    }
+}
+
+impl<N: Real, const C: usize> Kernel<N, C> {
+    #[inline(always)]
+    fn number(&self, value: f64) -> N {
+        self.length.constant(value)
+    }
+
+    #[inline(always)]
+    fn vectors<const D: usize>(&self, e: &[Vector<N, D>; 4]) -> [Vector<N, D>; 3] {
+        let chord = each!(e[0], i => (e[2][i] - e[0][i]) * self.inverse_length);
+        [chord, e[1], e[3]]
+    }
+
+    #[inline(always)]
+    fn line<const D: usize>(&self, at: &Sample, v: &[Vector<N, D>; 3]) -> Line<N, D> {
+        Line {
+            u: combine(&at.slope, v),
+            w: times(&combine(&at.curvature, v), self.inverse_length),
+        }
+    }
+
+    /// Axial strain and its derivatives as functions of `a = r'.r'`: strain, `f` and `g` in
+    /// `d strain = f u.du`, `d^2 strain = f du.du + g (u.du)^2`.
+    #[inline(always)]
+    pub fn axial(&self, a: N) -> (N, N, N) {
+        match self.strain {
+            Strain::GreenLagrangeFrenetKappa => (
+                self.number(0.5) * (a - self.number(1.0)),
+                self.number(1.0),
+                self.number(0.0),
+            ),
+            Strain::ThetaPrime | Strain::EngStrainFrenetKappa => {
+                let stretch = a.root();
+                let inverse = self.number(1.0) / stretch;
+                let strain = stretch - self.number(1.0);
+                (strain, inverse, -(inverse * inverse * inverse))
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub fn curvature<const D: usize>(&self, at: &Line<N, D>) -> Curvature<N, C> {
+        let a = dot(&at.u, &at.u);
+        let inverse = self.number(1.0) / a;
+        let (scale, twice_power) = match self.strain {
+            Strain::ThetaPrime => (inverse, 2.0),
+            _ => (inverse / a.root(), 3.0),
+        };
+        Curvature {
+            value: times(&wedge(&at.u, &at.w), scale),
+            scale,
+            decay: self.number(twice_power) * inverse,
+            inverse,
+        }
+    }
+
+    /// Rate of curvature (planar).
+    #[inline(always)]
+    pub fn curvature_rate<const D: usize>(
+        &self,
+        at: &Line<N, D>,
+        rate: &Line<N, D>,
+        now: &Curvature<N, C>,
+    ) -> [N; C] {
+        let (first, second): ([N; C], [N; C]) = (wedge(&rate.u, &at.w), wedge(&at.u, &rate.w));
+        let shrink = now.decay * dot(&at.u, &rate.u);
+        each!(now.value, k => {
+            now.scale * (first[k] + second[k]) - shrink * now.value[k]
+        })
+    }
+
+    /// Axial strains and curvatures at the quadrature points: those of an unstressed shape.
+    #[inline(always)]
+    pub fn strains<const D: usize>(&self, e: &[Vector<N, D>; 4]) -> ([N; 3], [[N; C]; 3]) {
+        let v = self.vectors(e);
+        let axial = self.axial_samples(e, None);
+        let mut bending = self.natural_curvature;
+        for (value, point) in bending.iter_mut().zip(&BENDING) {
+            *value = self.curvature(&self.line(point, &v)).value;
+        }
+        (axial, bending)
+    }
+
+    /// A quantity at `xi` from its values at the axial points, as it balances loads: a parabola through
+    /// them whose part of the second degree is weighted as the integral of its square is to what the
+    /// points make of it (5/2 and 2): a load in proportion to that part is balanced by it.
+    #[inline(always)]
+    pub fn recover(&self, [a, b, c]: [N; 3], xi: f64) -> N {
+        let (far, weight) = if self.is_slender {
+            (1.0, 2.5)
+        } else {
+            (2.0 * BETWEEN_3[2].at - 1.0, 2.0)
+        };
+        let x = 2.0 * xi - 1.0;
+        let second = self.number(1.0 / (1.5 * far * far)) * (self.number(0.5) * (a + c) - b);
+        let mean = b + self.number(0.5) * second;
+        mean + (c - a) * self.number(0.5 * x / far)
+            + second * self.number(weight * (1.5 * x * x - 0.5))
+    }
+
+    /// Total axial strain, with what damping adds, at the axial points, not less its natural value.
+    #[inline(always)]
+    pub fn axial_samples<const D: usize>(
+        &self,
+        e: &[Vector<N, D>; 4],
+        rate: Option<&[Vector<N, D>; 4]>,
+    ) -> [N; 3] {
+        let v = self.vectors(e);
+        let dv = rate.map(|rate| self.vectors(rate));
+        let points = if self.is_slender { &LOBATTO } else { &BETWEEN };
+        let mut samples = self.natural_strain;
+        for (sample, point) in samples.iter_mut().zip(points) {
+            let u = combine(&point.slope, &v);
+            let (strain, f, _) = self.axial(dot(&u, &u));
+            *sample = strain;
+            if let Some(dv) = &dv {
+                *sample += self.damping_time * f * dot(&u, &combine(&point.slope, dv));
+            }
+        }
+        samples
+    }
+
+    /// Axial force at a point, and `f` and `g` of [`Self::axial`].
+    #[inline(always)]
+    fn axial_force<const D: usize>(
+        &self,
+        index: usize,
+        u: &Vector<N, D>,
+        rate: Option<Vector<N, D>>,
+    ) -> (N, N, N) {
+        let (strain, f, g) = self.axial(dot(u, u));
+        let mut total = strain - self.natural_strain[index];
+        if let Some(du) = rate {
+            total += self.damping_time * f * dot(u, &du);
+        }
+        (self.axial_stiffness * total, f, g)
+    }
+
+    #[inline(always)]
+    fn moment<const D: usize>(
+        &self,
+        index: usize,
+        at: &Line<N, D>,
+        rate: Option<Line<N, D>>,
+        now: &Curvature<N, C>,
+    ) -> [N; C] {
+        let natural = &self.natural_curvature[index];
+        let mut m: [N; C] = each!(now.value, k => now.value[k] - natural[k]);
+        // Planar: in space a cable without torsion has no frame to measure the damping of bending in.
+        if let (Some(rate), 1) = (&rate, C) {
+            let change = self.curvature_rate(at, rate, now);
+            for k in 0..C {
+                m[k] += self.damping_time * change[k];
+            }
+        }
+        times(&m, self.bending_stiffness)
+    }
+
+    /// Strain energy, J.
+    #[inline(always)]
+    pub fn energy<const D: usize>(&self, e: &[Vector<N, D>; 4]) -> N {
+        let (axial, bending) = self.strains(e);
+        let mut sum = self.number(0.0);
+        let points = if self.is_slender { &LOBATTO } else { &BETWEEN };
+        for ((point, strain), natural) in points.iter().zip(axial).zip(self.natural_strain) {
+            let strain = strain - natural;
+            sum += self.number(point.weight) * self.axial_stiffness * strain * strain;
+        }
+        for ((point, value), natural) in BENDING.iter().zip(bending).zip(self.natural_curvature) {
+            let change: [N; C] = each!(value, k => value[k] - natural[k]);
+            sum += self.number(point.weight) * self.bending_stiffness * dot(&change, &change);
+        }
+        self.number(0.5) * self.length * sum
+    }
+
+    /// Elastic force and, with rates, damping force on the coordinates.
+    #[inline(always)]
+    pub fn force<const D: usize>(
+        &self,
+        e: &[Vector<N, D>; 4],
+        rate: Option<&[Vector<N, D>; 4]>,
+    ) -> [Vector<N, D>; 4] {
+        let v = self.vectors(e);
+        let dv = rate.map(|rate| self.vectors(rate));
+        let mut sum = [[self.number(0.0); D]; 3];
+        // Written out: with points known when compiling.
+        if self.is_slender {
+            let [p, q, r] = &LOBATTO;
+            self.add_axial_force(0, p, (&v, &dv), &mut sum);
+            self.add_axial_force(1, q, (&v, &dv), &mut sum);
+            self.add_axial_force(2, r, (&v, &dv), &mut sum);
+        } else {
+            let [p, q, r] = &BETWEEN;
+            self.add_axial_force(0, p, (&v, &dv), &mut sum);
+            self.add_axial_force(1, q, (&v, &dv), &mut sum);
+            self.add_axial_force(2, r, (&v, &dv), &mut sum);
+        }
+        if self.bends {
+            let [p, q, r] = &BENDING;
+            self.add_bending_force(0, p, (&v, &dv), &mut sum);
+            self.add_bending_force(1, q, (&v, &dv), &mut sum);
+            self.add_bending_force(2, r, (&v, &dv), &mut sum);
+        }
+        let l = self.length;
+        [
+            sum[0],
+            times(&sum[1], -l),
+            times(&sum[0], self.number(-1.0)),
+            times(&sum[2], -l),
+        ]
+    }
+
+    #[inline(always)]
+    fn add_axial_force<const D: usize>(
+        &self,
+        index: usize,
+        point: &Sample,
+        (v, dv): Motion<N, D>,
+        sum: &mut [Vector<N, D>; 3],
+    ) {
+        let u = combine(&point.slope, v);
+        let du = dv.as_ref().map(|dv| combine(&point.slope, dv));
+        let (force, f, _) = self.axial_force(index, &u, du);
+        let gradient = times(&u, self.number(point.weight) * force * f);
+        for i in 0..3 {
+            if point.slope[i] != 0.0 {
+                for d in 0..D {
+                    sum[i][d] += gradient[d] * self.number(point.slope[i]);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn add_bending_force<const D: usize>(
+        &self,
+        index: usize,
+        point: &Sample,
+        (v, dv): Motion<N, D>,
+        sum: &mut [Vector<N, D>; 3],
+    ) {
+        let at = self.line(point, v);
+        let rate = dv.as_ref().map(|dv| self.line(point, dv));
+        let now = self.curvature(&at);
+        let m = self.moment(index, &at, rate, &now);
+        let along = now.decay * dot(&m, &now.value);
+        let m = times(&m, now.scale);
+        let (mu, mw) = (act(&m, &at.u), act(&m, &at.w));
+        let weight = self.number(point.weight);
+        let curved = weight * self.inverse_length;
+        for d in 0..D {
+            let by_u = -(mw[d] + at.u[d] * along) * weight;
+            let by_w = mu[d] * curved;
+            for i in 0..3 {
+                sum[i][d] +=
+                    by_u * self.number(point.slope[i]) + by_w * self.number(point.curvature[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,337 @@
+//! ANCF cable: stretches and bends, no shear, no rotary inertia.
+//!
+//! Source: A. A. Shabana, report MBS97-2-UIC (1997), Eqs. 5-12 (kinematics and mass);
+//! J. Gerstmayr, H. Irschik, On the correct representation of bending and axial deformation in the
+//! absolute nodal coordinate formulation with an elastic line approach, J. Sound Vib. 318 (2008)
+//! (strain measures); M. Berzeri, A. A. Shabana, Development of simple models for the elastic forces
+//! in the absolute nodal co-ordinate formulation, J. Sound Vib. 235 (2000) (Green strain).
+//!
+//! Quadrature decides accuracy: axial strain at three points, of Gauss where the element is short and
+//! of Lobatto where it is slender and would lock otherwise; bending at two Gauss points
+//! (docs/decisions/0003-quadrature.md).
+
+mod kernel;
+
+use nalgebra::{SMatrix, SVector};
+
+use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, Strain, shape};
+use crate::math::lanes::{Lanes, PACK, Real, Simd};
+use kernel::{Kernel, Line, transposed};
+
+/// Slenderness EA l^2 / EI up to which axial strain is sampled at Gauss points: they halve the error
+/// of stretching waves and cost bending less than they gain; beyond it they lock.
+const SLENDER: f64 = 200.0;
+
+/// Parameters of a cable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Reference length, m.
+    pub length: f64,
+    /// Axial stiffness EA, N.
+    pub axial_stiffness: f64,
+    /// Bending stiffness EI, N m^2.
+    pub bending_stiffness: f64,
+    /// Mass per reference length, kg/m.
+    pub line_density: f64,
+    /// Kelvin-Voigt damping time: stress is stiffness times (strain + time x strain rate), s.
+    pub damping_time: f64,
+    /// Strain measure.
+    pub strain: Strain,
+    /// Mass matrix.
+    pub inertia: Inertia,
+}
+
+/// Mass matrices; they differ in what the quadratic and cubic parts of the velocity in an element
+/// (Legendre polynomials) count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inertia {
+    /// The integral of the shape functions' products (report Eq. 12).
+    Consistent,
+    /// The same for all that is linear in an element, so momentum and rigid motion do not notice;
+    /// quadratic parts count twice, cubic ones 26/3 times, which makes the dispersion of bending waves
+    /// exact to the eighth order in wave number times length instead of the fourth
+    /// (docs/decisions/0012-mass-against-dispersion.md).
+    Corrected,
+}
+
+/// An ANCF cable element in `D` dimensions; `C = D (D - 1) / 2` is the number of components of a
+/// curvature: `Cable<2, 1>` in the plane, `Cable<3, 3>` in space. Natural curvature and damping of
+/// bending are planar: in space a cable without torsion has no frame to measure them in.
+#[derive(Clone, Debug)]
+pub struct Cable<const D: usize, const C: usize> {
+    parameters: Parameters,
+    kernel: Kernel<f64, C>,
+}
+
+/// Up to [`PACK`] cables.
+#[derive(Clone, Debug)]
+pub struct Pack<const C: usize> {
+    kernel: Kernel<[f64; PACK], C>,
+    count: usize,
+}
+
+impl<const C: usize> Pack<C> {
+    /// Number of groups of as many elements as there are lanes.
+    #[inline(always)]
+    fn groups<S: Simd>(&self) -> usize {
+        self.count.div_ceil(S::F64_LANES)
+    }
+}
+
+#[inline(always)]
+fn read<S: Simd, const D: usize>(simd: S, pack: &NodalPack<D>, group: usize) -> [[Lanes<S>; D]; 4] {
+    let mut e = [[Lanes::read(simd, &pack[0][0], group); D]; 4];
+    for k in 0..4 {
+        for d in 0..D {
+            e[k][d] = Lanes::read(simd, &pack[k][d], group);
+        }
+    }
+    e
+}
+
+#[inline(always)]
+fn write<S: Simd, const D: usize>(
+    blocks: &EndBlocks<Lanes<S>, D>,
+    out: &mut BlockPack<D>,
+    group: usize,
+) {
+    for part in 0..3 {
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            for r in 0..D {
+                for c in 0..D {
+                    blocks[part][i][j][r][c].write(&mut out[part][i][j][r][c], group);
+                }
+            }
+        }
+    }
+}
+
+impl<const D: usize, const C: usize> Cable<D, C> {
+    /// A cable whose unstressed shape is the straight line or, with `shape` its coordinates, the
+    /// curve through them.
+    pub fn new(parameters: Parameters, shape: Option<&Nodal<D>>) -> Self {
+        let p = &parameters;
+        let mut kernel = Kernel {
+            length: p.length,
+            inverse_length: 1.0 / p.length,
+            axial_stiffness: p.axial_stiffness,
+            bending_stiffness: p.bending_stiffness,
+            damping_time: p.damping_time,
+            natural_strain: [0.0; 3],
+            natural_curvature: [[0.0; C]; 3],
+            is_slender: p.axial_stiffness * p.length * p.length > SLENDER * p.bending_stiffness,
+            strain: p.strain,
+            is_damped: p.damping_time > 0.0,
+            bends: p.bending_stiffness > 0.0,
+        };
+        if let Some(e) = shape {
+            (kernel.natural_strain, kernel.natural_curvature) = kernel.strains(&e.data.0);
+        }
+        Self { parameters, kernel }
+    }
+
+    /// Strain and curvature, or their rates, are derived from these.
+    fn line(&self, e: &Nodal<D>, xi: f64) -> Line<f64, D> {
+        let l = self.parameters.length;
+        let [u, w] = [shape::slopes(xi, l), shape::curvatures(xi, l)].map(|s| (e * s).into());
+        Line { u, w }
+    }
+}
+
+/// Its sign where there is one, its size in space.
+fn signed<const C: usize>(curvature: &[f64; C]) -> f64 {
+    if C == 1 {
+        curvature[0]
+    } else {
+        curvature.iter().map(|c| c * c).sum::<f64>().sqrt()
+    }
+}
+
+impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
+    type Pack = Pack<C>;
+
+    fn length(&self) -> f64 {
+        self.parameters.length
+    }
+
+    fn mass(&self) -> SMatrix<f64, 4, 4> {
+        let l = self.parameters.length;
+        let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
+        let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);
+        let (f, g) = (l * l / 105.0, l * l / 140.0);
+        let consistent =
+            SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]]);
+        let [quadratic, cubic] = match self.parameters.inertia {
+            Inertia::Consistent => [0.0, 0.0],
+            Inertia::Corrected if self.kernel.bends => [1.0, 23.0 / 3.0],
+            Inertia::Corrected => [0.6, 23.0 / 3.0],
+        };
+        let second = SVector::from([0.0, -l / 12.0, 0.0, l / 12.0]);
+        let third = SVector::from([0.1, 0.05 * l, -0.1, 0.05 * l]);
+        let mass = consistent
+            + second * second.transpose() * (quadratic / 5.0)
+            + third * third.transpose() * (cubic / 7.0);
+        mass * (self.parameters.line_density * l)
+    }
+
+    fn weight(&self) -> SVector<f64, 4> {
+        let l = self.parameters.length;
+        SVector::from([0.5, l / 12.0, 0.5, -l / 12.0]) * (self.parameters.line_density * l)
+    }
+
+    fn energy(&self, e: &Nodal<D>) -> f64 {
+        self.kernel.energy(&e.data.0)
+    }
+
+    fn force(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Nodal<D> {
+        let rate = self.kernel.is_damped.then_some(&rate.data.0);
+        Nodal::from(self.kernel.force(&e.data.0, rate))
+    }
+
+    fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D> {
+        let rate = self.kernel.is_damped.then_some(&rate.data.0);
+        let sum = self.kernel.tangent(&e.data.0, rate, (1.0, 1.0));
+        whole(&self.kernel.ends(&sum))
+    }
+
+    fn damping(&self, e: &Nodal<D>) -> Blocks<D> {
+        let factors = (0.0, self.parameters.damping_time);
+        let sum = self.kernel.tangent(&e.data.0, None, factors);
+        whole(&self.kernel.ends(&sum))
+    }
+
+    fn is_damped(&self) -> bool {
+        self.kernel.is_damped
+    }
+
+    fn strain(&self, e: &Nodal<D>, xi: f64) -> (f64, f64) {
+        let at = self.line(e, xi);
+        let square = at.u.iter().map(|u| u * u).sum();
+        (
+            self.kernel.axial(square).0,
+            signed(&self.kernel.curvature(&at).value),
+        )
+    }
+
+    fn recovered_strain(&self, e: &Nodal<D>, xi: f64) -> f64 {
+        let samples = self.kernel.axial_samples(&e.data.0, None);
+        self.kernel.recover(samples, xi)
+    }
+
+    fn section(&self, e: &Nodal<D>, rate: &Nodal<D>, xi: f64) -> (f64, f64) {
+        let p = &self.parameters;
+        let [n0, n1, n2] = self.kernel.natural_strain;
+        let rates = self.kernel.is_damped.then_some(&rate.data.0);
+        let samples = self.kernel.axial_samples(&e.data.0, rates);
+        let stretching = self.kernel.recover(samples, xi) - (n0 + n1 + n2) / 3.0;
+        let (at, rate) = (self.line(e, xi), self.line(rate, xi));
+        let bending: [f64; C] = if self.kernel.bends {
+            let now = self.kernel.curvature(&at);
+            let speed = self.kernel.curvature_rate(&at, &rate, &now);
+            let [a, b, c] = &self.kernel.natural_curvature;
+            let natural = |i: usize| (a[i] + b[i] + c[i]) / 3.0;
+            std::array::from_fn(|i| now.value[i] - natural(i) + p.damping_time * speed[i])
+        } else {
+            [0.0; C]
+        };
+        let moment = signed(&bending);
+        (p.axial_stiffness * stretching, p.bending_stiffness * moment)
+    }
+
+    fn goes_with(&self, other: &Self) -> bool {
+        let (a, b) = (&self.kernel, &other.kernel);
+        let kind = |k: &Kernel<f64, C>| (k.strain, k.is_slender, k.is_damped, k.bends);
+        kind(a) == kind(b)
+    }
+
+    fn pack(elements: &[Self]) -> Pack<C> {
+        let last = elements.len() - 1;
+        let lanes = |of: &dyn Fn(&Kernel<f64, C>) -> f64| -> [f64; PACK] {
+            std::array::from_fn(|lane| of(&elements[lane.min(last)].kernel))
+        };
+        let first = &elements[0].kernel;
+        let kernel = Kernel {
+            length: lanes(&|k| k.length),
+            inverse_length: lanes(&|k| k.inverse_length),
+            axial_stiffness: lanes(&|k| k.axial_stiffness),
+            bending_stiffness: lanes(&|k| k.bending_stiffness),
+            damping_time: lanes(&|k| k.damping_time),
+            natural_strain: std::array::from_fn(|i| lanes(&|k| k.natural_strain[i])),
+            natural_curvature: std::array::from_fn(|i| {
+                std::array::from_fn(|c| lanes(&|k| k.natural_curvature[i][c]))
+            }),
+            is_slender: first.is_slender,
+            strain: first.strain,
+            is_damped: first.is_damped,
+            bends: first.bends,
+        };
+        Pack {
+            kernel,
+            count: elements.len(),
+        }
+    }
+
+    #[inline(always)]
+    fn pack_force<S: Simd>(
+        simd: S,
+        pack: &Pack<C>,
+        (e, rate): (&NodalPack<D>, Option<&NodalPack<D>>),
+        out: &mut NodalPack<D>,
+    ) {
+        for group in 0..pack.groups::<S>() {
+            let kernel = pack.kernel.group(simd, group);
+            let e = read(simd, e, group);
+            let f = match rate {
+                Some(rate) => kernel.force(&e, Some(&read(simd, rate, group))),
+                None => kernel.force(&e, None),
+            };
+            for k in 0..4 {
+                for d in 0..D {
+                    f[k][d].write(&mut out[k][d], group);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn pack_stiffness<S: Simd>(
+        simd: S,
+        pack: &Pack<C>,
+        (e, rate): (&NodalPack<D>, Option<&NodalPack<D>>),
+        out: &mut BlockPack<D>,
+    ) {
+        for group in 0..pack.groups::<S>() {
+            let kernel = pack.kernel.group(simd, group);
+            let e = read(simd, e, group);
+            let one = kernel.length.constant(1.0);
+            let sum = match rate {
+                Some(rate) => kernel.tangent(&e, Some(&read(simd, rate, group)), (one, one)),
+                None => kernel.tangent(&e, None, (one, one)),
+            };
+            write(&kernel.ends(&sum), out, group);
+        }
+    }
+
+    #[inline(always)]
+    fn pack_damping<S: Simd>(simd: S, pack: &Pack<C>, e: &NodalPack<D>, out: &mut BlockPack<D>) {
+        for group in 0..pack.groups::<S>() {
+            let kernel = pack.kernel.group(simd, group);
+            let e = read(simd, e, group);
+            let factors = (kernel.length.constant(0.0), kernel.damping_time);
+            write(&kernel.ends(&kernel.tangent(&e, None, factors)), out, group);
+        }
+    }
+}
+
+/// All blocks from those of the lower triangle.
+fn whole<const D: usize>([aa, ba, bb]: &EndBlocks<f64, D>) -> Blocks<D> {
+    let block = |of: &[[f64; D]; D]| SMatrix::from_fn(|r, c| of[r][c]);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| match (i / 2, j / 2) {
+            (0, 0) => block(&aa[i][j]),
+            (1, 0) => block(&ba[i - 2][j]),
+            (1, 1) => block(&bb[i - 2][j - 2]),
+            _ => block(&transposed(&ba[j - 2][i])),
+        })
+    })
+}
