@@ -2,6 +2,7 @@
 //! `cargo xtask chart` calls this program as it calls `flexbody`; nothing here is in an FMU.
 
 mod elements;
+mod failures;
 mod integrate;
 mod integrators;
 mod outputs;
@@ -22,6 +23,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Measures where methods fail and what the product does there.
+    Failures(failures::Failures),
     /// Integrates a scene with a named method.
     Integrate(integrate::Integrate),
     /// Moves one rod in a named discretization.
@@ -34,6 +37,7 @@ enum Command {
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
+        Command::Failures(arguments) => failures::failures(&arguments),
         Command::Integrate(arguments) => integrate::integrate(&arguments),
         Command::Space(arguments) => space::space(&arguments),
         Command::Bend(arguments) => space::bend(&arguments),
