@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex};
 use flexbody::body::{Elimination, Node};
 use flexbody::elements::{Element, Nodal};
 use flexbody::integrators::{Attempt, Method, Tolerance};
-use flexbody::math::quadrature::{GAUSS_2, GAUSS_3, LOBATTO_3, Point};
+use flexbody::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point};
 use flexbody::scene::Strain;
 use flexbody::system::Dynamics;
 use nalgebra::Vector2;
@@ -39,7 +39,7 @@ pub struct Bar {
     strain: Strain,
     axial: &'static [Point; 3],
     natural_strain: [f64; 3],
-    natural_curvature: [f64; 2],
+    natural_curvature: [f64; 3],
 }
 
 type Vectors = [Vector2<f64>; 3];
@@ -88,9 +88,9 @@ impl Bar {
                     axial_stiffness,
                     bending_stiffness,
                     strain: cable.strain,
-                    axial: if slender { &LOBATTO_3 } else { &GAUSS_3 },
+                    axial: if slender { &LOBATTO_3 } else { &BETWEEN_3 },
                     natural_strain: [0.0; 3],
-                    natural_curvature: [0.0; 2],
+                    natural_curvature: [0.0; 3],
                 };
                 if !cable.shape.is_straight() {
                     let v = vectors(&chain.element(j, &start.assembled.nodes), length);
@@ -98,7 +98,7 @@ impl Bar {
                         let a = combine(&slope(p), &v).norm_squared();
                         bar.stretch(a)
                     });
-                    bar.natural_curvature = GAUSS_2.each_ref().map(|p| {
+                    bar.natural_curvature = GAUSS_3.each_ref().map(|p| {
                         let u = combine(&slope(p), &v);
                         wedge(&u, &combine(&curvature(p, length), &v))
                             * bar.shrink(u.norm_squared())
@@ -158,7 +158,7 @@ impl Bar {
                 sum[i] += gradient * weights[i];
             }
         }
-        for (point, natural) in GAUSS_2.iter().zip(self.natural_curvature) {
+        for (point, natural) in GAUSS_3.iter().zip(self.natural_curvature) {
             let (s, c) = (slope(point), curvature(point, self.length));
             let ends = [&v0, &v1].map(|v| (combine(&s, v), combine(&c, v)));
             let a = ends.map(|(u, _)| u.norm_squared());
