@@ -6,6 +6,7 @@ import exudyn as exu
 import numpy as np
 from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import (
+    CartesianSpringDamper,
     CoordinateConstraint,
     GenericJoint,
     LoadForceVector,
@@ -124,6 +125,11 @@ class Model:
         if first == "ground" and self.options.get("heavy"):
             # The explicit solvers divide by the inertia without the joint; a heavy node is held by its inertia.
             self.weigh(self.markers[second], axes, self.options["heavy"])
+            return
+        if self.options.get("heavy"):
+            # Between bodies: a spring that gives way by 10 nm per newton.
+            ends = [self.mbs.AddMarker(MarkerNodePosition(nodeNumber=self.markers[end])) for end in (first, second)]
+            self.mbs.AddObject(CartesianSpringDamper(markerNumbers=ends, stiffness=[1e8, 1e8, 0.0]))
             return
         for axis in axes:
             other = self.fixed if first == "ground" else self.coordinate(self.markers[first], axis)
