@@ -1,7 +1,7 @@
 //! Neighbours of very different mass and length.
 
 use flexbody::body::{Formulation, Marker, Node};
-use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::{Constraints, End, Evaluation, Parts, PlanarChain, System, Work};
@@ -23,6 +23,7 @@ const ELEMENTS: [[f64; 2]; 6] = [
 fn cables() -> Vec<Cable<2, 1>> {
     let cable = |[length, line_density]: [f64; 2]| {
         let parameters = Parameters {
+            inertia: Inertia::Corrected,
             length,
             axial_stiffness: 1e3,
             bending_stiffness: 1.0,

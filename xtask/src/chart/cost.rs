@@ -11,7 +11,7 @@ use super::plot::{Axis, Line, Mark, Panel, draw};
 const MESHES: [u32; 7] = [10, 20, 50, 100, 200, 500, 1000];
 const SCENE: &str = "soft_pendulum/scene.json";
 const TOLERANCE: f64 = 1e-4;
-/// Steps times elements of a run with rk4: a few hundredths of a second.
+/// Steps times elements of a run with rkn43: a few hundredths of a second.
 const WORK: f64 = 2e5;
 /// Stop time of the runs with radau, whose steps depend little on the mesh, s.
 const STOP_TIME: f64 = 1.1;
@@ -19,8 +19,8 @@ const STOP_TIME: f64 = 1.1;
 /// Cost of both methods on one mesh.
 struct Row {
     elements: u32,
-    rk4: Cost,
-    /// Simulated time of the run with rk4, s.
+    rkn43: Cost,
+    /// Simulated time of the run with rkn43, s.
     explicit_time: f64,
     radau: Cost,
 }
@@ -45,7 +45,7 @@ pub fn chart(bench: &Bench) -> Result<String> {
         rows.push(Row {
             elements,
             explicit_time,
-            rk4: pair[0].cost()?.clone(),
+            rkn43: pair[0].cost()?.clone(),
             radau: pair[1].cost()?.clone(),
         });
     }
@@ -53,12 +53,12 @@ pub fn chart(bench: &Bench) -> Result<String> {
     Ok(section(&rows))
 }
 
-/// Runs of about the same work. Stability fixes the steps of rk4, and a short run tells how long
+/// Runs of about the same work. Stability fixes the steps of rkn43, and a short run tells how long
 /// they are.
 fn explicit_runs(bench: &Bench, scene: &Value) -> Result<Vec<Run>> {
     let run = |elements: u32, stop_time: f64| {
         let run = Run::new(scene, stop_time, stop_time).elements(elements);
-        run.tolerance(TOLERANCE).integrator("rk4")
+        run.tolerance(TOLERANCE).integrator("rkn43")
     };
     let short = |elements: u32| 1.1 * (10.0 / f64::from(elements)).powi(2);
     let pilots: Vec<Run> = MESHES.iter().map(|&n| run(n, short(n))).collect();
@@ -74,7 +74,7 @@ fn explicit_runs(bench: &Bench, scene: &Value) -> Result<Vec<Run>> {
 type Quantity = (&'static str, fn(&Row) -> f64);
 
 const QUANTITIES: [Quantity; 3] = [
-    ("rk4, a step", |row| row.rk4.per_step()),
+    ("rkn43, a step", |row| row.rkn43.per_step()),
     ("radau, a step", |row| row.radau.per_step()),
     ("radau, a Newton iteration", |row| row.radau.per_iteration()),
 ];
@@ -82,9 +82,9 @@ const QUANTITIES: [Quantity; 3] = [
 fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
     let header = [
         "elements",
-        "rk4_steps",
-        "rk4_rejected",
-        "rk4_step_s",
+        "rkn43_steps",
+        "rkn43_rejected",
+        "rkn43_step_s",
         "radau_steps",
         "radau_rejected",
         "radau_newton_iterations",
@@ -94,9 +94,9 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
     let cells = |row: &Row| {
         vec![
             row.elements.to_string(),
-            row.rk4.steps.to_string(),
-            row.rk4.rejected.to_string(),
-            format!("{:.3e}", row.rk4.per_step()),
+            row.rkn43.steps.to_string(),
+            row.rkn43.rejected.to_string(),
+            format!("{:.3e}", row.rkn43.per_step()),
             row.radau.steps.to_string(),
             row.radau.rejected.to_string(),
             row.radau.newton_iterations.to_string(),
@@ -137,7 +137,7 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
 fn section(rows: &[Row]) -> String {
     let header = [
         "elements",
-        "rk4: µs a step",
+        "rkn43: µs a step",
         "ns a step and element",
         "radau: µs a step",
         "ns a step and element",
@@ -147,12 +147,12 @@ fn section(rows: &[Row]) -> String {
     ];
     let cells = |row: &Row| {
         let n = f64::from(row.elements);
-        let (rk4, radau) = (row.rk4.per_step(), row.radau.per_step());
+        let (rkn43, radau) = (row.rkn43.per_step(), row.radau.per_step());
         let iteration = row.radau.per_iteration();
         vec![
             row.elements.to_string(),
-            three_digits(1e6 * rk4),
-            three_digits(1e9 * rk4 / n),
+            three_digits(1e6 * rkn43),
+            three_digits(1e9 * rkn43 / n),
             three_digits(1e6 * radau),
             three_digits(1e9 * radau / n),
             format!("{:.1}", row.radau.newton_iterations / row.radau.steps),
@@ -182,11 +182,11 @@ fn section(rows: &[Row]) -> String {
 ![Cost of a step](cost.svg)
 
 The soft pendulum at tolerance {TOLERANCE:e}; CPU time of all steps over the number of accepted ones, rejected ones paid for.
-radau runs to {STOP_TIME} s; rk4 until steps times elements are about {WORK:e}, since stability makes its steps shorter on finer meshes.
+radau runs to {STOP_TIME} s; rkn43 until steps times elements are about {WORK:e}, since stability makes its steps shorter on finer meshes.
 
 {}
 **What it means.** The cost of a step grows in proportion to the mesh (target: less than 12 times from 100 to 1000 elements). {}. \
-The cost of a whole run with rk4 grows faster, since finer meshes also force shorter steps: {} steps for a second with 10 elements, {} with 1000. radau's steps follow the motion, not the mesh.
+The cost of a whole run with rkn43 grows faster, since finer meshes also force shorter steps: {} steps for a second with 10 elements, {} with 1000. radau's steps follow the motion, not the mesh.
 ",
         page::table(&header, &cells),
         summaries.join("; "),
@@ -195,10 +195,10 @@ The cost of a whole run with rk4 grows faster, since finer meshes also force sho
     )
 }
 
-/// Steps of rk4 for a second of simulated time.
+/// Steps of rkn43 for a second of simulated time.
 fn steps_a_second(rows: &[Row], elements: u32) -> String {
     let row = rows.iter().find(|row| row.elements == elements);
     row.map_or("–".to_owned(), |row| {
-        format!("{:.0}", row.rk4.steps / row.explicit_time)
+        format!("{:.0}", row.rkn43.steps / row.explicit_time)
     })
 }

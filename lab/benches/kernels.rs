@@ -1,0 +1,126 @@
+//! CPU time of every kernel an element costs in a step: `cargo bench -p lab`. Figures are per call; the
+//! throughput is in elements.
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use flexbody::scene::{Scene, assemble};
+use flexbody::system::{Dynamics, Model, State, System, Work};
+use nalgebra::Complex;
+
+const MESHES: [u32; 4] = [1, 10, 100, 1000];
+/// Step of the implicit solves, s.
+const STEP: f64 = 1e-3;
+
+/// The soft pendulum, bent.
+struct Bench {
+    system: System,
+    state: State,
+    work: Work,
+}
+
+impl Bench {
+    fn new(elements: u32) -> Self {
+        let text = include_str!("../../tests/cases/soft_pendulum/scene.json");
+        let mut json: serde_json::Value = serde_json::from_str(text).expect("a scene");
+        json["bodies"][0]["elements"] = elements.into();
+        let scene = Scene::from_json(&json.to_string()).expect("a valid scene");
+        let assembled = assemble(&scene).expect("a system");
+        let system = assembled.system;
+        let mut work = Work::new(&system);
+        let mut state = system.blank_state(0.0);
+        for (i, q) in state.coordinates.iter_mut().enumerate() {
+            *q = 1e-4 * f64::from(u32::try_from(i % 7).unwrap_or(0));
+        }
+        let mut model = Model::new(&system, &[], &mut work, &state);
+        let (q, v) = (&state.coordinates, &state.rates);
+        model.linearize(0.0, q, v);
+        assert!(model.factor(1.0 / STEP) && model.factor_complex(Complex::new(1.0, 1.0) / STEP));
+        Self {
+            system,
+            state,
+            work,
+        }
+    }
+
+    /// Times one call of the model.
+    fn model<M: criterion::measurement::Measurement>(
+        &mut self,
+        group: &mut BenchmarkGroup<'_, M>,
+        name: &str,
+        call: impl Fn(&mut Model<'_>, &State, &mut [Vec<f64>; 3]),
+    ) {
+        let mut model = Model::new(&self.system, &[], &mut self.work, &self.state);
+        let right = vec![1e-3; self.system.coordinates()];
+        let mut vectors = [right.clone(), right.clone(), right];
+        group.bench_function(name, |bench| {
+            bench.iter(|| call(&mut model, black_box(&self.state), &mut vectors));
+        });
+    }
+}
+
+/// Identity: stages as they are.
+const PLAIN: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+fn kernels(criterion: &mut Criterion) {
+    for elements in MESHES {
+        let mut bench = Bench::new(elements);
+        let mut group = criterion.benchmark_group(format!("{elements} elements"));
+        group.throughput(Throughput::Elements(u64::from(elements)));
+        let nodes = bench.system.reference().to_vec();
+        let (rest, mut force) = (vec![[0.0; 4]; nodes.len()], vec![[0.0; 4]; nodes.len()]);
+        group.bench_function("force", |b| {
+            b.iter(|| bench.system.chains()[0].add_force(black_box(&nodes), &rest, &mut force));
+        });
+        let elimination = bench.system.elimination();
+        let (mut x, mut y) = (nodes.clone(), vec![0.0; elimination.scratch()]);
+        let mut q = bench.state.coordinates.clone();
+        group.bench_function("coordinates to nodes and forces back", |b| {
+            b.iter(|| {
+                elimination.expand(black_box(&q), &mut y, &mut x);
+                elimination.reduce(black_box(&force), &mut y, &mut q);
+            });
+        });
+        bench.model(&mut group, "acceleration", |model, at, [a, ..]| {
+            model.acceleration(0.0, &at.coordinates, &at.rates, a);
+        });
+        bench.model(&mut group, "tangent", |model, at, _| {
+            model.linearize(0.0, &at.coordinates, &at.rates);
+        });
+        bench.model(&mut group, "real factors", |model, _, _| {
+            assert!(model.factor(1.0 / STEP));
+        });
+        bench.model(&mut group, "complex factors", |model, _, _| {
+            assert!(model.factor_complex(Complex::new(1.0, 1.0) / STEP));
+        });
+        bench.model(&mut group, "real solve", |model, _, [a, ..]| {
+            a.fill(1e-3);
+            model.solve(a);
+        });
+        bench.model(&mut group, "solve of three stages", |model, _, stages| {
+            stages.iter_mut().for_each(|stage| stage.fill(1e-3));
+            model.solve_stages(&PLAIN, &PLAIN, stages);
+        });
+        bench.model(
+            &mut group,
+            "whole Newton iteration, one stage",
+            |model, at, [a, ..]| {
+                model.acceleration(0.0, &at.coordinates, &at.rates, a);
+                model.linearize(0.0, &at.coordinates, &at.rates);
+                assert!(model.factor(1.0 / STEP));
+                model.solve(a);
+            },
+        );
+        group.finish();
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(20)
+        .warm_up_time(std::time::Duration::from_millis(200))
+        .measurement_time(std::time::Duration::from_millis(800));
+    targets = kernels
+}
+criterion_main!(benches);
