@@ -80,6 +80,18 @@ impl Workspace {
         })
         .with_context(|| format!("building the {package} program"))
     }
+
+    /// Builds the program of a package outside the workspace and returns where it is.
+    pub fn program_apart(&self, folder: &str, package: &str) -> Result<PathBuf> {
+        let mut command = self.cargo("build");
+        command.arg("--manifest-path");
+        command.arg(self.path(folder).join("Cargo.toml"));
+        command.arg("--target-dir").arg(self.target(package));
+        built(&mut command, package, |artifact| {
+            artifact["executable"].as_str()
+        })
+        .with_context(|| format!("building the {package} program"))
+    }
 }
 
 fn cargo() -> Command {

@@ -14,6 +14,7 @@ mod drift;
 mod energies;
 mod machine;
 mod mesh;
+mod methods;
 mod numbers;
 mod overhead;
 mod page;
@@ -34,6 +35,8 @@ pub enum Chart {
     Space,
     /// Error in time against CPU time
     Time,
+    /// Integrators: error in time against CPU time
+    Methods,
     /// Energy drift over a hundred swings
     Drift,
     /// CPU time of a step against the number of elements
@@ -58,6 +61,7 @@ impl Chart {
             Self::Mesh => "mesh",
             Self::Space => "space",
             Self::Time => "time",
+            Self::Methods => "methods",
             Self::Drift => "drift",
             Self::Cost => "cost",
             Self::Bodies => "bodies",
@@ -75,6 +79,7 @@ impl Chart {
             Self::Mesh => mesh::chart(bench),
             Self::Space => space::chart(bench),
             Self::Time => time::chart(bench),
+            Self::Methods => methods::chart(bench),
             Self::Drift => drift::chart(bench),
             Self::Cost => cost::chart(bench),
             Self::Bodies => bodies::chart(bench),
