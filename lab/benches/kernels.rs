@@ -12,7 +12,7 @@ const MESHES: [u32; 4] = [1, 10, 100, 1000];
 /// Step of the implicit solves, s.
 const STEP: f64 = 1e-3;
 
-/// The soft pendulum, bent.
+/// The soft pendulum, straight.
 struct Bench {
     system: System,
     state: State,
@@ -28,10 +28,7 @@ impl Bench {
         let assembled = assemble(&scene).expect("a system");
         let system = assembled.system;
         let mut work = Work::new(&system);
-        let mut state = system.blank_state(0.0);
-        for (i, q) in state.coordinates.iter_mut().enumerate() {
-            *q = 1e-4 * f64::from(u32::try_from(i % 7).unwrap_or(0));
-        }
+        let state = system.blank_state(0.0);
         let mut model = Model::new(&system, &[], &mut work, &state);
         let (q, v) = (&state.coordinates, &state.rates);
         model.linearize(0.0, q, v);

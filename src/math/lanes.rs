@@ -7,7 +7,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 pub use pulp::Simd;
 
 /// Elements that are computed together; a multiple of the lanes of every processor.
-pub const PACK: usize = 32;
+pub const PACK: usize = 8;
 
 /// What formulas need of a number: `f64` and [`Lanes`].
 pub trait Real:
