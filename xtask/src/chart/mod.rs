@@ -21,7 +21,6 @@ mod page;
 mod peers;
 mod plot;
 mod space;
-mod time;
 
 use bench::Bench;
 
@@ -33,8 +32,6 @@ pub enum Chart {
     Mesh,
     /// Shape functions, meshes, quadratures and masses
     Space,
-    /// Error in time against CPU time
-    Time,
     /// Integrators: error in time against CPU time
     Methods,
     /// Energy drift over a hundred swings
@@ -60,7 +57,6 @@ impl Chart {
         match self {
             Self::Mesh => "mesh",
             Self::Space => "space",
-            Self::Time => "time",
             Self::Methods => "methods",
             Self::Drift => "drift",
             Self::Cost => "cost",
@@ -78,7 +74,6 @@ impl Chart {
         match self {
             Self::Mesh => mesh::chart(bench),
             Self::Space => space::chart(bench),
-            Self::Time => time::chart(bench),
             Self::Methods => methods::chart(bench),
             Self::Drift => drift::chart(bench),
             Self::Cost => cost::chart(bench),
