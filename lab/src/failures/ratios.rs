@@ -23,13 +23,13 @@ const ELEMENTS: [[f64; 2]; 6] = [
 fn cables() -> Vec<Cable<2, 1>> {
     let cable = |[length, line_density]: [f64; 2]| {
         let parameters = Parameters {
-            inertia: Inertia::Corrected,
             length,
             axial_stiffness: 1e3,
             bending_stiffness: 1.0,
             line_density,
             damping_time: 0.0,
             strain: Strain::ThetaPrime,
+            inertia: Inertia::Consistent,
         };
         Cable::new(parameters, None)
     };
