@@ -221,6 +221,12 @@ impl<'a> Bench<'a> {
         serde_json::from_str(&report).context("the report of the lab is no JSON")
     }
 
+    /// Runs a measurement of the lab that has scenes of its own and returns its report.
+    pub fn lab_alone(&self, measurement: &str) -> Result<Value> {
+        let report = stdout(Command::new(&self.lab).arg(measurement))?;
+        serde_json::from_str(&report).context("the report of the lab is no JSON")
+    }
+
     fn execute(&self, run: &Run) -> Result<Outcome> {
         let number = self.files.replace(self.files.get() + 1);
         let file = |kind: &str| prepared(&self.scratch.join(format!("{number}.{kind}")));

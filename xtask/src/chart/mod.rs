@@ -12,6 +12,7 @@ mod constraints;
 mod cost;
 mod drift;
 mod energies;
+mod failures;
 mod machine;
 mod mesh;
 mod methods;
@@ -48,6 +49,8 @@ pub enum Chart {
     Energies,
     /// Exudyn and the product: error against CPU time
     Peers,
+    /// Where methods fail, and what the product does there
+    Failures,
     /// What the report's equations do as printed
     AsPrinted,
 }
@@ -65,6 +68,7 @@ impl Chart {
             Self::Constraints => "constraints",
             Self::Energies => "energies",
             Self::Peers => "peers",
+            Self::Failures => "failures",
             Self::AsPrinted => "as_printed",
         }
     }
@@ -82,6 +86,7 @@ impl Chart {
             Self::Constraints => constraints::chart(bench),
             Self::Energies => energies::chart(bench),
             Self::Peers => peers::chart(bench),
+            Self::Failures => failures::chart(bench),
             Self::AsPrinted => as_printed::chart(bench),
         }
     }
