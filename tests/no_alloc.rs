@@ -174,8 +174,9 @@ fn scenes() -> Vec<String> {
         .into();
     let partitioned = r#""integrator": "rk4", "constraints": "partitioning""#;
     scenes.push(MANY.replace("METHOD", partitioned));
-    for integrator in ["radau", "rk4", "auto"] {
-        for damping_time in [0.0, 1e-4] {
+    for integrator in ["radau", "rk4", "rkn43", "verlet", "auto"] {
+        let reads_rates = !matches!(integrator, "rkn43" | "verlet");
+        for damping_time in [0.0, 1e-4].into_iter().take(1 + usize::from(reads_rates)) {
             for joints in [(PIN, ""), (CLAMP, "joint"), (SLIDERS, "third")] {
                 scenes.push(scene(integrator, damping_time, joints));
             }

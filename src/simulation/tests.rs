@@ -151,3 +151,50 @@ fn a_ring_that_leaves_its_rope_stops_the_step() {
     // It stands at its last sub-step on the rope.
     assert!(failure.time < 1.0);
 }
+
+/// A pinned rod with these stiffness, damping, method and tolerance.
+fn rod(modulus: f64, damping: f64, integrator: &str, tolerance: f64) -> Simulation {
+    simulation(&format!(
+        r#""gravity": [0.0, -9.81],
+           "bodies": [ {{ "name": "rod", "element": "cable", "elements": 8,
+             "material": {{ "youngs_modulus": {modulus:?}, "density": 5540.0, "damping_time": {damping:?} }},
+             "section": {{ "area": 1.8e-3, "second_moment": 1.215e-8 }},
+             "shape": {{ "line": {{ "from": [0.0, 0.0], "to": [1.2, 0.0] }} }},
+             "markers": {{ "root": 0.0 }} }} ],
+           "joints": [ {{ "name": "pin", "kind": "revolute", "markers": ["ground", "rod.root"] }} ],
+           "method": {{ "integrator": "{integrator}" }},
+           "accuracy": {{ "relative_tolerance": {tolerance:?} }}"#
+    ))
+}
+
+#[test]
+fn the_integrator_follows_stiffness_damping_and_tolerance() {
+    let table = [
+        (0.7e6, 0.0, 1e-2, "verlet"),
+        (0.7e6, 0.0, 1e-4, "rkn43"),
+        (0.7e6, 1e-4, 1e-4, "rk4"),
+        (2.07e11, 0.0, 1e-2, "radau"),
+        (2.07e11, 1e-4, 1e-6, "radau"),
+    ];
+    for (modulus, damping, tolerance, expected) in table {
+        let mut rod = rod(modulus, damping, "auto", tolerance);
+        let started = rod.initialize(0.0).and_then(|()| rod.start());
+        started.expect("a rod that starts");
+        rod.step(0.01).expect("a step");
+        let found = rod.report().method;
+        assert_eq!(found, expected, "{modulus:e}, {damping}, {tolerance:e}");
+    }
+}
+
+#[test]
+fn a_method_that_cannot_take_rates_is_refused_where_they_are_read() {
+    for integrator in ["verlet", "rkn43"] {
+        let error = rod(0.7e6, 1e-4, integrator, 1e-4).initialize(0.0);
+        let text = error.expect_err("damping").to_string();
+        let begins = r#"method.integrator: expected "auto", "radau" or "rk4""#;
+        assert!(text.starts_with(begins), "{text}");
+        assert!(text.ends_with(&format!("found \"{integrator}\"")), "{text}");
+        let undamped = rod(0.7e6, 0.0, integrator, 1e-4).initialize(0.0);
+        undamped.expect("no rates are read");
+    }
+}
