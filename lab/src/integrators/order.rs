@@ -79,7 +79,7 @@ fn errors_shrink_with_the_order_of_the_method() {
     let methods = [
         ("verlet", 2.0, 300),
         ("rk4", 4.0, 400),
-        ("dopri5", 5.0, 100),
+        ("dopri5", 5.0, 200),
         ("rkn43", 4.0, 300),
         ("rkn64", 6.0, 75),
         ("srkn4", 4.0, 60),
