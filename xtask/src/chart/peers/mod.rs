@@ -33,6 +33,8 @@ struct Setting {
     /// Time between compared points, s.
     every: f64,
     reference: Vec<[f64; 2]>,
+    /// What made the reference.
+    source: String,
     /// Options of all runs of Exudyn, and of each.
     common: Value,
     points: Vec<Value>,
@@ -100,6 +102,7 @@ impl Setting {
             stop_time,
             every,
             reference: at_points(&reference, every)?,
+            source: text("source")?.to_owned(),
             common,
             sweep_runs: value["runs"].as_u64().unwrap_or(0),
             points: value["points"]

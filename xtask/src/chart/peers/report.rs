@@ -116,7 +116,7 @@ Exudyn 1.13.6 (its build without range checks, `ANCFCable2D`) and Flexbody (`aut
 CPU time is that of the steps alone in one thread, without set-up and files, Exudyn in a warm process, medians of {ROUNDS} rounds that take turns. The error is the largest distance of a marker from the reference over equally spaced points, divided by the length.
 
 {}
-The last column is how far the finest run of Flexbody is from the reference, divided by the length: errors near it are not resolved. The reference of the soft pendulum is that of its case (B-splines, neither program); the others are Exudyn's finest runs (`lab/exudyn/references.py`).
+The last column is how far the finest run of Flexbody is from the reference, divided by the length: errors near it are not resolved. Exudyn's finest runs are made by `lab/exudyn/references.py`.
 
 CPU time in ms for an error: Exudyn / Flexbody = how many times less. Times between points are read off the straight line between them on logarithmic axes; – where no point is as good.
 
@@ -147,6 +147,7 @@ fn scenes(measured: &[Measured]) -> String {
             format!("{}", setting.stop_time),
             format!("{}", setting.every),
             format!("{}", setting.length),
+            setting.source.clone(),
             short(case.uncertainty),
         ]
     };
@@ -158,6 +159,7 @@ fn scenes(measured: &[Measured]) -> String {
         "until, s",
         "points every, s",
         "length, m",
+        "reference",
         "confirmed to",
     ];
     page::table(&header, &rows)
