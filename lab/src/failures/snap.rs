@@ -9,7 +9,7 @@ use crate::scene::Outcome;
 
 const MOMENT: &str = include_str!("../../../tests/cases/pure_moment/scene.json");
 const COLUMN: &str = include_str!("../../../tests/cases/buckling/scene.json");
-const CABLE: &str = include_str!("../../../tests/cases/catenary/scene.json");
+const CABLE: &str = include_str!("../../../tests/cases/catenary/scene_3.json");
 
 /// What Newton's method makes of a scene under its whole load: the distance of a marker from where it
 /// should be.
@@ -82,7 +82,8 @@ pub fn buckling() -> Outcome<Row> {
 /// Slack cable under its weight.
 pub fn slack() -> Outcome<Row> {
     let scene = json(CABLE)?;
-    let wanted = [0.5, -0.261_712_254_661_855_2];
+    // Span 1, length 1.5, EA 20, weight 1 per length.
+    let wanted = [0.5, -0.526_312_510_052_342_3];
     let failing = at_once(scene.clone(), &[], "rod.middle", wanted)?;
     let off = found(&scene, "rod.middle", wanted)?;
     Ok(Row {
@@ -257,8 +258,8 @@ fn newton_does_not_find_the_buckled_column() {
 #[test]
 fn newton_does_not_hang_a_slack_cable() {
     let row = slack().expect("a row");
-    assert!(row.failing.value > 0.1, "{}", row.failing.text);
-    assert!(row.product.value < 1e-6, "{}", row.product.text);
+    assert!(row.failing.value > 1e-2, "{}", row.failing.text);
+    assert!(row.product.value < 1e-5, "{}", row.product.text);
 }
 
 #[test]

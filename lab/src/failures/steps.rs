@@ -123,10 +123,10 @@ fn on_the_thrown(method: impl Fn(f64) -> Alpha, step: f64) -> Outcome<[Figure; 2
 
 /// Generalized-alpha without damping.
 pub fn undamped_alpha() -> Outcome<Row> {
-    let [failing, product] = on_the_thrown(|size| Alpha::new(1.0, size), 1e-3)?;
+    let [failing, product] = on_the_thrown(|size| Alpha::new(1.0, size), 1e-2)?;
     Ok(Row {
         place: "Energy of stiff modes",
-        method: "generalized-alpha, spectral radius 1, 1 ms; thrown steel rod, 20 rad/s".into(),
+        method: "generalized-alpha, spectral radius 1, 10 ms; thrown steel rod, 20 rad/s".into(),
         failing,
         product,
         test: "undamped_alpha_gains_energy",
@@ -135,10 +135,10 @@ pub fn undamped_alpha() -> Outcome<Row> {
 
 /// The trapezoidal rule.
 pub fn trapezoidal() -> Outcome<Row> {
-    let [failing, product] = on_the_thrown(Alpha::trapezoidal, 2e-3)?;
+    let [failing, product] = on_the_thrown(Alpha::trapezoidal, 5e-3)?;
     Ok(Row {
         place: "Stiff axial modes that turn",
-        method: "trapezoidal rule, 2 ms; thrown steel rod, 20 rad/s".into(),
+        method: "trapezoidal rule, 5 ms; thrown steel rod, 20 rad/s".into(),
         failing,
         product,
         test: "the_trapezoidal_rule_gains_energy",
