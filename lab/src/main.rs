@@ -1,14 +1,17 @@
 //! What the charts compare the product with: integrators and formulations that did not win.
 //! `cargo xtask chart` calls this program as it calls `flexbody`; nothing here is in an FMU.
 
+mod accelerate;
 mod elements;
 mod failures;
+mod formulations;
 mod integrate;
 mod integrators;
 mod outputs;
 mod overhead;
 mod scene;
 mod space;
+mod swing;
 
 use std::process::ExitCode;
 
@@ -23,12 +26,16 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Times one acceleration of a chain in a named formulation.
+    Accelerate(accelerate::Accelerate),
     /// Measures where methods fail and what the product does there.
     Failures(failures::Failures),
     /// Integrates a scene with a named method.
     Integrate(integrate::Integrate),
     /// Moves one rod in a named discretization.
     Space(space::Space),
+    /// Lets a pinned rod fall in a named formulation.
+    Swing(swing::Swing),
     /// Bends one rod in a named discretization.
     Bend(space::Bend),
     /// Measures what a unit costs besides its solver.
@@ -37,6 +44,8 @@ enum Command {
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
+        Command::Swing(arguments) => swing::swing(&arguments),
+        Command::Accelerate(arguments) => accelerate::accelerate(&arguments),
         Command::Failures(arguments) => failures::failures(&arguments),
         Command::Integrate(arguments) => integrate::integrate(&arguments),
         Command::Space(arguments) => space::space(&arguments),

@@ -81,7 +81,8 @@ pub fn bend(arguments: &Bend) -> Result<(), String> {
     }
 }
 
-fn read(path: &Path) -> Result<Problem, String> {
+/// Reads a scene of one straight cable.
+pub fn read(path: &Path) -> Result<Problem, String> {
     let text = std::fs::read_to_string(path).map_err(|e| at(path, e))?;
     let scene = serde_json::from_str(&text).map_err(|e| at(path, e))?;
     Problem::read(&scene).map_err(|e| at(path, e))

@@ -1,5 +1,7 @@
 //! What a scene of one straight cable says, for rods of any shape functions.
 
+use flexbody::elements::Strain;
+use flexbody::elements::cable::{Inertia, Parameters};
 use serde_json::Value;
 
 use crate::elements::rod::{Material, Rod, Vector};
@@ -56,6 +58,19 @@ impl Problem {
             held: scene["joints"].as_array().is_some_and(|j| !j.is_empty()),
             loads,
         })
+    }
+
+    /// The whole rod as a cable of the product: undamped, with its mass and `thetaPrime`.
+    pub fn cable(&self) -> Parameters {
+        Parameters {
+            length: self.length(),
+            axial_stiffness: self.material.axial,
+            bending_stiffness: self.material.bending,
+            line_density: self.material.density,
+            damping_time: 0.0,
+            strain: Strain::ThetaPrime,
+            inertia: Inertia::Corrected,
+        }
     }
 
     /// Length of the line, m.

@@ -1,0 +1,49 @@
+//! The product's elimination: clusters by QR, the rest by its sparse Cholesky factor.
+
+use flexbody::body::{Assembly, Elimination, Row};
+use flexbody::math::sparse::Matrix;
+
+use super::Transformation;
+use super::rod::{Node, Rod};
+
+/// The elimination and its scratch.
+pub struct Product {
+    elimination: Elimination<4>,
+    y: Vec<f64>,
+}
+
+/// `None` where the mass is not positive.
+pub fn new(rod: &Rod) -> Option<Product> {
+    let held = |k: usize| Row {
+        terms: vec![(0, std::array::from_fn(|i| f64::from(u8::from(i == k))))],
+        is_driven: false,
+    };
+    let links: Vec<_> = (0..rod.count())
+        .map(|j| rod.chain.nodes(j).into())
+        .collect();
+    let (assembly, _) = Assembly::new(rod.reference.len(), &[held(0), held(1)], &links);
+    let mut mass = Matrix::zeros(assembly.pattern());
+    rod.chain.add_mass(&assembly, &mut mass);
+    let elimination = Elimination::new(assembly, mass)?;
+    let y = vec![0.0; elimination.scratch()];
+    Some(Product { elimination, y })
+}
+
+impl Transformation for Product {
+    fn coordinates(&self) -> usize {
+        self.elimination.coordinates()
+    }
+
+    fn spread(&mut self, q: &[f64], u: &mut [Node]) {
+        self.elimination.expand(q, &mut self.y, u);
+    }
+
+    fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
+        self.elimination.reduce(f, &mut self.y, a);
+    }
+
+    fn memory(&self) -> usize {
+        // Its factor has the structure of the mass.
+        size_of_val(&self.elimination.mass.values[..])
+    }
+}
