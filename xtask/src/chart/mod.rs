@@ -13,6 +13,7 @@ mod cost;
 mod drift;
 mod energies;
 mod failures;
+mod formulations;
 mod machine;
 mod mesh;
 mod methods;
@@ -51,6 +52,8 @@ pub enum Chart {
     Peers,
     /// Where methods fail, and what the product does there
     Failures,
+    /// Coordinates and how accelerations follow from forces
+    Formulations,
     /// What the report's equations do as printed
     AsPrinted,
 }
@@ -69,6 +72,7 @@ impl Chart {
             Self::Energies => "energies",
             Self::Peers => "peers",
             Self::Failures => "failures",
+            Self::Formulations => "formulations",
             Self::AsPrinted => "as_printed",
         }
     }
@@ -87,6 +91,7 @@ impl Chart {
             Self::Energies => energies::chart(bench),
             Self::Peers => peers::chart(bench),
             Self::Failures => failures::chart(bench),
+            Self::Formulations => formulations::chart(bench),
             Self::AsPrinted => as_printed::chart(bench),
         }
     }
