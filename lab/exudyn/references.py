@@ -1,5 +1,6 @@
 """Makes references/: the path of each scene's marker by Exudyn's finest runs, for the scenes of settings.json
-that have no reference of their own (but slider_crank: its extrapolated runs agree to 3e-5 of the length only). `references.py [SCENE ...]`; takes some ten minutes.
+that have no reference of their own, but slider_crank: its runs agree to 3e-5 of the length only.
+`references.py [SCENE ...]`; takes some ten minutes.
 
 Explicit scenes: RK4 within its stability limit, pins held by nodes of 1e11 kg. Others: generalized-alpha with two
 steps, extrapolated, which takes away its error of second order."""
