@@ -48,7 +48,6 @@ References are closed forms, published figures and invariants. The methods are s
 {}
 **What it means.** {stops} of these methods stop, and say so; the others go on with something wrong, which is worse: no step of theirs says that the result has no digits. \
 The product answers with the right result or with a reason: in a unit a step that cannot be finished is `fmi2Discard` with the last good time, and a state saved before goes on (`tests/abi/steps.rs`, `tests/abi/states.rs`). \
-What it does not do: an elastic law without limit lets a soft undamped cable be crushed to nothing at a point on a coarse mesh; such a step ends with \"no step however short meets the relative tolerance\", and more elements or some damping get past it. \
 A perfectly straight column beyond its buckling load stays straight at static equilibrium, as symmetry has it; its first natural frequency is then negative, and any side force shows the buckled shape.
 ",
         rows.len(),
