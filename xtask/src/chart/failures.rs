@@ -37,7 +37,9 @@ fn section(rows: &[Vec<String>]) -> String {
         cells[4] = format!("`{}`", cells[4]);
         cells
     };
-    let stops = rows.iter().filter(|row| row[2].contains("stops")).count();
+    let says_so =
+        |row: &&Vec<String>| row[2].contains("stops") || row[2].contains("no equilibrium");
+    let stops = rows.iter().filter(says_so).count();
     format!(
         "\
 ## failures: where methods fail
@@ -46,7 +48,7 @@ fn section(rows: &[Vec<String>]) -> String {
 References are closed forms, published figures and invariants. The methods are small pieces of the `lab`; the implicit ones solve every step by Newton's method to the end, so that what fails is the method. Each row is held by a test (`cargo test -p lab failures`).
 
 {}
-**What it means.** {stops} of these methods stop, and say so; the others go on with something wrong, which is worse: no step of theirs says that the result has no digits. \
+**What it means.** {stops} of these methods stop, or find nothing, and say so; the others go on with something wrong and say nothing, which is worse. \
 The product answers with the right result or with a reason: in a unit a step that cannot be finished is `fmi2Discard` with the last good time, and a state saved before goes on (`tests/abi/steps.rs`, `tests/abi/states.rs`). \
 A perfectly straight column beyond its buckling load stays straight at static equilibrium, as symmetry has it; its first natural frequency is then negative, and any side force shows the buckled shape.
 ",
