@@ -1,3 +1,5 @@
+//! All exact formulations agree with a dense augmented solve; the printed one does not.
+
 use flexbody::elements::Strain;
 use flexbody::elements::cable::{Inertia, Parameters};
 use nalgebra::{DMatrix, DVector};
