@@ -8,7 +8,7 @@ mod nystrom;
 mod radau;
 mod rk4;
 
-pub use nystrom::{Nystrom, RKN43, VERLET};
+pub use nystrom::{Nystrom, RKN43, Tableau, VERLET};
 pub use radau::Radau;
 pub use rk4::Rk4;
 
@@ -108,7 +108,7 @@ pub const MOST_STEPS: u64 = 10_000_000;
 
 /// The error of an estimate of this power of the step as the driver, which takes the fourth, must see
 /// it to choose the right step.
-fn rescaled(error: f64, power: f64) -> f64 {
+pub fn rescaled(error: f64, power: f64) -> f64 {
     error.powf(4.0 / power)
 }
 

@@ -16,19 +16,20 @@ const MARGIN: f64 = 0.9;
 /// Coefficients of a method.
 #[derive(Debug, PartialEq)]
 pub struct Tableau {
-    name: &'static str,
+    /// Name of the method.
+    pub name: &'static str,
     /// Stability limit: longest step times frequency.
-    limit: f64,
+    pub limit: f64,
     /// Times of the stages.
-    c: &'static [f64],
+    pub c: &'static [f64],
     /// Weights of accelerations in the positions of the stages; the last is the end of the step.
-    a: &'static [&'static [f64]],
+    pub a: &'static [&'static [f64]],
     /// Weights in the velocity at the end.
-    rates: &'static [f64],
+    pub rates: &'static [f64],
     /// Weights in the errors of position and velocity: method less embedded method.
-    error: [&'static [f64]; 2],
+    pub error: [&'static [f64]; 2],
     /// Power of the step in the error estimate.
-    power: f64,
+    pub power: f64,
 }
 
 /// Velocity Verlet: order 2, one evaluation a step, conserves energy on average at steps of equal

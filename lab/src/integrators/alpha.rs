@@ -6,11 +6,10 @@
 //! M. Arnold, O. Bruls, Multibody Syst. Dyn. 18 (2007) 185-202, Eq. 2. The trapezoidal rule is that of
 //! N. M. Newmark (1959) with beta 1/4, gamma 1/2.
 
-use flexbody::integrators::{Attempt, Method, Tolerance};
+use flexbody::integrators::{Attempt, Method, Tolerance, rescaled};
 use flexbody::system::Dynamics;
 
 use super::newton::{Equation, Newton, size};
-use super::rescaled;
 
 /// Weights of a method.
 #[derive(Clone, Copy)]

@@ -3,10 +3,8 @@
 //! Source: J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26, Table 2 (RK5(4)7M); E. Hairer,
 //! S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., Table II.5.2.
 
-use flexbody::integrators::{Attempt, Method, Tolerance};
+use flexbody::integrators::{Attempt, Method, Tolerance, rescaled};
 use flexbody::system::Dynamics;
-
-use super::rescaled;
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [&[f64]; 7] = [

@@ -31,8 +31,7 @@ mod verlet;
 use std::sync::{Arc, Mutex};
 
 use flexbody::body::Node;
-use flexbody::integrators::{Method, Radau, Rk4};
-use flexbody::scene::LoadKind;
+use flexbody::integrators::{Method, Nystrom, RKN43, Radau, Rk4};
 use flexbody::system::fastest;
 
 use crate::scene::{Outcome, Start};
@@ -52,7 +51,7 @@ pub struct Build<'a> {
 /// A method by its name.
 pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
     let n = build.start.state.rates.len();
-    let only_positions = || match reads_rates(build.start) {
+    let only_positions = || match build.start.assembled.system.reads_rates() {
         true => Err(format!(
             "{name}: expected accelerations that do not read rates"
         )),
@@ -70,10 +69,12 @@ pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
         "dopri5" => Box::new(dopri5::Dopri5::new(n)),
         "rkn43" | "rkn64" => {
             only_positions()?;
-            match name {
-                "rkn43" => Box::new(nystrom::Nystrom::new(&nystrom::RKN43, n)),
-                _ => Box::new(nystrom::Nystrom::new(&nystrom::RKN64, n)),
-            }
+            let tableau = match name {
+                "rkn43" => &RKN43,
+                _ => &nystrom::RKN64,
+            };
+            // No frequency, no limit: how far they go is what the chart shows.
+            Box::new(Nystrom::new(tableau, n, 0.0))
         }
         "srkn4" => {
             only_positions()?;
@@ -107,22 +108,4 @@ pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
         }
         _ => return Err(format!("--method {name}: no method of this name")),
     })
-}
-
-/// Whether accelerations depend on rates.
-fn reads_rates(start: &Start) -> bool {
-    let scene = &start.scene;
-    let damped = |damping: Option<f64>| damping.is_some_and(|d| d != 0.0);
-    let system = &start.assembled.system;
-    system.constraints() > 0
-        || scene.rotation != 0.0
-        || system.chains().iter().any(|chain| chain.is_damped())
-        || scene.joints.iter().any(|joint| damped(joint.damping))
-        || (scene.loads.iter()).any(|l| l.kind == LoadKind::SpringDamper && damped(l.damping))
-}
-
-/// Error of a step of a method whose error shrinks with this power of the step, such that the library's
-/// control, made for power 4, changes the step as it should.
-fn rescaled(error: f64, power: f64) -> f64 {
-    error.powf(4.0 / power)
 }

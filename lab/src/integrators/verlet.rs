@@ -4,10 +4,8 @@
 //! Source: L. Verlet, Phys. Rev. 159 (1967); W. C. Swope et al., J. Chem. Phys. 76 (1982) 637, Eqs. 2-3;
 //! E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., section I.1.4.
 
-use flexbody::integrators::{Attempt, Method, Tolerance};
+use flexbody::integrators::{Attempt, Method, Tolerance, rescaled};
 use flexbody::system::Dynamics;
-
-use super::rescaled;
 
 /// Scratch of the method.
 pub struct Verlet {
