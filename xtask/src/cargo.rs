@@ -54,16 +54,16 @@ impl Workspace {
         command
     }
 
-    /// Builds the shared library of an FMU and returns where it is.
-    pub fn library(&self) -> Result<PathBuf> {
+    /// Builds the shared library of a package for its FMUs and returns where it is.
+    pub fn library(&self, package: &str) -> Result<PathBuf> {
         let mut command = self.cargo("rustc");
         command.args(["--lib", "--crate-type", "cdylib"]);
-        built(&mut command, "flexbody", |artifact| {
+        built(&mut command, package, |artifact| {
             let is_library = |file: &&str| file.ends_with(std::env::consts::DLL_SUFFIX);
             let files = artifact["filenames"].as_array()?;
             files.iter().filter_map(Value::as_str).find(is_library)
         })
-        .context("building the shared library")
+        .with_context(|| format!("building the shared library of {package}"))
     }
 
     /// Builds the `flexbody` program and returns where it is.

@@ -12,6 +12,7 @@ mod demo;
 mod describe;
 mod icon;
 mod package;
+mod partners;
 mod process;
 mod python;
 mod simulate;
@@ -48,6 +49,8 @@ enum Command {
         #[arg(value_name = "NAME")]
         charts: Vec<chart::Chart>,
     },
+    /// Makes the FMUs of the partners (mass, spring, controller, cylinder) in target/fmu/partners
+    Partners,
     /// Runs every check: formatting, clippy, Rust tests, generated files, the FMUs under fmpy
     Test,
 }
@@ -62,6 +65,7 @@ fn main() -> ExitCode {
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),
         Command::Chart { charts } => chart::chart(&workspace, &charts),
+        Command::Partners => partners::partners(&workspace),
         Command::Test => test::test(&workspace),
     });
     match result {

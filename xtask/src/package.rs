@@ -25,7 +25,7 @@ pub fn package(workspace: &Workspace, scene: &Path, output: Option<&Path>) -> Re
     }
     let platform = platform()?;
     let binary = workspace.binary()?;
-    let library = workspace.library()?;
+    let library = workspace.library(MODEL_IDENTIFIER)?;
     let stage = Stage::new(workspace)?;
     describe::describe(&binary, scene, &stage.0)?;
     let inside = prepared(&stage.0.join("binaries").join(platform).join(format!(
@@ -76,7 +76,7 @@ pub fn check_readable(path: &Path) -> Result<()> {
 }
 
 /// Folder of the host's binaries: FMI 2.0 names where it has one, else those of FMI 3.0.
-fn platform() -> Result<&'static str> {
+pub fn platform() -> Result<&'static str> {
     match (std::env::consts::OS, std::env::consts::ARCH) {
         ("linux", "x86_64") => Ok("linux64"),
         ("windows", "x86_64") => Ok("win64"),
