@@ -6,6 +6,7 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
+use crate::platform::Platform;
 use crate::process;
 
 /// Where the project lies and where its products go.
@@ -54,16 +55,20 @@ impl Workspace {
         command
     }
 
-    /// Builds the shared library of a package for its FMUs and returns where it is.
-    pub fn library(&self, package: &str) -> Result<PathBuf> {
+    /// Builds a package as the shared library of an FMU and returns where it is.
+    pub fn library(&self, package: &str, platform: Platform) -> Result<PathBuf> {
         let mut command = self.cargo("rustc");
         command.args(["--lib", "--crate-type", "cdylib"]);
-        built(&mut command, package, |artifact| {
-            let is_library = |file: &&str| file.ends_with(std::env::consts::DLL_SUFFIX);
+        if !platform.is_host() {
+            command.args(["--target", platform.target()]);
+        }
+        released(&mut command, package);
+        product(&mut command, package, |artifact| {
+            let is_library = |file: &&str| file.ends_with(platform.suffix());
             let files = artifact["filenames"].as_array()?;
             files.iter().filter_map(Value::as_str).find(is_library)
         })
-        .with_context(|| format!("building the shared library of {package}"))
+        .with_context(|| format!("building the shared library for {}", platform.folder()))
     }
 
     /// Builds the `flexbody` program and returns where it is.
@@ -74,11 +79,7 @@ impl Workspace {
     /// Builds the program of a package, named like it, and returns where it is.
     pub fn program(&self, package: &str) -> Result<PathBuf> {
         let mut command = self.cargo("build");
-        command.args(["--bin", package]);
-        built(&mut command, package, |artifact| {
-            artifact["executable"].as_str()
-        })
-        .with_context(|| format!("building the {package} program"))
+        self.executable(command.args(["--bin", package]), package)
     }
 
     /// Builds the program of a package outside the workspace and returns where it is.
@@ -87,10 +88,13 @@ impl Workspace {
         command.arg("--manifest-path");
         command.arg(self.path(folder).join("Cargo.toml"));
         command.arg("--target-dir").arg(self.target(package));
-        built(&mut command, package, |artifact| {
-            artifact["executable"].as_str()
-        })
-        .with_context(|| format!("building the {package} program"))
+        self.executable(&mut command, package)
+    }
+
+    fn executable(&self, command: &mut Command, package: &str) -> Result<PathBuf> {
+        let command = released(command, package);
+        product(command, package, |artifact| artifact["executable"].as_str())
+            .with_context(|| format!("building the {package} program"))
     }
 }
 
@@ -98,24 +102,24 @@ fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Builds a package in release and finds a product in cargo's messages.
-fn built(
+/// Completes a command that builds a package in release.
+fn released<'a>(command: &'a mut Command, package: &str) -> &'a mut Command {
+    command
+        .args(["--package", package, "--release"])
+        .args(["--message-format", "json-render-diagnostics"])
+}
+
+/// Runs a command that builds a package and finds a product in cargo's messages.
+fn product(
     command: &mut Command,
     package: &str,
-    product: fn(&Value) -> Option<&str>,
+    find: impl Fn(&Value) -> Option<&str>,
 ) -> Result<PathBuf> {
-    let messages = process::stdout(command.args([
-        "--package",
-        package,
-        "--release",
-        "--message-format",
-        "json-render-diagnostics",
-    ]))?;
-    for line in messages.lines() {
+    for line in process::stdout(command)?.lines() {
         let message: Value = serde_json::from_str(line)
             .with_context(|| format!("expected a JSON message of cargo, found {line:?}"))?;
         let is_ours = message["target"]["name"] == package;
-        if is_ours && let Some(path) = product(&message) {
+        if is_ours && let Some(path) = find(&message) {
             return Ok(path.into());
         }
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use platform::Platform;
 
 mod archive;
 mod cargo;
@@ -13,6 +14,7 @@ mod describe;
 mod icon;
 mod package;
 mod partners;
+mod platform;
 mod process;
 mod python;
 mod simulate;
@@ -36,6 +38,9 @@ enum Command {
         /// Where to write [default: target/fmu/<scene name>.fmu]
         #[arg(long, value_name = "FILE.fmu")]
         output: Option<PathBuf>,
+        /// What it is to run on [default: platforms like this one]
+        #[arg(long, value_name = "PLATFORM,...", value_delimiter = ',')]
+        platform: Vec<Platform>,
     },
     /// Simulates a scene (natively) or an FMU (with fmpy) to a CSV file
     Simulate(simulate::Arguments),
@@ -58,9 +63,11 @@ enum Command {
 fn main() -> ExitCode {
     let command = Arguments::parse().command;
     let result = cargo::Workspace::locate().and_then(|workspace| match command {
-        Command::Package { scene, output } => {
-            package::package(&workspace, &scene, output.as_deref()).map(drop)
-        }
+        Command::Package {
+            scene,
+            output,
+            platform,
+        } => package::package(&workspace, &scene, output.as_deref(), &platform).map(drop),
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),

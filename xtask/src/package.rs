@@ -6,14 +6,21 @@ use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
 use crate::cargo::Workspace;
+use crate::platform::Platform;
 use crate::process::{announced, prepared, shown};
 use crate::{archive, describe};
 
-/// Name of the library in an FMU; the `modelIdentifier` of every scene.
-const MODEL_IDENTIFIER: &str = "flexbody";
+/// The package that is every scene's library, and thereby its `modelIdentifier`.
+const PACKAGE: &str = "flexbody";
 
-/// Makes an FMU of a scene, says where, and returns its path.
-pub fn package(workspace: &Workspace, scene: &Path, output: Option<&Path>) -> Result<PathBuf> {
+/// Makes an FMU of a scene for some platforms, or for the host where none is named, says where,
+/// and returns its path.
+pub fn package(
+    workspace: &Workspace,
+    scene: &Path,
+    output: Option<&Path>,
+    platforms: &[Platform],
+) -> Result<PathBuf> {
     check_readable(scene)?;
     if let Some(output) = output
         && output.extension() != Some("fmu".as_ref())
@@ -23,17 +30,17 @@ pub fn package(workspace: &Workspace, scene: &Path, output: Option<&Path>) -> Re
             output.display()
         );
     }
-    let platform = platform()?;
+    let platforms = match platforms {
+        [] => vec![Platform::host()?],
+        named => named.to_vec(),
+    };
     let binary = workspace.binary()?;
-    let library = workspace.library(MODEL_IDENTIFIER)?;
     let stage = Stage::new(workspace)?;
     describe::describe(&binary, scene, &stage.0)?;
-    let inside = prepared(&stage.0.join("binaries").join(platform).join(format!(
-        "{MODEL_IDENTIFIER}.{}",
-        std::env::consts::DLL_EXTENSION
-    )))?;
-    std::fs::copy(&library, &inside)
-        .with_context(|| format!("cannot copy the library {}", shown(&library)))?;
+    for platform in platforms {
+        let library = workspace.library(PACKAGE, platform)?;
+        put_library(&library, &stage.0, PACKAGE, platform)?;
+    }
     let output = match output {
         Some(output) => prepared(output)?,
         None => prepared(&workspace.target(&format!("fmu/{}.fmu", scene_name(&stage.0)?)))?,
@@ -41,6 +48,15 @@ pub fn package(workspace: &Workspace, scene: &Path, output: Option<&Path>) -> Re
     let done = format!("packaged {}", shown(&output));
     announced("packaging", &done, || archive::pack(&stage.0, &output))?;
     Ok(output)
+}
+
+/// Puts the library of a package among the binaries of an FMU, named like the package.
+pub fn put_library(library: &Path, folder: &Path, package: &str, platform: Platform) -> Result<()> {
+    let inside = folder.join("binaries").join(platform.folder());
+    let inside = prepared(&inside.join(format!("{package}{}", platform.suffix())))?;
+    std::fs::copy(library, &inside)
+        .map(drop)
+        .with_context(|| format!("cannot copy the library {}", shown(library)))
 }
 
 /// A folder to build in, removed when it goes out of scope.
@@ -73,21 +89,6 @@ pub fn check_readable(path: &Path) -> Result<()> {
     std::fs::File::open(path)
         .map(drop)
         .with_context(|| format!("cannot read {}", path.display()))
-}
-
-/// Folder of the host's binaries: FMI 2.0 names where it has one, else those of FMI 3.0.
-pub fn platform() -> Result<&'static str> {
-    match (std::env::consts::OS, std::env::consts::ARCH) {
-        ("linux", "x86_64") => Ok("linux64"),
-        ("windows", "x86_64") => Ok("win64"),
-        ("macos", "x86_64") => Ok("darwin64"),
-        ("linux", "aarch64") => Ok("aarch64-linux"),
-        ("macos", "aarch64") => Ok("aarch64-darwin"),
-        (system, processor) => bail!(
-            "expected Linux, macOS or Windows on x86_64, or Linux or macOS on aarch64, \
-             found {system} on {processor}"
-        ),
-    }
 }
 
 /// The name in the validated scene that `flexbody describe` wrote.

@@ -4,7 +4,8 @@ use anyhow::{Context, Result};
 
 use crate::archive;
 use crate::cargo::Workspace;
-use crate::package::{Stage, platform};
+use crate::package::{Stage, put_library};
+use crate::platform::Platform;
 use crate::process::{announced, prepared, run_quietly, shown};
 
 /// The package, its library in an FMU, its program, and its folder among the FMUs.
@@ -12,9 +13,9 @@ const PARTNERS: &str = "partners";
 
 /// Makes one FMU of every partner.
 pub fn partners(workspace: &Workspace) -> Result<()> {
-    let platform = platform()?;
+    let platform = Platform::host()?;
     let program = workspace.program(PARTNERS)?;
-    let library = workspace.library(PARTNERS)?;
+    let library = workspace.library(PARTNERS, platform)?;
     let stage = Stage::new(workspace)?;
     run_quietly(std::process::Command::new(program).arg(&stage.0))?;
     let listing = std::fs::read_dir(&stage.0)
@@ -22,10 +23,7 @@ pub fn partners(workspace: &Workspace) -> Result<()> {
     for entry in listing {
         let folder = entry?.path();
         let name = folder.file_name().unwrap_or_default().to_string_lossy();
-        let file = format!("{PARTNERS}.{}", std::env::consts::DLL_EXTENSION);
-        let inside = prepared(&folder.join("binaries").join(platform).join(file))?;
-        std::fs::copy(&library, &inside)
-            .with_context(|| format!("cannot copy the library {}", shown(&library)))?;
+        put_library(&library, &folder, PARTNERS, platform)?;
         let output = prepared(&workspace.target(&format!("fmu/{PARTNERS}/{name}.fmu")))?;
         let done = format!("packaged {}", shown(&output));
         announced("packaging", &done, || archive::pack(&folder, &output))?;
