@@ -327,7 +327,7 @@ setters! {
 pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
     // SAFETY: module contract; `*FMUstate` is NULL or a state of this library, which is reused.
     unsafe {
-        guard(c, Function::GetFmuState, |instance| {
+        guard(c, Function::GetFMUstate, |instance| {
             let place = FMUstate.as_mut().ok_or(Fault::Pointer("FMUstate"))?;
             let state = instance.save();
             match place.cast::<SavedState>().as_mut() {
@@ -344,7 +344,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) 
 pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SetFmuState, |instance| {
+        guard(c, Function::SetFMUstate, |instance| {
             instance.restore(saved(FMUstate)?)
         })
     }
@@ -355,7 +355,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> St
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
     // SAFETY: module contract; a state was made by `Box::into_raw`, and NULL takes its place.
     unsafe {
-        guard(c, Function::FreeFmuState, |_| {
+        guard(c, Function::FreeFMUstate, |_| {
             if let Some(place) = FMUstate.as_mut()
                 && !place.is_null()
             {
@@ -376,7 +376,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SerializedFmuStateSize, |_| {
+        guard(c, Function::SerializedFMUstateSize, |_| {
             place("size", size)?.write(saved(FMUstate)?.size());
             Ok(())
         })
@@ -393,7 +393,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 ) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SerializeFmuState, |_| {
+        guard(c, Function::SerializeFMUstate, |_| {
             let target = lent_mut("serializedState", serializedState.cast::<u8>(), size)?;
             saved(FMUstate)?.write_to(target)
         })
@@ -411,7 +411,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     // SAFETY: module contract. A state that `*FMUstate` already holds stays the master's to free:
     // the standard speaks of reuse only for `fmi2GetFMUstate`.
     unsafe {
-        guard(c, Function::DeserializeFmuState, |instance| {
+        guard(c, Function::DeSerializeFMUstate, |instance| {
             let place = place("FMUstate", FMUstate)?;
             let bytes = lent("serializedState", serializedState.cast::<u8>(), size)?;
             place.write(Box::into_raw(Box::new(instance.deserialize(bytes)?)).cast());

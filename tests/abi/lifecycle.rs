@@ -39,12 +39,12 @@ fn answer(instance: &Instance<'_>, function: Function) -> Status {
         SetInteger => call!(fmi2SetInteger, c, none, 0, ptr::null()),
         SetBoolean => call!(fmi2SetBoolean, c, none, 0, ptr::null()),
         SetString => call!(fmi2SetString, c, none, 0, ptr::null()),
-        GetFmuState
-        | SetFmuState
-        | FreeFmuState
-        | SerializedFmuStateSize
-        | SerializeFmuState
-        | DeserializeFmuState => saved_state(instance, function),
+        GetFMUstate
+        | SetFMUstate
+        | FreeFMUstate
+        | SerializedFMUstateSize
+        | SerializeFMUstate
+        | DeSerializeFMUstate => saved_state(instance, function),
         GetDirectionalDerivative => {
             let (seed, result) = (ptr::null(), ptr::null_mut());
             call!(
@@ -89,13 +89,13 @@ fn saved_state(instance: &Instance<'_>, function: Function) -> Status {
     let mut copy = vec![0_u8; bytes.len()];
     let (mut size, mut second) = (0, ptr::null_mut());
     let status = match function {
-        Function::GetFmuState => call!(fmi2GetFMUstate, c, &mut state),
-        Function::SetFmuState => call!(fmi2SetFMUstate, c, state),
-        Function::FreeFmuState => call!(fmi2FreeFMUstate, c, &mut state),
-        Function::SerializedFmuStateSize => {
+        Function::GetFMUstate => call!(fmi2GetFMUstate, c, &mut state),
+        Function::SetFMUstate => call!(fmi2SetFMUstate, c, state),
+        Function::FreeFMUstate => call!(fmi2FreeFMUstate, c, &mut state),
+        Function::SerializedFMUstateSize => {
             call!(fmi2SerializedFMUstateSize, c, state, &mut size)
         }
-        Function::SerializeFmuState => {
+        Function::SerializeFMUstate => {
             call!(
                 fmi2SerializeFMUstate,
                 c,
