@@ -11,7 +11,7 @@ const REAL: &str = "Real";
 const INTEGER: &str = "Integer";
 
 impl Instance {
-    /// `fmi2GetReal`.
+    /// `fmi2GetReal`; a number that is not finite is no answer.
     pub(super) fn get_real(
         &mut self,
         references: &[u32],
@@ -21,7 +21,14 @@ impl Instance {
             self.variable(*reference, REAL)?;
         }
         for (reference, value) in references.iter().zip(values) {
-            value.write(self.simulation.real(*reference as usize)?);
+            let found = self.simulation.real(*reference as usize)?;
+            if !found.is_finite() {
+                let name = self.variable(*reference, REAL)?.name.clone();
+                let reason =
+                    format!("expected a finite number, found {found}: an input is too large");
+                return Err(Fault::Value { name, reason });
+            }
+            value.write(found);
         }
         Ok(())
     }
@@ -53,10 +60,11 @@ impl Instance {
                 });
             }
         }
+        let current = self.simulation.is_current();
         for (done, (reference, value)) in references.iter().zip(values).enumerate() {
             let index = *reference as usize;
             if let Err(error) = self.simulation.set_real(index, *value) {
-                self.take_back(&references[..done]);
+                self.take_back(&references[..done], current);
                 return Err(error.into());
             }
         }
@@ -71,10 +79,11 @@ impl Instance {
         for reference in references {
             self.settable(*reference, INTEGER)?;
         }
+        let current = self.simulation.is_current();
         for (done, (reference, value)) in references.iter().zip(values).enumerate() {
             let index = *reference as usize;
             if let Err(error) = self.simulation.set_integer(index, *value) {
-                self.take_back(&references[..done]);
+                self.take_back(&references[..done], current);
                 return Err(error.into());
             }
         }
@@ -129,8 +138,9 @@ impl Instance {
     }
 
     /// Sets variables back to the values before a call that was refused half-way. The simulation
-    /// accepted these values before, so it accepts them again.
-    fn take_back(&mut self, references: &[u32]) {
+    /// accepted these values before, so it accepts them again; an initial state that belonged to them
+    /// does so again.
+    fn take_back(&mut self, references: &[u32], current: bool) {
         for reference in references {
             let index = *reference as usize;
             let value = self.values[index];
@@ -144,6 +154,9 @@ impl Instance {
                 accepted.is_ok(),
                 "an accepted value is refused: {accepted:?}"
             );
+        }
+        if current {
+            self.simulation.mark_current();
         }
     }
 }

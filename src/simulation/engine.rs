@@ -156,13 +156,13 @@ impl Engine {
         joints.chain(bodies).collect()
     }
 
-    /// Advances the state to `until`.
+    /// Advances the state to `until`; what it did is told of a failure as well.
     pub(super) fn step(
         &mut self,
         state: &mut State,
         inputs: &[f64],
         until: f64,
-    ) -> Result<Report, StepFailure> {
+    ) -> (Report, Result<(), StepFailure>) {
         self.forget();
         state.work[0] += self.set_energy(state, inputs);
         let system = &self.assembled.system;
@@ -172,18 +172,17 @@ impl Engine {
         self.forget();
         state.work[0] -= self.set_energy(state, inputs);
         self.forget();
-        match result {
-            Ok(()) => Ok(Report {
-                method: self.method.name(),
-                steps: counts.steps,
-                rejected: counts.rejected,
-                newton_iterations: counts.newton_iterations,
-            }),
-            Err(stop) => Err(StepFailure {
-                time: state.time,
-                reason: self.explain(stop),
-            }),
-        }
+        let report = Report {
+            method: self.method.name(),
+            steps: counts.steps,
+            rejected: counts.rejected,
+            newton_iterations: counts.newton_iterations,
+        };
+        let failure = |stop| StepFailure {
+            time: state.time,
+            reason: self.explain(stop),
+        };
+        (report, result.map_err(failure))
     }
 
     /// Energy in springs whose length inputs may set. Between steps the work in a state is short of it,

@@ -261,8 +261,19 @@ impl Simulation {
             time,
             reason: "expected a simulation that has been initialized".into(),
         })?;
-        self.report = engine.step(&mut self.state, &self.inputs, until)?;
-        Ok(())
+        let (report, result) = engine.step(&mut self.state, &self.inputs, until);
+        self.report = report;
+        result
+    }
+
+    /// Whether the initial state belongs to the current parameters and inputs.
+    pub fn is_current(&self) -> bool {
+        self.current
+    }
+
+    /// Parameters and inputs are again those that the initial state was computed with.
+    pub fn mark_current(&mut self) {
+        self.current = true;
     }
 
     /// A copy of everything that changes.

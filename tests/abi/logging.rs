@@ -97,3 +97,23 @@ fn messages_carry_the_name_the_status_and_the_work_of_the_solver() {
         assert!(message.contains(word), "{message}");
     }
 }
+
+#[test]
+fn a_step_that_fails_tells_the_work_it_took() {
+    let unit = Unit::new();
+    let instance = Instance::started(&unit);
+    assert_eq!(instance.set("rod.tip.force[1]", 1e300), Status::Ok);
+    instance.record.take();
+    assert_eq!(instance.step(0.0, 0.05), Status::Discard);
+    let lines = instance.record.take();
+    let (_, status, _, message) = &lines[0];
+    assert_eq!((lines.len(), *status), (2, Status::Ok));
+    let words: Vec<&str> = message.split([' ', ',']).collect();
+    let before = |word| words[words.iter().position(|w| *w == word).expect(word) - 1];
+    assert!(
+        message.starts_with("to time 0 s: r"),
+        "no method: {message}"
+    );
+    assert_eq!(before("steps"), "0", "{message}");
+    assert_ne!(before("rejected"), "0", "{message}");
+}

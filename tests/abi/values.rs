@@ -141,6 +141,37 @@ fn a_set_with_one_bad_value_sets_nothing() {
 }
 
 #[test]
+fn a_refused_set_leaves_the_initial_state_as_it_was() {
+    let unit = Unit::new();
+    let instance = Instance::in_state(&unit, State::Initialization);
+    let elements = [unit.reference("rod.elements"); 2];
+    let c = instance.component;
+    refused(&instance, "rod.elements", || {
+        call!(fmi2SetInteger, c, elements.as_ptr(), 2, [8, 0].as_ptr())
+    });
+    let density = [unit.reference("rod.density"); 2];
+    refused(&instance, "rod.density", || {
+        call!(fmi2SetReal, c, density.as_ptr(), 2, [1.0, -1.0].as_ptr())
+    });
+}
+
+#[test]
+fn an_output_that_is_no_number_is_not_answered() {
+    let unit = Unit::new();
+    let instance = Instance::started(&unit);
+    assert_eq!(instance.set("rod.middle.moment", f64::MAX), Status::Ok);
+    let reference = unit.reference("rod.tip.acceleration[1]");
+    let mut value = 0.0;
+    refused(
+        &instance,
+        "rod.tip.acceleration[1]: expected a finite number",
+        || call!(fmi2GetReal, instance.component, &reference, 1, &mut value),
+    );
+    assert_eq!(instance.set("rod.middle.moment", 0.0), Status::Ok);
+    assert!(instance.get("rod.tip.acceleration[1]").is_finite());
+}
+
+#[test]
 fn a_refused_set_goes_back_to_the_tolerance_of_the_experiment() {
     let unit = Unit::new();
     let instance = Instance::new(&unit);
