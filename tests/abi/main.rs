@@ -1,8 +1,12 @@
 //! The C interface, called the way a master calls it.
 
+mod hostile;
 mod instantiation;
 mod lifecycle;
 mod logging;
+mod random;
+mod resources;
+mod runs;
 mod states;
 mod steps;
 mod support;

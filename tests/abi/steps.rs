@@ -1,5 +1,6 @@
 //! Communication steps: times, stop time, failure in the middle, many instances at once.
 
+use std::sync::Barrier;
 use std::thread;
 
 use crate::support::{Instance, State, Status, Unit, call};
@@ -161,21 +162,35 @@ fn an_initialization_that_fails_says_why() {
 
 #[test]
 fn instances_in_threads_do_what_one_does_alone() {
+    const COUNT: usize = 64;
     let unit = Unit::new();
-    let expected = Instance::started(&unit).run(0, 20);
-    // Made in one thread, stepped in others.
-    let instances: Vec<Instance<'_>> = (0..16).map(|_| Instance::started(&unit)).collect();
-    thread::scope(|scope| {
-        let runs = instances.into_iter().map(|instance| {
-            scope.spawn(move || {
-                let instance = instance;
-                instance.run(0, 20)
-            })
+    let expected = Instance::started(&unit).run(0, 12);
+    // Made in one thread, stepped in 64 others at once, and in other ones again.
+    let mut instances: Vec<Instance<'_>> = (0..COUNT).map(|_| Instance::started(&unit)).collect();
+    for round in 0..3 {
+        let together = Barrier::new(COUNT);
+        instances = thread::scope(|scope| {
+            let threads = instances.into_iter().map(|instance| {
+                let together = &together;
+                scope.spawn(move || {
+                    let step = |number| {
+                        together.wait();
+                        instance.run(number, number + 1).remove(0)
+                    };
+                    let run: Vec<_> = (4 * round..4 * (round + 1)).map(step).collect();
+                    (instance, run)
+                })
+            });
+            let threads: Vec<_> = threads.collect();
+            let back = threads.into_iter().map(|thread| {
+                let (instance, run) = thread.join().expect("no panic");
+                assert_eq!(run, expected[4 * round as usize..][..4]);
+                instance
+            });
+            back.collect()
         });
-        for run in runs.collect::<Vec<_>>() {
-            assert_eq!(run.join().expect("no panic"), expected);
-        }
-    });
+        instances.rotate_left(17);
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fs;
 use std::mem::transmute;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::ptr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -47,6 +47,11 @@ impl Unit {
         let folder = std::env::temp_dir().join(name);
         fs::create_dir_all(&folder).expect("a writable temporary directory");
         fs::write(folder.join("scene.json"), scene).expect("a writable temporary directory");
+        Self::at(folder, scene)
+    }
+
+    /// The unit of a scene in a folder that holds it.
+    pub fn at(folder: PathBuf, scene: &str) -> Self {
         let scene = Scene::from_json(scene).expect("a valid scene");
         let variables = variables(&scene);
         let guid = flexbody::fmi2::guid(&scene, &variables);
@@ -62,6 +67,11 @@ impl Unit {
     /// The unit of [`SCENE`].
     pub fn new() -> Self {
         Self::of(SCENE)
+    }
+
+    /// The directory `resources`.
+    pub fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// Replaces the scene file.
