@@ -19,8 +19,12 @@ pub fn pack(folder: &Path, archive: &Path) -> Result<()> {
     entries.sort();
     // Under another name first: a reader never meets half an archive.
     let partial = archive.with_extension("fmu.partial");
-    write(&entries, &partial).with_context(|| format!("cannot write {}", shown(&partial)))?;
-    std::fs::rename(&partial, archive).with_context(|| format!("cannot write {}", shown(archive)))
+    let written = write(&entries, &partial).and_then(|()| Ok(std::fs::rename(&partial, archive)?));
+    if written.is_err() {
+        // A full disk is no place for half an archive; the first error is the one to tell.
+        let _ = std::fs::remove_file(&partial);
+    }
+    written.with_context(|| format!("cannot write {}", shown(archive)))
 }
 
 /// Every file below a folder, in no order.
@@ -72,6 +76,28 @@ fn write(entries: &[(String, PathBuf)], archive: &Path) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_disk_leaves_nothing_behind() -> Result<()> {
+        let folder = std::env::temp_dir().join(format!("xtask-full-{}", std::process::id()));
+        let content = folder.join("content");
+        std::fs::create_dir_all(&content)?;
+        std::fs::write(content.join("a.txt"), "a".repeat(100_000))?;
+        let (archive, partial) = (folder.join("a.fmu"), folder.join("a.fmu.partial"));
+        std::fs::write(&archive, "the one before")?;
+        std::os::unix::fs::symlink("/dev/full", &partial)?;
+        let error = pack(&content, &archive).expect_err("there is no room");
+        let error = format!("{error:#}");
+        assert!(
+            error.contains("a.fmu") && error.contains("No space left"),
+            "{error}"
+        );
+        assert!(!partial.is_symlink(), "half an archive is left");
+        assert_eq!(std::fs::read(&archive)?, b"the one before");
+        std::fs::remove_dir_all(&folder)?;
+        Ok(())
+    }
 
     #[test]
     fn equal_content_gives_equal_bytes() -> Result<()> {
