@@ -1,30 +1,60 @@
 //! The zip archive of an FMU. Equal content gives equal bytes on every machine and every day.
 
+use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
+use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 use crate::process::shown;
 
+/// Names of files in an archive, with forward slashes, and what is in them.
+pub type Content = BTreeMap<String, Vec<u8>>;
+
 /// Packs every file below a folder.
 pub fn pack(folder: &Path, archive: &Path) -> Result<()> {
-    let mut entries = files(folder)?
-        .into_iter()
-        .map(|path| Ok((entry_name(folder, &path)?, path)))
-        .collect::<Result<Vec<_>>>()?;
-    entries.sort();
+    let mut content = Content::new();
+    for path in files(folder)? {
+        let bytes =
+            std::fs::read(&path).with_context(|| format!("cannot read {}", shown(&path)))?;
+        content.insert(entry_name(folder, &path)?, bytes);
+    }
+    write(&content, archive)
+}
+
+/// Writes an archive.
+pub fn write(content: &Content, archive: &Path) -> Result<()> {
     // Under another name first: a reader never meets half an archive.
     let partial = archive.with_extension("fmu.partial");
-    let written = write(&entries, &partial).and_then(|()| Ok(std::fs::rename(&partial, archive)?));
+    let written =
+        write_to(content, &partial).and_then(|()| Ok(std::fs::rename(&partial, archive)?));
     if written.is_err() {
         // A full disk is no place for half an archive; the first error is the one to tell.
         let _ = std::fs::remove_file(&partial);
     }
     written.with_context(|| format!("cannot write {}", shown(archive)))
+}
+
+/// Reads every file of an archive.
+pub fn read(archive: &Path) -> Result<Content> {
+    read_from(archive).with_context(|| format!("cannot read {}", shown(archive)))
+}
+
+fn read_from(archive: &Path) -> Result<Content> {
+    let mut zip = ZipArchive::new(File::open(archive)?)?;
+    let mut content = Content::new();
+    for index in 0..zip.len() {
+        let mut entry = zip.by_index(index)?;
+        if entry.is_file() {
+            let mut bytes = Vec::new();
+            entry.read_to_end(&mut bytes)?;
+            content.insert(entry.name()?.into_owned(), bytes);
+        }
+    }
+    Ok(content)
 }
 
 /// Every file below a folder, in no order.
@@ -56,18 +86,18 @@ pub fn entry_name(folder: &Path, path: &Path) -> Result<String> {
     Ok(parts.collect::<Result<Vec<_>>>()?.join("/"))
 }
 
-fn write(entries: &[(String, PathBuf)], archive: &Path) -> Result<()> {
+fn write_to(content: &Content, archive: &Path) -> Result<()> {
     let mut zip = ZipWriter::new(BufWriter::new(File::create(archive)?));
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .compression_level(Some(9))
         .last_modified_time(DateTime::default())
         .large_file(false);
-    for (name, path) in entries {
+    for (name, bytes) in content {
         let is_binary = name.starts_with("binaries/");
         let mode = if is_binary { 0o755 } else { 0o644 };
         zip.start_file(name, options.unix_permissions(mode))?;
-        zip.write_all(&std::fs::read(path)?)?;
+        zip.write_all(bytes)?;
     }
     zip.finish()?.flush()?;
     Ok(())
@@ -112,9 +142,10 @@ mod tests {
             pack(&content, archive)?;
         }
         assert_eq!(std::fs::read(&archives[0])?, std::fs::read(&archives[1])?);
-        let written = zip::ZipArchive::new(File::open(&archives[0])?)?;
-        let names = written.file_names().collect::<Result<Vec<_>, _>>()?;
+        let written = read(&archives[0])?;
+        let names: Vec<&String> = written.keys().collect();
         assert_eq!(names, ["b/a.txt", "b/c/x.txt", "z.txt"]);
+        assert_eq!(written["z.txt"], b"z.txt".repeat(1000));
         std::fs::remove_dir_all(&folder)?;
         Ok(())
     }

@@ -12,6 +12,7 @@ mod chart;
 mod demo;
 mod describe;
 mod icon;
+mod merge;
 mod package;
 mod partners;
 mod platform;
@@ -42,6 +43,18 @@ enum Command {
         #[arg(long, value_name = "PLATFORM,...", value_delimiter = ',')]
         platform: Vec<Platform>,
     },
+    /// Joins two FMUs of one scene that were built for different platforms
+    Merge {
+        /// An FMU
+        #[arg(value_name = "A.fmu")]
+        first: PathBuf,
+        /// The same for other platforms
+        #[arg(value_name = "B.fmu")]
+        second: PathBuf,
+        /// Where to write [default: target/fmu/merged/<name of A>.fmu]
+        #[arg(long, value_name = "C.fmu")]
+        output: Option<PathBuf>,
+    },
     /// Simulates a scene (natively) or an FMU (with fmpy) to a CSV file
     Simulate(simulate::Arguments),
     /// Packages the pendulum, simulates it with fmpy, compares and draws it
@@ -68,6 +81,11 @@ fn main() -> ExitCode {
             output,
             platform,
         } => package::package(&workspace, &scene, output.as_deref(), &platform).map(drop),
+        Command::Merge {
+            first,
+            second,
+            output,
+        } => merge::merge(&workspace, [&first, &second], output.as_deref()),
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),

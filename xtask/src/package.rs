@@ -22,14 +22,7 @@ pub fn package(
     platforms: &[Platform],
 ) -> Result<PathBuf> {
     check_readable(scene)?;
-    if let Some(output) = output
-        && output.extension() != Some("fmu".as_ref())
-    {
-        bail!(
-            "--output: expected a file name ending in .fmu, found {}",
-            output.display()
-        );
-    }
+    let output = output.map(checked_output).transpose()?;
     let platforms = match platforms {
         [] => vec![Platform::host()?],
         named => named.to_vec(),
@@ -42,12 +35,23 @@ pub fn package(
         put_library(&library, &stage.0, PACKAGE, platform)?;
     }
     let output = match output {
-        Some(output) => prepared(output)?,
+        Some(output) => output,
         None => prepared(&workspace.target(&format!("fmu/{}.fmu", scene_name(&stage.0)?)))?,
     };
     let done = format!("packaged {}", shown(&output));
     announced("packaging", &done, || archive::pack(&stage.0, &output))?;
     Ok(output)
+}
+
+/// The file to write an FMU to, absolute, unless its name does not say that it is one.
+pub fn checked_output(file: &Path) -> Result<PathBuf> {
+    if file.extension() != Some("fmu".as_ref()) {
+        bail!(
+            "--output: expected a file name ending in .fmu, found {}",
+            file.display()
+        );
+    }
+    prepared(file)
 }
 
 /// Puts the library of a package among the binaries of an FMU, named like the package.

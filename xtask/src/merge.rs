@@ -1,0 +1,180 @@
+//! `cargo xtask merge`: one FMU of two that were built for different platforms.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use anyhow::{Result, bail};
+
+use crate::archive::{Content, read, write};
+use crate::cargo::Workspace;
+use crate::package::checked_output;
+use crate::process::{announced, prepared, shown};
+
+const DESCRIPTION: &str = "modelDescription.xml";
+const BINARIES: &str = "binaries/";
+/// How many differences an error names.
+const NAMED: usize = 5;
+
+/// Joins the platforms of two FMUs that agree in everything else, and says where the result is.
+pub fn merge(workspace: &Workspace, files: [&Path; 2], output: Option<&Path>) -> Result<()> {
+    let name = files[0].file_name().unwrap_or_default();
+    let output = match output {
+        Some(output) => checked_output(output)?,
+        None => prepared(&workspace.target("fmu/merged").join(name))?,
+    };
+    let [first, second] = files.map(read);
+    let names = files.map(shown);
+    let joined = join(first?, second?, [&names[0], &names[1]])?;
+    let done = format!("merged {}", shown(&output));
+    announced("packaging", &done, || write(&joined, &output))
+}
+
+/// What two FMUs hold together; their names are for errors.
+fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content> {
+    for (content, name) in [&first, &second].into_iter().zip(names) {
+        if !content.contains_key(DESCRIPTION) {
+            bail!("{name}: expected an FMU, found no {DESCRIPTION}");
+        }
+        if platforms(content).is_empty() {
+            bail!("{name}: expected a binary, found nothing below {BINARIES}");
+        }
+    }
+    let both: BTreeSet<&str> = platforms(&first)
+        .intersection(&platforms(&second))
+        .copied()
+        .collect();
+    // A platform of one alone is what is to be joined; all else must be the same.
+    let is_shared = |file: &&String| platform(file).is_none_or(|found| both.contains(found));
+    let all: BTreeSet<&String> = first.keys().chain(second.keys()).collect();
+    let differ = |file: &&String| first.get(*file) != second.get(*file);
+    let different: Vec<String> = all
+        .into_iter()
+        .filter(is_shared)
+        .filter(differ)
+        .map(|file| match (first.get(file), second.get(file)) {
+            (Some(_), None) => format!("{file} (in the first only)"),
+            (None, _) => format!("{file} (in the second only)"),
+            _ => file.clone(),
+        })
+        .collect();
+    if !different.is_empty() {
+        let more = different.len().saturating_sub(NAMED);
+        let named = different[..different.len() - more].join(", ");
+        let more = if more == 0 {
+            String::new()
+        } else {
+            format!(" and {more} more")
+        };
+        bail!(
+            "{} and {}: expected FMUs that differ in their platforms only, found different: \
+             {named}{more}",
+            names[0],
+            names[1]
+        );
+    }
+    first.extend(second);
+    Ok(first)
+}
+
+/// The platforms that an FMU has binaries for.
+fn platforms(content: &Content) -> BTreeSet<&str> {
+    content.keys().filter_map(|file| platform(file)).collect()
+}
+
+/// The platform that a file of an FMU is for, if it is for one.
+fn platform(file: &str) -> Option<&str> {
+    let (platform, _) = file.strip_prefix(BINARIES)?.split_once('/')?;
+    Some(platform)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An FMU of a platform, with other content where named.
+    fn fmu(platform: &str, changed: &[(&str, &str)]) -> Content {
+        let library = format!("binaries/{platform}/flexbody.so");
+        [
+            (DESCRIPTION, "xml"),
+            ("resources/scene.json", "scene"),
+            (&library, "machine code"),
+        ]
+        .iter()
+        .chain(changed)
+        .map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_owned()))
+        .collect()
+    }
+
+    fn refused(first: Content, second: Content) -> String {
+        let error = join(first, second, ["a.fmu", "b.fmu"]).expect_err("a difference");
+        error.to_string()
+    }
+
+    #[test]
+    fn platforms_are_joined_and_nothing_else_changes() -> Result<()> {
+        let [linux, windows] = [fmu("linux64", &[]), fmu("win64", &[])];
+        let joined = join(linux.clone(), windows.clone(), ["a.fmu", "b.fmu"])?;
+        assert_eq!(platforms(&joined), BTreeSet::from(["linux64", "win64"]));
+        assert_eq!(joined.len(), 4);
+        assert!(
+            linux
+                .iter()
+                .chain(&windows)
+                .all(|(name, bytes)| joined[name] == *bytes)
+        );
+        assert_eq!(join(windows, linux, ["b.fmu", "a.fmu"])?, joined);
+        // A platform that both have, in the same bytes, is no conflict.
+        assert_eq!(
+            join(joined.clone(), fmu("win64", &[]), ["c.fmu", "b.fmu"])?,
+            joined
+        );
+        Ok(())
+    }
+
+    #[test]
+    fn what_differs_is_named() {
+        for (file, text) in [
+            (DESCRIPTION, "other xml"),
+            ("resources/scene.json", "other scene"),
+            ("documentation/index.html", "page"),
+        ] {
+            let found = refused(fmu("linux64", &[]), fmu("win64", &[(file, text)]));
+            assert!(
+                found.contains(&format!("found different: {file}")),
+                "{found}"
+            );
+            assert!(found.contains("a.fmu and b.fmu"), "{found}");
+        }
+    }
+
+    #[test]
+    fn a_platform_built_twice_is_no_matter_of_taste() {
+        let library = "binaries/linux64/flexbody.so";
+        let found = refused(
+            fmu("linux64", &[]),
+            fmu("linux64", &[(library, "other code")]),
+        );
+        assert!(found.ends_with(library), "{found}");
+        let beside = "binaries/linux64/libgfortran.so";
+        let found = refused(fmu("linux64", &[]), fmu("linux64", &[(beside, "code")]));
+        assert!(
+            found.ends_with(&format!("{beside} (in the second only)")),
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn other_archives_are_refused() {
+        let mut other = fmu("win64", &[]);
+        other.remove(DESCRIPTION);
+        let found = refused(fmu("linux64", &[]), other);
+        assert_eq!(
+            found,
+            "b.fmu: expected an FMU, found no modelDescription.xml"
+        );
+        let mut empty = fmu("win64", &[]);
+        empty.retain(|file, _| platform(file).is_none());
+        let found = refused(empty, fmu("linux64", &[]));
+        assert!(found.starts_with("a.fmu: expected a binary"), "{found}");
+    }
+}
