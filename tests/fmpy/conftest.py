@@ -1,28 +1,15 @@
 """FMUs for the tests, each packaged once a session by the project's own command."""
 
 import json
-import os
-import subprocess
 from itertools import count
 from pathlib import Path
 
 import pytest
 from instance import Fmu, Instance
+from project import ROOT, package
 
-ROOT = Path(__file__).resolve().parents[2]
 SWING = Path(__file__).with_name("swing.json")
 MECHANISM = Path(__file__).with_name("mechanism.json")
-
-
-def package(scene, output):
-    """Packages a scene with `cargo xtask package`."""
-    xtask = os.environ.get("FLEXBODY_XTASK")
-    command = [xtask] if xtask else ["cargo", "xtask"]
-    command += ["package", str(scene), "--output", str(output)]
-    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise AssertionError(f"{scene} was not packaged:\n{result.stdout}{result.stderr}")
-    return output
 
 
 class Library:

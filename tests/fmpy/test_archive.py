@@ -3,8 +3,9 @@
 import zipfile
 
 import pytest
-from conftest import SWING, package
+from conftest import SWING
 from fmpy import platform
+from project import package
 
 LIBRARY = {
     "linux64": "binaries/linux64/flexbody.so",

@@ -67,8 +67,12 @@ enum Command {
         #[arg(value_name = "NAME")]
         charts: Vec<chart::Chart>,
     },
-    /// Makes the FMUs of the partners (mass, spring, controller, cylinder) in target/fmu/partners
-    Partners,
+    /// Makes the FMUs that others are coupled with in tests: mass, spring, controller, cylinder
+    Partners {
+        /// Where to write [default: target/fmu/partners]
+        #[arg(long, value_name = "FOLDER")]
+        output: Option<PathBuf>,
+    },
     /// Runs every check: formatting, clippy, Rust tests, generated files, the FMUs under fmpy
     Test,
 }
@@ -90,7 +94,7 @@ fn main() -> ExitCode {
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),
         Command::Chart { charts } => chart::chart(&workspace, &charts),
-        Command::Partners => partners::partners(&workspace),
+        Command::Partners { output } => partners::partners(&workspace, output.as_deref()),
         Command::Test => test::test(&workspace),
     });
     match result {

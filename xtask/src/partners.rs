@@ -1,5 +1,7 @@
 //! `cargo xtask partners`: the FMUs that Flexbody's are coupled with in tests and examples.
 
+use std::path::Path;
+
 use anyhow::{Context, Result};
 
 use crate::archive;
@@ -11,20 +13,24 @@ use crate::process::{announced, prepared, run_quietly, shown};
 /// The package, its library in an FMU, its program, and its folder among the FMUs.
 const PARTNERS: &str = "partners";
 
-/// Makes one FMU of every partner.
-pub fn partners(workspace: &Workspace) -> Result<()> {
+/// Makes one FMU of every partner in a folder.
+pub fn partners(workspace: &Workspace, output: Option<&Path>) -> Result<()> {
     let platform = Platform::host()?;
     let program = workspace.program(PARTNERS)?;
     let library = workspace.library(PARTNERS, platform)?;
     let stage = Stage::new(workspace)?;
     run_quietly(std::process::Command::new(program).arg(&stage.0))?;
+    let output = match output {
+        Some(output) => output.to_owned(),
+        None => workspace.target("fmu/partners"),
+    };
     let listing = std::fs::read_dir(&stage.0)
         .with_context(|| format!("cannot read the folder {}", shown(&stage.0)))?;
     for entry in listing {
         let folder = entry?.path();
         let name = folder.file_name().unwrap_or_default().to_string_lossy();
         put_library(&library, &folder, PARTNERS, platform)?;
-        let output = prepared(&workspace.target(&format!("fmu/{PARTNERS}/{name}.fmu")))?;
+        let output = prepared(&output.join(format!("{name}.fmu")))?;
         let done = format!("packaged {}", shown(&output));
         announced("packaging", &done, || archive::pack(&folder, &output))?;
     }

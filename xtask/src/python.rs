@@ -13,6 +13,8 @@ use crate::process::{announced, run_quietly, shown};
 const PROJECT: (&str, &str) = ("tests/fmpy/requirements.txt", "python");
 /// The same of the programs that charts compare the product with; apart, so that no check needs them.
 const PEERS: (&str, &str) = ("lab/exudyn/requirements.txt", "python-peers");
+/// The same of the masters that tests couple FMUs in; apart, so that a picture needs none of them.
+const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
 /// Oldest Python that the pinned packages run on.
 const OLDEST: (u32, u32) = (3, 11);
 /// Where to look, best first: the version that the pins were made with, then any other.
@@ -43,6 +45,11 @@ impl Python {
     /// The environment of the programs to compare with.
     pub fn prepare_peers(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, PEERS)
+    }
+
+    /// The environment of the masters.
+    pub fn prepare_masters(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, MASTERS)
     }
 
     fn prepare_one(workspace: &Workspace, (requirements, folder): (&str, &str)) -> Result<Self> {

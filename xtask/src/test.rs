@@ -12,12 +12,13 @@ use crate::python::Python;
 type Step = (&'static str, fn(&Workspace) -> Result<()>);
 
 /// The checks in order.
-const STEPS: [Step; 5] = [
+const STEPS: [Step; 6] = [
     ("formatting", formatting),
     ("clippy", clippy),
     ("Rust tests", rust_tests),
     ("generated files", describe::check),
     ("FMUs under fmpy", fmpy_tests),
+    ("coupled FMUs under other masters", master_tests),
 ];
 
 /// Runs every check and stops at the first that fails.
@@ -59,12 +60,28 @@ fn rust_tests(workspace: &Workspace) -> Result<()> {
 }
 
 fn fmpy_tests(workspace: &Workspace) -> Result<()> {
-    let python = Python::prepare(workspace)?;
+    pytest(&Python::prepare(workspace)?, workspace, "tests/fmpy")
+}
+
+/// Not all masters have packages for other platforms than this one.
+fn master_tests(workspace: &Workspace) -> Result<()> {
+    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+        eprintln!("skipped: the masters' packages are pinned for Linux on x86-64");
+        return Ok(());
+    }
+    pytest(
+        &Python::prepare_masters(workspace)?,
+        workspace,
+        "tests/masters",
+    )
+}
+
+fn pytest(python: &Python, workspace: &Workspace, tests: &str) -> Result<()> {
     let xtask = std::env::current_exe().context("cannot find this program itself")?;
     // The tests package their FMUs with this very program.
     run(python
         .module("pytest")
         .args(["-p", "no:cacheprovider", "--durations", "5"])
-        .arg(workspace.path("tests/fmpy"))
+        .arg(workspace.path(tests))
         .env("FLEXBODY_XTASK", xtask))
 }

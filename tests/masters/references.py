@@ -1,0 +1,72 @@
+"""What coupled systems must do: closed forms."""
+
+import numpy as np
+
+
+def linear(*, rates, constant, initial, outputs, stop):
+    """`y = C x` at the end of `x' = A x + b`: the exponential by Taylor's series and squaring."""
+    rates, constant = np.array(rates, float), np.array(constant, float)
+    size = len(rates)
+    whole = np.block([[rates, constant[:, None]], [np.zeros((1, size + 1))]])
+    squarings = max(0, int(np.ceil(np.log2(np.abs(whole * stop).sum()))) + 1)
+    flow = term = np.eye(size + 1)
+    for order in range(1, 20):
+        term = term @ whole * (stop / 2**squarings / order)
+        flow = flow + term
+    # The last state is 1 for ever and carries the constant part.
+    end = np.linalg.matrix_power(flow, 2**squarings) @ np.append(initial, 1.0)
+    return np.array(outputs, float) @ end[:size]
+
+
+def cantilever_with_sprung_mass(*, length, bending_stiffness, line_density, stiffness, mass, velocity, stop, modes=12):
+    """Deflections of the tip of a resting Euler-Bernoulli cantilever and of a mass with a velocity
+    that a spring joins to it, by modes of the whole.
+
+    In a mode `w = phi(x) sin(omega t)`, `phi = C (cosh z - cos z) + S (sinh z - sin z)`, `z = b x`; at the
+    tip the moment is zero, the shear force is that of the spring, `EI phi''' = -F`,
+    `F = k m omega^2 / (k - m omega^2) phi`, and the mass moves `k / (k - m omega^2)` as far as the tip."""
+
+    def squared(b):
+        return bending_stiffness * b**4 / line_density
+
+    def shape(b):
+        """Shape with C = 1, zero moment at the tip."""
+        z = b * length
+        ratio = -(np.cosh(z) + np.cos(z)) / (np.sinh(z) + np.sin(z))
+        tip = np.cosh(z) - np.cos(z) + ratio * (np.sinh(z) - np.sin(z))
+        shear = bending_stiffness * b**3 * (np.sinh(z) - np.sin(z) + ratio * (np.cosh(z) + np.cos(z)))
+        return ratio, tip, shear
+
+    def equation(b):
+        """Zero at a mode, without a pole."""
+        _, tip, shear = shape(b)
+        inertia = mass * squared(b)
+        return shear * (stiffness - inertia) + stiffness * inertia * tip
+
+    tip_end, mass_end = 0.0, 0.0
+    for b in roots(equation, modes, 0.01 / length):
+        ratio, tip, _ = shape(b)
+        omega = np.sqrt(squared(b))
+        moved = stiffness / (stiffness - mass * omega**2) * tip
+        x = np.linspace(0.0, length, 4001)
+        w = np.cosh(b * x) - np.cos(b * x) + ratio * (np.sinh(b * x) - np.sin(b * x))
+        modal_mass = line_density * np.trapezoid(w**2, x) + mass * moved**2
+        amplitude = mass * velocity * moved / (modal_mass * omega) * np.sin(omega * stop)
+        tip_end += amplitude * tip
+        mass_end += amplitude * moved
+    return np.array([tip_end, mass_end])
+
+
+def roots(function, count, step):
+    """The first positive roots, by bisection between changes of sign."""
+    found, left = [], step
+    while len(found) < count:
+        right = left + step
+        if function(left) * function(right) < 0:
+            low, high = left, right
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                low, high = (low, middle) if function(low) * function(middle) <= 0 else (middle, high)
+            found.append(low)
+        left = right
+    return found

@@ -1,0 +1,16 @@
+"""The partners' FMUs themselves."""
+
+import pytest
+from fmpy import read_model_description
+from fmpy.validation import validate_fmu
+
+PARTNERS = ["mass", "spring_damper", "pi_controller", "hydraulic_cylinder"]
+
+
+@pytest.mark.parametrize("name", PARTNERS)
+def test_a_partner_is_valid_and_promises_everything(systems, name):
+    path = systems.partners / f"{name}.fmu"
+    assert validate_fmu(str(path)) == []
+    promised = read_model_description(path).coSimulation
+    assert promised.canInterpolateInputs and promised.providesDirectionalDerivative
+    assert promised.canSerializeFMUstate and promised.maxOutputDerivativeOrder == 2
