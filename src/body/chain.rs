@@ -7,6 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use super::assembly::{Assembly, NodeBlock};
 use super::connectivity::Node;
 use crate::elements::{BlockPack, Element, Nodal, NodalPack, shape};
+use crate::math::jet::Number;
 use crate::math::lanes::{PACK, Simd, Work, vectorized};
 use crate::math::sparse::Matrix;
 
@@ -101,7 +102,7 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     }
 
     /// Second derivative of the curve by its length inside element `j`, `xi` in [0, 1], 1/m.
-    pub fn bend(&self, j: usize, xi: f64, x: &[Node<B>]) -> SVector<f64, D> {
+    pub fn bend<N: Number>(&self, j: usize, xi: N, x: &[Node<B, N>]) -> SVector<N, D> {
         self.element(j, x) * shape::curvatures(xi, self.elements[j].length())
     }
 
@@ -123,16 +124,16 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     }
 
     /// Coordinates of element `j`, or rates or forces.
-    pub fn element(&self, j: usize, x: &[Node<B>]) -> Nodal<D> {
+    pub fn element<N: Number>(&self, j: usize, x: &[Node<B, N>]) -> Nodal<D, N> {
         let node = self.first + j * self.stride;
         Nodal::from_column_slice(x[node..node + 2].as_flattened())
     }
 
-    fn add_to(&self, j: usize, f: &Nodal<D>, force: &mut [Node<B>]) {
+    fn add_to<N: Number>(&self, j: usize, f: &Nodal<D, N>, force: &mut [Node<B, N>]) {
         let node = self.first + j * self.stride;
         let force = force[node..node + 2].as_flattened_mut();
         for (sum, f) in force.iter_mut().zip(f.as_slice()) {
-            *sum += f;
+            *sum += *f;
         }
     }
 
@@ -147,22 +148,37 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
         });
     }
 
+    /// Adds elastic and damping forces of numbers of any kind, element by element.
+    pub fn add_force_of<N: Number>(
+        &self,
+        x: &[Node<B, N>],
+        rate: &[Node<B, N>],
+        force: &mut [Node<B, N>],
+    ) {
+        for (j, element) in self.elements.iter().enumerate() {
+            let f = element.force(&self.element(j, x), &self.element(j, rate));
+            self.add_to(j, &f, force);
+        }
+    }
+
     /// Strain energy, J.
-    pub fn strain_energy(&self, x: &[Node<B>]) -> f64 {
+    pub fn strain_energy<N: Number>(&self, x: &[Node<B, N>]) -> N {
         let elements = self.elements.iter().enumerate();
-        elements.map(|(j, e)| e.energy(&self.element(j, x))).sum()
+        let energies = elements.map(|(j, e)| e.energy(&self.element(j, x)));
+        energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
     /// Power that damping takes out, W.
-    pub fn dissipation(&self, x: &[Node<B>], rate: &[Node<B>]) -> f64 {
+    pub fn dissipation<N: Number>(&self, x: &[Node<B, N>], rate: &[Node<B, N>]) -> N {
         if !self.is_damped {
-            return 0.0;
+            return N::of(0.0);
         }
         let power = |(j, element): (usize, &E)| {
             let (e, v) = (self.element(j, x), self.element(j, rate));
-            (element.force(&e, &Nodal::zeros()) - element.force(&e, &v)).dot(&v)
+            (element.force(&e, &Nodal::<D, N>::zeros()) - element.force(&e, &v)).dot(&v)
         };
-        self.elements.iter().enumerate().map(power).sum()
+        let powers = self.elements.iter().enumerate().map(power);
+        powers.fold(N::of(0.0), |sum, power| sum + power)
     }
 
     /// `f += s M a`.

@@ -15,7 +15,7 @@ use crate::math::vector::norm;
 
 /// Coordinates of a node: position, then direction (the slope of a cable, the unit vector of a rigid
 /// body). Also rates of them, or forces on them.
-pub type Node<const B: usize> = [f64; B];
+pub type Node<const B: usize, N = f64> = [N; B];
 
 /// Part of a row, relative to its size, below which it depends on the rows before.
 pub const RANK_TOLERANCE: f64 = 1e-10;

@@ -5,26 +5,27 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::connectivity::{Node, Row};
 use crate::elements::{Element, shape};
+use crate::math::jet::Number;
 
 /// A point of a body, with a direction: the slope of a cable, the unit vector of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Marker {
+pub struct Marker<N = f64> {
     /// The body, by its index in the system.
     pub body: usize,
     /// The nodes that it depends on.
     pub nodes: [usize; 2],
     /// Weights of position and direction of both nodes in the position.
-    values: [f64; 4],
+    values: [N; 4],
     /// Their weights in the direction.
-    slopes: [f64; 4],
+    slopes: [N; 4],
     /// Weight, in the position, of the first node's direction turned left by a right angle, m.
-    across: f64,
+    across: N,
     /// Element of a cable and the place inside it, in [0, 1].
     pub element: Option<(usize, f64)>,
 }
 
 /// The vector turned left by a right angle.
-pub fn left(v: Vector2<f64>) -> Vector2<f64> {
+pub fn left<N: Number>(v: Vector2<N>) -> Vector2<N> {
     Vector2::new(-v.y, v.x)
 }
 
@@ -62,18 +63,9 @@ impl Marker {
         element: usize,
         xi: f64,
     ) -> Self {
-        let length = chain.elements()[element].length();
-        let nodes = chain.nodes(element);
-        let mut marker = Self {
-            body,
-            nodes,
-            values: shape::values(xi, length).into(),
-            slopes: shape::slopes(xi, length).into(),
-            across: 0.0,
-            element: Some((element, xi)),
-        };
+        let mut marker = Self::within(body, chain, element, xi);
         if xi == 0.0 || xi == 1.0 {
-            let node = nodes[usize::from(xi == 1.0)];
+            let node = marker.nodes[usize::from(xi == 1.0)];
             marker.nodes = [node, node];
             marker.values = [1.0, 0.0, 0.0, 0.0];
             marker.slopes = [0.0, 1.0, 0.0, 0.0];
@@ -86,46 +78,16 @@ impl Marker {
         self.nodes[0] == self.nodes[1]
     }
 
-    /// Position, or velocity or acceleration where `x` holds rates.
-    pub fn position(&self, x: &[Node<4>]) -> Vector2<f64> {
-        let [a, b] = self.nodes.map(|node| &x[node]);
-        let [p, s, q, t] = self.values;
-        Vector2::new(
-            p * a[0] + s * a[2] + q * b[0] + t * b[2] - self.across * a[3],
-            p * a[1] + s * a[3] + q * b[1] + t * b[3] + self.across * a[2],
-        )
-    }
-
-    /// Direction (not of unit length on a cable), or its rate.
-    pub fn direction(&self, x: &[Node<4>]) -> Vector2<f64> {
-        let [a, b] = self.nodes.map(|node| &x[node]);
-        let [p, s, q, t] = self.slopes;
-        Vector2::new(
-            p * a[0] + s * a[2] + q * b[0] + t * b[2],
-            p * a[1] + s * a[3] + q * b[1] + t * b[3],
-        )
-    }
-
-    /// Forces on the nodes of a force on the position and one on the direction.
-    pub fn forces(&self, position: Vector2<f64>, direction: Vector2<f64>) -> [(usize, Node<4>); 2] {
-        let part = |k: usize, across: f64| {
-            let at = position * self.values[2 * k] + direction * self.slopes[2 * k];
-            let on = position * self.values[2 * k + 1] + direction * self.slopes[2 * k + 1]
-                - left(position) * across;
-            [at.x, at.y, on.x, on.y]
-        };
-        [
-            (self.nodes[0], part(0, self.across)),
-            (self.nodes[1], part(1, 0.0)),
-        ]
-    }
-
-    /// Adds such forces.
-    pub fn add_force(&self, position: Vector2<f64>, direction: Vector2<f64>, f: &mut [Node<4>]) {
-        for (node, part) in self.forces(position, direction) {
-            for (sum, part) in f[node].iter_mut().zip(part) {
-                *sum += part;
-            }
+    /// The same point, its weights constants of another kind of numbers.
+    #[inline(always)]
+    pub fn lift<N: Number>(&self) -> Marker<N> {
+        Marker {
+            body: self.body,
+            nodes: self.nodes,
+            values: self.values.map(N::of),
+            slopes: self.slopes.map(N::of),
+            across: N::of(self.across),
+            element: self.element,
         }
     }
 
@@ -156,6 +118,69 @@ impl Marker {
                 Some((_, sum)) => sum.iter_mut().zip(part).for_each(|(s, p)| *s += p),
                 None if part != [0.0; 4] => row.terms.push((node, part)),
                 None => {}
+            }
+        }
+    }
+}
+
+impl<N: Number> Marker<N> {
+    /// The point of a cable inside an element, which may move along it: `xi` has derivatives then.
+    pub fn within<E: Element<2>>(
+        body: usize,
+        chain: &super::Chain<E, 2, 4>,
+        element: usize,
+        xi: N,
+    ) -> Self {
+        let length = chain.elements()[element].length();
+        Self {
+            body,
+            nodes: chain.nodes(element),
+            values: shape::values(xi, length).into(),
+            slopes: shape::slopes(xi, length).into(),
+            across: N::of(0.0),
+            element: Some((element, xi.plain())),
+        }
+    }
+
+    /// Position, or velocity or acceleration where `x` holds rates.
+    pub fn position(&self, x: &[Node<4, N>]) -> Vector2<N> {
+        let [a, b] = self.nodes.map(|node| &x[node]);
+        let [p, s, q, t] = self.values;
+        Vector2::new(
+            p * a[0] + s * a[2] + q * b[0] + t * b[2] - self.across * a[3],
+            p * a[1] + s * a[3] + q * b[1] + t * b[3] + self.across * a[2],
+        )
+    }
+
+    /// Direction (not of unit length on a cable), or its rate.
+    pub fn direction(&self, x: &[Node<4, N>]) -> Vector2<N> {
+        let [a, b] = self.nodes.map(|node| &x[node]);
+        let [p, s, q, t] = self.slopes;
+        Vector2::new(
+            p * a[0] + s * a[2] + q * b[0] + t * b[2],
+            p * a[1] + s * a[3] + q * b[1] + t * b[3],
+        )
+    }
+
+    /// Forces on the nodes of a force on the position and one on the direction.
+    pub fn forces(&self, position: Vector2<N>, direction: Vector2<N>) -> [(usize, Node<4, N>); 2] {
+        let part = |k: usize, across: N| {
+            let at = position * self.values[2 * k] + direction * self.slopes[2 * k];
+            let on = position * self.values[2 * k + 1] + direction * self.slopes[2 * k + 1]
+                - left(position) * across;
+            [at.x, at.y, on.x, on.y]
+        };
+        [
+            (self.nodes[0], part(0, self.across)),
+            (self.nodes[1], part(1, N::of(0.0))),
+        ]
+    }
+
+    /// Adds such forces.
+    pub fn add_force(&self, position: Vector2<N>, direction: Vector2<N>, f: &mut [Node<4, N>]) {
+        for (node, part) in self.forces(position, direction) {
+            for (sum, part) in f[node].iter_mut().zip(part) {
+                *sum += part;
             }
         }
     }

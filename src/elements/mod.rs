@@ -9,11 +9,12 @@ pub mod shape;
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::math::jet::Number;
 use crate::math::lanes::{PACK, Simd};
 
 /// Coordinates of an element, their rates, or forces on them: the columns are position and slope at
 /// the first end, position and slope at the second (report Eqs. 10-11).
-pub type Nodal<const D: usize> = SMatrix<f64, D, 4>;
+pub type Nodal<const D: usize, N = f64> = SMatrix<N, D, 4>;
 
 /// A symmetric matrix over the coordinates of an element, as 4 x 4 blocks of `D` x `D`.
 pub type Blocks<const D: usize> = [[SMatrix<f64, D, D>; 4]; 4];
@@ -53,9 +54,9 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     /// integral of the shape functions.
     fn weight(&self) -> SVector<f64, 4>;
     /// Strain energy, J.
-    fn energy(&self, e: &Nodal<D>) -> f64;
+    fn energy<N: Number>(&self, e: &Nodal<D, N>) -> N;
     /// Elastic and damping force on the coordinates, `-dU/de - R(e) de/dt`, N and N m.
-    fn force(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Nodal<D>;
+    fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N>;
     /// Tangent stiffness `-d force / de`, symmetric; with damping its symmetric part that matters,
     /// the rate of strain taken as given.
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D>;
@@ -64,13 +65,13 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     /// Whether the element dissipates.
     fn is_damped(&self) -> bool;
     /// Axial strain and curvature (1/m) of the position field at `xi` in [0, 1], in the strain measure of the element.
-    fn strain(&self, e: &Nodal<D>, xi: f64) -> (f64, f64);
+    fn strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> (N, N);
     /// Axial strain at `xi` in [0, 1] as it balances loads: of a higher order than that of the position
     /// field.
-    fn recovered_strain(&self, e: &Nodal<D>, xi: f64) -> f64;
+    fn recovered_strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> N;
     /// Axial force (N) and bending moment (N m) at `xi` in [0, 1], conjugate to the strain measure, with
     /// damping; those of a curved shape are measured from its mean strain and curvature.
-    fn section(&self, e: &Nodal<D>, rate: &Nodal<D>, xi: f64) -> (f64, f64);
+    fn section<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>, xi: f64) -> (N, N);
     /// Whether this element and another can be in one pack.
     fn goes_with(&self, other: &Self) -> bool;
     /// Up to [`PACK`] elements, for the calls below; entries beyond the number of elements do not count.

@@ -5,29 +5,35 @@
 
 use nalgebra::SVector;
 
+use crate::math::jet::Number;
+
 /// Shape functions `S` at `xi` in [0, 1] of an element of length `l` (m): `r = S e`.
-pub fn values(xi: f64, l: f64) -> SVector<f64, 4> {
-    let (x2, x3) = (xi * xi, xi * xi * xi);
+pub fn values<N: Number>(xi: N, l: f64) -> SVector<N, 4> {
+    let (x2, x3, l) = (xi * xi, xi * xi * xi, N::of(l));
+    let rise = N::of(3.0) * x2 - N::of(2.0) * x3;
     [
-        1.0 - 3.0 * x2 + 2.0 * x3,
-        l * (xi - 2.0 * x2 + x3),
-        3.0 * x2 - 2.0 * x3,
+        N::of(1.0) - rise,
+        l * (xi - N::of(2.0) * x2 + x3),
+        rise,
         l * (x3 - x2),
     ]
     .into()
 }
 
 /// Derivatives of the shape functions by the reference length: `r' = S' e`.
-pub fn slopes(xi: f64, l: f64) -> SVector<f64, 4> {
+pub fn slopes<N: Number>(xi: N, l: f64) -> SVector<N, 4> {
     let x2 = xi * xi;
-    let rise = 6.0 * (xi - x2) / l;
-    [-rise, 1.0 - 4.0 * xi + 3.0 * x2, rise, 3.0 * x2 - 2.0 * xi].into()
+    let rise = N::of(6.0) * (xi - x2) / N::of(l);
+    let end = N::of(3.0) * x2 - N::of(2.0) * xi;
+    [-rise, N::of(1.0) - N::of(2.0) * xi + end, rise, end].into()
 }
 
 /// Second derivatives of the shape functions by the reference length: `r'' = S'' e`.
-pub fn curvatures(xi: f64, l: f64) -> SVector<f64, 4> {
-    let bend = (6.0 - 12.0 * xi) / (l * l);
-    [-bend, (6.0 * xi - 4.0) / l, bend, (6.0 * xi - 2.0) / l].into()
+pub fn curvatures<N: Number>(xi: N, l: f64) -> SVector<N, 4> {
+    let (six, l) = (N::of(6.0) * xi, N::of(l));
+    let bend = (N::of(6.0) - N::of(2.0) * six) / (l * l);
+    let [first, second] = [4.0, 2.0].map(|less| (six - N::of(less)) / l);
+    [-bend, first, bend, second].into()
 }
 
 #[cfg(test)]

@@ -185,7 +185,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
                 name,
                 co_simulation: fmuType == CO_SIMULATION,
                 guid: read("fmuGUID", fmuGUID).unwrap_or_default(),
-                location: read("fmuResourceLocation", fmuResourceLocation),
+                location: text("fmuResourceLocation", fmuResourceLocation).unwrap_or(Some("")),
             };
             Instance::instantiate(&request, Logger::new(sink?, loggingOn != 0))
         }
@@ -420,25 +420,63 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     }
 }
 
-/// Functions of capabilities that the model description does not promise.
-macro_rules! not_offered {
-    ($($name:ident: $function:ident, $flag:literal, ($($type:ty),*);)*) => {$(
-        #[doc = concat!("`", stringify!($name), "`.")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(c: Component, $(_: $type),*) -> Status {
-            // SAFETY: module contract.
-            unsafe { guard(c, Function::$function, |_| Err(Fault::NotOffered($flag))) }
-        }
-    )*};
+/// `fmi2GetDirectionalDerivative`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+    c: Component,
+    vUnknown_ref: *const c_uint,
+    nUnknown: size_t,
+    vKnown_ref: *const c_uint,
+    nKnown: size_t,
+    dvKnown: *const f64,
+    dvUnknown: *mut f64,
+) -> Status {
+    // SAFETY: module contract, for all arrays and the instance.
+    unsafe {
+        guard(c, Function::GetDirectionalDerivative, |instance| {
+            let unknowns = lent("vUnknown_ref", vUnknown_ref, nUnknown)?;
+            let knowns = lent("vKnown_ref", vKnown_ref, nKnown)?;
+            let seeds = lent("dvKnown", dvKnown, nKnown)?;
+            let changes = lent_mut("dvUnknown", dvUnknown, nUnknown)?;
+            instance.directional_derivative((knowns, seeds), unknowns, changes)
+        })
+    }
 }
 
-not_offered! {
-    fmi2GetDirectionalDerivative: GetDirectionalDerivative, "providesDirectionalDerivative",
-        (*const c_uint, size_t, *const c_uint, size_t, *const f64, *mut f64);
-    fmi2SetRealInputDerivatives: SetRealInputDerivatives, "canInterpolateInputs",
-        (*const c_uint, size_t, *const c_int, *const f64);
-    fmi2GetRealOutputDerivatives: GetRealOutputDerivatives, "maxOutputDerivativeOrder",
-        (*const c_uint, size_t, *const c_int, *mut f64);
+/// `fmi2SetRealInputDerivatives`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    c: Component,
+    vr: *const c_uint,
+    nvr: size_t,
+    order: *const c_int,
+    value: *const f64,
+) -> Status {
+    // SAFETY: module contract, for all arrays and the instance.
+    unsafe {
+        guard(c, Function::SetRealInputDerivatives, |instance| {
+            let (vr, value) = (lent("vr", vr, nvr)?, lent("value", value, nvr)?);
+            instance.set_input_derivatives(vr, lent("order", order, nvr)?, value)
+        })
+    }
+}
+
+/// `fmi2GetRealOutputDerivatives`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: Component,
+    vr: *const c_uint,
+    nvr: size_t,
+    order: *const c_int,
+    value: *mut f64,
+) -> Status {
+    // SAFETY: module contract, for all arrays and the instance.
+    unsafe {
+        guard(c, Function::GetRealOutputDerivatives, |instance| {
+            let (vr, value) = (lent("vr", vr, nvr)?, lent_mut("value", value, nvr)?);
+            instance.get_output_derivatives(vr, lent("order", order, nvr)?, value)
+        })
+    }
 }
 
 /// `fmi2DoStep`.

@@ -4,6 +4,7 @@ use std::any::Any;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::guid::guid;
 use super::lifecycle::{Function, State};
@@ -25,6 +26,8 @@ pub struct Instance {
     /// Parameters and inputs as last accepted: what a call that is refused goes back to.
     pub(super) values: Vec<f64>,
     guid: String,
+    /// The scene, JSON.
+    scene: Arc<str>,
     start_time: f64,
     stop_time: Option<f64>,
 }
@@ -43,7 +46,7 @@ pub struct Request<'a> {
     pub co_simulation: bool,
     /// GUID of the model description that the master has read.
     pub guid: &'a str,
-    /// URI of the directory `resources`.
+    /// URI of the directory `resources`; none where a saved state will bring the scene.
     pub location: Option<&'a str>,
 }
 
@@ -89,7 +92,7 @@ impl Instance {
     /// `fmi2Instantiate`. A refusal is logged even when logging is off.
     pub fn instantiate(request: &Request<'_>, logger: Logger) -> Option<Self> {
         let reason = match catch_unwind(|| Self::build(request)) {
-            Ok(Ok((simulation, guid))) => return Some(Self::new(simulation, guid, logger)),
+            Ok(Ok(simulation)) => return Some(Self::new(simulation, request, logger)),
             Ok(Err(refusal)) => refusal.to_string(),
             Err(panic) => format!("defect of the library: {}", words(&*panic)),
         };
@@ -98,16 +101,19 @@ impl Instance {
         None
     }
 
-    fn build(request: &Request<'_>) -> Result<(Simulation, String), Refusal> {
+    fn build(request: &Request<'_>) -> Result<Option<Simulation>, Refusal> {
         if request.name.trim().is_empty() {
             return Err(Refusal::Missing("instanceName"));
         }
         if !request.co_simulation {
             return Err(Refusal::Kind);
         }
-        let location = request
-            .location
-            .ok_or(Refusal::Missing("fmuResourceLocation"))?;
+        if request.guid.is_empty() {
+            return Err(Refusal::Missing("fmuGUID"));
+        }
+        let Some(location) = request.location else {
+            return Ok(None);
+        };
         let path = directory(location)?.join("scene.json");
         let text = fs::read_to_string(&path).map_err(|error| Refusal::Unreadable {
             path: path.clone(),
@@ -120,18 +126,31 @@ impl Instance {
             let found = request.guid.into();
             return Err(Refusal::Guid { expected, found });
         }
-        Ok((simulation, expected))
+        Ok(Some(simulation))
     }
 
-    fn new(simulation: Simulation, guid: String, logger: Logger) -> Self {
-        let message = format_args!("instantiated \"{}\"", simulation.scene().name);
-        logger.log(Status::Ok, Category::Events, message);
+    fn new(simulation: Option<Simulation>, request: &Request<'_>, logger: Logger) -> Self {
+        let state = match &simulation {
+            Some(simulation) => {
+                let message = format_args!("instantiated \"{}\"", simulation.scene().name);
+                logger.log(Status::Ok, Category::Events, message);
+                State::Instantiated
+            }
+            None => {
+                let message =
+                    format_args!("instantiated without resources: expecting a saved state");
+                logger.log(Status::Ok, Category::Warning, message);
+                State::Bare
+            }
+        };
+        let simulation = simulation.unwrap_or_else(|| Simulation::new(Scene::default()));
         let mut instance = Self {
             logger,
+            scene: simulation.scene().to_json().into(),
             simulation,
-            state: State::Instantiated,
+            state,
             values: Vec::new(),
-            guid,
+            guid: request.guid.into(),
             start_time: 0.0,
             stop_time: None,
         };
@@ -266,6 +285,7 @@ impl Instance {
     pub(super) fn do_step(&mut self, current: f64, step: f64) -> Result<(), Fault> {
         let until = self.end_of_step(current, step)?;
         let outcome = self.simulation.step(until);
+        self.simulation.copy_values(&mut self.values);
         let report = self.simulation.report();
         let message = format_args!(
             "to time {} s: {}, {} steps, {} rejected, {} Newton iterations",
@@ -326,6 +346,7 @@ impl Instance {
     pub(super) fn save(&self) -> SavedState {
         SavedState {
             guid: self.guid.clone(),
+            scene: self.scene.clone(),
             lifecycle: self.state,
             start_time: self.start_time,
             stop_time: self.stop_time,
@@ -343,14 +364,34 @@ impl Instance {
             return Err(Fault::SavedState(reason));
         }
         let refused = |error: simulation::Error| Fault::SavedState(error.to_string());
-        self.simulation.restore(&saved.snapshot).map_err(refused)?;
-        self.values.copy_from_slice(&saved.snapshot.values);
+        if self.state == State::Bare {
+            let mut simulation = self.simulation_of(saved)?;
+            simulation.restore(&saved.snapshot).map_err(refused)?;
+            self.scene = saved.scene.clone();
+            self.simulation = simulation;
+        } else {
+            self.simulation.restore(&saved.snapshot).map_err(refused)?;
+        }
+        self.values.clone_from(&saved.snapshot.values);
         self.state = saved.lifecycle;
         self.start_time = saved.start_time;
         self.stop_time = saved.stop_time;
         let time = self.simulation.time();
         self.log_event(format_args!("state of time {time} s restored"));
         Ok(())
+    }
+
+    /// The simulation that a state brings along.
+    fn simulation_of(&self, saved: &SavedState) -> Result<Simulation, Fault> {
+        let scene = Scene::from_json(&saved.scene);
+        let scene = scene.map_err(|error| Fault::SavedState(error.to_string()))?;
+        let simulation = Simulation::new(scene);
+        let found = guid(simulation.scene(), simulation.variables());
+        if found != self.guid {
+            let reason = format!("expected a scene of the model {}, found {found}", self.guid);
+            return Err(Fault::SavedState(reason));
+        }
+        Ok(simulation)
     }
 
     /// `fmi2DeSerializeFMUstate`.
@@ -404,7 +445,14 @@ mod tests {
     #[test]
     fn after_a_panic_the_instance_answers_fatal_for_ever() {
         let simulation = Simulation::new(crate::fmi2::example());
-        let mut instance = Instance::new(simulation, String::new(), Logger::new(None, false));
+        let request = Request {
+            name: "panics",
+            co_simulation: true,
+            guid: "{0}",
+            location: None,
+        };
+        let logger = Logger::new(None, false);
+        let mut instance = Instance::new(Some(simulation), &request, logger);
         let panicked = instance.call(Function::SetReal, |_| panic!("planted"));
         assert_eq!(panicked, Status::Fatal);
         for function in Function::ALL {

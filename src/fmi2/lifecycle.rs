@@ -20,19 +20,22 @@ pub enum State {
     Terminated = 16,
     /// After a computation that failed; a saved state or `fmi2Reset` leads out.
     Error = 32,
+    /// After `fmi2Instantiate` without resources: only a saved state, which brings its scene, leads out.
+    Bare = 64,
     /// After a defect of the library; nothing leads out.
-    Fatal = 64,
+    Fatal = 128,
 }
 
 impl State {
     /// All states.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Instantiated,
         Self::Initialization,
         Self::StepComplete,
         Self::StepFailed,
         Self::Terminated,
         Self::Error,
+        Self::Bare,
         Self::Fatal,
     ];
 
@@ -45,6 +48,9 @@ impl State {
             Self::StepFailed => "stepFailed",
             Self::Terminated => "terminated",
             Self::Error => "error",
+            Self::Bare => {
+                "instantiated without fmuResourceLocation (only a saved state can follow)"
+            }
             Self::Fatal => "fatal",
         }
     }
@@ -61,8 +67,9 @@ const C: u8 = State::StepComplete as u8;
 const F: u8 = State::StepFailed as u8;
 const T: u8 = State::Terminated as u8;
 const E: u8 = State::Error as u8;
+const B: u8 = State::Bare as u8;
 
-/// Everywhere but in the fatal state.
+/// Everywhere but in the fatal state and without resources.
 const ALWAYS: u8 = I | M | C | F | T | E;
 /// Values exist; in `stepFailed` and `error` they are for debugging, as the standard says.
 const VALUES: u8 = M | C | F | T | E;
@@ -94,7 +101,7 @@ macro_rules! functions {
 }
 
 functions! {
-    SetDebugLogging: ALWAYS,
+    SetDebugLogging: ALWAYS | B,
     SetupExperiment: I,
     EnterInitializationMode: I,
     ExitInitializationMode: M,
@@ -109,14 +116,14 @@ functions! {
     SetBoolean: I | M | C,
     SetString: I | M | C,
     GetFMUstate: ALWAYS,
-    SetFMUstate: ALWAYS,
-    FreeFMUstate: ALWAYS,
-    SerializedFMUstateSize: ALWAYS,
-    SerializeFMUstate: ALWAYS,
-    DeSerializeFMUstate: ALWAYS,
-    GetDirectionalDerivative: VALUES,
+    SetFMUstate: ALWAYS | B,
+    FreeFMUstate: ALWAYS | B,
+    SerializedFMUstateSize: ALWAYS | B,
+    SerializeFMUstate: ALWAYS | B,
+    DeSerializeFMUstate: ALWAYS | B,
+    GetDirectionalDerivative: M | C,
     SetRealInputDerivatives: I | M | C,
-    GetRealOutputDerivatives: C | F | T | E,
+    GetRealOutputDerivatives: C | T,
     DoStep: C,
     CancelStep: 0, // no step is ever in progress when a call comes
     GetStatus: C | F | T,

@@ -1,9 +1,11 @@
 //! A saved FMU state, and its bytes: versioned, tied to one model, checksummed, without pointers.
 //!
 //! Layout, little-endian: magic, format version, GUID, lifecycle state, flags, start time, stop
-//! time, time, sub-step, work of both kinds, seven lengths, the numbers, SHA-256 of all before.
+//! time, time, sub-step, work of both kinds, eight lengths and that of the scene, the numbers, the scene
+//! (JSON), SHA-256 of all before. With the scene inside, a state brings an instance without resources to life.
 
 use std::mem::MaybeUninit;
+use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
@@ -13,23 +15,26 @@ use crate::simulation::Snapshot;
 use crate::system::State;
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const GUID_BYTES: usize = 38;
 const HASH_BYTES: usize = 32;
-const ARRAYS: usize = 7;
+const ARRAYS: usize = 8;
 /// Numbers of every motion that inputs drive.
-const DRIVEN: usize = 3;
-/// Magic, version, GUID, two bytes, six numbers, seven lengths.
-const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + 6 * 8 + ARRAYS * 8;
+const DRIVEN: usize = 5;
+/// Magic, version, GUID, two bytes, six numbers, lengths of the arrays and the scene.
+const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + 6 * 8 + (ARRAYS + 1) * 8;
 const INITIALIZED: u8 = 1;
 const STARTED: u8 = 2;
 const STOP_DEFINED: u8 = 4;
+const MOVING: u8 = 8;
 
 /// Everything that an instance needs to go on as if nothing had happened.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SavedState {
     /// GUID of the model that it belongs to.
     pub guid: String,
+    /// Its scene, JSON.
+    pub scene: Arc<str>,
     /// Lifecycle state.
     pub lifecycle: lifecycle::State,
     /// Start time of the experiment.
@@ -44,7 +49,7 @@ impl SavedState {
     /// Number of bytes of [`Self::to_bytes`].
     pub fn size(&self) -> usize {
         let numbers: usize = self.arrays().iter().map(|array| array.len()).sum();
-        HEADER_BYTES + 8 * numbers + HASH_BYTES
+        HEADER_BYTES + 8 * numbers + self.scene.len() + HASH_BYTES
     }
 
     /// The state as bytes.
@@ -56,12 +61,16 @@ impl SavedState {
         let Snapshot {
             initialized,
             started,
+            moving,
             state,
             ..
         } = &self.snapshot;
         let flag = |set: bool, bit: u8| if set { bit } else { 0 };
         let stop_defined = flag(self.stop_time.is_some(), STOP_DEFINED);
-        let flags = flag(*initialized, INITIALIZED) | flag(*started, STARTED) | stop_defined;
+        let flags = flag(*initialized, INITIALIZED)
+            | flag(*started, STARTED)
+            | flag(*moving, MOVING)
+            | stop_defined;
         bytes.extend([self.lifecycle as u8, flags]);
         let stop = self.stop_time.unwrap_or(0.0);
         let [input, lost] = state.work;
@@ -71,9 +80,11 @@ impl SavedState {
         for array in self.arrays() {
             bytes.extend((array.len() as u64).to_le_bytes());
         }
+        bytes.extend((self.scene.len() as u64).to_le_bytes());
         for number in self.arrays().into_iter().flatten() {
             bytes.extend(number.to_le_bytes());
         }
+        bytes.extend(self.scene.as_bytes());
         let hash = Sha256::digest(&bytes);
         bytes.extend(hash);
         bytes
@@ -105,7 +116,7 @@ impl SavedState {
         let mut reader = Reader(&body[8 + 4 + GUID_BYTES..]);
         let [mode, flags] = reader.take()?;
         let lifecycle = lifecycle::State::from_bit(mode)
-            .filter(|state| *state != lifecycle::State::Fatal && flags <= 7)
+            .filter(|state| *state as u8 <= lifecycle::State::Error as u8 && flags < 2 * MOVING)
             .ok_or_else(|| refused("names a lifecycle state that does not exist"))?;
         let (initialized, started) = (flags & INITIALIZED != 0, flags & STARTED != 0);
         if !fits_together(lifecycle, initialized, started) {
@@ -118,13 +129,15 @@ impl SavedState {
         for length in &mut lengths {
             *length = u64::from_le_bytes(reader.take()?);
         }
+        let scene_length = u64::from_le_bytes(reader.take()?);
         let mut arrays = [const { Vec::new() }; ARRAYS];
         for (array, length) in arrays.iter_mut().zip(lengths) {
             *array = reader.array(length)?;
         }
-        if !reader.0.is_empty() {
-            return Err(refused("is longer than it says"));
+        if reader.0.len() as u64 != scene_length {
+            return Err(refused("is not as long as it says"));
         }
+        let scene = std::str::from_utf8(reader.0).map_err(|_| refused("holds no scene"))?;
         let [
             values,
             frequencies,
@@ -133,10 +146,12 @@ impl SavedState {
             angles,
             travel,
             driven,
+            slopes,
         ] = arrays;
         let (driven, rest) = driven.as_chunks::<DRIVEN>();
-        if !rest.is_empty() {
-            return Err(refused("holds a part of a driven motion"));
+        let (slopes, none) = slopes.as_chunks();
+        if !rest.is_empty() || !none.is_empty() {
+            return Err(refused("holds a part of a driven motion or of an input"));
         }
         let state = State {
             time,
@@ -150,6 +165,7 @@ impl SavedState {
         };
         Ok(Self {
             guid: guid.into(),
+            scene: scene.into(),
             lifecycle,
             start_time,
             stop_time: (flags & STOP_DEFINED != 0).then_some(stop),
@@ -157,6 +173,8 @@ impl SavedState {
                 values,
                 initialized,
                 started,
+                moving: flags & MOVING != 0,
+                slopes: slopes.to_vec(),
                 frequencies,
                 state,
             },
@@ -166,6 +184,7 @@ impl SavedState {
     fn arrays(&self) -> [&[f64]; ARRAYS] {
         let Snapshot {
             values,
+            slopes,
             frequencies,
             state,
             ..
@@ -178,6 +197,7 @@ impl SavedState {
             &state.angles,
             &state.travel,
             state.driven.as_flattened(),
+            slopes.as_flattened(),
         ]
     }
 }
@@ -188,7 +208,7 @@ fn fits_together(lifecycle: lifecycle::State, initialized: bool, started: bool) 
     match lifecycle {
         Instantiated | Initialization => !started,
         StepComplete | StepFailed | Terminated => initialized && started,
-        Error | Fatal => true,
+        Error | Bare | Fatal => true,
     }
 }
 
@@ -270,6 +290,7 @@ mod tests {
     fn example() -> SavedState {
         SavedState {
             guid: GUID.into(),
+            scene: "{}".into(),
             lifecycle: lifecycle::State::StepComplete,
             start_time: -1.0,
             stop_time: Some(3.5),
@@ -277,6 +298,8 @@ mod tests {
                 values: vec![1.0, -0.0, 1e-300],
                 initialized: true,
                 started: true,
+                moving: true,
+                slopes: vec![[0.1, -0.2]],
                 frequencies: vec![],
                 state: State {
                     time: 0.25,
@@ -285,7 +308,7 @@ mod tests {
                     rates: vec![0.3, 0.4],
                     angles: vec![7.0],
                     travel: vec![0.5],
-                    driven: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
+                    driven: vec![[1.0, 2.0, 3.0, 4.0, 5.0]],
                     work: [8.0, -9.0],
                 },
             },
@@ -344,7 +367,7 @@ mod tests {
         assert!(reason(other.to_bytes()).contains("expected one of the model"));
         let mut version = bytes.clone();
         version[8] = 1;
-        assert!(reason(version).contains("format version 2, found 1"));
+        assert!(reason(version).contains("format version 3, found 1"));
         let mut mode = bytes.clone();
         mode[50] = 64;
         assert!(reason(mode).contains("lifecycle"));
@@ -352,12 +375,12 @@ mod tests {
         flags[51] = STARTED;
         assert!(reason(flags).contains("lifecycle"));
         let mut length = bytes.clone();
-        length[HEADER_BYTES - 1] = 0xff;
+        length[HEADER_BYTES - 9] = 0xff;
         assert!(reason(length).contains("cut off"));
         let mut driven = bytes.clone();
         // One number more in the list of driven motions, one less in the one before.
-        driven[HEADER_BYTES - 8] = 7;
-        driven[HEADER_BYTES - 16] = 0;
+        driven[HEADER_BYTES - 24] = 6;
+        driven[HEADER_BYTES - 32] = 0;
         assert!(reason(driven).contains("driven motion"));
         let mut state = example();
         state.snapshot.state.rates[1] = f64::NAN;

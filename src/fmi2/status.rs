@@ -98,9 +98,9 @@ pub enum Fault {
         "log category \"{0}\": expected one of logStatusError, logStatusWarning, logEvents, logSolver"
     )]
     Category(String),
-    /// A capability that the model description does not promise.
-    #[error("not offered: modelDescription.xml does not set {0}")]
-    NotOffered(&'static str),
+    /// Derivatives that are not to be had now.
+    #[error("{0}")]
+    NotNow(&'static str),
     /// A status that cannot be asked for, because no step runs in the background.
     #[error(
         "this status exists only while a step runs in the background, which never happens here"

@@ -3,7 +3,7 @@
 use std::mem::MaybeUninit;
 
 use super::instance::Instance;
-use super::lifecycle::Causality;
+use super::lifecycle::{Causality, State};
 use super::status::Fault;
 use crate::simulation::Variable;
 
@@ -90,6 +90,85 @@ impl Instance {
         for (reference, value) in references.iter().zip(values) {
             self.values[*reference as usize] = f64::from(*value);
         }
+        Ok(())
+    }
+
+    /// `fmi2SetRealInputDerivatives`: all or none.
+    pub(super) fn set_input_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Result<(), Fault> {
+        for ((reference, order), value) in references.iter().zip(orders).zip(values) {
+            self.variable(*reference, REAL)?;
+            let index = *reference as usize;
+            self.simulation
+                .check_input_derivative(index, *order, *value)?;
+        }
+        for ((reference, order), value) in references.iter().zip(orders).zip(values) {
+            let index = *reference as usize;
+            self.simulation
+                .set_input_derivative(index, *order, *value)?;
+        }
+        Ok(())
+    }
+
+    /// `fmi2GetRealOutputDerivatives`.
+    pub(super) fn get_output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Fault> {
+        for (reference, order) in references.iter().zip(orders) {
+            self.variable(*reference, REAL)?;
+            self.simulation
+                .check_output_derivative(*reference as usize, *order)?;
+        }
+        for ((reference, order), value) in references.iter().zip(orders).zip(values) {
+            let index = *reference as usize;
+            value.write(self.simulation.output_derivative(index, *order)?);
+        }
+        Ok(())
+    }
+
+    /// `fmi2GetDirectionalDerivative`.
+    pub(super) fn directional_derivative(
+        &mut self,
+        (knowns, seeds): (&[u32], &[f64]),
+        unknowns: &[u32],
+        changes: &mut [MaybeUninit<f64>],
+    ) -> Result<(), Fault> {
+        for reference in knowns.iter().chain(unknowns) {
+            self.variable(*reference, REAL)?;
+        }
+        if self.state == State::Initialization {
+            let indices = knowns.iter().map(|reference| *reference as usize);
+            if self.simulation.start_follows(indices) {
+                return Err(Fault::NotNow(
+                    "in initialization mode these inputs change the initial state: set them and read the \
+                     outputs, or ask at a communication point",
+                ));
+            }
+        }
+        if let Some(found) = seeds.iter().copied().find(|seed| !seed.is_finite()) {
+            return Err(Fault::Argument {
+                name: "dvKnown",
+                expected: "finite numbers",
+                found,
+            });
+        }
+        let outputs = unknowns.iter().map(|reference| *reference as usize);
+        let inputs = knowns.iter().map(|reference| *reference as usize);
+        let mut changes = changes.iter_mut();
+        let inputs = inputs.zip(seeds.iter().copied());
+        self.simulation
+            .directional_derivative(outputs, inputs, |change| {
+                if let Some(place) = changes.next() {
+                    place.write(change);
+                }
+            })?;
         Ok(())
     }
 

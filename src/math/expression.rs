@@ -1,7 +1,7 @@
-//! Expressions in the time `t`, with their first two derivatives. The only user of num-dual, which
-//! differentiates: a program runs on numbers, or on numbers with their derivatives.
+//! Expressions in the time `t`, with their first four derivatives: a program runs on numbers, on numbers
+//! with their derivatives, or on numbers whose derivatives have derivatives.
 
-use num_dual::{Dual2_64, DualNumCopy};
+use num_dual::{Dual2, Dual2_64, DualNumCopy};
 
 use super::grammar;
 
@@ -82,6 +82,17 @@ impl Expression {
     }
 }
 
+impl Expression {
+    /// Value and first four derivatives at a time.
+    pub fn orders(&self, t: f64) -> [f64; 5] {
+        let number = |re, v1| Dual2_64::new(re, v1, 0.0);
+        let t = Dual2::new(number(t, 1.0), number(1.0, 0.0), number(0.0, 0.0));
+        let found = run(&self.program, t);
+        let (low, high) = (found.re, found.v2);
+        [low.re, low.v1, high.re, high.v1, high.v2]
+    }
+}
+
 impl Operation {
     /// Change of the height of the stack.
     pub(super) fn rise(self) -> isize {
@@ -117,35 +128,44 @@ impl Elementary {
 /// Numbers that know their constant powers also at zero.
 pub(super) trait ConstantPower: DualNumCopy<Primitive = f64> {
     fn to(self, exponent: f64) -> Self;
+    /// Whether it is zero with all its derivatives.
+    fn vanishes(self) -> bool;
 }
 
 impl ConstantPower for f64 {
     fn to(self, exponent: f64) -> Self {
         self.powf(exponent)
     }
+
+    fn vanishes(self) -> bool {
+        self == 0.0
+    }
 }
 
-impl ConstantPower for Dual2_64 {
+impl<T: ConstantPower> ConstantPower for Dual2<T>
+where
+    Self: DualNumCopy<Primitive = f64>,
+{
     fn to(self, n: f64) -> Self {
         // What is multiplied by zero is zero, even an infinite power.
         let term = |factor: f64, n: f64| {
             if factor == 0.0 {
-                0.0
+                T::from(0.0)
             } else {
-                factor * self.re.powf(n)
+                self.re.to(n) * T::from(factor)
             }
         };
         let (first, second) = (term(n, n - 1.0), term(n * (n - 1.0), n - 2.0));
-        let curvature = if self.v1 == 0.0 {
-            0.0
+        let curvature = if self.v1.vanishes() {
+            T::from(0.0)
         } else {
             second * self.v1 * self.v1
         };
-        Self::new(
-            self.re.powf(n),
-            first * self.v1,
-            first * self.v2 + curvature,
-        )
+        Self::new(self.re.to(n), first * self.v1, first * self.v2 + curvature)
+    }
+
+    fn vanishes(self) -> bool {
+        self.re.vanishes() && self.v1.vanishes() && self.v2.vanishes()
     }
 }
 

@@ -82,6 +82,19 @@ impl Function {
         }
     }
 
+    /// Value and first four derivatives at a time; at a kink or jump, those after it.
+    pub fn orders(&self, t: f64) -> [f64; 5] {
+        let [value, first, second] = match self {
+            Self::Expression(expression) => return expression.orders(t),
+            _ => self.derivatives(t),
+        };
+        let third = match self {
+            Self::Spline(table) => table.third(t),
+            _ => 0.0,
+        };
+        [value, first, second, third, 0.0]
+    }
+
     /// Times where the function or one of its derivatives has a kink or a jump, increasing.
     pub fn breaks(&self) -> &[f64] {
         match self {
@@ -135,18 +148,30 @@ impl Table {
         }
     }
 
+    /// Step, and `a`, `b`, `c` of `y = y_i + a s + b s^2 + c s^3` with `s` from 0 to 1 on piece `i`.
+    fn cubic(&self, i: usize) -> (f64, [f64; 3]) {
+        let step = self.times[i + 1] - self.times[i];
+        let rise = self.values[i + 1] - self.values[i];
+        let (a, b) = (step * self.slopes[i], step * self.slopes[i + 1]);
+        (step, [a, 3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise])
+    }
+
+    /// Third derivative of a spline.
+    fn third(&self, t: f64) -> f64 {
+        self.piece(t).map_or(0.0, |i| {
+            let (step, [_, _, cube]) = self.cubic(i);
+            6.0 * cube / (step * step * step)
+        })
+    }
+
     /// Hermite's cubic on the piece.
     fn spline(&self, t: f64) -> [f64; 3] {
         let i = match self.piece(t) {
             Err(held) => return [held, 0.0, 0.0],
             Ok(i) => i,
         };
-        let step = self.times[i + 1] - self.times[i];
+        let (step, [a, square, cube]) = self.cubic(i);
         let s = (t - self.times[i]) / step;
-        let rise = self.values[i + 1] - self.values[i];
-        let (a, b) = (step * self.slopes[i], step * self.slopes[i + 1]);
-        // y = y_i + a s + (3 rise - 2 a - b) s^2 + (a + b - 2 rise) s^3
-        let (square, cube) = (3.0 * rise - 2.0 * a - b, a + b - 2.0 * rise);
         [
             self.values[i] + s * (a + s * (square + s * cube)),
             (a + s * (2.0 * square + 3.0 * s * cube)) / step,

@@ -6,6 +6,7 @@ pub mod expression;
 pub mod function;
 mod grammar;
 pub mod householder;
+pub mod jet;
 pub mod lanes;
 pub mod quadrature;
 pub mod row_space;

@@ -1,20 +1,32 @@
 //! A system with its scratch, integrator and evaluated outputs.
 
+use super::quantities::{Evaluated, marker_of, needs, value};
 use super::variables::{has_rest_length_input, start_inputs};
 use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
 use crate::body::Marker;
 use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
-use crate::scene::{Assembled, Initial, MarkerReference, Scene, assemble};
+use crate::math::jet::{Jet, part};
+use crate::scene::{Assembled, Initial, Scene, assemble};
 use crate::system::{
-    End, Evaluation, Model, NotAssembled, State, Work, equilibrium, natural_frequencies,
+    Derivatives, Evaluation, Model, NotAssembled, State, System, Work, equilibrium,
+    natural_frequencies,
 };
 
-/// How much of the outputs belongs to the current state and inputs.
+/// What the derivatives at hand are by.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Evaluated {
+enum Derived {
     Nothing,
-    Kinematics,
-    Dynamics,
+    /// Time, up to this order.
+    Time(usize),
+    Inputs,
+}
+
+/// Inputs, their derivatives, and whether those move them in the next step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Inputs {
+    pub values: Vec<f64>,
+    /// First and second derivatives.
+    pub slopes: Vec<[f64; 2]>,
 }
 
 pub(super) struct Engine {
@@ -25,6 +37,8 @@ pub(super) struct Engine {
     tolerance: Tolerance,
     evaluation: Evaluation,
     evaluated: Evaluated,
+    derivatives: Option<Box<Derivatives>>,
+    derived: Derived,
     /// The marker of every variable that has one.
     markers: Vec<Option<Marker>>,
     /// Number of natural frequencies wanted.
@@ -33,6 +47,16 @@ pub(super) struct Engine {
     sets_springs: bool,
     /// The state at time 0 under these inputs, until it has been asked for.
     start: Option<(Vec<f64>, State)>,
+}
+
+impl Inputs {
+    /// Moves on by a time, s.
+    fn advance(&mut self, t: f64) {
+        for (value, [first, second]) in self.values.iter_mut().zip(&mut self.slopes) {
+            *value += t * (*first + 0.5 * t * *second);
+            *first += t * *second;
+        }
+    }
 }
 
 impl Engine {
@@ -61,6 +85,7 @@ impl Engine {
         let blank = system.blank_state(0.0);
         let reached = state.as_ref().unwrap_or(&blank);
         evaluation.kinematics(system, reached, &mut work);
+        evaluation.set_inputs(&inputs);
         let start = method::Start {
             system,
             state: reached,
@@ -71,6 +96,8 @@ impl Engine {
         Ok(Self {
             scene: scene.clone(),
             evaluated: Evaluated::Nothing,
+            derivatives: None,
+            derived: Derived::Nothing,
             frequencies: frequencies.max().unwrap_or(0),
             sets_springs: has_rest_length_input(scene),
             start: state.ok().map(|state| (inputs, state)),
@@ -156,21 +183,23 @@ impl Engine {
         joints.chain(bodies).collect()
     }
 
-    /// Advances the state to `until`; what it did is told of a failure as well.
+    /// Advances the state to `until`, moving inputs with it; what it did is told of a failure as well.
     pub(super) fn step(
         &mut self,
         state: &mut State,
-        inputs: &[f64],
+        inputs: &mut Inputs,
         until: f64,
     ) -> (Report, Result<(), StepFailure>) {
         self.forget();
-        state.work[0] += self.set_energy(state, inputs);
-        let system = &self.assembled.system;
-        let mut model = Model::new(system, inputs, &mut self.work, state).until(state, until);
+        state.work[0] += self.set_energy(state, &inputs.values);
+        let (system, start) = (&self.assembled.system, state.time);
+        let model = Model::new(system, &inputs.values, &mut self.work, state);
+        let mut model = model.moving(&inputs.slopes).until(state, until);
         let (counts, result) =
             advance(&mut *self.method, &mut model, state, until, &self.tolerance);
+        inputs.advance(state.time - start);
         self.forget();
-        state.work[0] -= self.set_energy(state, inputs);
+        state.work[0] -= self.set_energy(state, &inputs.values);
         self.forget();
         let report = Report {
             method: self.method.name(),
@@ -192,8 +221,7 @@ impl Engine {
             return 0.0;
         }
         self.evaluate(Evaluated::Kinematics, state, inputs);
-        self.evaluation
-            .spring_energy(&self.assembled.system, inputs)
+        self.evaluation.spring_energy(&self.assembled.system)
     }
 
     fn explain(&self, stop: Stop) -> String {
@@ -221,11 +249,13 @@ impl Engine {
     /// The state has changed.
     pub(super) fn forget(&mut self) {
         self.evaluated = Evaluated::Nothing;
+        self.derived = Derived::Nothing;
     }
 
     /// The inputs have changed: positions and velocities stand.
     pub(super) fn inputs_changed(&mut self) {
         self.evaluated = self.evaluated.min(Evaluated::Kinematics);
+        self.derived = Derived::Nothing;
     }
 
     /// Value of an output; computes only what it needs and has not computed yet.
@@ -236,51 +266,112 @@ impl Engine {
         state: &State,
         inputs: &[f64],
     ) -> f64 {
-        use Quantity::*;
         self.evaluate(needs(quantity), state, inputs);
-        let work_of_jumps = match quantity {
-            Input => self.set_energy(state, inputs),
-            _ => 0.0,
-        };
-        let (values, system) = (&self.evaluation, &self.assembled.system);
-        let at = self.markers[index].as_ref();
-        let on = |f: &dyn Fn(&Marker) -> f64| at.map_or(0.0, f);
-        match quantity {
-            Position(_, axis) => on(&|m| m.position(&values.x)[axis]),
-            Velocity(_, axis) => on(&|m| m.position(&values.v)[axis]),
-            Acceleration(_, axis) => on(&|m| m.position(&values.acceleration)[axis]),
-            Angle(place) => state.angles[self.assembled.angles[place]],
-            AngularVelocity(_) => on(&|m| End::Body(*m).spin(&values.x, &values.v)),
-            JointVelocity(joint) => {
-                let spin = |end: &End| end.spin(&values.x, &values.v);
-                let [a, b] = &system.joints()[joint].ends;
-                spin(b) - spin(a)
-            }
-            Strain(_) => on(&|m| values.strain(system, m).0),
-            Curvature(_) => on(&|m| values.strain(system, m).1),
-            AxialForce(_) => on(&|m| values.section(system, m).0),
-            BendingMoment(_) => on(&|m| values.section(system, m).1),
-            ConnectivityForce(_, axis) => {
-                on(&|m| values.connectivity_force(system, inputs, m)[axis])
-            }
-            Travel(place) => state.travel[place],
-            Reaction(joint, axis) => values.reaction(system, inputs, joint).0[axis],
-            ReactionMoment(joint) => values.reaction(system, inputs, joint).1,
-            KineticEnergy => values.kinetic_energy(system),
-            StrainEnergy => values.strain_energy(system),
-            GravityEnergy => values.gravity_energy(system),
-            SpringEnergy => values.spring_energy(system, inputs),
-            Input => state.work[0] + work_of_jumps,
-            Dissipated => state.work[1],
-            Momentum(axis) => values.momentum(system).0[axis],
-            AngularMomentum => values.momentum(system).1,
-            CenterOfMass(axis) => values.center_of_mass(system)[axis],
-            Residual(of) => values.residuals(system)[of],
+        let mut work = state.work;
+        if quantity == Quantity::Input {
+            work[0] += self.set_energy(state, inputs);
         }
+        let marker = self.markers[index].as_ref();
+        value(quantity, marker, &self.evaluation, &self.assembled, work)
+    }
+
+    /// Derivative in time, of order 1 or 2, of an output while inputs go on as they do.
+    pub(super) fn derivative(
+        &mut self,
+        (index, quantity): (usize, Quantity),
+        order: usize,
+        state: &State,
+        inputs: &Inputs,
+    ) -> f64 {
+        if self.derived < Derived::Time(order) || self.derived == Derived::Inputs {
+            self.prepare(state, &inputs.values);
+            let (system, plain) = (&self.assembled.system, &self.evaluation);
+            if let Some(derivatives) = &mut self.derivatives {
+                let (at, slopes) = ((plain, state), &inputs.slopes);
+                derivatives.in_time(system, at, slopes, order, &mut self.work);
+            }
+            self.derived = Derived::Time(order);
+        }
+        let derived = self.derived_value(
+            (index, quantity),
+            |values, system, done| {
+                let [input, lost] = values.power(system);
+                [
+                    Jet::new(done[0], input.re, input.v1),
+                    Jet::new(done[1], lost.re, lost.v1),
+                ]
+            },
+            state,
+        );
+        part(derived, order)
+    }
+
+    /// Prepares [`Self::change`] of outputs with inputs along a direction.
+    pub(super) fn differentiate(&mut self, state: &State, inputs: &[f64], direction: &[f64]) {
+        self.prepare(state, inputs);
+        let (system, plain) = (&self.assembled.system, &self.evaluation);
+        if let Some(derivatives) = &mut self.derivatives {
+            derivatives.by_inputs(system, plain, direction, &mut self.work);
+        }
+        self.derived = Derived::Inputs;
+    }
+
+    /// How an output changes with inputs along the direction given before.
+    pub(super) fn change(&mut self, output: (usize, Quantity), state: &State) -> f64 {
+        let sets_springs = self.sets_springs;
+        let derived = self.derived_value(
+            output,
+            |values, system, done| {
+                let none = Jet::from_re(0.0);
+                let set = if sets_springs {
+                    values.spring_energy(system)
+                } else {
+                    none
+                };
+                [set + done[0], Jet::from_re(done[1])]
+            },
+            state,
+        );
+        part(derived, 1)
+    }
+
+    /// Evaluates state and inputs anew: derivatives start from the scratch that this leaves behind.
+    fn prepare(&mut self, state: &State, inputs: &[f64]) {
+        self.forget();
+        self.evaluate(Evaluated::Dynamics, state, inputs);
+        if self.derivatives.is_none() {
+            let derivatives = Derivatives::new(&self.assembled.system, &self.work);
+            self.derivatives = Some(Box::new(derivatives));
+        }
+    }
+
+    /// An output with the derivatives at hand, given those of work.
+    fn derived_value(
+        &self,
+        (index, quantity): (usize, Quantity),
+        work: impl Fn(&Evaluation<Jet>, &System, [f64; 2]) -> [Jet; 2],
+        state: &State,
+    ) -> Jet {
+        let Some(derivatives) = &self.derivatives else {
+            return Jet::from_re(0.0);
+        };
+        let (values, assembled) = (&derivatives.values, &self.assembled);
+        let work = match quantity {
+            Quantity::Input | Quantity::Dissipated => work(values, &assembled.system, state.work),
+            _ => [Jet::from_re(0.0); 2],
+        };
+        value(
+            quantity,
+            self.markers[index].as_ref(),
+            values,
+            assembled,
+            work,
+        )
     }
 
     fn evaluate(&mut self, needs: Evaluated, state: &State, inputs: &[f64]) {
         let system = &self.assembled.system;
+        self.evaluation.set_inputs(inputs);
         if needs >= Evaluated::Kinematics && self.evaluated < Evaluated::Kinematics {
             self.evaluation.kinematics(system, state, &mut self.work);
             self.evaluated = Evaluated::Kinematics;
@@ -290,34 +381,5 @@ impl Engine {
                 .dynamics(system, state, inputs, &mut self.work);
             self.evaluated = needs;
         }
-    }
-}
-
-/// What a quantity is computed from.
-fn needs(quantity: Quantity) -> Evaluated {
-    use Quantity::*;
-    match quantity {
-        Acceleration(..) | ConnectivityForce(..) | Reaction(..) | ReactionMoment(_) => {
-            Evaluated::Dynamics
-        }
-        Angle(_) | Travel(_) | Input | Dissipated => Evaluated::Nothing,
-        _ => Evaluated::Kinematics,
-    }
-}
-
-/// The marker that a quantity belongs to.
-fn marker_of(quantity: Quantity) -> Option<MarkerReference> {
-    use Quantity::*;
-    match quantity {
-        Position(at, _)
-        | Velocity(at, _)
-        | Acceleration(at, _)
-        | AngularVelocity(at)
-        | Strain(at)
-        | Curvature(at)
-        | AxialForce(at)
-        | BendingMoment(at)
-        | ConnectivityForce(at, _) => Some(at),
-        _ => None,
     }
 }

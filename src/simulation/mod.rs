@@ -1,17 +1,21 @@
 //! Floor 6. A simulation: a scene with its parameters and inputs, stepped from communication point to
 //! communication point. What an FMU does, without FMI.
 
+mod derivatives;
 mod engine;
 mod method;
+mod quantities;
+mod snapshot;
 #[cfg(test)]
 mod tests;
 mod variables;
 
+pub use snapshot::Snapshot;
 pub use variables::{Parameter, Quantity, Source, Unit, Variable, variables};
 
 use crate::scene::{Error as SceneError, Scene};
 use crate::system::State;
-use engine::Engine;
+use engine::{Engine, Inputs};
 use variables::start_inputs;
 
 /// Why a simulation cannot go on.
@@ -62,21 +66,6 @@ pub struct Report {
     pub newton_iterations: u64,
 }
 
-/// Everything that a simulation needs to go on from a point in time, as plain numbers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Snapshot {
-    /// Current parameters and inputs, one number per variable; 0 for all others.
-    pub values: Vec<f64>,
-    /// Whether the initial state has been computed.
-    pub initialized: bool,
-    /// Whether initialization has ended.
-    pub started: bool,
-    /// Natural frequencies about the initial configuration, rad/s.
-    pub frequencies: Vec<f64>,
-    /// State of the system.
-    pub state: State,
-}
-
 /// A scene in simulation.
 pub struct Simulation {
     /// As packaged.
@@ -85,7 +74,11 @@ pub struct Simulation {
     /// Parameters and inputs, one per variable.
     values: Vec<f64>,
     /// Inputs in the order of the system ([`crate::scene::InputLayout`]).
-    inputs: Vec<f64>,
+    inputs: Inputs,
+    /// Derivatives of inputs are of the next step, not of the last one.
+    moving: bool,
+    /// A direction of the inputs.
+    direction: Vec<f64>,
     engine: Option<Engine>,
     state: State,
     frequencies: Vec<f64>,
@@ -101,8 +94,14 @@ impl Simulation {
     pub fn new(scene: Scene) -> Self {
         let variables = variables(&scene);
         let values = variables.iter().map(|v| v.start.unwrap_or(0.0)).collect();
+        let inputs = start_inputs(&variables);
         Self {
-            inputs: start_inputs(&variables),
+            direction: vec![0.0; inputs.len()],
+            inputs: Inputs {
+                slopes: vec![[0.0; 2]; inputs.len()],
+                values: inputs,
+            },
+            moving: false,
             scene,
             variables,
             values,
@@ -128,6 +127,11 @@ impl Simulation {
     /// The variables; an index into them is an FMI value reference.
     pub fn variables(&self) -> &[Variable] {
         &self.variables
+    }
+
+    /// Copies parameters and inputs, one number per variable, without allocating.
+    pub fn copy_values(&self, to: &mut Vec<f64>) {
+        to.clone_from(&self.values);
     }
 
     /// Current time, s.
@@ -205,7 +209,7 @@ impl Simulation {
                 let value = self
                     .engine
                     .as_mut()
-                    .map(|engine| engine.output(index, quantity, &self.state, &self.inputs));
+                    .map(|engine| engine.output(index, quantity, &self.state, &self.inputs.values));
                 Ok(value.unwrap_or(0.0))
             }
         }
@@ -229,7 +233,7 @@ impl Simulation {
     /// Parameters that make no valid scene, no static equilibrium.
     pub fn initialize(&mut self, start_time: f64) -> Result<(), Error> {
         let mut engine = Engine::new(&self.parametrized()?, &self.variables)?;
-        let (state, frequencies) = engine.initial_state(start_time, &self.inputs)?;
+        let (state, frequencies) = engine.initial_state(start_time, &self.inputs.values)?;
         (self.engine, self.state, self.frequencies) = (Some(engine), state, frequencies);
         self.current = true;
         Ok(())
@@ -245,7 +249,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Advances to `until` with the inputs held. Allocates nothing unless it fails.
+    /// Advances to `until`; inputs move as their derivatives say, where those were set since the last
+    /// step, and are held otherwise. Allocates nothing unless it fails.
     ///
     /// # Errors
     /// When the tolerance cannot be met; the simulation then stands at the last accepted sub-step.
@@ -256,12 +261,19 @@ impl Simulation {
                 reason: error.to_string(),
             })?;
         }
+        self.drop_slopes();
+        self.moving = false;
         let time = self.state.time;
         let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
             time,
             reason: "expected a simulation that has been initialized".into(),
         })?;
-        let (report, result) = engine.step(&mut self.state, &self.inputs, until);
+        let (report, result) = engine.step(&mut self.state, &mut self.inputs, until);
+        for (variable, value) in self.variables.iter().zip(&mut self.values) {
+            if let Source::Input(place) = variable.source {
+                *value = self.inputs.values[place];
+            }
+        }
         self.report = report;
         result
     }
@@ -274,96 +286,6 @@ impl Simulation {
     /// Parameters and inputs are again those that the initial state was computed with.
     pub fn mark_current(&mut self) {
         self.current = true;
-    }
-
-    /// A copy of everything that changes.
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot {
-            values: self.values.clone(),
-            initialized: self.engine.is_some() && self.current,
-            started: self.started,
-            frequencies: self.frequencies.clone(),
-            state: self.state.clone(),
-        }
-    }
-
-    /// Goes back to a snapshot of a simulation of the same scene.
-    ///
-    /// # Errors
-    /// A snapshot with other sizes, with parameters out of range or with numbers that are not finite;
-    /// nothing has changed then.
-    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
-        let state = &snapshot.state;
-        let numbers = [
-            &snapshot.values,
-            &snapshot.frequencies,
-            &state.coordinates,
-            &state.rates,
-            &state.angles,
-            &state.travel,
-            state.driven.as_flattened(),
-            &[state.time, state.step],
-            &state.work,
-        ];
-        if !numbers.into_iter().flatten().all(|x| x.is_finite()) {
-            return Err(Error::Snapshot("expected finite numbers".into()));
-        }
-        if snapshot.started && !snapshot.initialized {
-            return Err(Error::Snapshot(
-                "expected an initial state before the start".into(),
-            ));
-        }
-        if snapshot.values.len() != self.variables.len() {
-            return Err(Error::Snapshot(format!(
-                "expected {} variables, found {}",
-                self.variables.len(),
-                snapshot.values.len()
-            )));
-        }
-        let before = std::mem::replace(&mut self.values, snapshot.values.clone());
-        match self.engine_for(snapshot, &before) {
-            Ok(rebuilt) => {
-                if let Some(engine) = rebuilt {
-                    self.engine = Some(engine);
-                }
-            }
-            Err(error) => {
-                self.values = before;
-                return Err(error);
-            }
-        }
-        self.collect_inputs();
-        self.state.clone_from(&snapshot.state);
-        self.frequencies.clone_from(&snapshot.frequencies);
-        self.started = snapshot.started;
-        self.current = snapshot.initialized;
-        if let Some(engine) = &mut self.engine {
-            engine.forget();
-        }
-        Ok(())
-    }
-
-    /// The engine that a snapshot needs, where the present one has other parameters.
-    fn engine_for(&self, snapshot: &Snapshot, before: &[f64]) -> Result<Option<Engine>, Error> {
-        if !snapshot.initialized {
-            return self.parametrized().map(|_| None).map_err(Error::from);
-        }
-        let is_parameter = |v: &Variable| matches!(v.source, Source::Parameter(_));
-        let same = (self.variables.iter().zip(before.iter().zip(&self.values)))
-            .all(|(variable, (a, b))| !is_parameter(variable) || a == b);
-        let rebuilt = match &self.engine {
-            Some(_) if same && self.current => None,
-            _ => Some(Engine::new(&self.parametrized()?, &self.variables)?),
-        };
-        let engine = rebuilt.as_ref().or(self.engine.as_ref());
-        let found = &snapshot.state;
-        if engine.is_some_and(|engine| !engine.fits(found)) {
-            return Err(Error::Snapshot(format!(
-                "expected a state of this scene, found sizes {:?}",
-                found.sizes()
-            )));
-        }
-        Ok(rebuilt)
     }
 
     fn refresh(&mut self) -> Result<(), Error> {
@@ -380,8 +302,9 @@ impl Simulation {
         let before = self.values[index];
         match self.variables[index].source {
             Source::Input(place) => {
+                self.drop_slopes();
                 self.values[index] = value;
-                self.inputs[place] = value;
+                self.inputs.values[place] = value;
                 if let Some(engine) = &mut self.engine {
                     engine.inputs_changed();
                 }
@@ -420,7 +343,7 @@ impl Simulation {
     fn collect_inputs(&mut self) {
         for (variable, value) in self.variables.iter().zip(&self.values) {
             if let Source::Input(place) = variable.source {
-                self.inputs[place] = *value;
+                self.inputs.values[place] = *value;
             }
         }
     }

@@ -63,13 +63,16 @@ pub enum Accepted {
 /// Residual of positions, relative, beyond which constraints count as broken.
 const BROKEN: f64 = 1e-8;
 
-/// A system under held inputs.
+/// A system under inputs that are held, or that move as polynomials in time.
 #[derive(Debug)]
 pub struct Model<'a> {
     /// The system.
     pub system: &'a System,
-    /// Its inputs.
+    /// Its inputs at the beginning.
     pub inputs: &'a [f64],
+    /// Their first and second derivatives; empty where they are held.
+    slopes: &'a [[f64; 2]],
+    start: f64,
     /// Fraction of gravity and of loads that are not inputs: 1 but for load steps.
     pub fraction: f64,
     /// Scratch of the system.
@@ -81,6 +84,19 @@ impl<'a> Model<'a> {
     /// The system at a state, what inputs drive held.
     pub fn new(system: &'a System, inputs: &'a [f64], work: &'a mut Work, state: &State) -> Self {
         work.follow(state);
+        work.inputs.clear();
+        work.inputs.extend_from_slice(inputs);
+        work.input_rates.clear();
+        work.input_rates.resize(inputs.len(), 0.0);
+        // An acceleration that is an input acts at once.
+        for ((course, given), driven) in
+            (work.courses.iter_mut().zip(system.courses())).zip(&state.driven)
+        {
+            if given.len() == 3 {
+                let [p, v, ..] = *driven;
+                *course = Course::hold(state.time, [p, v, inputs[given.start + 2]]);
+            }
+        }
         if !system.slides.is_empty() {
             work.before.copy_from(state);
         }
@@ -92,10 +108,18 @@ impl<'a> Model<'a> {
         Self {
             system,
             inputs,
+            slopes: &[],
+            start: state.time,
             fraction: 1.0,
             work,
             time: state.time,
         }
+    }
+
+    /// Inputs move from now on, with these first and second derivatives.
+    pub fn moving(mut self, slopes: &'a [[f64; 2]]) -> Self {
+        self.slopes = slopes;
+        self
     }
 
     /// What inputs drive moves to where they say by `until`.
@@ -103,8 +127,17 @@ impl<'a> Model<'a> {
         let h = until - state.time;
         if h > 0.0 {
             let courses = self.work.courses.iter_mut().zip(self.system.courses());
-            for ((course, inputs), driven) in courses.zip(&state.driven) {
-                *course = Course::new(state.time, h, *driven, &self.inputs[inputs]);
+            for ((course, given), driven) in courses.zip(&state.driven) {
+                let mut inputs = [[0.0; 3]; 3];
+                for (input, index) in inputs.iter_mut().zip(given.clone()) {
+                    let [first, second] = self.slopes.get(index).copied().unwrap_or_default();
+                    *input = [self.inputs[index], first, second];
+                }
+                let [p, v, mut a, ..] = *driven;
+                if given.len() == 3 {
+                    a = inputs[2][0];
+                }
+                *course = Course::new(state.time, h, [p, v, a], &inputs[..given.len()]);
             }
         }
         self
@@ -112,6 +145,11 @@ impl<'a> Model<'a> {
 
     fn place(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.time = time;
+        let t = time - self.start;
+        for (i, [first, second]) in self.slopes.iter().enumerate() {
+            self.work.inputs[i] = self.inputs[i] + t * (first + 0.5 * t * second);
+            self.work.input_rates[i] = first + t * second;
+        }
         let v = self.system.reads_rates().then_some(v);
         self.system.place(time, q, v, self.work);
     }
@@ -155,7 +193,7 @@ impl<'a> Model<'a> {
     fn instant<'b>(&'b self, x: &'b [Node<4>]) -> Instant<'b> {
         Instant {
             x,
-            ..self.system.instant(self.time, self.inputs, self.work)
+            ..self.system.instant(self.time, self.work)
         }
     }
 
@@ -178,7 +216,7 @@ impl<'a> Model<'a> {
     pub fn count(&mut self, state: &mut State) -> Accepted {
         let system = self.system;
         for (driven, course) in state.driven.iter_mut().zip(&self.work.courses) {
-            *driven = course.derivatives(state.time);
+            *driven = course.orders(state.time);
         }
         if state.angles.is_empty() && state.travel.is_empty() {
             return Accepted::AsIs;
@@ -224,13 +262,13 @@ impl Dynamics for Model<'_> {
         } else {
             self.place(time, q, v);
         }
-        system.forces(time, self.inputs, self.fraction, self.work);
+        system.forces(time, self.fraction, self.work);
         system.reduce(self.work, a);
         if !system.constraints.is_empty() {
             system.constrain(self.work, a);
         }
         if system.tracks_work {
-            self.work.power = system.powers(time, self.inputs, a, self.work);
+            self.work.power = system.powers(time, a, self.work);
         }
     }
 
@@ -248,7 +286,7 @@ impl Dynamics for Model<'_> {
         } else {
             self.place(time, q, v);
         }
-        system.assemble(time, self.inputs, self.work);
+        system.assemble(time, self.work);
     }
 
     fn factor(&mut self, s: f64) -> bool {

@@ -2,20 +2,21 @@
 
 use nalgebra::Vector2;
 
-use crate::body::{Marker, Node, Row};
+use crate::body::{Marker, Node, Row, left};
+use crate::math::jet::Number;
 
 /// A point of the ground or of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
+pub enum End<N: Number = f64> {
     /// A fixed point, m. Its direction is the x axis.
-    Ground(Vector2<f64>),
+    Ground(Vector2<N>),
     /// A marker.
-    Body(Marker),
+    Body(Marker<N>),
 }
 
-impl End {
+impl<N: Number> End<N> {
     /// Position, m.
-    pub fn position(&self, x: &[Node<4>]) -> Vector2<f64> {
+    pub fn position(&self, x: &[Node<4, N>]) -> Vector2<N> {
         match self {
             Self::Ground(point) => *point,
             Self::Body(marker) => marker.position(x),
@@ -23,7 +24,7 @@ impl End {
     }
 
     /// Velocity, m/s.
-    pub fn velocity(&self, v: &[Node<4>]) -> Vector2<f64> {
+    pub fn velocity(&self, v: &[Node<4, N>]) -> Vector2<N> {
         match self {
             Self::Ground(_) => Vector2::zeros(),
             Self::Body(marker) => marker.position(v),
@@ -31,7 +32,7 @@ impl End {
     }
 
     /// Direction; its length is the stretch of a cable.
-    pub fn direction(&self, x: &[Node<4>]) -> Vector2<f64> {
+    pub fn direction(&self, x: &[Node<4, N>]) -> Vector2<N> {
         match self {
             Self::Ground(_) => Vector2::x(),
             Self::Body(marker) => marker.direction(x),
@@ -39,7 +40,7 @@ impl End {
     }
 
     /// Rate of the direction, 1/s.
-    pub fn direction_rate(&self, v: &[Node<4>]) -> Vector2<f64> {
+    pub fn direction_rate(&self, v: &[Node<4, N>]) -> Vector2<N> {
         match self {
             Self::Ground(_) => Vector2::zeros(),
             Self::Body(marker) => marker.direction(v),
@@ -47,13 +48,13 @@ impl End {
     }
 
     /// Angular velocity of the direction, rad/s.
-    pub fn spin(&self, x: &[Node<4>], v: &[Node<4>]) -> f64 {
+    pub fn spin(&self, x: &[Node<4, N>], v: &[Node<4, N>]) -> N {
         let u = self.direction(x);
         u.perp(&self.direction_rate(v)) / u.norm_squared()
     }
 
     /// The marker, if it is one.
-    pub fn marker(&self) -> Option<&Marker> {
+    pub fn marker(&self) -> Option<&Marker<N>> {
         match self {
             Self::Ground(_) => None,
             Self::Body(marker) => Some(marker),
@@ -66,17 +67,28 @@ impl End {
     }
 
     /// Adds forces on position and direction.
-    pub fn add_force(&self, position: Vector2<f64>, direction: Vector2<f64>, f: &mut [Node<4>]) {
+    pub fn add_force(&self, position: Vector2<N>, direction: Vector2<N>, f: &mut [Node<4, N>]) {
         if let Self::Body(marker) = self {
             marker.add_force(position, direction, f);
         }
     }
 
     /// Adds a moment, counter-clockwise: `M d(angle)` with `d(angle) = (u x du) / u.u`.
-    pub fn add_moment(&self, moment: f64, x: &[Node<4>], f: &mut [Node<4>]) {
+    pub fn add_moment(&self, moment: N, x: &[Node<4, N>], f: &mut [Node<4, N>]) {
         let u = self.direction(x);
-        let on_direction = crate::body::left(u) * (moment / u.norm_squared());
+        let on_direction = left(u) * (moment / u.norm_squared());
         self.add_force(Vector2::zeros(), on_direction, f);
+    }
+}
+
+impl End {
+    /// The same end in another kind of numbers.
+    #[inline(always)]
+    pub fn lift<N: Number>(&self) -> End<N> {
+        match self {
+            Self::Ground(point) => End::Ground(point.map(N::of)),
+            Self::Body(marker) => End::Body(marker.lift()),
+        }
     }
 
     /// Adds what forces on position and direction would do to a row.
@@ -102,8 +114,8 @@ pub struct Angle {
 
 impl Angle {
     /// The angle that is nearest to `hint`, rad.
-    pub fn value(&self, x: &[Node<4>], hint: f64) -> f64 {
-        let [a, b] = self.ends.map(|end| end.direction(x));
+    pub fn value<N: Number>(&self, x: &[Node<4, N>], hint: N) -> N {
+        let [a, b] = self.ends.map(|end| end.lift().direction(x));
         let (along, across) = (a.dot(&b), a.perp(&b));
         let (sin, cos) = hint.sin_cos();
         // A step turns nothing by half a turn.
@@ -111,7 +123,8 @@ impl Angle {
     }
 
     /// Its rate, rad/s.
-    pub fn rate(&self, x: &[Node<4>], v: &[Node<4>]) -> f64 {
-        self.ends[1].spin(x, v) - self.ends[0].spin(x, v)
+    pub fn rate<N: Number>(&self, x: &[Node<4, N>], v: &[Node<4, N>]) -> N {
+        let [a, b] = self.ends.map(|end| end.lift().spin(x, v));
+        b - a
     }
 }

@@ -1,12 +1,12 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use super::joints::{ConstraintKind, View};
+use super::joints::{Constraint, ConstraintKind, View};
 use super::loads::Instant;
 use super::signal::Drive;
-use super::{PlanarChain, System, Work};
+use super::{System, Work};
 use crate::body::Node;
-use crate::elements::Element;
-use crate::math::vector::dot;
+use crate::elements::{Element, Nodal};
+use crate::math::jet::Number;
 
 impl System {
     /// Puts the nodal coordinates and, if given, rates of a state into `work`.
@@ -28,14 +28,18 @@ impl System {
             }
         }
         self.follow(&work.drives, 0, &mut work.x);
-        for (i, constraint) in self.slides.iter().enumerate() {
-            if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
-                let chain: &PlanarChain = &self.chains[along.chain];
-                work.travel[i] = along.travel(chain, &work.x, work.travel[i]);
-            }
-        }
+        self.find_travel(&work.x, &mut work.travel);
         if let Some(v) = v {
             self.place_rates(v, work);
+        }
+    }
+
+    /// Where slides are on their cables, searched from where they were.
+    pub(super) fn find_travel<N: Number>(&self, x: &[Node<4, N>], travel: &mut [N]) {
+        for (constraint, travel) in self.slides.iter().zip(travel) {
+            if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
+                *travel = along.travel(&self.chains[along.chain], x, *travel);
+            }
         }
     }
 
@@ -56,15 +60,11 @@ impl System {
         }
     }
 
-    pub(super) fn instant<'a>(
-        &'a self,
-        time: f64,
-        inputs: &'a [f64],
-        work: &'a Work,
-    ) -> Instant<'a> {
+    pub(super) fn instant<'a>(&'a self, time: f64, work: &'a Work) -> Instant<'a> {
         Instant {
             time,
-            inputs,
+            inputs: &work.inputs,
+            input_rates: &work.input_rates,
             x: &work.x,
             v: &work.v,
             chains: &self.chains,
@@ -73,7 +73,7 @@ impl System {
     }
 
     /// Total force on the nodes in `work`, but for constraints.
-    pub(super) fn forces(&self, time: f64, inputs: &[f64], fraction: f64, work: &mut Work) {
+    pub(super) fn forces(&self, time: f64, fraction: f64, work: &mut Work) {
         let mut force = std::mem::take(&mut work.f);
         for (f, weight) in force.iter_mut().zip(&self.weight) {
             *f = weight.map(|w| w * fraction);
@@ -81,7 +81,7 @@ impl System {
         for chain in &self.chains {
             chain.add_force(&work.x, &work.v, &mut force);
         }
-        let at = self.instant(time, inputs, work);
+        let at = self.instant(time, work);
         for load in &self.loads {
             load.add_force(at, &mut force);
         }
@@ -110,7 +110,7 @@ impl System {
     }
 
     /// Tangent at the state in `work`, with the multipliers of its last acceleration.
-    pub(super) fn assemble(&self, time: f64, inputs: &[f64], work: &mut Work) {
+    pub(super) fn assemble(&self, time: f64, work: &mut Work) {
         let assembly = &self.elimination.assembly;
         let Work { tangent, x, v, .. } = work;
         let (drives, travel, angles) = (&work.drives, &work.travel, &work.angles);
@@ -122,7 +122,8 @@ impl System {
         }
         let at = Instant {
             time,
-            inputs,
+            inputs: &work.inputs,
+            input_rates: &work.input_rates,
             x,
             v,
             chains: &self.chains,
@@ -183,51 +184,75 @@ impl System {
 
     /// Power that comes in through loads and motions and that is dissipated, W, at the state and
     /// accelerations in place.
-    pub(super) fn powers(&self, time: f64, inputs: &[f64], a: &[f64], work: &mut Work) -> [f64; 2] {
-        let mut power = [0.0; 2];
+    pub(super) fn powers(&self, time: f64, a: &[f64], work: &mut Work) -> [f64; 2] {
         if !self.drives.is_empty() {
             self.supply(a, work);
+        }
+        let groups = work.groups.iter();
+        let multiplied = groups.flat_map(|group| group.multiplied(&self.constraints));
+        let at = self.instant(time, work);
+        self.power(at, &self.view(work), &work.supply, multiplied)
+    }
+
+    /// Power that comes in and that is dissipated, W, with the forces that linear constraints supply and
+    /// the multipliers of the others.
+    pub(super) fn power<'a, N: Number>(
+        &self,
+        at: Instant<'_, N>,
+        view: &View<'_, N>,
+        supply: &[Node<4, N>],
+        multiplied: impl Iterator<Item = (&'a Constraint, N)>,
+    ) -> [N; 2] {
+        let mut power = [N::of(0.0); 2];
+        if !self.drives.is_empty() {
             for driven in &self.driven {
-                let rate = self.linear[driven.row].target.derivatives(&work.drives)[1];
-                let multiplier: f64 = (driven.follow.iter())
-                    .map(|(node, c)| dot(c, &work.supply[*node]))
-                    .sum();
-                power[0] += multiplier * rate;
-            }
-            let view = self.view(work);
-            for group in &work.groups {
-                for (constraint, lambda) in group.multiplied(&self.constraints) {
-                    power[0] += lambda * constraint.rate(&view);
+                let rate = self.linear[driven.row].target.derivatives(view.drives)[1];
+                for (node, c) in &driven.follow {
+                    power[0] += weighted(c, &supply[*node]) * rate;
                 }
             }
+            for (constraint, lambda) in multiplied {
+                power[0] += lambda * constraint.rate(view);
+            }
         }
-        let at = self.instant(time, inputs, work);
         for load in &self.loads {
             let [supplied, dissipated] = load.power(at);
             power[0] += supplied;
             power[1] += dissipated;
         }
         for chain in &self.chains {
-            power[1] += chain.dissipation(&work.x, &work.v);
+            power[1] += chain.dissipation(view.x, view.v);
         }
         power
     }
 
     /// Energy of the centrifugal force in a turning frame, negative, J.
-    pub(super) fn centrifugal(&self, x: &[Node<4>]) -> f64 {
-        let mut sum = 0.0;
+    pub(super) fn centrifugal<N: Number>(&self, x: &[Node<4, N>]) -> N {
+        N::of(self.rotation * self.rotation) * self.quadratic(x)
+    }
+
+    /// `x^T M x / 2`.
+    pub(super) fn quadratic<N: Number>(&self, x: &[Node<4, N>]) -> N {
+        let mut sum = N::of(0.0);
         for chain in &self.chains {
             for (j, element) in chain.elements().iter().enumerate() {
-                let e = chain.element(j, x);
-                sum += (e * element.mass()).dot(&e);
+                let e: Nodal<2, N> = chain.element(j, x);
+                sum += (e * element.mass().map(N::of)).dot(&e);
             }
         }
         for lump in &self.lumps {
-            sum += lump.mass * lump.marker.position(x).norm_squared()
-                + lump.inertia * lump.marker.direction(x).norm_squared();
+            let marker = lump.marker.lift();
+            sum += marker.position(x).norm_squared() * N::of(lump.mass)
+                + marker.direction(x).norm_squared() * N::of(lump.inertia);
         }
-        0.5 * self.rotation * self.rotation * sum
+        N::of(0.5) * sum
     }
+}
+
+/// Inner product of weights and numbers of any kind.
+pub(super) fn weighted<N: Number>(weights: &Node<4>, numbers: &Node<4, N>) -> N {
+    let products = weights.iter().zip(numbers).map(|(w, n)| *n * N::of(*w));
+    products.fold(N::of(0.0), |sum, product| sum + product)
 }
 
 fn add(terms: &[(usize, Node<4>)], factor: f64, out: &mut [Node<4>]) {

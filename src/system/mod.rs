@@ -2,6 +2,7 @@
 //! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
 
 mod build;
+mod derivatives;
 pub mod dynamics;
 mod end;
 pub mod equilibrium;
@@ -17,6 +18,7 @@ mod state;
 mod work;
 
 pub use build::{BuildError, Lump, Parts};
+pub use derivatives::Derivatives;
 pub use dynamics::{Accepted, Dynamics, Model};
 pub use end::{Angle, End};
 pub use frequencies::{fastest, natural_frequencies};
@@ -192,7 +194,7 @@ impl System {
             rates: vec![0.0; n],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
-            driven: vec![[0.0; 3]; self.courses().count()],
+            driven: vec![[0.0; 5]; self.courses().count()],
             work: [0.0; 2],
         }
     }

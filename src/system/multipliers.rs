@@ -16,6 +16,7 @@ use std::ops::Range;
 use super::joints::{ConstraintKind, View};
 use super::{System, Work};
 use crate::body::Node;
+use crate::math::jet::Number;
 use crate::math::row_space::RowSpace;
 use crate::math::vector::dot;
 
@@ -35,10 +36,10 @@ const EXACT: f64 = 2e-15;
 /// Constraints of one component of a system.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
-    component: usize,
+    pub(super) component: usize,
     /// Its constraints and its coordinates.
-    constraints: Range<usize>,
-    coordinates: Range<usize>,
+    pub(super) constraints: Range<usize>,
+    pub(super) coordinates: Range<usize>,
     pub(super) rows: RowSpace,
     right: Vec<f64>,
     pub(super) lambda: Vec<f64>,
@@ -195,16 +196,16 @@ impl System {
     }
 
     /// Largest residual of positions, relative to the size of the constraint.
-    pub(super) fn position_residual(&self, view: &View<'_>) -> f64 {
-        let residual = |c: &super::Constraint| c.value(view).abs() / c.size(&self.chains);
+    pub(super) fn position_residual<N: Number>(&self, view: &View<'_, N>) -> f64 {
+        let residual = |c: &super::Constraint| c.value(view).plain().abs() / c.size(&self.chains);
         let all = self.constraints.iter().chain(&self.settled);
         all.map(residual).fold(0.0, larger)
     }
 
     /// Largest residual of velocities, relative to the size of the constraint, 1/s.
-    pub(super) fn velocity_residual(&self, view: &View<'_>) -> f64 {
+    pub(super) fn velocity_residual<N: Number>(&self, view: &View<'_, N>) -> f64 {
         let residual =
-            |c: &super::Constraint| constraint_rate(c, view).abs() / c.size(&self.chains);
+            |c: &super::Constraint| constraint_rate(c, view).plain().abs() / c.size(&self.chains);
         self.constraints.iter().map(residual).fold(0.0, larger)
     }
 
@@ -235,10 +236,12 @@ impl System {
 }
 
 /// `dg/dt` at the coordinates and rates in place.
-fn constraint_rate(constraint: &super::Constraint, view: &View<'_>) -> f64 {
+fn constraint_rate<N: Number>(constraint: &super::Constraint, view: &View<'_, N>) -> N {
     let mut rate = constraint.rate(view);
     constraint.gradient(view).for_each(|node, term| {
-        rate += dot(term, &view.v[node]);
+        for (term, v) in term.iter().zip(&view.v[node]) {
+            rate += *term * *v;
+        }
     });
     rate
 }

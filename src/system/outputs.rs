@@ -2,49 +2,67 @@
 
 use nalgebra::Vector2;
 
+use super::forces::weighted;
 use super::joints::View;
 use super::loads::{Instant, Load};
 use super::{Dynamics, Model, State, System, Work};
 use crate::body::{Marker, Node};
 use crate::elements::{Element, Nodal};
+use crate::math::jet::Number;
 use crate::math::vector::dot;
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
-pub struct Evaluation {
-    time: f64,
+pub struct Evaluation<N = f64> {
+    pub(super) time: N,
+    /// Inputs, and their rates.
+    pub(super) inputs: Vec<N>,
+    pub(super) input_rates: Vec<N>,
     /// Coordinates, m.
-    pub x: Vec<Node<4>>,
+    pub x: Vec<Node<4, N>>,
     /// Rates, m/s.
-    pub v: Vec<Node<4>>,
+    pub v: Vec<Node<4, N>>,
     /// Accelerations, m/s^2.
-    pub acceleration: Vec<Node<4>>,
+    pub acceleration: Vec<Node<4, N>>,
     /// Forces that linear constraints supply, N.
-    supply: Vec<Node<4>>,
+    pub(super) supply: Vec<Node<4, N>>,
     /// Multipliers of non-linear constraints.
-    lambda: Vec<f64>,
-    angles: Vec<f64>,
-    travel: Vec<f64>,
-    drives: Vec<[f64; 3]>,
-    q: Vec<f64>,
+    pub(super) lambda: Vec<N>,
+    /// Angles that are counted, rad.
+    pub angles: Vec<N>,
+    /// Where slides are, m.
+    pub travel: Vec<N>,
+    pub(super) drives: Vec<[N; 3]>,
+}
+
+impl<N: Number> Evaluation<N> {
+    /// Storage for a system.
+    pub fn new(system: &System) -> Self {
+        let zero = N::of(0.0);
+        let nodes = vec![[zero; 4]; system.reference.len()];
+        Self {
+            time: zero,
+            inputs: Vec::new(),
+            input_rates: Vec::new(),
+            x: nodes.clone(),
+            v: nodes.clone(),
+            acceleration: nodes.clone(),
+            supply: nodes,
+            lambda: vec![zero; system.constraints.len()],
+            angles: vec![zero; system.angles.len()],
+            travel: vec![zero; system.slides.len()],
+            drives: vec![[zero; 3]; system.drives.len()],
+        }
+    }
 }
 
 impl Evaluation {
-    /// Storage for a system.
-    pub fn new(system: &System) -> Self {
-        let zero = vec![[0.0; 4]; system.reference.len()];
-        Self {
-            time: 0.0,
-            x: zero.clone(),
-            v: zero.clone(),
-            acceleration: zero.clone(),
-            supply: zero,
-            lambda: vec![0.0; system.constraints.len()],
-            angles: vec![0.0; system.angles.len()],
-            travel: vec![0.0; system.slides.len()],
-            drives: vec![[0.0; 3]; system.drives.len()],
-            q: vec![0.0; system.coordinates()],
-        }
+    /// Takes over the inputs.
+    pub fn set_inputs(&mut self, inputs: &[f64]) {
+        self.inputs.clear();
+        self.inputs.extend_from_slice(inputs);
+        self.input_rates.clear();
+        self.input_rates.resize(inputs.len(), 0.0);
     }
 
     /// Computes coordinates and rates.
@@ -61,9 +79,14 @@ impl Evaluation {
 
     /// Computes accelerations and what constraints supply.
     pub fn dynamics(&mut self, system: &System, state: &State, inputs: &[f64], work: &mut Work) {
+        self.set_inputs(inputs);
+        let mut a = std::mem::take(&mut work.a);
         let mut model = Model::new(system, inputs, work, state);
-        model.acceleration(state.time, &state.coordinates, &state.rates, &mut self.q);
-        system.supply(&self.q, work);
+        model.acceleration(state.time, &state.coordinates, &state.rates, &mut a);
+        system.supply(&a, work);
+        work.a = a;
+        // An acceleration that is an input acts at once.
+        self.drives.copy_from_slice(&work.drives);
         self.acceleration.copy_from_slice(&work.other);
         self.supply.copy_from_slice(&work.supply);
         let multiplied = work
@@ -74,11 +97,13 @@ impl Evaluation {
             *lambda = value;
         }
     }
+}
 
+impl<N: Number> Evaluation<N> {
     /// Axial strain and curvature (1/m) at a marker of a cable; zero elsewhere.
-    pub fn strain(&self, system: &System, marker: &Marker) -> (f64, f64) {
+    pub fn strain(&self, system: &System, marker: &Marker) -> (N, N) {
         let at = system.element(marker);
-        at.map_or((0.0, 0.0), |(chain, j, xi)| {
+        at.map_or((N::of(0.0), N::of(0.0)), |(chain, j, xi)| {
             let e = chain.element(j, &self.x);
             let element = &chain.elements()[j];
             (element.recovered_strain(&e, xi), element.strain(&e, xi).1)
@@ -86,9 +111,9 @@ impl Evaluation {
     }
 
     /// Axial force (N) and bending moment (N m) at a marker of a cable; zero elsewhere.
-    pub fn section(&self, system: &System, marker: &Marker) -> (f64, f64) {
+    pub fn section(&self, system: &System, marker: &Marker) -> (N, N) {
         let at = system.element(marker);
-        at.map_or((0.0, 0.0), |(chain, j, xi)| {
+        at.map_or((N::of(0.0), N::of(0.0)), |(chain, j, xi)| {
             let (e, rate) = (chain.element(j, &self.x), chain.element(j, &self.v));
             chain.elements()[j].section(&e, &rate, xi)
         })
@@ -97,12 +122,7 @@ impl Evaluation {
     /// Force that the element before a node of a cable exerts on the one after it (report Eq. 14), N:
     /// what the one before lacks for equilibrium. Joints and point loads at the node count with what
     /// comes after. Zero at the first end.
-    pub fn connectivity_force(
-        &self,
-        system: &System,
-        inputs: &[f64],
-        marker: &Marker,
-    ) -> Vector2<f64> {
+    pub fn connectivity_force(&self, system: &System, marker: &Marker) -> Vector2<N> {
         let Some((chain, j, xi)) = system.element(marker) else {
             return Vector2::zeros();
         };
@@ -119,39 +139,42 @@ impl Evaluation {
             chain.element(element, &self.v),
         );
         let part = &chain.elements()[element];
-        let mut lack: Nodal<2> = part.force(&e, &v);
-        lack += system.gravity * part.weight().transpose();
+        let mut lack: Nodal<2, N> = part.force(&e, &v);
+        lack += (system.gravity * part.weight().transpose()).map(N::of);
         let mut inertia = chain.element(element, &self.acceleration);
         let rate = system.rotation;
-        let turned = nalgebra::Matrix2::new(0.0, -1.0, 1.0, 0.0) * v;
-        inertia += turned * (2.0 * rate) - e * (rate * rate);
-        lack -= inertia * part.mass();
+        let turned = nalgebra::Matrix2::new(0.0, -1.0, 1.0, 0.0).map(N::of) * v;
+        inertia += turned * N::of(2.0 * rate) - e * N::of(rate * rate);
+        lack -= inertia * part.mass().map(N::of);
         let scale = part.length() / (part.weight()[0] + part.weight()[2]);
+        let at = self.instant(system);
         for load in &system.loads {
             if let Load::Distributed(load) = load
                 && std::ptr::eq(&system.chains[load.chain], chain)
             {
-                let [a, b] = (load.components.each_ref()).map(|c| c.value(self.time, inputs));
-                lack += Vector2::new(a, b) * part.weight().transpose() * scale;
+                let [a, b] = load.components.each_ref().map(|c| c.value(at));
+                let weights = (part.weight() * scale).map(N::of);
+                lack += Vector2::new(a, b) * weights.transpose();
             }
         }
         lack.column(right).into()
     }
 
     /// Force (N) and moment (N m) of a joint or motion on its second end.
-    pub fn reaction(&self, system: &System, inputs: &[f64], joint: usize) -> (Vector2<f64>, f64) {
+    pub fn reaction(&self, system: &System, joint: usize) -> (Vector2<N>, N) {
         let mut force = Vector2::zeros();
-        let second = &system.joints[joint].ends[1];
+        let second = system.joints[joint].ends[1].lift();
         let u = second.direction(&self.x);
-        let mut moment = 0.0;
+        let mut moment = N::of(0.0);
         for (row, linear) in system.linear.iter().enumerate() {
             if linear.joint == Some(joint) {
                 let lambda = system.row_multiplier(row, &self.supply);
-                force += linear.on_second[0] * lambda;
-                moment += u.perp(&(linear.on_second[1] * lambda));
+                let [position, direction] = linear.on_second.map(|on| on.map(N::of) * lambda);
+                force += position;
+                moment += u.perp(&direction);
             }
         }
-        let (at, view) = (self.instant(system, inputs), self.view(system));
+        let (at, view) = (self.instant(system), self.view(system));
         for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
             if constraint.joint == Some(joint) {
                 let [position, direction] = constraint.gradient(&view).ends[1].1;
@@ -167,10 +190,11 @@ impl Evaluation {
         (force, moment)
     }
 
-    fn instant<'a>(&'a self, system: &'a System, inputs: &'a [f64]) -> Instant<'a> {
+    pub(super) fn instant<'a>(&'a self, system: &'a System) -> Instant<'a, N> {
         Instant {
             time: self.time,
-            inputs,
+            inputs: &self.inputs,
+            input_rates: &self.input_rates,
             x: &self.x,
             v: &self.v,
             chains: &system.chains,
@@ -178,7 +202,7 @@ impl Evaluation {
         }
     }
 
-    fn view<'a>(&'a self, system: &'a System) -> View<'a> {
+    pub(super) fn view<'a>(&'a self, system: &'a System) -> View<'a, N> {
         View {
             x: &self.x,
             v: &self.v,
@@ -188,8 +212,15 @@ impl Evaluation {
         }
     }
 
+    /// Power that comes in and that is dissipated, W.
+    pub fn power(&self, system: &System) -> [N; 2] {
+        let multiplied = system.constraints.iter().zip(self.lambda.iter().copied());
+        let (at, view) = (self.instant(system), self.view(system));
+        system.power(at, &view, &self.supply, multiplied)
+    }
+
     /// Largest residual of non-linear constraints: of positions, relative to their size, and of
-    /// velocities, relative to size over time, 1/s.
+    /// velocities, relative to size over time, 1/s. What roundoff leaves has no derivatives.
     pub fn residuals(&self, system: &System) -> [f64; 2] {
         let view = self.view(system);
         [
@@ -199,49 +230,41 @@ impl Evaluation {
     }
 
     /// Kinetic energy, J.
-    pub fn kinetic_energy(&self, system: &System) -> f64 {
-        let mut sum = 0.0;
-        for chain in &system.chains {
-            for (j, element) in chain.elements().iter().enumerate() {
-                let v = chain.element(j, &self.v);
-                sum += (v * element.mass()).dot(&v);
-            }
-        }
-        for lump in &system.lumps {
-            sum += lump.mass * lump.marker.position(&self.v).norm_squared()
-                + lump.inertia * lump.marker.direction(&self.v).norm_squared();
-        }
-        0.5 * sum
+    pub fn kinetic_energy(&self, system: &System) -> N {
+        system.quadratic(&self.v)
     }
 
     /// Strain energy, J.
-    pub fn strain_energy(&self, system: &System) -> f64 {
-        let chains = system.chains.iter();
-        chains.map(|chain| chain.strain_energy(&self.x)).sum()
+    pub fn strain_energy(&self, system: &System) -> N {
+        let energies = system
+            .chains
+            .iter()
+            .map(|chain| chain.strain_energy(&self.x));
+        energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
     /// Energy in springs, J.
-    pub fn spring_energy(&self, system: &System, inputs: &[f64]) -> f64 {
-        let at = self.instant(system, inputs);
-        system.loads.iter().map(|load| load.energy(at)).sum()
+    pub fn spring_energy(&self, system: &System) -> N {
+        let at = self.instant(system);
+        let energies = system.loads.iter().map(|load| load.energy(at));
+        energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
     /// Potential energy of gravity, zero at the origin, and of the centrifugal force in a turning frame,
     /// J.
-    pub fn gravity_energy(&self, system: &System) -> f64 {
-        let falls = system.weight.iter().zip(&self.x).map(|(w, x)| dot(w, x));
-        -falls.sum::<f64>()
-            - if system.rotation == 0.0 {
-                0.0
-            } else {
-                system.centrifugal(&self.x)
-            }
+    pub fn gravity_energy(&self, system: &System) -> N {
+        let falls = system.weight.iter().zip(&self.x);
+        let fall = falls.fold(N::of(0.0), |sum, (w, x)| sum + weighted(w, x));
+        if system.rotation == 0.0 {
+            return -fall;
+        }
+        -fall - system.centrifugal(&self.x)
     }
 
     /// Momentum (kg m/s) and angular momentum about the origin (kg m^2/s).
-    pub fn momentum(&self, system: &System) -> (Vector2<f64>, f64) {
-        let (mut linear, mut angular) = (Vector2::zeros(), 0.0);
-        let mut add = |x: &[f64], p: [f64; 2], translates: bool| {
+    pub fn momentum(&self, system: &System) -> (Vector2<N>, N) {
+        let (mut linear, mut angular) = (Vector2::zeros(), N::of(0.0));
+        let mut add = |x: [N; 2], p: [N; 2], translates: bool| {
             if translates {
                 linear += Vector2::from(p);
             }
@@ -249,36 +272,36 @@ impl Evaluation {
         };
         for chain in &system.chains {
             for (j, element) in chain.elements().iter().enumerate() {
-                let x = chain.element(j, &self.x);
-                let p = chain.element(j, &self.v) * element.mass();
+                let x: Nodal<2, N> = chain.element(j, &self.x);
+                let p = chain.element(j, &self.v) * element.mass().map(N::of);
                 for k in 0..4 {
-                    let part = [p[(0, k)], p[(1, k)]];
-                    add(&[x[(0, k)], x[(1, k)]], part, k % 2 == 0);
+                    add(x.column(k).into(), p.column(k).into(), k % 2 == 0);
                 }
             }
         }
         for lump in &system.lumps {
-            let (marker, m, j) = (&lump.marker, lump.mass, lump.inertia);
+            let marker = lump.marker.lift();
+            let (m, j) = (N::of(lump.mass), N::of(lump.inertia));
             let (x, d) = (marker.position(&self.x), marker.direction(&self.x));
             let (p, s) = (marker.position(&self.v) * m, marker.direction(&self.v) * j);
-            add(x.as_slice(), [p.x, p.y], true);
-            add(d.as_slice(), [s.x, s.y], false);
+            add(x.into(), p.into(), true);
+            add(d.into(), s.into(), false);
         }
         (linear, angular)
     }
 
     /// Center of mass, m.
-    pub fn center_of_mass(&self, system: &System) -> Vector2<f64> {
+    pub fn center_of_mass(&self, system: &System) -> Vector2<N> {
         let mut sum = Vector2::zeros();
         for chain in &system.chains {
             for (j, element) in chain.elements().iter().enumerate() {
-                sum += chain.element(j, &self.x) * element.weight();
+                sum += chain.element(j, &self.x) * element.weight().map(N::of);
             }
         }
         for lump in &system.lumps {
-            sum += lump.marker.position(&self.x) * lump.mass;
+            sum += lump.marker.lift().position(&self.x) * N::of(lump.mass);
         }
-        sum / system.mass()
+        sum / N::of(system.mass())
     }
 }
 
@@ -292,21 +315,23 @@ impl System {
     }
 
     /// Multiplier of a linear row from the forces that rows supply; zero for one that repeats others.
-    fn row_multiplier(&self, row: usize, supply: &[Node<4>]) -> f64 {
+    fn row_multiplier<N: Number>(&self, row: usize, supply: &[Node<4, N>]) -> N {
         match self.holds[row] {
             Some((cluster, k)) => {
                 let cluster = &self.elimination.assembly.clusters()[cluster];
                 let column = cluster.multipliers.row(k);
                 let nodes = cluster.nodes.iter().flat_map(|node| &supply[*node]);
-                column.iter().zip(nodes).map(|(c, f)| c * f).sum()
+                let terms = column.iter().zip(nodes);
+                terms.fold(N::of(0.0), |sum, (c, f)| sum + *f * N::of(*c))
             }
             None if self.elimination.assembly.clusters().is_empty() => {
                 // As printed, rows are no clusters; they apply to one node each.
                 let terms = &self.linear[row].row.terms;
-                let sum: f64 = terms.iter().map(|(n, c)| dot(c, &supply[*n])).sum();
-                sum / terms.iter().map(|(_, c)| dot(c, c)).sum::<f64>()
+                let products = terms.iter().map(|(n, c)| weighted(c, &supply[*n]));
+                let sum = products.fold(N::of(0.0), |sum, product| sum + product);
+                sum / N::of(terms.iter().map(|(_, c)| dot(c, c)).sum::<f64>())
             }
-            None => 0.0,
+            None => N::of(0.0),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Numbers that change in time: functions of time, and inputs that the master sets.
 
+use super::loads::Instant;
 use crate::math::function::Function;
+use crate::math::jet::Number;
 
 /// The size of a load.
 #[derive(Clone, Debug)]
@@ -12,11 +14,27 @@ pub enum Signal {
 }
 
 impl Signal {
-    /// Value at a time, s, under held inputs.
-    pub fn value(&self, time: f64, inputs: &[f64]) -> f64 {
+    /// Value.
+    pub fn value<N: Number>(&self, at: Instant<'_, N>) -> N {
         match self {
-            Self::Function(function) => function.value(time),
-            Self::Input(index) => inputs[*index],
+            Self::Function(function) => {
+                (at.time).map(|t| function.value(t), |t| function.derivatives(t))
+            }
+            Self::Input(index) => at.inputs[*index],
+        }
+    }
+
+    /// Rate, 1/s.
+    pub fn rate<N: Number>(&self, at: Instant<'_, N>) -> N {
+        match self {
+            Self::Function(function) => {
+                let rates = |t: f64| {
+                    let [_, first, second, third, _] = function.orders(t);
+                    [first, second, third]
+                };
+                (at.time).map(|t| function.derivatives(t)[1], rates)
+            }
+            Self::Input(index) => at.input_rates[*index],
         }
     }
 
@@ -64,19 +82,10 @@ impl Course {
         }
     }
 
-    /// From value and derivatives at `time` to what `inputs` (value, first, second derivative as far
-    /// as given) say about `time + h`.
-    pub fn new(time: f64, h: f64, [p, v, a]: [f64; 3], inputs: &[f64]) -> Self {
-        let [target, rate, second] = match *inputs {
-            [value, first, second, ..] => [
-                value + h * (first + 0.5 * h * second),
-                first + h * second,
-                second,
-            ],
-            [value, first] => [value + h * first, first, 0.0],
-            [value] => [value, (value - p) / h, 0.0],
-            [] => [p, 0.0, 0.0],
-        };
+    /// From value and derivatives at `time` to where `inputs` (value, first, second derivative as far as
+    /// given, each with its own rate and that one's rate) will be at `time + h`.
+    pub fn new(time: f64, h: f64, [p, v, a]: [f64; 3], inputs: &[[f64; 3]]) -> Self {
+        let [target, rate, second] = destination(h, p, inputs);
         let mut c = [p, v, 0.0, 0.0, 0.0, 0.0];
         if inputs.len() < 3 {
             // Hermite cubic.
@@ -100,21 +109,58 @@ impl Course {
         }
     }
 
+    /// Value and first four derivatives.
+    pub fn orders(&self, time: f64) -> [f64; 5] {
+        let t = time - self.start;
+        let mut c = self.coefficients;
+        std::array::from_fn(|_| {
+            let value = c.iter().rev().fold(0.0, |sum, c| sum * t + c);
+            for k in 1..c.len() {
+                c[k - 1] = k as f64 * c[k];
+            }
+            c[5] = 0.0;
+            value
+        })
+    }
+
     /// Value, first and second derivative.
     pub fn derivatives(&self, time: f64) -> [f64; 3] {
-        let t = time - self.start;
-        let mut sums = [0.0; 3];
-        for (k, c) in self.coefficients.iter().enumerate().rev() {
-            let k = k as f64;
-            sums[0] = sums[0] * t + c;
-            if k >= 1.0 {
-                sums[1] = sums[1] * t + k * c;
-            }
-            if k >= 2.0 {
-                sums[2] = sums[2] * t + k * (k - 1.0) * c;
-            }
+        let [value, first, second, ..] = self.orders(time);
+        [value, first, second]
+    }
+}
+
+/// Value, first and second derivative after `h` of a coordinate that is at `p` and follows inputs. A
+/// derivative that is an input carries on what is below it, unless that has a rate of its own.
+fn destination(h: f64, p: f64, inputs: &[[f64; 3]]) -> [f64; 3] {
+    let at_end = |[value, first, second]: [f64; 3]| value + h * (first + 0.5 * h * second);
+    let gained =
+        |[value, first, second]: [f64; 3]| h * (value + h * (first / 2.0 + h * second / 6.0));
+    let moves = |[_, first, second]: [f64; 3]| first != 0.0 || second != 0.0;
+    match *inputs {
+        [] => [p, 0.0, 0.0],
+        [value] if moves(value) => [at_end(value), value[1] + h * value[2], value[2]],
+        [[value, ..]] => [value, (value - p) / h, 0.0],
+        [value, rate, ref rest @ ..] => {
+            let second = rest.first().copied().unwrap_or([rate[1], rate[2], 0.0]);
+            let course = [second[0], second[1], second[2]];
+            let rate_at_end = match moves(rate) {
+                true => at_end(rate),
+                false => rate[0] + gained(course),
+            };
+            let way = match moves(rate) {
+                true => gained(rate),
+                false => {
+                    let [a, b, c] = course;
+                    h * (rate[0] + h * (a / 2.0 + h * (b / 6.0 + h * c / 24.0)))
+                }
+            };
+            let target = match moves(value) {
+                true => at_end(value),
+                false => value[0] + way,
+            };
+            [target, rate_at_end, at_end(second)]
         }
-        sums
     }
 }
 
@@ -126,7 +172,8 @@ mod tests {
     fn a_course_meets_both_ends() {
         let (from, h) = ([0.3, -1.0, 2.0], 0.25);
         for inputs in [&[1.5][..], &[1.5, 0.2], &[1.5, 0.2, -3.0]] {
-            let course = Course::new(2.0, h, from, inputs);
+            let held: Vec<[f64; 3]> = inputs.iter().map(|input| [*input, 0.0, 0.0]).collect();
+            let course = Course::new(2.0, h, from, &held);
             let start = course.derivatives(2.0);
             let end = course.derivatives(2.0 + h);
             let [v, a] = [1, 2].map(|i| inputs.get(i).copied().unwrap_or(0.0));
@@ -146,5 +193,31 @@ mod tests {
     fn holding_keeps_the_derivatives() {
         let course = Course::hold(1.0, [0.1, 0.2, 0.3]);
         assert_eq!(course.derivatives(1.0), [0.1, 0.2, 0.3]);
+    }
+
+    #[test]
+    fn a_course_follows_inputs_that_move() {
+        // A quintic has its derivatives at the start as inputs with rates, and is met at the end.
+        let c = [0.3, -1.0, 0.7, 0.4];
+        let at = |t: f64| c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+        let rate = |t: f64| c[1] + t * (2.0 * c[2] + t * 3.0 * c[3]);
+        let second = |t: f64| 2.0 * c[2] + t * 6.0 * c[3];
+        let (from, h) = ([at(0.0), rate(0.0), second(0.0)], 0.2);
+        let third = 6.0 * c[3];
+        let value = [c[0], c[1], 2.0 * c[2]];
+        let moving = [
+            vec![[c[0], 0.0, 0.0], [c[1], 2.0 * c[2], third]],
+            vec![[c[0], 0.0, 0.0], [c[1], 0.0, 0.0], [2.0 * c[2], third, 0.0]],
+        ];
+        for inputs in moving {
+            let end = Course::new(0.0, h, from, &inputs).orders(h);
+            assert!((end[0] - at(h)).abs() < 1e-14, "{inputs:?}");
+            assert!((end[1] - rate(h)).abs() < 1e-13, "{inputs:?}");
+            assert!((end[2] - second(h)).abs() < 1e-11, "{inputs:?}");
+            assert!((end[3] - third).abs() < 1e-9, "{inputs:?}");
+        }
+        let end = Course::new(0.0, h, from, &[value]).orders(h);
+        assert!((end[0] - (at(h) - c[3] * h * h * h)).abs() < 1e-14);
+        assert!((end[1] - (rate(h) - 3.0 * c[3] * h * h)).abs() < 1e-13);
     }
 }

@@ -15,8 +15,8 @@ pub struct State {
     pub angles: Vec<f64>,
     /// Where slides are on their cables, m.
     pub travel: Vec<f64>,
-    /// Motions that inputs drive: value and two derivatives.
-    pub driven: Vec<[f64; 3]>,
+    /// Motions that inputs drive: value and four derivatives.
+    pub driven: Vec<[f64; 5]>,
     /// Work that came in from outside and that was dissipated since the start, J.
     pub work: [f64; 2],
 }

@@ -26,6 +26,9 @@ pub struct Work {
     /// Driven coordinates with two derivatives, and the courses of those that inputs drive.
     pub(super) drives: Vec<[f64; 3]>,
     pub(super) courses: Vec<Course>,
+    /// Inputs and their rates at the time of the last configuration.
+    pub(super) inputs: Vec<f64>,
+    pub(super) input_rates: Vec<f64>,
     pub(super) angles: Vec<f64>,
     pub(super) travel: Vec<f64>,
     /// The state accepted last, to go back to from a step that leaves a cable.
@@ -58,6 +61,8 @@ impl Work {
             a: vector,
             drives: vec![[0.0; 3]; system.drives.len()],
             courses: vec![Course::default(); system.courses().count()],
+            inputs: Vec::new(),
+            input_rates: Vec::new(),
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
             before: system.blank_state(0.0),
@@ -78,7 +83,8 @@ impl Work {
         self.angles.copy_from_slice(&state.angles);
         self.travel.copy_from_slice(&state.travel);
         for (course, driven) in self.courses.iter_mut().zip(&state.driven) {
-            *course = Course::hold(state.time, *driven);
+            let [p, v, a, ..] = *driven;
+            *course = Course::hold(state.time, [p, v, a]);
         }
     }
 }

@@ -145,9 +145,6 @@ fn what_the_table_allows_is_answered() {
         for function in Function::ALL.iter().filter(|f| f.allowed_in(state)) {
             let instance = Instance::in_state(&unit, state);
             let expected = match function {
-                Function::GetDirectionalDerivative
-                | Function::SetRealInputDerivatives
-                | Function::GetRealOutputDerivatives => Status::Error,
                 Function::GetStatus | Function::GetIntegerStatus | Function::GetStringStatus => {
                     Status::Discard
                 }
@@ -190,25 +187,5 @@ fn reset_leads_from_every_state_to_a_life_as_new() {
         assert_eq!(call!(fmi2Reset, instance.component), Status::Ok);
         instance.start();
         assert_eq!(instance.run(0, 3), expected, "{}", state.name());
-    }
-}
-
-#[test]
-fn capabilities_that_are_not_promised_are_named() {
-    let unit = Unit::new();
-    let instance = Instance::started(&unit);
-    for (function, flag) in [
-        (
-            Function::GetDirectionalDerivative,
-            "providesDirectionalDerivative",
-        ),
-        (Function::SetRealInputDerivatives, "canInterpolateInputs"),
-        (
-            Function::GetRealOutputDerivatives,
-            "maxOutputDerivativeOrder",
-        ),
-    ] {
-        assert_eq!(answer(&instance, function), Status::Error);
-        assert!(instance.record.last().contains(flag), "{flag}");
     }
 }

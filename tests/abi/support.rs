@@ -261,6 +261,7 @@ impl<'a> Instance<'a> {
                 assert_eq!(instance.set_elements(1), Status::Ok);
                 assert_eq!(call!(fmi2EnterInitializationMode, c), Status::Error);
             }
+            State::Bare => unreachable!("made without a unit"),
             State::Fatal => unreachable!("only a defect of the library leads there"),
         }
         instance.record.take();

@@ -34,6 +34,7 @@ impl Acted<'_> {
         let instant = Instant {
             time: t,
             inputs: &[],
+            input_rates: &[],
             x,
             v,
             chains: &self.frame.chains,
@@ -219,6 +220,7 @@ fn a_rotational_spring_counts_turns() {
             let value = spring.moment(Instant {
                 time: 0.0,
                 inputs: &[],
+                input_rates: &[],
                 x: &frame.x,
                 v: &rest,
                 chains: &frame.chains,
@@ -230,6 +232,15 @@ fn a_rotational_spring_counts_turns() {
         within("two turns back", (moment(-2.0) - moment(0.0)).abs(), 1e-12)?;
         // A signal that is a number is one.
         let held = Signal::Function(Function::constant(2.5));
-        within("a number", (held.value(7.0, &[]) - 2.5).abs(), 0.0)
+        let at = Instant {
+            time: 7.0,
+            inputs: &[],
+            input_rates: &[],
+            x: &frame.x,
+            v: &frame.v,
+            chains: &frame.chains,
+            angles: (&angles, &[0.0]),
+        };
+        within("a number", (held.value(at) - 2.5).abs(), 0.0)
     });
 }

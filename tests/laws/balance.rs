@@ -19,7 +19,7 @@ fn energy(values: &Evaluation, system: &System) -> [f64; 2] {
         values.kinetic_energy(system),
         values.strain_energy(system),
         values.gravity_energy(system),
-        values.spring_energy(system, &[]),
+        values.spring_energy(system),
     ];
     [parts.iter().sum(), parts.iter().map(|e| e.abs()).sum()]
 }

@@ -250,7 +250,7 @@ impl Moving {
     pub fn reactions(&self, values: &Evaluation) -> Vec<(Vector2<f64>, f64)> {
         let joints = 0..self.system.joints().len();
         joints
-            .map(|joint| values.reaction(&self.system, &[], joint))
+            .map(|joint| values.reaction(&self.system, joint))
             .collect()
     }
 }

@@ -129,7 +129,7 @@ fn agrees_with_augmented(chain: &Chain, allowed: f64) -> Outcome {
     let size = sizes.fold(1.0, f64::max);
     for interface in 1..chain.elements.len() {
         let marker = chain.marker(Formulation::MassWeighted, interface);
-        let found = values.connectivity_force(system, &case.inputs, &marker);
+        let found = values.connectivity_force(system, &marker);
         for axis in 0..2 {
             let exact = multipliers[4 * (interface - 1) + axis].2;
             let off = (found[axis] - exact).abs();
@@ -146,7 +146,7 @@ fn agrees_with_augmented(chain: &Chain, allowed: f64) -> Outcome {
                 exact -= row.rows(first, 4) * *multiplier;
             }
         }
-        let (force, moment) = values.reaction(system, &case.inputs, index);
+        let (force, moment) = values.reaction(system, index);
         let off = (force - Vector2::new(exact[0], exact[1])).amax();
         within("reaction force", off / size, allowed)?;
         let exact = e[first + 2] * exact[3] - e[first + 3] * exact[2];
@@ -206,7 +206,7 @@ fn newton_and_euler(chain: &Chain) -> Outcome {
     moment += at(case.places[0]).perp(&load) + case.inputs[2];
     let mut size = inertia.amax().max(applied.amax()).max(1.0);
     for (index, joint) in chain.joints.iter().enumerate() {
-        let (reaction, turning) = values.reaction(system, &case.inputs, index);
+        let (reaction, turning) = values.reaction(system, index);
         force += reaction;
         moment += at(joint.node).perp(&reaction) + turning;
         size = size.max(reaction.amax()).max(turning.abs());

@@ -15,6 +15,7 @@ mod kernel;
 use nalgebra::{SMatrix, SVector};
 
 use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, Strain, shape};
+use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use kernel::{Kernel, Line, transposed};
 
@@ -131,19 +132,19 @@ impl<const D: usize, const C: usize> Cable<D, C> {
     }
 
     /// Strain and curvature, or their rates, are derived from these.
-    fn line(&self, e: &Nodal<D>, xi: f64) -> Line<f64, D> {
-        let l = self.parameters.length;
+    fn line<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> Line<N, D> {
+        let (xi, l) = (N::of(xi), self.parameters.length);
         let [u, w] = [shape::slopes(xi, l), shape::curvatures(xi, l)].map(|s| (e * s).into());
         Line { u, w }
     }
 }
 
 /// Its sign where there is one, its size in space.
-fn signed<const C: usize>(curvature: &[f64; C]) -> f64 {
+fn signed<N: Number, const C: usize>(curvature: &[N; C]) -> N {
     if C == 1 {
         curvature[0]
     } else {
-        curvature.iter().map(|c| c * c).sum::<f64>().sqrt()
+        SVector::from(*curvature).norm()
     }
 }
 
@@ -179,13 +180,13 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
         SVector::from([0.5, l / 12.0, 0.5, -l / 12.0]) * (self.parameters.line_density * l)
     }
 
-    fn energy(&self, e: &Nodal<D>) -> f64 {
-        self.kernel.energy(&e.data.0)
+    fn energy<N: Number>(&self, e: &Nodal<D, N>) -> N {
+        self.kernel.lift().energy(&e.data.0)
     }
 
-    fn force(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Nodal<D> {
+    fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N> {
         let rate = self.kernel.is_damped.then_some(&rate.data.0);
-        Nodal::from(self.kernel.force(&e.data.0, rate))
+        Nodal::from(self.kernel.lift().force(&e.data.0, rate))
     }
 
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D> {
@@ -204,38 +205,35 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
         self.kernel.is_damped
     }
 
-    fn strain(&self, e: &Nodal<D>, xi: f64) -> (f64, f64) {
-        let at = self.line(e, xi);
-        let square = at.u.iter().map(|u| u * u).sum();
-        (
-            self.kernel.axial(square).0,
-            signed(&self.kernel.curvature(&at).value),
-        )
+    fn strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> (N, N) {
+        let (at, kernel) = (self.line(e, xi), self.kernel.lift::<N>());
+        let square = at.u.iter().fold(N::of(0.0), |sum, u| sum + *u * *u);
+        (kernel.axial(square).0, signed(&kernel.curvature(&at).value))
     }
 
-    fn recovered_strain(&self, e: &Nodal<D>, xi: f64) -> f64 {
-        let samples = self.kernel.axial_samples(&e.data.0, None);
-        self.kernel.recover(samples, xi)
+    fn recovered_strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> N {
+        let kernel = self.kernel.lift::<N>();
+        kernel.recover(kernel.axial_samples(&e.data.0, None), xi)
     }
 
-    fn section(&self, e: &Nodal<D>, rate: &Nodal<D>, xi: f64) -> (f64, f64) {
-        let p = &self.parameters;
+    fn section<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>, xi: f64) -> (N, N) {
+        let (p, kernel) = (&self.parameters, self.kernel.lift::<N>());
         let [n0, n1, n2] = self.kernel.natural_strain;
         let rates = self.kernel.is_damped.then_some(&rate.data.0);
-        let samples = self.kernel.axial_samples(&e.data.0, rates);
-        let stretching = self.kernel.recover(samples, xi) - (n0 + n1 + n2) / 3.0;
+        let samples = kernel.axial_samples(&e.data.0, rates);
+        let stretching = kernel.recover(samples, xi) - N::of((n0 + n1 + n2) / 3.0);
         let (at, rate) = (self.line(e, xi), self.line(rate, xi));
-        let bending: [f64; C] = if self.kernel.bends {
-            let now = self.kernel.curvature(&at);
-            let speed = self.kernel.curvature_rate(&at, &rate, &now);
+        let bending: [N; C] = if self.kernel.bends {
+            let now = kernel.curvature(&at);
+            let speed = kernel.curvature_rate(&at, &rate, &now);
             let [a, b, c] = &self.kernel.natural_curvature;
-            let natural = |i: usize| (a[i] + b[i] + c[i]) / 3.0;
-            std::array::from_fn(|i| now.value[i] - natural(i) + p.damping_time * speed[i])
+            let natural = |i: usize| N::of((a[i] + b[i] + c[i]) / 3.0);
+            std::array::from_fn(|i| now.value[i] - natural(i) + kernel.damping_time * speed[i])
         } else {
-            [0.0; C]
+            [N::of(0.0); C]
         };
-        let moment = signed(&bending);
-        (p.axial_stiffness * stretching, p.bending_stiffness * moment)
+        let moment = N::of(p.bending_stiffness) * signed(&bending);
+        (N::of(p.axial_stiffness) * stretching, moment)
     }
 
     fn goes_with(&self, other: &Self) -> bool {

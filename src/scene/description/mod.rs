@@ -18,7 +18,7 @@ pub use strict::INNER;
 pub use value::{LoadValue, MasterInput, MotionValue, Table, Value};
 
 /// A scene: bodies, joints, what drives and loads them, what goes in and what comes out.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Name of the scene and of the FMU: letters, digits, `_` and `-`.

@@ -5,6 +5,8 @@ use nalgebra::Vector2;
 
 use super::{Gradient, View};
 use crate::body::{Marker, Node, left};
+use crate::elements::Element;
+use crate::math::jet::Number;
 use crate::system::PlanarChain;
 use crate::system::end::End;
 
@@ -23,34 +25,37 @@ pub struct Along {
 }
 
 /// A place on a chain.
-struct Foot {
-    marker: Marker,
+struct Foot<N: Number> {
+    marker: Marker<N>,
     /// Second derivative of the curve by length.
-    bend: Vector2<f64>,
+    bend: Vector2<N>,
 }
 
-fn foot(chain: &PlanarChain, length: f64, x: &[Node<4>]) -> Foot {
-    let (part, xi) = chain.find(length);
+fn foot<N: Number>(chain: &PlanarChain, length: N, x: &[Node<4, N>]) -> Foot<N> {
+    let (part, xi) = chain.find(length.plain());
+    let moving = (length - N::of(length.plain())) / N::of(chain.elements()[part].length());
+    let xi = moving + N::of(xi);
     Foot {
-        marker: Marker::inside(0, chain, part, xi),
+        marker: Marker::within(0, chain, part, xi),
         bend: chain.bend(part, xi, x),
     }
 }
 
 impl Along {
     /// Length along the chain of the point nearest to the end, m; searched from `hint` on.
-    pub fn travel(&self, chain: &PlanarChain, x: &[Node<4>], hint: f64) -> f64 {
-        let p = self.end.position(x);
+    pub fn travel<N: Number>(&self, chain: &PlanarChain, x: &[Node<4, N>], hint: N) -> N {
+        let p = self.end.lift().position(x);
         let mut s = hint;
         for _ in 0..ITERATIONS {
             let at = foot(chain, s, x);
             let slope = at.marker.direction(x);
             let away = p - at.marker.position(x);
-            let stiffness = slope.norm_squared() - away.dot(&at.bend);
+            let square = slope.norm_squared();
+            let stiffness = square - away.dot(&at.bend);
             // Far off the curve only the slope counts.
-            let step = away.dot(&slope) / stiffness.max(0.5 * slope.norm_squared());
+            let step = away.dot(&slope) / stiffness.max(square * N::of(0.5));
             s += step;
-            if step.abs() <= 1e-15 * chain.length() {
+            if step.largest() <= 1e-15 * chain.length() {
                 break;
             }
         }
@@ -63,37 +68,37 @@ impl Along {
         self.travel(chain, x, near)
     }
 
-    fn foot(&self, view: &View<'_>) -> (Foot, Vector2<f64>, f64) {
+    fn foot<N: Number>(&self, view: &View<'_, N>) -> (Foot<N>, Vector2<N>, N) {
         let at = foot(&view.chains[self.chain], view.travel[self.slide], view.x);
         let slope = at.marker.direction(view.x);
         let stretch = slope.norm();
         (at, slope / stretch, stretch)
     }
 
-    pub(super) fn value(&self, view: &View<'_>) -> f64 {
+    pub(super) fn value<N: Number>(&self, view: &View<'_, N>) -> N {
         let (at, tangent, _) = self.foot(view);
-        let away = self.end.position(view.x) - at.marker.position(view.x);
+        let away = self.end.lift().position(view.x) - at.marker.position(view.x);
         left(tangent).dot(&away)
     }
 
-    pub(super) fn gradient(&self, view: &View<'_>) -> Gradient {
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
         let none = Vector2::zeros();
         let (at, tangent, _) = self.foot(view);
         let normal = left(tangent);
         Gradient {
             ends: [
                 (End::Body(at.marker), [-normal, none]),
-                (self.end, [normal, none]),
+                (self.end.lift(), [normal, none]),
             ],
         }
     }
 
     /// With the point on the curve: `n . (p'' - r'' - 2 s' dr'/dt - s'^2 d^2r/ds^2)`.
-    pub(super) fn bias(&self, view: &View<'_>) -> f64 {
+    pub(super) fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
         let (at, tangent, stretch) = self.foot(view);
-        let relative = self.end.velocity(view.v) - at.marker.position(view.v);
+        let relative = self.end.lift().velocity(view.v) - at.marker.position(view.v);
         let speed = tangent.dot(&relative) / stretch;
         let slope_rate = at.marker.direction(view.v);
-        -left(tangent).dot(&(slope_rate * (2.0 * speed) + at.bend * (speed * speed)))
+        -left(tangent).dot(&(slope_rate * (N::of(2.0) * speed) + at.bend * (speed * speed)))
     }
 }

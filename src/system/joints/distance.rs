@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 
 use super::{Gradient, View};
 use crate::body::NodeBlock;
+use crate::math::jet::Number;
 use crate::system::end::End;
 use crate::system::loads::isotropic;
 
@@ -17,23 +18,23 @@ pub struct Distance {
 }
 
 impl Distance {
-    pub(super) fn value(&self, view: &View<'_>) -> f64 {
-        let d = self.ends[1].position(view.x) - self.ends[0].position(view.x);
-        (d.norm_squared() - self.length * self.length) / (2.0 * self.length)
+    pub(super) fn value<N: Number>(&self, view: &View<'_, N>) -> N {
+        let [a, b] = self.ends.map(|end| end.lift().position(view.x));
+        let length = N::of(self.length);
+        ((b - a).norm_squared() - length * length) / (length + length)
     }
 
-    pub(super) fn gradient(&self, view: &View<'_>) -> Gradient {
-        let none = Vector2::zeros();
-        let d = self.ends[1].position(view.x) - self.ends[0].position(view.x);
-        let unit = d / self.length;
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
+        let (none, [a, b]) = (Vector2::zeros(), self.ends.map(|end| end.lift()));
+        let unit = (b.position(view.x) - a.position(view.x)) / N::of(self.length);
         Gradient {
-            ends: [(self.ends[0], [-unit, none]), (self.ends[1], [unit, none])],
+            ends: [(a, [-unit, none]), (b, [unit, none])],
         }
     }
 
-    pub(super) fn bias(&self, view: &View<'_>) -> f64 {
-        let d = self.ends[1].velocity(view.v) - self.ends[0].velocity(view.v);
-        d.norm_squared() / self.length
+    pub(super) fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
+        let [a, b] = self.ends.map(|end| end.lift().velocity(view.v));
+        (b - a).norm_squared() / N::of(self.length)
     }
 
     pub(super) fn stiffness(&self, lambda: f64, add: &mut dyn FnMut(usize, usize, &NodeBlock<4>)) {

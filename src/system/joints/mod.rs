@@ -21,6 +21,7 @@ use nalgebra::Vector2;
 use super::PlanarChain;
 use super::end::End;
 use crate::body::{Node, NodeBlock, Row};
+use crate::math::jet::Number;
 
 /// What a joint or a motion holds.
 #[derive(Clone, Debug)]
@@ -76,12 +77,12 @@ impl Target {
     }
 
     /// Value and first two derivatives from those of the driven coordinates.
-    pub fn derivatives(&self, drives: &[[f64; 3]]) -> [f64; 3] {
+    pub fn derivatives<N: Number>(&self, drives: &[[N; 3]]) -> [N; 3] {
         match *self {
-            Self::Fixed(value) => [value, 0.0, 0.0],
+            Self::Fixed(value) => [N::of(value), N::of(0.0), N::of(0.0)],
             Self::Value(index, offset) => {
                 let [p, v, a] = drives[index];
-                [p + offset, v, a]
+                [p + N::of(offset), v, a]
             }
             Self::Cosine(index) => {
                 let [p, v, a] = drives[index];
@@ -111,17 +112,17 @@ pub struct Linear {
 }
 
 /// State of a system as constraints see it.
-pub struct View<'a> {
+pub struct View<'a, N = f64> {
     /// Nodal coordinates.
-    pub x: &'a [Node<4>],
+    pub x: &'a [Node<4, N>],
     /// Their rates.
-    pub v: &'a [Node<4>],
+    pub v: &'a [Node<4, N>],
     /// Driven coordinates with two derivatives.
-    pub drives: &'a [[f64; 3]],
+    pub drives: &'a [[N; 3]],
     /// Flexible bodies.
     pub chains: &'a [PlanarChain],
     /// Where on their chains slides are, m.
-    pub travel: &'a [f64],
+    pub travel: &'a [N],
 }
 
 /// A non-linear constraint `g(x, t) = 0` with the force `-J^T lambda`.
@@ -159,25 +160,25 @@ macro_rules! each {
 
 impl Constraint {
     /// `g`.
-    pub fn value(&self, view: &View<'_>) -> f64 {
+    pub fn value<N: Number>(&self, view: &View<'_, N>) -> N {
         each!(self, c => c.value(view))
     }
 
     /// Forces that a unit multiplier takes from position and direction of both ends.
-    pub fn gradient(&self, view: &View<'_>) -> Gradient {
+    pub fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
         each!(self, c => c.gradient(view))
     }
 
     /// Derivative of `g` by time alone, 1/s.
-    pub fn rate(&self, view: &View<'_>) -> f64 {
+    pub fn rate<N: Number>(&self, view: &View<'_, N>) -> N {
         match &self.kind {
             ConstraintKind::Parallel(c) => c.rate(view),
-            _ => 0.0,
+            _ => N::of(0.0),
         }
     }
 
     /// `d^2 g / dt^2` without the part of accelerations, 1/s^2.
-    pub fn bias(&self, view: &View<'_>) -> f64 {
+    pub fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
         each!(self, c => c.bias(view))
     }
 
@@ -233,19 +234,19 @@ impl Constraint {
 
 /// Derivatives of a constraint by position and direction of two ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Gradient {
+pub struct Gradient<N: Number = f64> {
     /// The ends and, for each, the derivatives by position and direction.
-    pub ends: [(End, [Vector2<f64>; 2]); 2],
+    pub ends: [(End<N>, [Vector2<N>; 2]); 2],
 }
 
-impl Gradient {
+impl<N: Number> Gradient<N> {
     /// Terms over the nodes.
-    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<4>)) {
+    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<4, N>)) {
         for (end, [position, direction]) in &self.ends {
             if let End::Body(marker) = end {
                 let [a, b] = marker.forces(*position, *direction);
                 term(a.0, &a.1);
-                if b.1 != [0.0; 4] {
+                if b.1 != [N::of(0.0); 4] {
                     term(b.0, &b.1);
                 }
             }

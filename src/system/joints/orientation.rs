@@ -9,6 +9,7 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::{ConstraintKind, Gradient, Rows, Target, View};
 use crate::body::{NodeBlock, left};
+use crate::math::jet::Number;
 use crate::system::end::End;
 
 /// A direction at an angle from another: `(R(angle) u1) x u2 = 0`.
@@ -56,43 +57,48 @@ pub(super) fn hold(rows: &mut Rows<'_>, angle: f64) -> Option<ConstraintKind> {
 impl Parallel {
     /// The turned first direction, and its first two derivatives in time but for the part of
     /// accelerations.
-    fn turned(&self, view: &View<'_>) -> [Vector2<f64>; 3] {
-        let [theta, rate, second] = self.drive.map_or([0.0; 3], |i| view.drives[i]);
-        let turn = Rotation2::new(self.angle + theta);
-        let w = turn * self.ends[0].direction(view.x);
-        let moved = turn * self.ends[0].direction_rate(view.v);
-        let bias = left(moved) * (2.0 * rate) + left(w) * second - w * (rate * rate);
+    fn turned<N: Number>(&self, view: &View<'_, N>) -> [Vector2<N>; 3] {
+        let [theta, rate, second] = self.drive.map_or([N::of(0.0); 3], |i| view.drives[i]);
+        let (turn, first) = (
+            Rotation2::new(theta + N::of(self.angle)),
+            self.ends[0].lift(),
+        );
+        let w = turn * first.direction(view.x);
+        let moved = turn * first.direction_rate(view.v);
+        let bias = left(moved) * (N::of(2.0) * rate) + left(w) * second - w * (rate * rate);
         [w, moved + left(w) * rate, bias]
     }
 
-    pub(super) fn value(&self, view: &View<'_>) -> f64 {
-        self.turned(view)[0].perp(&self.ends[1].direction(view.x))
+    pub(super) fn value<N: Number>(&self, view: &View<'_, N>) -> N {
+        self.turned(view)[0].perp(&self.ends[1].lift().direction(view.x))
     }
 
-    pub(super) fn gradient(&self, view: &View<'_>) -> Gradient {
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
         let none = Vector2::zeros();
-        let theta = self.drive.map_or(0.0, |i| view.drives[i][0]);
-        let back = Rotation2::new(-self.angle - theta);
-        let (w, u) = (self.turned(view)[0], self.ends[1].direction(view.x));
+        let theta = self.drive.map_or(N::of(0.0), |i| view.drives[i][0]);
+        let back = Rotation2::new(-theta - N::of(self.angle));
+        let [first, second] = self.ends.map(|end| end.lift());
+        let (w, u) = (self.turned(view)[0], second.direction(view.x));
         // w x u = w . (-left u) = u . left w
         Gradient {
             ends: [
-                (self.ends[0], [none, -(back * left(u))]),
-                (self.ends[1], [none, left(w)]),
+                (first, [none, -(back * left(u))]),
+                (second, [none, left(w)]),
             ],
         }
     }
 
-    pub(super) fn rate(&self, view: &View<'_>) -> f64 {
-        let rate = self.drive.map_or(0.0, |i| view.drives[i][1]);
+    pub(super) fn rate<N: Number>(&self, view: &View<'_, N>) -> N {
+        let rate = self.drive.map_or(N::of(0.0), |i| view.drives[i][1]);
         let w = self.turned(view)[0];
-        (left(w) * rate).perp(&self.ends[1].direction(view.x))
+        (left(w) * rate).perp(&self.ends[1].lift().direction(view.x))
     }
 
-    pub(super) fn bias(&self, view: &View<'_>) -> f64 {
+    pub(super) fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
         let [_, w_rate, w_bias] = self.turned(view);
-        let u = self.ends[1].direction(view.x);
-        w_bias.perp(&u) + 2.0 * w_rate.perp(&self.ends[1].direction_rate(view.v))
+        let second = self.ends[1].lift();
+        let (u, rate) = (second.direction(view.x), second.direction_rate(view.v));
+        w_bias.perp(&u) + N::of(2.0) * w_rate.perp(&rate)
     }
 
     pub(super) fn stiffness(

@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 
 use super::{Gradient, View};
 use crate::body::{Marker, NodeBlock};
+use crate::math::jet::Number;
 use crate::system::end::End;
 
 /// The unit vector of a rigid body.
@@ -15,15 +16,15 @@ pub struct Unit {
 }
 
 impl Unit {
-    pub(super) fn value(&self, view: &View<'_>) -> f64 {
+    pub(super) fn value<N: Number>(&self, view: &View<'_, N>) -> N {
         let [_, _, x, y] = view.x[self.node];
-        0.5 * (x * x + y * y - 1.0)
+        N::of(0.5) * (x * x + y * y - N::of(1.0))
     }
 
-    pub(super) fn gradient(&self, view: &View<'_>) -> Gradient {
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
         let none = Vector2::zeros();
         let [_, _, x, y] = view.x[self.node];
-        let end = End::Body(Marker::rigid(0, self.node, [0.0; 2]));
+        let end = End::Body(Marker::rigid(0, self.node, [0.0; 2]).lift());
         Gradient {
             ends: [
                 (end, [none, Vector2::new(x, y)]),
@@ -32,7 +33,7 @@ impl Unit {
         }
     }
 
-    pub(super) fn bias(&self, view: &View<'_>) -> f64 {
+    pub(super) fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
         let [_, _, x, y] = view.v[self.node];
         x * x + y * y
     }

@@ -5,6 +5,7 @@ use nalgebra::Vector2;
 use super::Instant;
 use crate::body::Node;
 use crate::elements::Element;
+use crate::math::jet::Number;
 use crate::system::PlanarChain;
 use crate::system::signal::Signal;
 
@@ -18,9 +19,9 @@ pub struct Distributed {
 }
 
 impl Distributed {
-    fn value(&self, at: Instant<'_>) -> Vector2<f64> {
+    fn value<N: Number>(&self, at: Instant<'_, N>) -> Vector2<N> {
         let components = self.components.each_ref();
-        components.map(|c| c.value(at.time, at.inputs)).into()
+        components.map(|c| c.value(at)).into()
     }
 
     /// Sum over elements of what the load does per unit: as weight does, but for the density.
@@ -32,33 +33,33 @@ impl Distributed {
         }
     }
 
-    pub(super) fn add_force(&self, at: Instant<'_>, f: &mut [Node<4>]) {
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
         let (load, chain) = (self.value(at), &at.chains[self.chain]);
         self.each(chain, |j, weights| {
             let [a, b] = chain.nodes(j);
             for (node, pair) in [(a, [weights[0], weights[1]]), (b, [weights[2], weights[3]])] {
                 for (k, weight) in pair.iter().enumerate() {
-                    f[node][2 * k] += weight * load.x;
-                    f[node][2 * k + 1] += weight * load.y;
+                    f[node][2 * k] += load.x * N::of(*weight);
+                    f[node][2 * k + 1] += load.y * N::of(*weight);
                 }
             }
         });
     }
 
     /// The integral of the load times a nodal field.
-    fn along(&self, at: Instant<'_>, field: &[Node<4>]) -> f64 {
+    fn along<N: Number>(&self, at: Instant<'_, N>, field: &[Node<4, N>]) -> N {
         let (load, chain) = (self.value(at), &at.chains[self.chain]);
-        let mut sum = 0.0;
+        let mut sum = N::of(0.0);
         self.each(chain, |j, weights| {
             let e = chain.element(j, field);
             for (k, weight) in weights.iter().enumerate() {
-                sum += weight * (load.x * e[(0, k)] + load.y * e[(1, k)]);
+                sum += (load.x * e[(0, k)] + load.y * e[(1, k)]) * N::of(*weight);
             }
         });
         sum
     }
 
-    pub(super) fn power(&self, at: Instant<'_>) -> f64 {
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> N {
         self.along(at, at.v)
     }
 

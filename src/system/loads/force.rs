@@ -5,6 +5,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::{Add, Instant};
 use crate::body::{Marker, Node, left};
+use crate::math::jet::Number;
 use crate::system::signal::Signal;
 
 /// A force.
@@ -19,20 +20,18 @@ pub struct Force {
 }
 
 impl Force {
-    fn value(&self, at: Instant<'_>) -> Vector2<f64> {
-        let [a, b] = self
-            .components
-            .each_ref()
-            .map(|c| c.value(at.time, at.inputs));
+    fn value<N: Number>(&self, at: Instant<'_, N>) -> Vector2<N> {
+        let [a, b] = self.components.each_ref().map(|c| c.value(at));
         if !self.follower {
             return Vector2::new(a, b);
         }
-        let u = self.marker.direction(at.x).normalize();
+        let u = self.marker.lift().direction(at.x).normalize();
         u * a + left(u) * b
     }
 
-    pub(super) fn add_force(&self, at: Instant<'_>, f: &mut [Node<4>]) {
-        self.marker.add_force(self.value(at), Vector2::zeros(), f);
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
+        let force = self.value(at);
+        self.marker.lift().add_force(force, Vector2::zeros(), f);
     }
 
     /// The force follows the direction: `d force = left(force) (u x du) / u.u`; the symmetric part.
@@ -66,8 +65,8 @@ impl Force {
         }
     }
 
-    pub(super) fn power(&self, at: Instant<'_>) -> f64 {
-        self.value(at).dot(&self.marker.position(at.v))
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> N {
+        self.value(at).dot(&self.marker.lift().position(at.v))
     }
 
     pub(super) fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {

@@ -2,6 +2,7 @@
 
 use super::{Add, Instant};
 use crate::body::{Node, left};
+use crate::math::jet::Number;
 use crate::system::end::End;
 
 /// A rotational spring and a damper in parallel between two directions.
@@ -20,23 +21,24 @@ pub struct Rotational {
 }
 
 impl Rotational {
-    fn turn(&self, at: Instant<'_>) -> f64 {
-        at.angles.0[self.angle].value(at.x, at.angles.1[self.angle]) - self.rest
+    fn turn<N: Number>(&self, at: Instant<'_, N>) -> N {
+        at.angles.0[self.angle].value(at.x, at.angles.1[self.angle]) - N::of(self.rest)
     }
 
-    fn rate(&self, at: Instant<'_>) -> f64 {
-        self.ends[1].spin(at.x, at.v) - self.ends[0].spin(at.x, at.v)
+    fn rate<N: Number>(&self, at: Instant<'_, N>) -> N {
+        let [a, b] = self.ends.map(|end| end.lift().spin(at.x, at.v));
+        b - a
     }
 
     /// Moment on the second end, N m.
-    pub fn moment(&self, at: Instant<'_>) -> f64 {
-        -self.stiffness * self.turn(at) - self.damping * self.rate(at)
+    pub fn moment<N: Number>(&self, at: Instant<'_, N>) -> N {
+        -N::of(self.stiffness) * self.turn(at) - N::of(self.damping) * self.rate(at)
     }
 
-    pub(super) fn add_force(&self, at: Instant<'_>, f: &mut [Node<4>]) {
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
         let moment = self.moment(at);
-        self.ends[1].add_moment(moment, at.x, f);
-        self.ends[0].add_moment(-moment, at.x, f);
+        self.ends[1].lift().add_moment(moment, at.x, f);
+        self.ends[0].lift().add_moment(-moment, at.x, f);
     }
 
     pub(super) fn add_tangent(&self, at: Instant<'_>, stiffness: Add<'_>, damping: Add<'_>) {
@@ -59,13 +61,13 @@ impl Rotational {
         }
     }
 
-    pub(super) fn dissipation(&self, at: Instant<'_>) -> f64 {
+    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, N>) -> N {
         let rate = self.rate(at);
-        self.damping * rate * rate
+        N::of(self.damping) * rate * rate
     }
 
-    pub(super) fn energy(&self, at: Instant<'_>) -> f64 {
+    pub(super) fn energy<N: Number>(&self, at: Instant<'_, N>) -> N {
         let turn = self.turn(at);
-        0.5 * self.stiffness * turn * turn
+        N::of(0.5 * self.stiffness) * turn * turn
     }
 }

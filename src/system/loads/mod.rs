@@ -17,6 +17,7 @@ use super::PlanarChain;
 use super::end::{Angle, End};
 use super::signal::Signal;
 use crate::body::{Node, NodeBlock};
+use crate::math::jet::Number;
 
 /// What acts.
 #[derive(Clone, Debug)]
@@ -35,19 +36,21 @@ pub enum Load {
 
 /// Time, inputs and state as loads see them.
 #[derive(Clone, Copy)]
-pub struct Instant<'a> {
+pub struct Instant<'a, N = f64> {
     /// Time, s.
-    pub time: f64,
-    /// Inputs.
-    pub inputs: &'a [f64],
-    /// Nodal coordinates.
-    pub x: &'a [Node<4>],
+    pub time: N,
+    /// Inputs at this time.
+    pub inputs: &'a [N],
     /// Their rates.
-    pub v: &'a [Node<4>],
+    pub input_rates: &'a [N],
+    /// Nodal coordinates.
+    pub x: &'a [Node<4, N>],
+    /// Their rates.
+    pub v: &'a [Node<4, N>],
     /// Flexible bodies.
     pub chains: &'a [PlanarChain],
     /// Counted angles of the system and their current values, rad.
-    pub angles: (&'a [Angle], &'a [f64]),
+    pub angles: (&'a [Angle], &'a [N]),
 }
 
 /// Adds a block times a factor to a matrix over nodes: row node, column node, block.
@@ -55,7 +58,7 @@ pub type Add<'a> = &'a mut dyn FnMut(usize, usize, &NodeBlock<4>);
 
 impl Load {
     /// Adds its forces.
-    pub fn add_force(&self, at: Instant<'_>, f: &mut [Node<4>]) {
+    pub fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
         match self {
             Self::Force(load) => load.add_force(at, f),
             Self::Moment(load) => load.add_force(at, f),
@@ -78,22 +81,23 @@ impl Load {
     }
 
     /// Power that it supplies from outside and power that it dissipates, W. Springs store.
-    pub fn power(&self, at: Instant<'_>) -> [f64; 2] {
+    pub fn power<N: Number>(&self, at: Instant<'_, N>) -> [N; 2] {
+        let none = N::of(0.0);
         match self {
-            Self::Force(load) => [load.power(at), 0.0],
-            Self::Moment(load) => [load.power(at), 0.0],
-            Self::Distributed(load) => [load.power(at), 0.0],
+            Self::Force(load) => [load.power(at), none],
+            Self::Moment(load) => [load.power(at), none],
+            Self::Distributed(load) => [load.power(at), none],
             Self::Spring(load) => load.power(at),
-            Self::Rotational(load) => [0.0, load.dissipation(at)],
+            Self::Rotational(load) => [none, load.dissipation(at)],
         }
     }
 
     /// Energy that it stores, J.
-    pub fn energy(&self, at: Instant<'_>) -> f64 {
+    pub fn energy<N: Number>(&self, at: Instant<'_, N>) -> N {
         match self {
             Self::Spring(load) => load.energy(at),
             Self::Rotational(load) => load.energy(at),
-            _ => 0.0,
+            _ => N::of(0.0),
         }
     }
 

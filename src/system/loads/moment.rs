@@ -5,6 +5,7 @@ use nalgebra::Matrix2;
 
 use super::{Add, Instant};
 use crate::body::{Node, left};
+use crate::math::jet::Number;
 use crate::system::end::End;
 use crate::system::signal::Signal;
 
@@ -18,14 +19,14 @@ pub struct Moment {
 }
 
 impl Moment {
-    pub(super) fn add_force(&self, at: Instant<'_>, f: &mut [Node<4>]) {
-        let size = self.size.value(at.time, at.inputs);
-        self.ends[1].add_moment(size, at.x, f);
-        self.ends[0].add_moment(-size, at.x, f);
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
+        let size = self.size.value(at);
+        self.ends[1].lift().add_moment(size, at.x, f);
+        self.ends[0].lift().add_moment(-size, at.x, f);
     }
 
     pub(super) fn add_stiffness(&self, at: Instant<'_>, add: Add<'_>) {
-        let size = self.size.value(at.time, at.inputs);
+        let size = self.size.value(at);
         for (end, size) in self.ends.iter().zip([-size, size]) {
             if let End::Body(_) = end {
                 let k = curl(end, at.x) * size;
@@ -36,9 +37,9 @@ impl Moment {
         }
     }
 
-    pub(super) fn power(&self, at: Instant<'_>) -> f64 {
-        let relative = self.ends[1].spin(at.x, at.v) - self.ends[0].spin(at.x, at.v);
-        self.size.value(at.time, at.inputs) * relative
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> N {
+        let [a, b] = self.ends.map(|end| end.lift().spin(at.x, at.v));
+        self.size.value(at) * (b - a)
     }
 
     pub(super) fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {
@@ -46,7 +47,7 @@ impl Moment {
             let (u, v) = (end.direction(before.x), end.direction(after.x));
             u.perp(&v).atan2(u.dot(&v))
         };
-        self.size.value(before.time, before.inputs) * (turn(&self.ends[1]) - turn(&self.ends[0]))
+        self.size.value(before) * (turn(&self.ends[1]) - turn(&self.ends[0]))
     }
 }
 

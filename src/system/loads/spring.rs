@@ -4,6 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::{Add, Instant};
 use crate::body::Node;
+use crate::math::jet::Number;
 use crate::system::end::End;
 use crate::system::signal::Signal;
 
@@ -23,11 +24,13 @@ pub struct Spring {
 impl Spring {
     /// Unit vector from the first end to the second, length, speed of stretching. At length zero no
     /// direction is better than another, and none is taken.
-    fn stretch(&self, at: Instant<'_>) -> (Vector2<f64>, f64, f64) {
-        let [a, b] = &self.ends;
+    fn stretch<N: Number>(&self, at: Instant<'_, N>) -> (Vector2<N>, N, N) {
+        let [a, b] = self.ends.map(|end| end.lift());
         let d = b.position(at.x) - a.position(at.x);
-        let length = d.norm();
-        let unit = if length > 0.0 { d / length } else { d };
+        let square = d.norm_squared();
+        let is_open = square > N::of(0.0);
+        let length = if is_open { square.sqrt() } else { square };
+        let unit = if is_open { d / length } else { d };
         (
             unit,
             length,
@@ -35,21 +38,21 @@ impl Spring {
         )
     }
 
-    fn rest(&self, at: Instant<'_>) -> f64 {
-        self.length.value(at.time, at.inputs)
+    fn rest<N: Number>(&self, at: Instant<'_, N>) -> N {
+        self.length.value(at)
     }
 
     /// Force with which it pulls, N.
-    pub fn tension(&self, at: Instant<'_>) -> f64 {
+    pub fn tension<N: Number>(&self, at: Instant<'_, N>) -> N {
         let (_, length, speed) = self.stretch(at);
-        self.stiffness * (length - self.rest(at)) + self.damping * speed
+        N::of(self.stiffness) * (length - self.rest(at)) + N::of(self.damping) * speed
     }
 
-    pub(super) fn add_force(&self, at: Instant<'_>, f: &mut [Node<4>]) {
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
         let (unit, none) = (self.stretch(at).0, Vector2::zeros());
         let pull = unit * self.tension(at);
-        self.ends[0].add_force(pull, none, f);
-        self.ends[1].add_force(-pull, none, f);
+        self.ends[0].lift().add_force(pull, none, f);
+        self.ends[1].lift().add_force(-pull, none, f);
     }
 
     pub(super) fn add_tangent(&self, at: Instant<'_>, stiffness: Add<'_>, damping: Add<'_>) {
@@ -69,19 +72,15 @@ impl Spring {
     }
 
     /// A rest length that changes does work; the part of the spring itself comes from its energy.
-    pub(super) fn power(&self, at: Instant<'_>) -> [f64; 2] {
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> [N; 2] {
         let speed = self.stretch(at).2;
-        let dissipated = self.damping * speed * speed;
-        let Signal::Function(function) = &self.length else {
-            return [0.0, dissipated];
-        };
-        let [rest, rate, _] = function.derivatives(at.time);
-        let stretch = self.stretch(at).1 - rest;
-        [-self.stiffness * stretch * rate, dissipated]
+        let stretch = self.stretch(at).1 - self.rest(at);
+        let supplied = -N::of(self.stiffness) * stretch * self.length.rate(at);
+        [supplied, N::of(self.damping) * speed * speed]
     }
 
-    pub(super) fn energy(&self, at: Instant<'_>) -> f64 {
+    pub(super) fn energy<N: Number>(&self, at: Instant<'_, N>) -> N {
         let stretch = self.stretch(at).1 - self.rest(at);
-        0.5 * self.stiffness * stretch * stretch
+        N::of(0.5 * self.stiffness) * stretch * stretch
     }
 }

@@ -6,6 +6,7 @@
 //! which is why sums run over three vectors, not four.
 
 use crate::elements::Strain;
+use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point};
 
@@ -162,6 +163,26 @@ pub(super) struct Kernel<N, const C: usize> {
     pub strain: Strain,
     pub is_damped: bool,
     pub bends: bool,
+}
+
+impl<const C: usize> Kernel<f64, C> {
+    /// The same parameters, as constants of another kind of numbers.
+    #[inline(always)]
+    pub fn lift<N: Number>(&self) -> Kernel<N, C> {
+        Kernel {
+            length: N::of(self.length),
+            inverse_length: N::of(self.inverse_length),
+            axial_stiffness: N::of(self.axial_stiffness),
+            bending_stiffness: N::of(self.bending_stiffness),
+            damping_time: N::of(self.damping_time),
+            natural_strain: self.natural_strain.map(N::of),
+            natural_curvature: self.natural_curvature.map(|c| c.map(N::of)),
+            is_slender: self.is_slender,
+            strain: self.strain,
+            is_damped: self.is_damped,
+            bends: self.bends,
+        }
+    }
 }
 
 impl<const C: usize> Kernel<[f64; PACK], C> {

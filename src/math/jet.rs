@@ -1,0 +1,89 @@
+//! Numbers with their first two derivatives along a way, and what formulas need to be written once for
+//! them and for plain numbers.
+
+use nalgebra::{ComplexField, RealField, convert};
+use num_dual::Dual2_64;
+
+use super::lanes::Real;
+
+/// A number with its first and second derivative by one variable.
+pub type Jet = Dual2_64;
+
+/// Numbers that formulas of markers, loads and joints are written for: `f64` and [`Jet`].
+pub trait Number: RealField + Real {
+    /// A constant.
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        convert(value)
+    }
+
+    /// Its value.
+    fn plain(self) -> f64;
+
+    /// The largest size of value and derivatives.
+    fn largest(self) -> f64;
+
+    /// A function of it: `value`, or from `derivatives`, value and first two derivatives.
+    fn map(self, value: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 3]) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn plain(self) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn largest(self) -> f64 {
+        self.abs()
+    }
+
+    #[inline(always)]
+    fn map(self, value: impl Fn(f64) -> f64, _: impl Fn(f64) -> [f64; 3]) -> Self {
+        value(self)
+    }
+}
+
+impl Number for Jet {
+    fn plain(self) -> f64 {
+        self.re
+    }
+
+    fn largest(self) -> f64 {
+        self.re.abs().max(self.v1.abs()).max(self.v2.abs())
+    }
+
+    fn map(self, _: impl Fn(f64) -> f64, derivatives: impl Fn(f64) -> [f64; 3]) -> Self {
+        let [value, first, second] = derivatives(self.re);
+        let curved = first * self.v2 + second * self.v1 * self.v1;
+        Self::new(value, first * self.v1, curved)
+    }
+}
+
+impl Real for Jet {
+    fn constant(self, value: f64) -> Self {
+        Self::from_re(value)
+    }
+
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    fn times_plus(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
+}
+
+/// The value (`order` 0) or a derivative of a number.
+pub fn part(of: Jet, order: usize) -> f64 {
+    [of.re, of.v1, of.v2][order]
+}
+
+/// Sets the value or a derivative.
+pub fn set_part(of: &mut Jet, order: usize, to: f64) {
+    match order {
+        0 => of.re = to,
+        1 => of.v1 = to,
+        _ => of.v2 = to,
+    }
+}

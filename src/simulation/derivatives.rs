@@ -1,0 +1,139 @@
+//! Derivatives: of inputs, which the master knows; of outputs in time; of outputs by inputs.
+
+use super::{Error, Simulation, Source};
+use crate::scene::Initial;
+
+impl Simulation {
+    /// Sets the derivative of order 1 or 2 of an input at the present time. It moves the input in the
+    /// next step, and in that one only.
+    ///
+    /// # Errors
+    /// No input, another order, or not finite; nothing has changed then.
+    pub fn set_input_derivative(
+        &mut self,
+        index: usize,
+        order: i32,
+        value: f64,
+    ) -> Result<(), Error> {
+        self.check_input_derivative(index, order, value)?;
+        self.drop_slopes();
+        self.moving = true;
+        if let Source::Input(place) = self.variables[index].source {
+            self.inputs.slopes[place][order as usize - 1] = value;
+        }
+        if let Some(engine) = &mut self.engine {
+            engine.inputs_changed();
+        }
+        Ok(())
+    }
+
+    /// Whether [`Self::set_input_derivative`] would take this.
+    ///
+    /// # Errors
+    /// Its errors.
+    pub fn check_input_derivative(
+        &self,
+        index: usize,
+        order: i32,
+        value: f64,
+    ) -> Result<(), Error> {
+        if !matches!(self.variable(index)?.source, Source::Input(_)) {
+            return Err(self.refuse(index, "expected an input"));
+        }
+        if !(1..=2).contains(&order) {
+            let found = format!("expected a derivative of order 1 or 2, found {order}");
+            return Err(self.refuse(index, &found));
+        }
+        if !value.is_finite() {
+            return Err(self.refuse(index, &format!("expected a finite number, found {value}")));
+        }
+        Ok(())
+    }
+
+    /// Derivatives of inputs that are not of the next step are of the one before, which has passed.
+    pub(super) fn drop_slopes(&mut self) {
+        if !self.moving {
+            self.inputs.slopes.fill([0.0; 2]);
+        }
+    }
+
+    /// Derivative in time of an output now: exact up to order 2, zero of higher ones. Inputs go on as
+    /// their derivatives say: those that are set, else those of the step before.
+    ///
+    /// # Errors
+    /// No output, or an order below 1.
+    pub fn output_derivative(&mut self, index: usize, order: i32) -> Result<f64, Error> {
+        self.check_output_derivative(index, order)?;
+        let (state, inputs) = (&self.state, &self.inputs);
+        let (Source::Output(quantity), Some(engine), 1..=2) =
+            (self.variables[index].source, &mut self.engine, order)
+        else {
+            return Ok(0.0);
+        };
+        Ok(engine.derivative((index, quantity), order as usize, state, inputs))
+    }
+
+    /// Whether [`Self::output_derivative`] would answer this.
+    ///
+    /// # Errors
+    /// Its errors.
+    pub fn check_output_derivative(&self, index: usize, order: i32) -> Result<(), Error> {
+        if !matches!(self.variable(index)?.source, Source::Output(_)) {
+            return Err(self.refuse(index, "expected an output"));
+        }
+        if order < 1 {
+            let found = format!("expected a derivative of order 1 or more, found {order}");
+            return Err(self.refuse(index, &found));
+        }
+        Ok(())
+    }
+
+    /// Whether the initial state depends on one of these inputs: by static equilibrium, or by motions that
+    /// inputs drive.
+    pub fn start_follows(&self, mut inputs: impl Iterator<Item = usize>) -> bool {
+        let equilibrium = self.scene.initial == Initial::StaticEquilibrium;
+        inputs.any(|index| {
+            let variable = self.variables.get(index);
+            variable.is_some_and(|input| equilibrium || !input.acts_at_once())
+        })
+    }
+
+    /// How `outputs` change with inputs (index, change) at the present time: exact, to first order.
+    ///
+    /// # Errors
+    /// What is no output or no input.
+    pub fn directional_derivative(
+        &mut self,
+        outputs: impl Iterator<Item = usize> + Clone,
+        inputs: impl Iterator<Item = (usize, f64)> + Clone,
+        mut take: impl FnMut(f64),
+    ) -> Result<(), Error> {
+        for (index, _) in inputs.clone() {
+            if !matches!(self.variable(index)?.source, Source::Input(_)) {
+                return Err(self.refuse(index, "expected an input as a known"));
+            }
+        }
+        for index in outputs.clone() {
+            if !matches!(self.variable(index)?.source, Source::Output(_)) {
+                return Err(self.refuse(index, "expected an output as an unknown"));
+            }
+        }
+        self.refresh()?;
+        self.direction.fill(0.0);
+        for (index, change) in inputs {
+            if let Source::Input(place) = self.variables[index].source {
+                self.direction[place] += change;
+            }
+        }
+        let Some(engine) = &mut self.engine else {
+            return Ok(());
+        };
+        engine.differentiate(&self.state, &self.inputs.values, &self.direction);
+        for index in outputs {
+            if let Source::Output(quantity) = self.variables[index].source {
+                take(engine.change((index, quantity), &self.state));
+            }
+        }
+        Ok(())
+    }
+}

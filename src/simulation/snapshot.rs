@@ -1,0 +1,122 @@
+//! Snapshots: what a simulation needs to go on from a point in time.
+
+use super::engine::Engine;
+use super::{Error, Simulation, Source, Variable};
+use crate::system::State;
+
+/// Everything that a simulation needs to go on from a point in time, as plain numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// Current parameters and inputs, one number per variable; 0 for all others.
+    pub values: Vec<f64>,
+    /// Whether the initial state has been computed.
+    pub initialized: bool,
+    /// Whether initialization has ended.
+    pub started: bool,
+    /// Whether the inputs' derivatives below move them in the next step; else they are those of the
+    /// last one.
+    pub moving: bool,
+    /// First and second derivatives of the inputs, in the order of the system.
+    pub slopes: Vec<[f64; 2]>,
+    /// Natural frequencies about the initial configuration, rad/s.
+    pub frequencies: Vec<f64>,
+    /// State of the system.
+    pub state: State,
+}
+
+impl Simulation {
+    /// A copy of everything that changes.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            values: self.values.clone(),
+            initialized: self.engine.is_some() && self.current,
+            started: self.started,
+            moving: self.moving,
+            slopes: self.inputs.slopes.clone(),
+            frequencies: self.frequencies.clone(),
+            state: self.state.clone(),
+        }
+    }
+
+    /// Goes back to a snapshot of a simulation of the same scene.
+    ///
+    /// # Errors
+    /// A snapshot with other sizes, with parameters out of range or with numbers that are not finite;
+    /// nothing has changed then.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        let state = &snapshot.state;
+        let numbers = [
+            &snapshot.values,
+            &snapshot.frequencies,
+            &state.coordinates,
+            &state.rates,
+            &state.angles,
+            &state.travel,
+            state.driven.as_flattened(),
+            snapshot.slopes.as_flattened(),
+            &[state.time, state.step],
+            &state.work,
+        ];
+        if !numbers.into_iter().flatten().all(|x| x.is_finite()) {
+            return Err(Error::Snapshot("expected finite numbers".into()));
+        }
+        if snapshot.started && !snapshot.initialized {
+            return Err(Error::Snapshot(
+                "expected an initial state before the start".into(),
+            ));
+        }
+        let sizes = |values: usize, inputs: usize| format!("{values} variables, {inputs} inputs");
+        let expected = sizes(self.variables.len(), self.inputs.values.len());
+        let found = sizes(snapshot.values.len(), snapshot.slopes.len());
+        if found != expected {
+            let message = format!("expected {expected}, found {found}");
+            return Err(Error::Snapshot(message));
+        }
+        let before = std::mem::replace(&mut self.values, snapshot.values.clone());
+        match self.engine_for(snapshot, &before) {
+            Ok(rebuilt) => {
+                if let Some(engine) = rebuilt {
+                    self.engine = Some(engine);
+                }
+            }
+            Err(error) => {
+                self.values = before;
+                return Err(error);
+            }
+        }
+        self.collect_inputs();
+        self.inputs.slopes.clone_from(&snapshot.slopes);
+        self.moving = snapshot.moving;
+        self.state.clone_from(&snapshot.state);
+        self.frequencies.clone_from(&snapshot.frequencies);
+        self.started = snapshot.started;
+        self.current = snapshot.initialized;
+        if let Some(engine) = &mut self.engine {
+            engine.forget();
+        }
+        Ok(())
+    }
+
+    /// The engine that a snapshot needs, where the present one has other parameters.
+    fn engine_for(&self, snapshot: &Snapshot, before: &[f64]) -> Result<Option<Engine>, Error> {
+        if !snapshot.initialized {
+            return self.parametrized().map(|_| None).map_err(Error::from);
+        }
+        let is_parameter = |v: &Variable| matches!(v.source, Source::Parameter(_));
+        let same = (self.variables.iter().zip(before.iter().zip(&self.values)))
+            .all(|(variable, (a, b))| !is_parameter(variable) || a == b);
+        let rebuilt = match &self.engine {
+            Some(_) if same && self.current => None,
+            _ => Some(Engine::new(&self.parametrized()?, &self.variables)?),
+        };
+        let engine = rebuilt.as_ref().or(self.engine.as_ref());
+        let found = &snapshot.state;
+        if engine.is_some_and(|engine| !engine.fits(found)) {
+            return Err(Error::Snapshot(format!(
+                "expected a state of this scene, found sizes {:?}",
+                found.sizes()
+            )));
+        }
+        Ok(rebuilt)
+    }
+}

@@ -1,0 +1,363 @@
+//! Derivatives of everything that outputs are made of, exact: along the motion by time, or by inputs at a
+//! point in time.
+//!
+//! Forces, constraints and outputs are formulas over numbers of any kind; here they run on numbers with
+//! two derivatives ([`Jet`]). What is linear (`T`, mass, rows) works on one derivative after the other. The
+//! equations of motion differentiated `k` times have the matrix of the ones at hand:
+//! `q_k = f_k - sum_i C(k, i) J_i^T lambda_(k-i)`, `sum_i C(k, i) J_i q_(k-i) = b_k`, where the index counts
+//! derivatives; jerk and snap follow one from the other.
+//!
+//! Source: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 13.
+
+use super::signal::Drive;
+use super::{Evaluation, State, System, Work};
+use crate::body::Node;
+use crate::math::jet::{Jet, Number, part, set_part};
+use crate::math::vector::dot;
+
+/// An evaluation with derivatives, and what it takes to make one.
+#[derive(Clone, Debug)]
+pub struct Derivatives {
+    /// The evaluation: derivatives in time, or the first one along a direction of the inputs.
+    pub values: Evaluation<Jet>,
+    /// Forces on the nodes, but for constraints.
+    f: Vec<Node<4, Jet>>,
+    /// Nodal accelerations of what is driven.
+    driven: Vec<Node<4, Jet>>,
+    /// First and second derivative of generalized accelerations.
+    q: [Vec<f64>; 2],
+    /// One derivative of a nodal vector, and another one.
+    one: Vec<Node<4>>,
+    other: Vec<Node<4>>,
+    borders: Vec<Border>,
+}
+
+/// Derivatives of the constraints of a component.
+#[derive(Clone, Debug)]
+struct Border {
+    /// Rows of the first and second derivative of the Jacobian, one after the other.
+    rows: [Vec<f64>; 2],
+    right: Vec<f64>,
+    /// Multipliers and their derivatives.
+    lambda: [Vec<f64>; 3],
+}
+
+impl Derivatives {
+    /// Storage for a system.
+    pub fn new(system: &System, work: &Work) -> Self {
+        let nodes = vec![[Jet::from_re(0.0); 4]; system.reference.len()];
+        let q = vec![0.0; system.coordinates()];
+        let border = |group: &super::multipliers::Group| {
+            let (count, length) = (group.constraints.len(), group.coordinates.len());
+            let (rows, lambda) = (vec![0.0; count * length], vec![0.0; count]);
+            Border {
+                rows: [rows.clone(), rows],
+                right: lambda.clone(),
+                lambda: [lambda.clone(), lambda.clone(), lambda],
+            }
+        };
+        Self {
+            values: Evaluation::new(system),
+            f: nodes.clone(),
+            driven: nodes,
+            q: [q.clone(), q],
+            one: vec![[0.0; 4]; system.reference.len()],
+            other: vec![[0.0; 4]; system.reference.len()],
+            borders: work.groups.iter().map(border).collect(),
+        }
+    }
+
+    /// First, and with `order` 2 second derivatives in time of what [`Evaluation::dynamics`] has just
+    /// computed with this scratch; inputs move with these derivatives.
+    pub fn in_time(
+        &mut self,
+        system: &System,
+        (plain, state): (&Evaluation, &State),
+        slopes: &[[f64; 2]],
+        order: usize,
+        work: &mut Work,
+    ) {
+        let time = state.time;
+        self.values.time = Jet::new(time, 1.0, 0.0);
+        let slope = |i: usize| slopes.get(i).copied().unwrap_or_default();
+        self.set_inputs(plain, |i| {
+            let [first, second] = slope(i);
+            [[first, second], [second, 0.0]]
+        });
+        let mut courses = system.courses().zip(&state.driven);
+        for ((drive, set), now) in
+            (system.drives.iter().zip(&mut self.values.drives)).zip(&plain.drives)
+        {
+            let [_, _, _, third, fourth] = match drive {
+                Drive::Function(function) => function.orders(time),
+                Drive::Input { .. } => courses.next().map_or([0.0; 5], |(given, driven)| {
+                    let mut orders = *driven;
+                    if given.len() == 3 {
+                        [orders[3], orders[4]] = slope(given.start + 2);
+                    }
+                    orders
+                }),
+            };
+            let [p, v, a] = *now;
+            *set = [
+                Jet::new(p, v, a),
+                Jet::new(v, a, third),
+                Jet::new(a, third, fourth),
+            ];
+        }
+        lift(
+            &mut self.values.x,
+            [&plain.x, &plain.v, &plain.acceleration],
+        );
+        self.one.fill([0.0; 4]);
+        lift(
+            &mut self.values.v,
+            [&plain.v, &plain.acceleration, &self.one],
+        );
+        self.follow(system, plain);
+        for k in 1..=order {
+            if k == 2 {
+                take(&self.values.acceleration, 1, &mut self.one);
+                for (v, jerk) in self.values.v.iter_mut().zip(&self.one) {
+                    v.iter_mut().zip(jerk).for_each(|(v, jerk)| v.v2 = *jerk);
+                }
+            }
+            self.forces(system, true);
+            self.accelerations(system, plain, k, work);
+        }
+        self.supply(system, order);
+    }
+
+    /// Derivatives, of the first order, along a direction of the inputs of what
+    /// [`Evaluation::dynamics`] has just computed with this scratch. Positions and velocities do not
+    /// depend on inputs.
+    pub fn by_inputs(
+        &mut self,
+        system: &System,
+        plain: &Evaluation,
+        direction: &[f64],
+        work: &mut Work,
+    ) {
+        self.values.time = Jet::from_re(plain.time);
+        self.set_inputs(plain, |i| [[direction[i], 0.0], [0.0; 2]]);
+        let mut courses = system.courses();
+        for ((drive, set), now) in
+            (system.drives.iter().zip(&mut self.values.drives)).zip(&plain.drives)
+        {
+            *set = now.map(Jet::from_re);
+            if let Drive::Input { .. } = drive
+                && let Some(given) = courses.next()
+                && given.len() == 3
+            {
+                set[2].v1 = direction[given.start + 2];
+            }
+        }
+        self.one.fill([0.0; 4]);
+        lift(&mut self.values.x, [&plain.x, &self.one, &self.one]);
+        lift(&mut self.values.v, [&plain.v, &self.one, &self.one]);
+        self.follow(system, plain);
+        self.forces(system, false);
+        self.accelerations(system, plain, 1, work);
+        self.supply(system, 1);
+    }
+
+    /// Inputs with derivatives, and their rates with derivatives.
+    fn set_inputs(&mut self, plain: &Evaluation, derivatives: impl Fn(usize) -> [[f64; 2]; 2]) {
+        self.values.inputs.clear();
+        self.values.input_rates.clear();
+        for (i, input) in plain.inputs.iter().enumerate() {
+            let [[first, second], [third, fourth]] = derivatives(i);
+            self.values.inputs.push(Jet::new(*input, first, second));
+            self.values.input_rates.push(Jet::new(first, third, fourth));
+        }
+    }
+
+    /// Angles and slides follow the coordinates.
+    fn follow(&mut self, system: &System, plain: &Evaluation) {
+        let values = &mut self.values;
+        for ((set, angle), now) in (values.angles.iter_mut().zip(&system.angles)).zip(&plain.angles)
+        {
+            *set = angle.value(&values.x, Jet::from_re(*now));
+        }
+        for (set, now) in values.travel.iter_mut().zip(&plain.travel) {
+            *set = Jet::from_re(*now);
+        }
+        system.find_travel(&values.x, &mut values.travel);
+    }
+
+    /// Forces on the nodes, but for constraints; without those of elements where nothing moves.
+    fn forces(&mut self, system: &System, elastic: bool) {
+        for (f, weight) in self.f.iter_mut().zip(&system.weight) {
+            *f = weight.map(Jet::from_re);
+        }
+        let values = &self.values;
+        if elastic {
+            for chain in &system.chains {
+                chain.add_force_of(&values.x, &values.v, &mut self.f);
+            }
+        }
+        let at = values.instant(system);
+        for load in &system.loads {
+            load.add_force(at, &mut self.f);
+        }
+        if system.rotation != 0.0 {
+            let rate = system.rotation;
+            for order in 0..3 {
+                take(&values.x, order, &mut self.one);
+                self.other.fill([0.0; 4]);
+                system.add_inertia(rate * rate, &self.one, &mut self.other);
+                take(&values.v, order, &mut self.one);
+                for v in &mut self.one {
+                    *v = [-v[1], v[0], -v[3], v[2]];
+                }
+                system.add_inertia(-2.0 * rate, &self.one, &mut self.other);
+                add_order(&self.other, order, &mut self.f);
+            }
+        }
+    }
+
+    /// Derivative `k` of accelerations and multipliers from those below.
+    fn accelerations(&mut self, system: &System, plain: &Evaluation, k: usize, work: &mut Work) {
+        take(&self.f, k, &mut self.one);
+        self.driven.fill([Jet::from_re(0.0); 4]);
+        for driven in &system.driven {
+            let [_, _, second] = system.linear[driven.row]
+                .target
+                .derivatives(&self.values.drives);
+            for (node, c) in &driven.inertia {
+                for i in 0..4 {
+                    self.one[*node][i] -= c[i] * part(second, k);
+                }
+            }
+            for (node, c) in &driven.follow {
+                for i in 0..4 {
+                    self.driven[*node][i] += second * Jet::of(c[i]);
+                }
+            }
+        }
+        let q = &mut self.q[k - 1];
+        system.elimination.reduce(&self.one, &mut work.y, q);
+        if !system.constraints.is_empty() {
+            self.constrain(system, k, work);
+        }
+        let (elimination, q) = (&system.elimination, &self.q[k - 1]);
+        elimination.expand(q, &mut work.y, &mut self.other);
+        let accelerations = self.values.acceleration.iter_mut().zip(&plain.acceleration);
+        for ((a, plain), (moved, driven)) in accelerations.zip(self.other.iter().zip(&self.driven))
+        {
+            for i in 0..4 {
+                a[i].re = plain[i];
+                set_part(&mut a[i], k, moved[i] + part(driven[i], k));
+            }
+        }
+    }
+
+    /// Takes what constraints ask for out of derivative `k` of the accelerations.
+    fn constrain(&mut self, system: &System, k: usize, work: &mut Work) {
+        let mut multiplied = std::mem::take(&mut self.values.lambda);
+        let mut groups = std::mem::take(&mut work.groups);
+        let view = self.values.view(system);
+        for (group, border) in groups.iter_mut().zip(&mut self.borders) {
+            border.lambda[0].copy_from_slice(&group.lambda);
+            let (range, n) = (group.coordinates.clone(), group.coordinates.len());
+            border.rows.iter_mut().for_each(|rows| rows.fill(0.0));
+            for (i, constraint) in system.constraints[group.constraints.clone()]
+                .iter()
+                .enumerate()
+            {
+                let mut right = -constraint.bias(&view);
+                constraint.gradient(&view).for_each(|node, term| {
+                    for (term, driven) in term.iter().zip(&self.driven[node]) {
+                        right -= *term * *driven;
+                    }
+                    for (order, rows) in border.rows.iter_mut().enumerate() {
+                        let term = term.map(|term| part(term, order + 1));
+                        let row = &mut rows[i * n..(i + 1) * n];
+                        let assembly = &system.elimination.assembly;
+                        assembly.gather_node(node, &term, range.start, row);
+                    }
+                });
+                border.right[i] = part(right, k);
+            }
+            for row in border
+                .rows
+                .iter_mut()
+                .flat_map(|rows| rows.chunks_exact_mut(n))
+            {
+                system.elimination.project_component(group.component, row);
+            }
+            let (low, high) = self.q.split_at_mut(k - 1);
+            let a = &mut high[0][range.clone()];
+            // Order of the Jacobian, how often it counts, and the acceleration that goes with it.
+            let first = (0, k as f64, if k == 1 { &work.a[..] } else { &low[0][..] });
+            let second = (1, if k == 1 { 0.0 } else { 1.0 }, &work.a[..]);
+            for (order, times, below) in [first, second] {
+                let multipliers = &border.lambda[k - 1 - order.min(k - 1)];
+                for (i, row) in border.rows[order].chunks_exact(n).enumerate() {
+                    border.right[i] -= times * dot(row, &below[range.clone()]);
+                    let force = times * multipliers[i];
+                    a.iter_mut().zip(row).for_each(|(a, row)| *a -= force * row);
+                }
+            }
+            group.rows.take_out(a);
+            group.rows.add_least(&border.right, a);
+            group.rows.multipliers(&mut border.lambda[k]);
+            for (i, number) in group.constraints.clone().enumerate() {
+                let value = &mut multiplied[number];
+                value.re = border.lambda[0][i];
+                set_part(value, k, border.lambda[k][i]);
+            }
+        }
+        work.groups = groups;
+        self.values.lambda = multiplied;
+    }
+
+    /// Forces that linear constraints supply.
+    fn supply(&mut self, system: &System, order: usize) {
+        for (supply, f) in self.values.supply.iter_mut().zip(&self.f) {
+            *supply = f.map(|f| -f);
+        }
+        for k in 0..=order {
+            take(&self.values.acceleration, k, &mut self.one);
+            self.other.fill([0.0; 4]);
+            system.add_inertia(1.0, &self.one, &mut self.other);
+            add_order(&self.other, k, &mut self.values.supply);
+        }
+        let mut supply = std::mem::take(&mut self.values.supply);
+        let view = self.values.view(system);
+        for (constraint, lambda) in system.constraints.iter().zip(&self.values.lambda) {
+            constraint.gradient(&view).for_each(|node, term| {
+                for (supply, term) in supply[node].iter_mut().zip(term) {
+                    *supply += *term * *lambda;
+                }
+            });
+        }
+        self.values.supply = supply;
+    }
+}
+
+/// Numbers from their values and derivatives.
+fn lift(to: &mut [Node<4, Jet>], orders: [&[Node<4>]; 3]) {
+    for (node, to) in to.iter_mut().enumerate() {
+        *to = std::array::from_fn(|i| {
+            let [value, first, second] = orders.map(|order| order[node][i]);
+            Jet::new(value, first, second)
+        });
+    }
+}
+
+/// One derivative of a nodal vector.
+fn take(from: &[Node<4, Jet>], order: usize, to: &mut [Node<4>]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = from.map(|number| part(number, order));
+    }
+}
+
+/// Adds to one derivative of a nodal vector.
+fn add_order(from: &[Node<4>], order: usize, to: &mut [Node<4, Jet>]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        for (to, from) in to.iter_mut().zip(from) {
+            set_part(to, order, part(*to, order) + from);
+        }
+    }
+}
