@@ -201,8 +201,10 @@ fn inputs(variables: &[Variable]) -> String {
         ""
     };
     let note = format!(
-        "<p>An input keeps its value during a communication step and may jump between two.\
-         {motions}</p>\n"
+        "<p>An input keeps its value during a communication step and may jump between two. With \
+         derivatives of order 1 and 2 (<code>fmi2SetRealInputDerivatives</code>; they belong to the \
+         beginning of the step) it moves along the line or parabola in the next step, in that one \
+         only, and stands where it ended until it is set again.{motions}</p>\n"
     );
     table(
         "Inputs",
@@ -213,8 +215,9 @@ fn inputs(variables: &[Variable]) -> String {
 }
 
 fn outputs(variables: &[Variable]) -> String {
+    let follows_inputs = |output: &Variable| variables.iter().any(|v| output.depends_on(v));
     let rows = variables.iter().filter_map(|variable| {
-        let follows = match (Causality::of(variable), variable.depends_on_inputs()) {
+        let follows = match (Causality::of(variable), follows_inputs(variable)) {
             (Causality::Output, true) => "state and inputs",
             (Causality::Output, false) => "state",
             (Causality::CalculatedParameter, _) => "parameters",
@@ -254,6 +257,9 @@ fn usage(scene: &Scene) -> String {
          <li><strong>Parameters</strong> may be set until initialization ends, the number of \
          elements included. <strong>Inputs</strong> may be set then and between steps; outputs \
          answer to new inputs at once.</li>\n\
+         <li><strong>Derivatives</strong> of outputs in time, of order 1 and 2, and directional \
+         derivatives of outputs by inputs are exact at every communication point and disturb \
+         nothing. Higher orders are answered by zero.</li>\n\
          <li><strong>A state</strong> can be saved, restored and serialized at any time between \
          two calls; the simulation goes on from it bit for bit. Bytes that are damaged, or of \
          another model, are refused.</li>\n\

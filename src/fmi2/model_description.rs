@@ -48,17 +48,23 @@ fn write_all(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     Ok(())
 }
 
-/// Only what is true is stated; the rest keeps the schema's default, false.
+/// All capabilities, those too that have the schema's default: what is not offered is said.
 fn co_simulation(xml: &mut Xml) -> io::Result<()> {
     let flags = [
-        "canHandleVariableCommunicationStepSize",
-        "canNotUseMemoryManagementFunctions",
-        "canGetAndSetFMUstate",
-        "canSerializeFMUstate",
+        ("modelIdentifier", MODEL_IDENTIFIER),
+        ("needsExecutionTool", "false"),
+        ("canHandleVariableCommunicationStepSize", "true"),
+        ("canInterpolateInputs", "true"),
+        ("maxOutputDerivativeOrder", "2"),
+        ("canRunAsynchronuously", "false"),
+        ("canBeInstantiatedOnlyOncePerProcess", "false"),
+        ("canNotUseMemoryManagementFunctions", "true"),
+        ("canGetAndSetFMUstate", "true"),
+        ("canSerializeFMUstate", "true"),
+        ("providesDirectionalDerivative", "true"),
     ];
     xml.create_element("CoSimulation")
-        .with_attribute(("modelIdentifier", MODEL_IDENTIFIER))
-        .with_attributes(flags.map(|flag| (flag, "true")))
+        .with_attributes(flags)
         .write_empty()?;
     Ok(())
 }
@@ -199,8 +205,8 @@ pub(super) fn limits(variable: &Variable) -> (Option<f64>, Option<f64>) {
 }
 
 /// Outputs with what they depend on: state-like ones on no input, so that masters see no loop
-/// where there is none; those with direct feedthrough on all inputs that act at once. A driven motion
-/// does not: it moves in the next step. An initial unknown without
+/// where there is none; those with direct feedthrough on the inputs that act on them at once. Positions and
+/// rates of a driven motion do not: they move in the next step. An initial unknown without
 /// `dependencies` depends on everything, which is true after a change of any parameter.
 fn model_structure(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
     let of = |causality: Causality| -> Vec<usize> {
@@ -212,17 +218,18 @@ fn model_structure(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
     };
     // The standard counts ScalarVariables from 1 here.
     let index = |reference: &usize| (reference + 1).to_string();
-    let (loads, outputs) = (of(Causality::Input), of(Causality::Output));
-    let loads = loads.iter().filter(|i| variables[**i].acts_at_once());
-    let inputs: Vec<String> = loads.map(index).collect();
-    let inputs = inputs.join(" ");
+    let (inputs, outputs) = (of(Causality::Input), of(Causality::Output));
+    let dependencies = |output: usize| -> String {
+        let on = |input: &&usize| variables[output].depends_on(&variables[**input]);
+        let on: Vec<String> = inputs.iter().filter(on).map(index).collect();
+        on.join(" ")
+    };
     let mut unknowns = [outputs.clone(), of(Causality::CalculatedParameter)].concat();
     unknowns.sort_unstable();
     xml.create_element("ModelStructure")
         .write_inner_content(|xml| {
             list(xml, "Outputs", &outputs, |output| {
-                let feedthrough = variables[output].depends_on_inputs();
-                Some(if feedthrough { inputs.as_str() } else { "" })
+                Some(dependencies(output))
             })?;
             list(xml, "InitialUnknowns", &unknowns, |_| None)
         })?;
@@ -230,11 +237,11 @@ fn model_structure(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
 }
 
 /// A list of unknowns; an empty one is left out, as the schema wants.
-fn list<'a>(
+fn list(
     xml: &mut Xml,
     name: &str,
     unknowns: &[usize],
-    dependencies: impl Fn(usize) -> Option<&'a str>,
+    dependencies: impl Fn(usize) -> Option<String>,
 ) -> io::Result<()> {
     if unknowns.is_empty() {
         return Ok(());
@@ -245,7 +252,7 @@ fn list<'a>(
                 .create_element("Unknown")
                 .with_attribute(("index", (unknown + 1).to_string().as_str()));
             if let Some(dependencies) = dependencies(*unknown) {
-                element = element.with_attribute(("dependencies", dependencies));
+                element = element.with_attribute(("dependencies", dependencies.as_str()));
             }
             element.write_empty()?;
         }
@@ -280,23 +287,19 @@ mod tests {
     }
 
     #[test]
-    fn only_outputs_with_feedthrough_depend_on_inputs() {
+    fn outputs_depend_on_the_inputs_that_act_on_them_at_once() {
         let scene = example();
         let list = variables(&scene);
         let text = model_description(&scene);
-        let inputs: Vec<String> = (1..=list.len())
-            .filter(|index| list[index - 1].acts_at_once())
-            .map(|index| index.to_string())
-            .collect();
         for (reference, variable) in list.iter().enumerate() {
             if Causality::of(variable) != Causality::Output {
                 continue;
             }
-            let on = if variable.depends_on_inputs() {
-                inputs.join(" ")
-            } else {
-                String::new()
-            };
+            let on: Vec<String> = (1..=list.len())
+                .filter(|index| variable.depends_on(&list[index - 1]))
+                .map(|index| index.to_string())
+                .collect();
+            let on = on.join(" ");
             let line = format!(
                 "<Unknown index=\"{}\" dependencies=\"{on}\"/>",
                 reference + 1

@@ -67,6 +67,9 @@ fn add_load(list: &mut List, scene: &Scene, input: &Input, first: usize) {
         );
     }
     list.mark_direct(before);
+    for variable in &mut list.0[before..] {
+        variable.sets_length = input.kind == InputKind::RestLength;
+    }
 }
 
 /// Keys, meanings and units of a motion and its derivatives.
@@ -119,7 +122,12 @@ fn add_motion(
                 ),
                 MotionKind::Angle | MotionKind::Displacement => (name, what),
             };
+            let place = list.0.len();
             list.add(name, what, Some(unit), source, Some(start));
+            // Positions and rates go on from where they are; an acceleration may jump.
+            if order == 2 {
+                list.mark_direct(place);
+            }
         }
     }
 }

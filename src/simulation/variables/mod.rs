@@ -30,6 +30,8 @@ pub struct Variable {
     /// Of an input: whether it acts at once, as loads do; a driven motion moves in the next step. Of
     /// an output: whether it follows at once from such inputs.
     pub is_direct: bool,
+    /// Whether it is an input that sets the length of a spring, and with it the energy in there.
+    pub sets_length: bool,
 }
 
 /// What a variable stands for.
@@ -143,9 +145,14 @@ impl Variable {
         matches!(self.source, Source::Parameter(Parameter::Elements(_)))
     }
 
-    /// Whether it is an output that follows at once from inputs that act at once (direct feedthrough).
-    pub fn depends_on_inputs(&self) -> bool {
-        matches!(self.source, Source::Output(_)) && self.is_direct
+    /// Whether it is an output that follows at once from this input (direct feedthrough). Energy follows
+    /// from nothing but the lengths of springs.
+    pub fn depends_on(&self, input: &Self) -> bool {
+        let Source::Output(quantity) = self.source else {
+            return false;
+        };
+        let energy = matches!(quantity, Quantity::SpringEnergy | Quantity::Input);
+        self.is_direct && input.acts_at_once() && (!energy || input.sets_length)
     }
 
     /// Whether it is an input that acts at once.
@@ -204,6 +211,7 @@ impl List {
             source,
             start,
             is_direct: false,
+            sets_length: false,
         });
     }
 

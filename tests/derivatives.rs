@@ -1,0 +1,253 @@
+//! Derivatives of every output of the ready scenes, against differences: in time along the motion, and
+//! by every input at a point in time. Inputs move as polynomials whose derivatives the master knows.
+
+use std::path::{Path, PathBuf};
+
+use flexbody::scene::{Body, Initial, Scene};
+use flexbody::simulation::{Simulation, Source};
+
+/// Steps before derivatives are taken, and their length, s.
+const STEPS: usize = 20;
+const STEP: f64 = 5e-3;
+/// Distance of the points of a difference in time, s.
+const NEAR: f64 = 2e-5;
+
+/// Every ready scene, and those of the tests with every kind of input and output.
+fn scenes() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let listed = std::fs::read_dir(root.join("scenes")).expect("the ready scenes");
+    let mut found: Vec<PathBuf> = listed
+        .map(|entry| entry.expect("a file").path())
+        .filter(|path| !path.to_string_lossy().contains("schema"))
+        .collect();
+    found.extend(["mechanism.json", "swing.json"].map(|name| root.join("tests/fmpy").join(name)));
+    found.sort();
+    assert!(found.len() > 10, "{found:?}");
+    found
+}
+
+/// A scene whose inputs move: `value + rate t + second t^2 / 2` for each.
+struct Moving {
+    simulation: Simulation,
+    inputs: Vec<(usize, [f64; 3])>,
+}
+
+impl Moving {
+    fn new(path: &Path) -> Self {
+        let text = std::fs::read_to_string(path).expect("a readable scene");
+        let mut scene = Scene::from_json(&text).expect("a valid scene");
+        scene.accuracy.relative_tolerance = 1e-10;
+        // Soft enough for differences over a time that rounding does not notice.
+        scene.initial = Initial::AsShaped;
+        for body in &mut scene.bodies {
+            if let Body::Cable(cable) = body {
+                cable.material.youngs_modulus *= 1e-4;
+            }
+        }
+        let mut simulation = Simulation::new(scene);
+        let inputs = courses(&simulation);
+        for (index, [value, ..]) in &inputs {
+            simulation.set_real(*index, *value).expect("an input");
+        }
+        simulation.initialize(0.0).expect("an initial state");
+        simulation.start().expect("a start");
+        let mut moving = Self { simulation, inputs };
+        (1..=STEPS).for_each(|k| moving.advance(STEP * k as f64));
+        moving
+    }
+
+    fn set(&mut self) {
+        let t = self.simulation.time();
+        for (index, [value, rate, second]) in &self.inputs {
+            let simulation = &mut self.simulation;
+            let now = value + t * (rate + 0.5 * t * second);
+            let set = simulation.set_real(*index, now);
+            set.expect("an input");
+            let slopes = [rate + t * second, *second];
+            for (order, slope) in slopes.into_iter().enumerate() {
+                let set = simulation.set_input_derivative(*index, order as i32 + 1, slope);
+                set.expect("an input");
+            }
+        }
+    }
+
+    fn advance(&mut self, until: f64) {
+        self.set();
+        self.simulation.step(until).expect("a step");
+    }
+
+    fn outputs(&self) -> Vec<usize> {
+        let variables = self.simulation.variables().iter().enumerate();
+        variables
+            .filter(|(_, v)| {
+                matches!(v.source, Source::Output(_)) && !v.name.starts_with("residual")
+            })
+            .map(|(index, _)| index)
+            .collect()
+    }
+
+    fn values(&mut self, outputs: &[usize]) -> Vec<f64> {
+        let value = |index: &usize| self.simulation.real(*index).expect("an output");
+        outputs.iter().map(value).collect()
+    }
+
+    /// Whether inputs drive motions.
+    fn is_driven(&self) -> bool {
+        let variables = self.simulation.variables();
+        self.inputs
+            .iter()
+            .any(|(index, _)| !variables[*index].acts_at_once())
+    }
+
+    fn name(&self, index: usize) -> &str {
+        &self.simulation.variables()[index].name
+    }
+}
+
+/// How inputs move. Motions go on from where they are, with derivatives that fit.
+fn courses(simulation: &Simulation) -> Vec<(usize, [f64; 3])> {
+    let variables = simulation.variables();
+    let mut number = 0.0;
+    let mut found = Vec::new();
+    for (index, variable) in variables.iter().enumerate() {
+        if !matches!(variable.source, Source::Input(_)) {
+            continue;
+        }
+        number += 1.0;
+        let start = variable.start.unwrap_or(0.0);
+        let size = if start == 0.0 { 0.3 } else { 0.02 * start };
+        let course = [start, size * (1.0 + 0.1 * number), -size * number];
+        let (stem, axis) = variable
+            .name
+            .split_once('[')
+            .unwrap_or((&variable.name, ""));
+        // Rates and accelerations of motions are those of the position, angle or displacement.
+        let below = [
+            (".velocity", ".position", 1),
+            (".velocity", ".displacement", 1),
+            (".angular_velocity", ".angle", 1),
+            (".acceleration", ".position", 2),
+            (".acceleration", ".displacement", 2),
+            (".angular_acceleration", ".angle", 2),
+        ];
+        let of = below.into_iter().find_map(|(suffix, below, order)| {
+            let name = format!("{}{below}", stem.strip_suffix(suffix)?);
+            let full = if axis.is_empty() {
+                name
+            } else {
+                format!("{name}[{axis}")
+            };
+            let place = found
+                .iter()
+                .find(|(i, _): &&(usize, _)| variables[*i].name == full)?;
+            let [_, rate, second]: [f64; 3] = place.1;
+            Some(if order == 1 {
+                [rate, second, 0.0]
+            } else {
+                [second, 0.0, 0.0]
+            })
+        });
+        found.push((index, of.unwrap_or(course)));
+    }
+    found
+}
+
+#[test]
+fn derivatives_in_time_are_those_of_the_motion() {
+    for path in scenes() {
+        let mut moving = Moving::new(&path);
+        let outputs = moving.outputs();
+        let start = moving.simulation.time();
+        let mut rows = Vec::new();
+        for k in 1..=5 {
+            moving.advance(start + NEAR * f64::from(k));
+            let values = moving.values(&outputs);
+            let mut derivatives = |order| -> Vec<f64> {
+                let simulation = &mut moving.simulation;
+                let of = |index: &usize| simulation.output_derivative(*index, order);
+                let of = outputs.iter().map(of);
+                of.collect::<Result<_, _>>().expect("outputs")
+            };
+            rows.push([values, derivatives(1), derivatives(2), derivatives(3)]);
+        }
+        // A course that is made anew in every one of so short steps amplifies rounding, most of all in
+        // its fourth derivative.
+        let (share, coarse) = if moving.is_driven() {
+            (5e-3, [1e4, 1e9])
+        } else {
+            (1e-4, [1.0; 2])
+        };
+        for (i, index) in outputs.iter().enumerate() {
+            let place = format!("{} {}", path.display(), moving.name(*index));
+            for order in 1..=2 {
+                let y = |k: usize| rows[k][order - 1][i];
+                let difference = (y(0) - 8.0 * y(1) + 8.0 * y(3) - y(4)) / (12.0 * NEAR);
+                let found = rows[2][order][i];
+                let noise = 1e-12 * (1e-1 + y(2).abs()) / NEAR;
+                let limit = share * difference.abs() + coarse[order - 1] * noise;
+                let error = (found - difference).abs();
+                assert!(
+                    error <= limit,
+                    "{place}, order {order}: {found}, {difference}"
+                );
+            }
+            assert_eq!(rows[2][3][i], 0.0);
+        }
+    }
+}
+
+#[test]
+fn derivatives_by_inputs_are_what_outputs_do_when_inputs_jump() {
+    for path in scenes() {
+        let mut moving = Moving::new(&path);
+        moving.set();
+        let outputs = moving.outputs();
+        let before = moving.simulation.snapshot();
+        for (index, [value, ..]) in moving.inputs.clone() {
+            let variable = moving.simulation.variables()[index].clone();
+            let mut found = Vec::new();
+            let known = std::iter::once((index, 1.0));
+            let unknown = outputs.iter().copied();
+            let done = moving
+                .simulation
+                .directional_derivative(unknown, known, |x| found.push(x));
+            done.expect("inputs and outputs");
+            assert_eq!(
+                moving.simulation.snapshot(),
+                before,
+                "the state is disturbed"
+            );
+            let way = 1e-3 * value.abs().max(1.0);
+            let now = moving.simulation.real(index).expect("an input");
+            let mut side = |sign: f64| {
+                let set = moving.simulation.set_real(index, now + sign * way);
+                set.expect("an input");
+                let values = moving.values(&outputs);
+                moving.simulation.restore(&before).expect("its own state");
+                values
+            };
+            let (low, high) = (side(-1.0), side(1.0));
+            for (i, output) in outputs.iter().enumerate() {
+                let slope = (high[i] - low[i]) / (2.0 * way);
+                let size = (high[i].abs() + 1.0) / way;
+                let place = format!(
+                    "{} {} by {}",
+                    path.display(),
+                    moving.name(*output),
+                    variable.name
+                );
+                let error = (slope - found[i]).abs();
+                assert!(
+                    error <= 1e-9 * slope.abs() + 3e-12 * size,
+                    "{place}: {} {slope}",
+                    found[i]
+                );
+                let listed = &moving.simulation.variables()[*output];
+                assert!(
+                    found[i] == 0.0 || listed.depends_on(&variable),
+                    "{place} is not listed"
+                );
+            }
+        }
+    }
+}
