@@ -80,6 +80,11 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
         self.elements.iter().map(Element::length).sum()
     }
 
+    /// Reference length of element `j`, m.
+    pub fn element_length(&self, j: usize) -> f64 {
+        self.elements[j].length()
+    }
+
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
         let of_element = |e: &E| e.weight()[0] + e.weight()[2];

@@ -31,6 +31,7 @@ use super::logger::{Logger, Sink};
 use super::state::SavedState;
 use super::status::Fault;
 pub use super::status::Status;
+use super::status::{CO_SIMULATION, LAST_SUCCESSFUL_TIME, TERMINATED};
 
 /// `fmi2Component`.
 pub type Component = *mut c_void;
@@ -61,13 +62,6 @@ pub struct CallbackFunctions {
     /// Passed back to the logger as it is.
     pub component_environment: *mut c_void,
 }
-
-/// `fmi2CoSimulation` of `fmi2Type`.
-const CO_SIMULATION: c_int = 1;
-/// `fmi2LastSuccessfulTime` of `fmi2StatusKind`.
-const LAST_SUCCESSFUL_TIME: c_int = 2;
-/// `fmi2Terminated` of `fmi2StatusKind`.
-const TERMINATED: c_int = 3;
 
 /// The guard of every function on an instance.
 unsafe fn guard(
@@ -266,60 +260,41 @@ transitions! {
     fmi2CancelStep: CancelStep, |_| Ok(());
 }
 
-/// Functions that read variables of one type.
-macro_rules! getters {
-    ($($name:ident: $function:ident, $type:ty, $body:expr;)*) => {$(
+/// Functions that read or set variables of one type.
+macro_rules! accessors {
+    ($($name:ident: $function:ident, $pointer:ty, $lent:ident -> $slice:ty, $body:expr;)*) => {$(
         #[doc = concat!("`", stringify!($name), "`.")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(
             c: Component,
             vr: *const c_uint,
             nvr: size_t,
-            value: *mut $type,
+            value: $pointer,
         ) -> Status {
-            let body: fn(&mut Instance, &[u32], &mut [MaybeUninit<$type>]) -> _ = $body;
+            let body: fn(&mut Instance, &[u32], $slice) -> _ = $body;
             // SAFETY: module contract, for both arrays and the instance.
             unsafe {
-                let (vr, value) = (lent("vr", vr, nvr), lent_mut("value", value, nvr));
+                let (vr, value) = (lent("vr", vr, nvr), $lent("value", value, nvr));
                 guard(c, Function::$function, |instance| body(instance, vr?, value?))
             }
         }
     )*};
 }
 
-getters! {
-    fmi2GetReal: GetReal, f64, Instance::get_real;
-    fmi2GetInteger: GetInteger, c_int, Instance::get_integer;
-    fmi2GetBoolean: GetBoolean, c_int, |instance, vr, _| instance.no_such_type(vr, "Boolean");
-    fmi2GetString: GetString, *const c_char, |instance, vr, _| instance.no_such_type(vr, "String");
-}
-
-/// Functions that set variables of one type.
-macro_rules! setters {
-    ($($name:ident: $function:ident, $type:ty, $body:expr;)*) => {$(
-        #[doc = concat!("`", stringify!($name), "`.")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(
-            c: Component,
-            vr: *const c_uint,
-            nvr: size_t,
-            value: *const $type,
-        ) -> Status {
-            let body: fn(&mut Instance, &[u32], &[$type]) -> _ = $body;
-            // SAFETY: module contract, for both arrays and the instance.
-            unsafe {
-                let (vr, value) = (lent("vr", vr, nvr), lent("value", value, nvr));
-                guard(c, Function::$function, |instance| body(instance, vr?, value?))
-            }
-        }
-    )*};
-}
-
-setters! {
-    fmi2SetReal: SetReal, f64, Instance::set_real;
-    fmi2SetInteger: SetInteger, c_int, Instance::set_integer;
-    fmi2SetBoolean: SetBoolean, c_int, |instance, vr, _| instance.no_such_type(vr, "Boolean");
-    fmi2SetString: SetString, *const c_char, |instance, vr, _| instance.no_such_type(vr, "String");
+accessors! {
+    fmi2GetReal: GetReal, *mut f64, lent_mut -> &mut [MaybeUninit<f64>], Instance::get_real;
+    fmi2GetInteger: GetInteger, *mut c_int, lent_mut -> &mut [MaybeUninit<c_int>],
+        Instance::get_integer;
+    fmi2GetBoolean: GetBoolean, *mut c_int, lent_mut -> &mut [MaybeUninit<c_int>],
+        |instance, vr, _| instance.no_such_type(vr, "Boolean");
+    fmi2GetString: GetString, *mut *const c_char, lent_mut -> &mut [MaybeUninit<*const c_char>],
+        |instance, vr, _| instance.no_such_type(vr, "String");
+    fmi2SetReal: SetReal, *const f64, lent -> &[f64], Instance::set_real;
+    fmi2SetInteger: SetInteger, *const c_int, lent -> &[c_int], Instance::set_integer;
+    fmi2SetBoolean: SetBoolean, *const c_int, lent -> &[c_int],
+        |instance, vr, _| instance.no_such_type(vr, "Boolean");
+    fmi2SetString: SetString, *const *const c_char, lent -> &[*const c_char],
+        |instance, vr, _| instance.no_such_type(vr, "String");
 }
 
 /// `fmi2GetFMUstate`.
@@ -443,40 +418,33 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     }
 }
 
-/// `fmi2SetRealInputDerivatives`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
-    c: Component,
-    vr: *const c_uint,
-    nvr: size_t,
-    order: *const c_int,
-    value: *const f64,
-) -> Status {
-    // SAFETY: module contract, for all arrays and the instance.
-    unsafe {
-        guard(c, Function::SetRealInputDerivatives, |instance| {
-            let (vr, value) = (lent("vr", vr, nvr)?, lent("value", value, nvr)?);
-            instance.set_input_derivatives(vr, lent("order", order, nvr)?, value)
-        })
-    }
+/// Functions for derivatives of variables in time.
+macro_rules! derivatives {
+    ($($name:ident: $function:ident, $value:ty, $lent:ident, $body:expr;)*) => {$(
+        #[doc = concat!("`", stringify!($name), "`.")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            c: Component,
+            vr: *const c_uint,
+            nvr: size_t,
+            order: *const c_int,
+            value: $value,
+        ) -> Status {
+            // SAFETY: module contract, for all arrays and the instance.
+            unsafe {
+                let (vr, order) = (lent("vr", vr, nvr), lent("order", order, nvr));
+                let value = $lent("value", value, nvr);
+                guard(c, Function::$function, |instance| $body(instance, vr?, order?, value?))
+            }
+        }
+    )*};
 }
 
-/// `fmi2GetRealOutputDerivatives`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
-    c: Component,
-    vr: *const c_uint,
-    nvr: size_t,
-    order: *const c_int,
-    value: *mut f64,
-) -> Status {
-    // SAFETY: module contract, for all arrays and the instance.
-    unsafe {
-        guard(c, Function::GetRealOutputDerivatives, |instance| {
-            let (vr, value) = (lent("vr", vr, nvr)?, lent_mut("value", value, nvr)?);
-            instance.get_output_derivatives(vr, lent("order", order, nvr)?, value)
-        })
-    }
+derivatives! {
+    fmi2SetRealInputDerivatives: SetRealInputDerivatives, *const f64, lent,
+        Instance::set_input_derivatives;
+    fmi2GetRealOutputDerivatives: GetRealOutputDerivatives, *mut f64, lent_mut,
+        Instance::get_output_derivatives;
 }
 
 /// `fmi2DoStep`.
@@ -488,12 +456,9 @@ pub unsafe extern "C" fn fmi2DoStep(
     _noSetFMUStatePriorToCurrentPoint: c_int,
 ) -> Status {
     let (current, step) = (currentCommunicationPoint, communicationStepSize);
+    let body = |instance: &mut Instance| instance.do_step(current, step);
     // SAFETY: module contract.
-    unsafe {
-        guard(c, Function::DoStep, |instance| {
-            instance.do_step(current, step)
-        })
-    }
+    unsafe { guard(c, Function::DoStep, body) }
 }
 
 /// Functions that ask for a status of one type.

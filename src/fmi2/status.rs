@@ -2,6 +2,13 @@
 
 use crate::simulation::{self, StepFailure};
 
+/// `fmi2CoSimulation` of `fmi2Type`.
+pub(super) const CO_SIMULATION: i32 = 1;
+/// `fmi2LastSuccessfulTime` of `fmi2StatusKind`.
+pub(super) const LAST_SUCCESSFUL_TIME: i32 = 2;
+/// `fmi2Terminated` of `fmi2StatusKind`.
+pub(super) const TERMINATED: i32 = 3;
+
 /// `fmi2Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]

@@ -22,13 +22,7 @@ impl Instance {
         }
         for (reference, value) in references.iter().zip(values) {
             let found = self.simulation.real(*reference as usize)?;
-            if !found.is_finite() {
-                let name = self.variable(*reference, REAL)?.name.clone();
-                let reason =
-                    format!("expected a finite number, found {found}: an input is too large");
-                return Err(Fault::Value { name, reason });
-            }
-            value.write(found);
+            value.write(self.answer(*reference, found)?);
         }
         Ok(())
     }
@@ -128,7 +122,8 @@ impl Instance {
         }
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
             let index = *reference as usize;
-            value.write(self.simulation.output_derivative(index, *order)?);
+            let found = self.simulation.output_derivative(index, *order)?;
+            value.write(self.answer(*reference, found)?);
         }
         Ok(())
     }
@@ -161,14 +156,12 @@ impl Instance {
         }
         let outputs = unknowns.iter().map(|reference| *reference as usize);
         let inputs = knowns.iter().map(|reference| *reference as usize);
-        let mut changes = changes.iter_mut();
         let inputs = inputs.zip(seeds.iter().copied());
-        self.simulation
-            .directional_derivative(outputs, inputs, |change| {
-                if let Some(place) = changes.next() {
-                    place.write(change);
-                }
-            })?;
+        self.simulation.differentiate(outputs.clone(), inputs)?;
+        for ((index, reference), change) in outputs.zip(unknowns).zip(changes) {
+            let found = self.simulation.change(index)?;
+            change.write(self.answer(*reference, found)?);
+        }
         Ok(())
     }
 
@@ -181,6 +174,16 @@ impl Instance {
         references
             .iter()
             .try_for_each(|reference| self.variable(*reference, asked).map(drop))
+    }
+
+    /// A value that the master gets; a number that is not finite is no answer.
+    fn answer(&self, reference: u32, found: f64) -> Result<f64, Fault> {
+        if found.is_finite() {
+            return Ok(found);
+        }
+        let name = self.variable(reference, REAL)?.name.clone();
+        let reason = format!("expected a finite number, found {found}: an input is too large");
+        Err(Fault::Value { name, reason })
     }
 
     /// The variable of a value reference, if it has the type that is asked for.

@@ -98,42 +98,44 @@ impl Simulation {
         })
     }
 
-    /// How `outputs` change with inputs (index, change) at the present time: exact, to first order.
+    /// Prepares [`Self::change`] of `outputs` with inputs (index, change) at the present time.
     ///
     /// # Errors
-    /// What is no output or no input.
-    pub fn directional_derivative(
+    /// What is no output or no input; no initial state.
+    pub fn differentiate(
         &mut self,
-        outputs: impl Iterator<Item = usize> + Clone,
-        inputs: impl Iterator<Item = (usize, f64)> + Clone,
-        mut take: impl FnMut(f64),
+        mut outputs: impl Iterator<Item = usize>,
+        inputs: impl Iterator<Item = (usize, f64)>,
     ) -> Result<(), Error> {
-        for (index, _) in inputs.clone() {
-            if !matches!(self.variable(index)?.source, Source::Input(_)) {
-                return Err(self.refuse(index, "expected an input as a known"));
-            }
-        }
-        for index in outputs.clone() {
-            if !matches!(self.variable(index)?.source, Source::Output(_)) {
-                return Err(self.refuse(index, "expected an output as an unknown"));
-            }
-        }
-        self.refresh()?;
         self.direction.fill(0.0);
         for (index, change) in inputs {
-            if let Source::Input(place) = self.variables[index].source {
-                self.direction[place] += change;
+            match self.variable(index)?.source {
+                Source::Input(place) => self.direction[place] += change,
+                _ => return Err(self.refuse(index, "expected an input as a known")),
             }
         }
-        let Some(engine) = &mut self.engine else {
-            return Ok(());
-        };
-        engine.differentiate(&self.state, &self.inputs.values, &self.direction);
-        for index in outputs {
-            if let Source::Output(quantity) = self.variables[index].source {
-                take(engine.change((index, quantity), &self.state));
-            }
+        outputs.try_for_each(|index| match self.variable(index)?.source {
+            Source::Output(_) => Ok(()),
+            _ => Err(self.refuse(index, "expected an output as an unknown")),
+        })?;
+        self.refresh()?;
+        if let Some(engine) = &mut self.engine {
+            engine.differentiate(&self.state, &self.inputs.values, &self.direction);
         }
         Ok(())
+    }
+
+    /// How an output changes along the direction of the last [`Self::differentiate`]: exact, to first
+    /// order. Nothing else may be asked in between.
+    ///
+    /// # Errors
+    /// No output.
+    pub fn change(&mut self, index: usize) -> Result<f64, Error> {
+        let Source::Output(quantity) = self.variable(index)?.source else {
+            return Err(self.refuse(index, "expected an output as an unknown"));
+        };
+        let engine = self.engine.as_mut();
+        let change = engine.map(|engine| engine.change((index, quantity), &self.state));
+        Ok(change.unwrap_or(0.0))
     }
 }

@@ -105,7 +105,7 @@ fn lists_of_imports_are_understood() {
 const OWNERS: [(&str, &[&str]); 13] = [
     ("faer", &["math/"]),
     ("pulp", &["math/lanes.rs"]),
-    ("num_dual", &["math/expression.rs"]),
+    ("num_dual", &["math/expression.rs", "math/jet.rs"]),
     ("serde", &["scene/"]),
     ("serde_json", &["scene/"]),
     ("serde_path_to_error", &["scene/"]),

@@ -5,7 +5,6 @@ use nalgebra::Vector2;
 
 use super::{Gradient, View};
 use crate::body::{Marker, Node, left};
-use crate::elements::Element;
 use crate::math::jet::Number;
 use crate::system::PlanarChain;
 use crate::system::end::End;
@@ -33,8 +32,8 @@ struct Foot<N: Number> {
 
 fn foot<N: Number>(chain: &PlanarChain, length: N, x: &[Node<4, N>]) -> Foot<N> {
     let (part, xi) = chain.find(length.plain());
-    let moving = (length - N::of(length.plain())) / N::of(chain.elements()[part].length());
-    let xi = moving + N::of(xi);
+    let moved = length - N::of(length.plain());
+    let xi = N::of(xi) + moved / N::of(chain.element_length(part));
     Foot {
         marker: Marker::within(0, chain, part, xi),
         bend: chain.bend(part, xi, x),

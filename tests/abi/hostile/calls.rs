@@ -339,15 +339,14 @@ impl Master<'_> {
         let unit = self.unit;
         let (mut name, mut kind) = (c"other".as_ptr(), CO_SIMULATION);
         let (mut guid, mut location) = (unit.guid.as_ptr(), unit.location.as_ptr());
-        match bytes.byte() % 9 {
+        match bytes.byte() % 8 {
             0 => name = ptr::null(),
             1 => name = c"".as_ptr(),
             2 => kind = 0,
             3 => kind = c_int::MIN,
             4 => guid = ptr::null(),
             5 => guid = self.foreign.unit.guid.as_ptr(),
-            6 => location = ptr::null(),
-            7 => location = c"file:///%".as_ptr(),
+            6 => location = c"file:///%".as_ptr(),
             _ => location = c"\xff".as_ptr(),
         }
         self.instance.record.take();

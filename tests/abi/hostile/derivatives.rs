@@ -73,6 +73,7 @@ impl Master<'_> {
         });
         let steep = given.iter().any(|value| value.abs() > 1.0);
         self.memory.shaken |= status == Status::Ok && steep;
+        self.memory.moved |= status == Status::Ok;
     }
 
     pub(super) fn output_derivatives(&mut self, bytes: &mut Bytes<'_>) {

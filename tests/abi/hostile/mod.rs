@@ -41,6 +41,8 @@ struct Memory {
     values: Vec<f64>,
     /// A step under a force beyond all bounds was done: nobody knows what comes.
     shaken: bool,
+    /// Derivatives moved inputs: they are not where they were set.
+    moved: bool,
 }
 
 /// What to expect of values that were accepted.
@@ -152,7 +154,8 @@ impl<'a> Master<'a> {
         assert!(expected.contains(&status), "{place}, not of {expected:?}");
         self.check_lines(function, status, &lines);
         if !(allowed && changes(function, mode, status)) {
-            assert_eq!(self.instance.fingerprint(), before, "changed by {place}");
+            let after = self.instance.fingerprint();
+            assert!(after == before, "changed by {place}");
         }
         status
     }
@@ -197,7 +200,7 @@ impl Drop for Master<'_> {
 fn changes(function: &str, mode: Mode, status: Status) -> bool {
     match function {
         // The initial state is computed when it is read.
-        "fmi2GetReal" => mode == Mode::Initialization,
+        "fmi2GetReal" | "fmi2GetDirectionalDerivative" => mode == Mode::Initialization,
         "fmi2SetFMUstate" | "fmi2SetupExperiment" | "fmi2Terminate" | "fmi2Reset" => {
             status == Status::Ok
         }
@@ -219,6 +222,7 @@ impl Memory {
             stop: None,
             values: starts.collect(),
             shaken: false,
+            moved: false,
         }
     }
 
