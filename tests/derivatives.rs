@@ -250,3 +250,91 @@ fn derivatives_by_inputs_are_what_outputs_do_when_inputs_jump() {
         }
     }
 }
+
+/// A particle of 2 kg pushed by a force input, and one that a motion input drives along x and y.
+const PARTICLE: &str = r#"{ "name": "particle", "dimension": 2,
+  "bodies": [ { "name": "ball", "element": "rigid", "mass": 2.0, "inertia": 0.0, "position": [0.0, 0.0],
+                "markers": { "centre": [0.0, 0.0] } } ],
+  "ACTS": [ WHAT ],
+  "outputs": [ { "kind": "position", "marker": "ball.centre" }, { "kind": "velocity", "marker": "ball.centre" },
+               { "kind": "acceleration", "marker": "ball.centre" } MORE ] }"#;
+
+fn particle(acts: &str, what: &str, more: &str) -> Simulation {
+    let text = PARTICLE
+        .replace("ACTS", acts)
+        .replace("WHAT", what)
+        .replace("MORE", more);
+    let mut simulation = Simulation::new(Scene::from_json(&text).expect("a valid scene"));
+    simulation.initialize(0.0).expect("an initial state");
+    simulation.start().expect("a start");
+    simulation
+}
+
+fn index(simulation: &Simulation, name: &str) -> usize {
+    let found = simulation.variables().iter().position(|v| v.name == name);
+    found.expect(name)
+}
+
+#[test]
+fn inputs_move_in_the_next_step_and_in_that_one_only() {
+    let force = r#"{ "kind": "force", "marker": "ball.centre" }"#;
+    for (rate, second) in [(0.0, 0.0), (3.0, 0.0), (3.0, -8.0)] {
+        let mut ball = particle("inputs", force, "");
+        let [push, place, speed, kick] = ["force", "position", "velocity", "acceleration"]
+            .map(|what| index(&ball, &format!("ball.centre.{what}[1]")));
+        ball.set_real(push, 1.0).expect("an input");
+        for (order, slope) in [(1, rate), (2, second)] {
+            ball.set_input_derivative(push, order, slope)
+                .expect("an input");
+        }
+        let h = 0.5;
+        ball.step(h).expect("a step");
+        let mut get = |index: usize| ball.real(index).expect("a real variable");
+        // Newton's law for the polynomial f = 1 + rate t + second t^2 / 2.
+        let (a, b, c) = (1.0 / 2.0, rate / 2.0, second / 2.0);
+        let v = h * (a + h * (b / 2.0 + h * c / 6.0));
+        let x = h * h * (a / 2.0 + h * (b / 6.0 + h * c / 24.0));
+        let end = 1.0 + h * (rate + 0.5 * h * second);
+        let found = [get(place), get(speed), get(kick), get(push)];
+        for (found, wanted) in found.into_iter().zip([x, v, end / 2.0, end]) {
+            assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+        }
+        let jerk = ball.output_derivative(kick, 1).expect("an output");
+        assert!((jerk - (rate + h * second) / 2.0).abs() < 1e-12, "{jerk}");
+        // Afterwards it stands where it ended.
+        ball.step(2.0 * h).expect("a step");
+        let after = ball.real(speed).expect("an output");
+        assert!((after - v - h * end / 2.0).abs() < 1e-12, "{after}");
+        assert_eq!(ball.real(push).expect("an input"), end);
+        assert_eq!(ball.output_derivative(kick, 1).expect("an output"), 0.0);
+    }
+}
+
+#[test]
+fn a_prescribed_acceleration_acts_on_its_reaction_at_once() {
+    let motion = r#"{ "name": "hand", "kind": "position", "marker": "ball.centre",
+                      "value": { "input": 2 } }"#;
+    let reaction = r#", { "kind": "reaction", "motion": "hand" }"#;
+    let mut ball = particle("motions", motion, reaction);
+    let [speed, kick, force] = [
+        "hand.velocity[1]",
+        "hand.acceleration[1]",
+        "hand.reaction[1]",
+    ]
+    .map(|name| index(&ball, name));
+    ball.set_real(kick, 3.0).expect("an input");
+    assert_eq!(ball.real(force).expect("an output"), 6.0);
+    for (input, mass) in [(kick, 2.0), (speed, 0.0)] {
+        let (outputs, inputs) = (std::iter::once(force), std::iter::once((input, 1.0)));
+        ball.differentiate(outputs, inputs)
+            .expect("an output by an input");
+        assert_eq!(ball.change(force).expect("an output"), mass);
+    }
+    // Force m a, with a = 3 + 2 t: its rate is m 2.
+    ball.set_input_derivative(kick, 1, 2.0).expect("an input");
+    ball.step(0.25).expect("a step");
+    let found = ball.real(force).expect("an output");
+    assert!((found - 2.0 * 3.5).abs() < 1e-10, "{found}");
+    let rate = ball.output_derivative(force, 1).expect("an output");
+    assert!((rate - 4.0).abs() < 1e-10, "{rate}");
+}

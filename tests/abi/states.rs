@@ -49,6 +49,28 @@ fn an_instance_that_did_nothing_else_goes_on_from_the_bytes() {
 }
 
 #[test]
+fn an_instance_without_resources_goes_on_from_the_bytes() {
+    let unit = Unit::new();
+    let instance = travelled(&unit);
+    let bytes = instance.fingerprint();
+    let expected = instance.run(5, 10);
+    let bare = Instance::bare(&unit);
+    // It has no model yet, and says so.
+    assert_eq!(bare.step(0.1, 0.02), Status::Error);
+    assert!(bare.record.last().contains("without fmuResourceLocation"));
+    let state = bare.deserialize(&bytes).expect("bytes of the model");
+    assert_eq!(bare.restore(state), Status::Ok, "{}", bare.record.last());
+    assert_eq!(bare.run(5, 10), expected);
+    bare.free(state);
+    assert_eq!(call!(fmi2Reset, bare.component), Status::Ok);
+    bare.start();
+    // Of another model nothing is taken.
+    let other = Unit::of(&SCENE.replace("9.81", "9.8"));
+    let bare = Instance::bare(&other);
+    assert!(bare.deserialize(&bytes).is_none());
+}
+
+#[test]
 fn a_state_is_used_again_when_it_is_passed_in() {
     let unit = Unit::new();
     let instance = travelled(&unit);

@@ -184,8 +184,18 @@ impl<'a> Instance<'a> {
         Self::with_logging(unit, true)
     }
 
-    /// An instance with logging on or off. The callbacks are gone when this returns.
+    /// An instance with logging on or off.
     pub fn with_logging(unit: &'a Unit, on: bool) -> Self {
+        Self::made(unit, unit.location.as_ptr(), on)
+    }
+
+    /// An instance without resources, which only a saved state brings to life.
+    pub fn bare(unit: &'a Unit) -> Self {
+        Self::made(unit, ptr::null(), true)
+    }
+
+    /// The callbacks are gone when this returns.
+    fn made(unit: &'a Unit, location: *const c_char, on: bool) -> Self {
         let record = Box::<Record>::default();
         let mut callbacks = Box::new(record.callbacks());
         let component = call!(
@@ -193,7 +203,7 @@ impl<'a> Instance<'a> {
             c"instance".as_ptr(),
             CO_SIMULATION,
             unit.guid.as_ptr(),
-            unit.location.as_ptr(),
+            location,
             ptr::from_ref(&*callbacks),
             0,
             c_int::from(on),
@@ -240,10 +250,13 @@ impl<'a> Instance<'a> {
 
     /// An instance in a state.
     pub fn in_state(unit: &'a Unit, state: State) -> Self {
-        let instance = Self::new(unit);
+        let instance = match state {
+            State::Bare => Self::bare(unit),
+            _ => Self::new(unit),
+        };
         let c = instance.component;
         match state {
-            State::Instantiated => {}
+            State::Instantiated | State::Bare => {}
             State::Initialization => {
                 assert_eq!(call!(fmi2EnterInitializationMode, c), Status::Ok);
             }
@@ -261,7 +274,6 @@ impl<'a> Instance<'a> {
                 assert_eq!(instance.set_elements(1), Status::Ok);
                 assert_eq!(call!(fmi2EnterInitializationMode, c), Status::Error);
             }
-            State::Bare => unreachable!("made without a unit"),
             State::Fatal => unreachable!("only a defect of the library leads there"),
         }
         instance.record.take();

@@ -67,7 +67,9 @@ def callbacks(environment, memory):
 class Instance:
     """An instance that records what it logs; a context manager that frees it."""
 
-    def __init__(self, fmu, *, name="instance", guid=None, folder=None, logging=True, memory=True):
+    def __init__(
+        self, fmu, *, name="instance", guid=None, folder=None, logging=True, memory=True, resources=True
+    ):
         self.fmu = fmu
         self.messages = []
         self.key = next(KEYS)
@@ -78,6 +80,9 @@ class Instance:
             modelIdentifier=fmu.description.coSimulation.modelIdentifier,
             instanceName=name,
         )
+        if not resources:
+            make = self.slave.fmi2Instantiate
+            self.slave.fmi2Instantiate = lambda name, kind, guid, _, *rest: make(name, kind, guid, None, *rest)
         try:
             self.slave.instantiate(callbacks=callbacks(self.key, memory), loggingOn=logging)
         except Exception as error:
