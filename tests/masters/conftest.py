@@ -24,11 +24,11 @@ class Systems:
         self.ends = {}
 
     def read(self, name):
-        return json.loads((HERE / "scenes" / f"{name}.json").read_text(encoding="utf-8"))
+        return json.loads((HERE / "systems" / f"{name}.json").read_text(encoding="utf-8"))
 
     def scene(self, unit, change=None):
         """The scene of a unit, with some keys replaced, or left out where null replaces them."""
-        scene = json.loads((HERE / "scenes" / unit["scene"]).read_text(encoding="utf-8"))
+        scene = json.loads((HERE / "systems" / unit["scene"]).read_text(encoding="utf-8"))
         scene = {**scene, **unit.get("change", {}), **(change or {})}
         return {key: value for key, value in scene.items() if value is not None}
 

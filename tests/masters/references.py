@@ -70,3 +70,42 @@ def roots(function, count, step):
             found.append(low)
         left = right
     return found
+
+
+def cut_pendulum(
+    *, length, mass, gravity, stiffness, damping, rotational_stiffness, rotational_damping, stop, steps=3000
+):
+    """Tip of two rigid rods on a pin, let go from the horizontal, joined by springs and dampers between their
+    ends and between their angles: Newton-Euler equations in absolute coordinates, by Runge-Kutta steps of
+    order 4."""
+
+    def along(angle):
+        return length * np.array([np.cos(angle), np.sin(angle)])
+
+    def across(angle):
+        return length * np.array([-np.sin(angle), np.cos(angle)])
+
+    def cross(a, b):
+        return a[0] * b[1] - a[1] * b[0]
+
+    def rates(state):
+        (upper, upper_rate, lower, lower_rate), centre, speed = state[:4], state[4:6], state[6:]
+        gap = along(upper) + 0.5 * along(lower) - centre
+        gap_rate = upper_rate * across(upper) + 0.5 * lower_rate * across(lower) - speed
+        force = stiffness * gap + damping * gap_rate
+        moment = rotational_stiffness * (upper - lower) + rotational_damping * (upper_rate - lower_rate)
+        weight = mass * gravity * np.array([0.0, -1.0])
+        upper_moment = cross(0.5 * along(upper), weight) - cross(along(upper), force) - moment
+        lower_moment = cross(-0.5 * along(lower), force) + moment
+        turning = mass * length**2 * np.array([1 / 3, 1 / 12])
+        head = [upper_rate, upper_moment / turning[0], lower_rate, lower_moment / turning[1]]
+        return np.concatenate([head, speed, (force + weight) / mass])
+
+    state, step = np.array([0.0, 0.0, 0.0, 0.0, 1.5 * length, 0.0, 0.0, 0.0]), stop / steps
+    for _ in range(steps):
+        a = rates(state)
+        b = rates(state + 0.5 * step * a)
+        c = rates(state + 0.5 * step * b)
+        d = rates(state + step * c)
+        state = state + step / 6 * (a + 2 * b + 2 * c + d)
+    return state[4:6] + 0.5 * along(state[2])
