@@ -106,11 +106,16 @@ def structure(system, folder):
 
 def libcosimpy_fixed(system, folder):
     """Open Simulation Platform, fixed step: Jacobi."""
-    return libcosimpy(system, None)
+    return at_end(system, libcosimpy(system, None))
 
 
 def libcosimpy_ecco(system, folder):
     """Open Simulation Platform, ECCO: steps chosen by the power that bonds lose."""
+    return at_end(system, libcosimpy(system, ecco(system)))
+
+
+def ecco(system):
+    """ECCO with a tenth of the greatest step to begin with."""
     from libcosimpy.CosimAlgorithm import CosimAlgorithm, EccoParams
 
     step = system["step"]
@@ -126,10 +131,11 @@ def libcosimpy_ecco(system, folder):
         p_gain=0.2,
         i_gain=0.15,
     )
-    return libcosimpy(system, CosimAlgorithm.create_ecco_algorithm(parameters))
+    return CosimAlgorithm.create_ecco_algorithm(parameters)
 
 
 def libcosimpy(system, algorithm):
+    """Times, s, and values of every output, after every step."""
     from libcosimpy._internal import get_last_error_message
     from libcosimpy.CosimEnums import CosimVariableType
     from libcosimpy.CosimExecution import CosimExecution
@@ -177,20 +183,26 @@ def libcosimpy(system, algorithm):
     for path in watched:
         succeed(observer.start_time_series(*variable(path), CosimVariableType.REAL))
     succeed(execution.simulate_until(round(system["stop"] * NANOSECONDS)))
-    samples = [observer.time_series_real_samples(*variable(path), 1, 100000) for path in system["outputs"]]
-    return [at_end(system, *sample) for sample in samples]
+    series = []
+    for path in system["outputs"]:
+        times, steps, values = observer.time_series_real_samples(*variable(path), 1, 100000)
+        count = max(index for index, step in enumerate(steps) if step) + 1
+        series.append(([time / NANOSECONDS for time in times[:count]], values[:count]))
+    return series
 
 
-def at_end(system, times, steps, values):
-    """The value at the end: ECCO's last step may go beyond it."""
-    count = max(index for index, step in enumerate(steps) if step) + 1
-    end = system["stop"] * NANOSECONDS
-    for index in range(1, count):
-        if times[index] >= end - 1:
+def at_end(system, series):
+    """Values at the end: ECCO's last step may go beyond it."""
+    return [value_at(system["stop"], times, values) for times, values in series]
+
+
+def value_at(end, times, values):
+    for index in range(1, len(times)):
+        if times[index] >= end - 1 / NANOSECONDS:
             before, after = times[index - 1], times[index]
             share = (end - before) / (after - before)
             return values[index - 1] + share * (values[index] - values[index - 1])
-    raise RuntimeError(f"expected samples until {end} ns, found them until {times[count - 1]} ns")
+    raise RuntimeError(f"expected samples until {end} s, found them until {times[-1]} s")
 
 
 def ecospy_local(system, folder):
