@@ -155,6 +155,78 @@ impl Instance {
     pub fn restore(&mut self) -> Result<(), String> {
         call!(fmi2SetFMUstate, self.component, self.state)
     }
+
+    /// `fmi2SerializeFMUstate` of the state saved last; how many bytes it has.
+    pub fn serialize(&self, bytes: &mut Vec<u8>) -> Result<(), String> {
+        let mut size = 0;
+        call!(
+            fmi2SerializedFMUstateSize,
+            self.component,
+            self.state,
+            &raw mut size
+        )?;
+        bytes.resize(size, 0);
+        let target = bytes.as_mut_ptr().cast();
+        call!(
+            fmi2SerializeFMUstate,
+            self.component,
+            self.state,
+            target,
+            size
+        )
+    }
+
+    /// `fmi2DeSerializeFMUstate` in place of the state saved last.
+    pub fn deserialize(&mut self, bytes: &[u8]) -> Result<(), String> {
+        call!(fmi2FreeFMUstate, self.component, &raw mut self.state)?;
+        call!(
+            fmi2DeSerializeFMUstate,
+            self.component,
+            bytes.as_ptr().cast(),
+            bytes.len(),
+            &raw mut self.state
+        )
+    }
+
+    /// `fmi2GetRealOutputDerivatives` of one order.
+    pub fn derivatives(
+        &self,
+        references: &[u32],
+        order: i32,
+        values: &mut [f64],
+    ) -> Result<(), String> {
+        let (orders, count) = (
+            vec![order; references.len()],
+            references.len().min(values.len()),
+        );
+        call!(
+            fmi2GetRealOutputDerivatives,
+            self.component,
+            references.as_ptr(),
+            count,
+            orders.as_ptr(),
+            values.as_mut_ptr()
+        )
+    }
+
+    /// `fmi2GetDirectionalDerivative` of outputs by one input.
+    pub fn directional(
+        &self,
+        outputs: &[u32],
+        input: u32,
+        values: &mut [f64],
+    ) -> Result<(), String> {
+        call!(
+            fmi2GetDirectionalDerivative,
+            self.component,
+            outputs.as_ptr(),
+            outputs.len().min(values.len()),
+            &raw const input,
+            1,
+            [1.0].as_ptr(),
+            values.as_mut_ptr()
+        )
+    }
 }
 
 impl Drop for Instance {

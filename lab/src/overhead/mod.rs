@@ -34,7 +34,11 @@ pub struct Overhead {
 /// Measures and prints the report: CPU times, s.
 pub fn overhead(arguments: &Overhead) -> Result<(), String> {
     let scene = read(&arguments.scene, &[])?;
-    let report = json!({ "start": start(&scene)?, "step": step(&scene)? });
+    let report = json!({
+        "start": start(&scene)?,
+        "step": step(&scene)?,
+        "state": state(&scene)?,
+    });
     println!("{report:#}");
     Ok(())
 }
@@ -91,7 +95,6 @@ fn step(scene: &Scene) -> Result<Value, String> {
     scene.method.integrator = Integrator::Rk4;
     let unit = Unit::new(&scene)?;
     let [stepped, exchanged] = [begun(&unit)?, begun(&unit)?];
-    let mut saved = begun(&unit)?;
     let Start {
         scene,
         assembled,
@@ -115,7 +118,7 @@ fn step(scene: &Scene) -> Result<Value, String> {
     let outputs = &unit.outputs[..READ.min(unit.outputs.len())];
     let mut values = vec![0.0; outputs.len()];
     let count = ((BATCH / each(100, |i| solve(STEP * (i + 1) as f64))?) as usize).max(20);
-    let mut all: Vec<[f64; 6]> = Vec::new();
+    let mut all: Vec<[f64; 4]> = Vec::new();
     for round in 0..ROUNDS {
         let time = |i: usize| STEP * (round * count + i) as f64;
         let alone = each(count, |i| solve(STEP * (101 + round * count + i) as f64))?;
@@ -125,16 +128,7 @@ fn step(scene: &Scene) -> Result<Value, String> {
             exchanged.step(time(i), STEP)?;
             exchanged.get(outputs, &mut values)
         })?;
-        let save = each(count, |_| saved.save())?;
-        let restore = each(count, |_| saved.restore())?;
-        all.push([
-            alone,
-            step - alone,
-            exchange - step,
-            exchange - alone,
-            save,
-            restore,
-        ]);
+        all.push([alone, step - alone, exchange - step, exchange - alone]);
     }
     let of = |part: usize| median(all.iter().map(|times| times[part]).collect());
     Ok(json!({
@@ -142,10 +136,58 @@ fn step(scene: &Scene) -> Result<Value, String> {
         "step": of(1),
         "exchange": of(2),
         "outside": of(3),
-        "save": of(4),
-        "restore": of(5),
         "inputs": inputs.len(),
         "outputs": outputs.len(),
+    }))
+}
+
+/// CPU times of what masters do between steps, s, and the size of a state, bytes.
+fn state(scene: &Scene) -> Result<Value, String> {
+    let unit = Unit::new(scene)?;
+    let mut instance = begun(&unit)?;
+    let (mut bytes, mut values) = (Vec::new(), vec![0.0; unit.outputs.len()]);
+    instance.save()?;
+    instance.serialize(&mut bytes)?;
+    let count = 100;
+    let mut all: Vec<[f64; 7]> = Vec::new();
+    for round in 0..ROUNDS {
+        let save = each(count, |_| instance.save())?;
+        let restore = each(count, |_| instance.restore())?;
+        let serialize = each(count, |_| instance.serialize(&mut bytes))?;
+        let deserialize = each(count, |_| instance.deserialize(&bytes))?;
+        let input = unit.inputs[0];
+        let directional = each(count, |_| {
+            instance.directional(&unit.outputs, input, &mut values)
+        })?;
+        let mut order = |order: i32| {
+            each(count, |i| {
+                // Another input: nothing is left from the call before.
+                let value = (round * count + i) as f64 * 1e-9;
+                instance.set(&unit.inputs[..1], &[value])?;
+                instance.derivatives(&unit.outputs, order, &mut values)
+            })
+        };
+        let (first, second) = (order(1)?, order(2)?);
+        all.push([
+            save,
+            restore,
+            serialize,
+            deserialize,
+            directional,
+            first,
+            second,
+        ]);
+    }
+    let of = |part: usize| median(all.iter().map(|times| times[part]).collect());
+    Ok(json!({
+        "save": of(0),
+        "restore": of(1),
+        "serialize": of(2),
+        "deserialize": of(3),
+        "directional": of(4),
+        "first": of(5),
+        "second": of(6),
+        "bytes": bytes.len(),
     }))
 }
 

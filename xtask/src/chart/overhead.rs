@@ -22,13 +22,21 @@ const START: [(&str, &str); 6] = [
     ("whole", "all"),
 ];
 /// Parts of a step.
-const STEP: [(&str, &str); 6] = [
+const STEP: [(&str, &str); 4] = [
     ("solver", "solver, one step of rk4"),
     ("step", "rest of `fmi2DoStep`"),
     ("exchange", "set 2, get 12"),
     ("outside", "outside the solver"),
+];
+/// What masters do between steps.
+const STATE: [(&str, &str); 7] = [
     ("save", "get state"),
     ("restore", "set state"),
+    ("serialize", "serialize"),
+    ("deserialize", "deserialize"),
+    ("directional", "12 directional derivatives"),
+    ("first", "12 first derivatives"),
+    ("second", "12 second derivatives"),
 ];
 
 /// Times of one scene, s.
@@ -37,6 +45,8 @@ struct Row {
     elements: u32,
     start: [f64; START.len()],
     step: [f64; STEP.len()],
+    state: [f64; STATE.len()],
+    bytes: f64,
 }
 
 impl Row {
@@ -58,6 +68,8 @@ pub fn chart(bench: &Bench) -> Result<String> {
             elements,
             start: times(&report["start"], &START)?,
             step: times(&report["step"], &STEP)?,
+            state: times(&report["state"], &STATE)?,
+            bytes: times(&report["state"], &[("bytes", "")])?[0],
         });
     }
     write(bench, &rows)?;
@@ -99,13 +111,22 @@ fn times<const N: usize>(report: &Value, parts: &[(&str, &str); N]) -> Result<[f
 }
 
 fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
-    let parts = || START.iter().chain(&STEP).map(|(key, _)| format!("{key}_s"));
-    let header: Vec<String> = ["body".to_owned()].into_iter().chain(parts()).collect();
+    let parts = || {
+        START
+            .iter()
+            .chain(&STEP)
+            .chain(&STATE)
+            .map(|(key, _)| format!("{key}_s"))
+    };
+    let ends = |first: String, last: String, inner: Vec<String>| -> Vec<String> {
+        [vec![first], inner, vec![last]].concat()
+    };
+    let header = ends("body".into(), "bytes".into(), parts().collect());
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let cells = |row: &Row| {
-        let times = row.start.iter().chain(&row.step);
+        let times = row.start.iter().chain(&row.step).chain(&row.state);
         let times = times.map(|time| format!("{time:.3e}"));
-        [row.name()].into_iter().chain(times).collect()
+        ends(row.name(), format!("{}", row.bytes), times.collect())
     };
     let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
     page::write_csv(&bench.output("overhead.csv"), &header, &cells)?;
@@ -129,7 +150,13 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
             title: "At every step".into(),
             x: Axis::counts("elements", &MESHES),
             y: Axis::log("CPU time / µs"),
-            lines: lines(&STEP, [0, 3, 4, 5], |row, part| 1e6 * row.step[part]),
+            lines: lines(&STEP, [0, 1, 2, 3], |row, part| 1e6 * row.step[part]),
+        },
+        Panel {
+            title: "Between steps".into(),
+            x: Axis::counts("elements", &MESHES),
+            y: Axis::log("CPU time / µs"),
+            lines: lines(&STATE, [1, 2, 4, 6], |row, part| 1e6 * row.state[part]),
         },
     ];
     draw(&bench.output("overhead.svg"), &panels)
@@ -168,6 +195,10 @@ fn section(rows: &[Row]) -> String {
         let found = of(elements).map_or(f64::NAN, |row| row.step[part]);
         three_digits(1e6 * found)
     };
+    let between = |elements: u32, parts: &[usize]| {
+        let sum = |row: &Row| parts.iter().map(|part| row.state[*part]).sum();
+        three_digits(1e6 * of(elements).map_or(f64::NAN, sum))
+    };
     format!(
         "\
 ## overhead: what a unit costs besides its solver
@@ -183,15 +214,25 @@ Start:
 Every step:
 
 {}
+Between steps, as masters do that go back; derivatives of all twelve outputs by a force, and in time:
+
+{}
 **What it means.** A unit of 100 elements stands ready {} ms after a master asks for it, one of 1000 after {} ms. `fmi2DoStep` adds {} µs to the solver with a rigid body and {} µs with 1 element (with more it is lost in scatter). Setting two inputs and reading twelve outputs takes {} µs with 1 element. With more, outputs cost what it takes to compute them, nodes from coordinates and sums over elements: {} µs with 100 elements. Only what is read is computed.
+A state of 100 elements is taken and set in {} µs; as bytes it has {}, and making them and reading them takes {} µs, of which most is their checksum. Exact derivatives by an input take {} µs for the twelve outputs, second ones in time {} µs.
 ",
         table(rows, &START, |row| row.start, ("ms", 1e3)),
         table(rows, &STEP, |row| row.step, ("µs", 1e6)),
+        table(rows, &STATE, |row| row.state, ("µs", 1e6)),
         start(100),
         start(1000),
         outside(0, 1),
         outside(1, 1),
         outside(1, 2),
         outside(100, 2),
+        between(100, &[0, 1]),
+        of(100).map_or(f64::NAN, |row| row.bytes),
+        between(100, &[2, 3]),
+        between(100, &[4]),
+        between(100, &[6]),
     )
 }
