@@ -55,7 +55,7 @@ impl Master<'_> {
             59 => drop(self.call("fmi2CancelStep", ERROR, |c| call!(fmi2CancelStep, c))),
             60..62 => self.status(bytes),
             62 => self.refused_instance(bytes),
-            _ => self.new_instance(),
+            _ => self.new_instance(bytes),
         }
     }
 
@@ -327,10 +327,16 @@ impl Master<'_> {
     }
 
     /// The instance ends, with the states that belong to it, and another takes its place.
-    fn new_instance(&mut self) {
+    fn new_instance(&mut self, bytes: &mut Bytes<'_>) {
         self.free_all();
-        self.instance = Instance::new(self.unit);
         self.memory = Memory::new(self.unit);
+        self.instance = match bytes.once_in(2) {
+            true => {
+                self.memory.mode = Mode::Bare;
+                Instance::bare(self.unit)
+            }
+            false => Instance::new(self.unit),
+        };
         self.enabled = self.declared.clone();
     }
 
