@@ -1,6 +1,7 @@
-//! Order of the numbers that the master sets: those of the inputs, then those of driven motions.
+//! Order of the numbers that the master sets: those of the inputs, then those of driven motions, then
+//! those of ports.
 
-use super::{Motion, MotionKind, MotionValue, Scene};
+use super::{Motion, MotionKind, MotionValue, Port, Scene};
 
 /// Where inputs and motions find their numbers among all inputs of a system.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -11,6 +12,8 @@ pub struct InputLayout {
     /// numbers of a driven coordinate follow each other: its value, then as many derivatives as are
     /// inputs; then those of the next coordinate of the same motion.
     pub of_motions: Vec<usize>,
+    /// Index of the first number of every port: those of its loads, then those of its motions.
+    pub of_ports: Vec<usize>,
     /// How many numbers there are.
     pub total: usize,
 }
@@ -27,10 +30,17 @@ impl Scene {
         let of_inputs = self.inputs.iter().map(|input| place(input.components()));
         let of_inputs = of_inputs.collect();
         let driven = self.motions.iter().filter_map(Motion::input_count);
-        let of_motions = driven.map(place).collect();
+        let of_motions = driven.map(&mut place).collect();
+        let of_ports = self
+            .ports
+            .iter()
+            .map(Port::input_count)
+            .map(place)
+            .collect();
         InputLayout {
             of_inputs,
             of_motions,
+            of_ports,
             total,
         }
     }

@@ -10,6 +10,7 @@ mod description;
 mod inputs;
 mod marker;
 mod mesh;
+mod ports;
 mod shape;
 mod validate;
 
@@ -17,8 +18,8 @@ pub use assemble::{Assembled, assemble};
 pub use description::{
     Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion, Input,
     InputKind, Integrator, Joint, JointKind, Load, LoadKind, LoadValue, Mass, MasterInput,
-    Material, Method, Motion, MotionKind, MotionValue, Output, OutputKind, RigidBody, Scene,
-    Section, Shape, Strain, Table, Value,
+    Material, Method, Motion, MotionKind, MotionValue, Output, OutputKind, Port, PortKind,
+    RigidBody, Scene, Section, Shape, Strain, Table, Value,
 };
 pub use inputs::InputLayout;
 pub use marker::{At, GROUND, MarkerReference};

@@ -1,7 +1,7 @@
 //! A system with its scratch, integrator and evaluated outputs.
 
 use super::quantities::{Evaluated, marker_of, needs, value};
-use super::variables::{has_rest_length_input, start_inputs};
+use super::variables::{sets_springs, start_inputs};
 use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
 use crate::body::Marker;
 use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
@@ -99,7 +99,7 @@ impl Engine {
             derivatives: None,
             derived: Derived::Nothing,
             frequencies: frequencies.max().unwrap_or(0),
-            sets_springs: has_rest_length_input(scene),
+            sets_springs: sets_springs(scene),
             start: state.ok().map(|state| (inputs, state)),
             evaluation,
             markers,
@@ -158,16 +158,9 @@ impl Engine {
         )
     }
 
-    /// Name of a joint or motion of the system.
+    /// Name of a joint, motion or port that holds something in the system.
     fn name(&self, index: usize) -> &str {
-        let joints = &self.scene.joints;
-        match (joints.get(index), index.checked_sub(joints.len())) {
-            (Some(joint), _) => &joint.name,
-            (None, place) => {
-                let motion = place.and_then(|place| self.scene.motions.get(place));
-                motion.map_or("", |motion| &motion.name)
-            }
-        }
+        self.scene.holder(index).2
     }
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
@@ -214,7 +207,7 @@ impl Engine {
         (report, result.map_err(failure))
     }
 
-    /// Energy in springs whose length inputs may set. Between steps the work in a state is short of it,
+    /// Energy in springs whose length or end inputs may set. Between steps the work in a state is short of it,
     /// so that the work of an input that jumps is counted by the energy it leaves behind.
     fn set_energy(&mut self, state: &State, inputs: &[f64]) -> f64 {
         if !self.sets_springs {

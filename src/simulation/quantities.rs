@@ -38,6 +38,15 @@ pub(super) fn value<N: Number>(
             let [a, b] = ends.map(|end| end.lift().spin(&values.x, &values.v));
             b - a
         }
+        AngularAcceleration(_) => {
+            on(&|m| End::Body(m).spin_rate(&values.x, &values.v, &values.acceleration))
+        }
+        JointAcceleration(joint) => {
+            let rate =
+                |end: End| (end.lift()).spin_rate(&values.x, &values.v, &values.acceleration);
+            let [a, b] = system.joints()[joint].ends.map(rate);
+            b - a
+        }
         Strain(_) => at(&|m| values.strain(system, m).0),
         Curvature(_) => at(&|m| values.strain(system, m).1),
         AxialForce(_) => at(&|m| values.section(system, m).0),
@@ -46,6 +55,10 @@ pub(super) fn value<N: Number>(
         Travel(place) => values.travel[place],
         Reaction(joint, axis) => values.reaction(system, joint).0[axis],
         ReactionMoment(joint) => values.reaction(system, joint).1,
+        MotionForce(joint, axis) => -values.reaction(system, joint).0[axis],
+        MotionMoment(joint) => -values.reaction(system, joint).1,
+        CouplingForce(place, axis) => values.coupling(system, assembled.couplings[place]).0[axis],
+        CouplingMoment(place) => values.coupling(system, assembled.couplings[place]).1,
         KineticEnergy => values.kinetic_energy(system),
         StrainEnergy => values.strain_energy(system),
         GravityEnergy => values.gravity_energy(system),
@@ -63,9 +76,14 @@ pub(super) fn value<N: Number>(
 pub(super) fn needs(quantity: Quantity) -> Evaluated {
     use Quantity::*;
     match quantity {
-        Acceleration(..) | ConnectivityForce(..) | Reaction(..) | ReactionMoment(_) => {
-            Evaluated::Dynamics
-        }
+        Acceleration(..)
+        | AngularAcceleration(_)
+        | JointAcceleration(_)
+        | ConnectivityForce(..)
+        | Reaction(..)
+        | ReactionMoment(_)
+        | MotionForce(..)
+        | MotionMoment(_) => Evaluated::Dynamics,
         Input | Dissipated => Evaluated::Nothing,
         _ => Evaluated::Kinematics,
     }
@@ -79,6 +97,7 @@ pub(super) fn marker_of(quantity: Quantity) -> Option<MarkerReference> {
         | Velocity(at, _)
         | Acceleration(at, _)
         | AngularVelocity(at)
+        | AngularAcceleration(at)
         | Strain(at)
         | Curvature(at)
         | AxialForce(at)

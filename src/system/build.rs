@@ -388,10 +388,13 @@ fn grounded(
     }
     let mut nodes = Vec::new();
     for load in loads {
-        if let Load::Spring(spring) = load
-            && spring.ends.iter().any(|end| end.marker().is_none())
-        {
-            nodes.extend(spring.ends.iter().flat_map(End::nodes));
+        let is_grounded = match load {
+            Load::Spring(spring) => spring.ends.iter().any(|end| end.marker().is_none()),
+            Load::Coupling(_) => true,
+            _ => false,
+        };
+        if is_grounded {
+            nodes.extend(load.ends().iter().flat_map(End::nodes));
         }
     }
     for constraint in nonlinear.iter().filter(|c| c.is_grounded()) {

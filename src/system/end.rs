@@ -53,6 +53,13 @@ impl<N: Number> End<N> {
         u.perp(&self.direction_rate(v)) / u.norm_squared()
     }
 
+    /// Angular acceleration of the direction, rad/s^2, under nodal accelerations `a`.
+    pub fn spin_rate(&self, x: &[Node<4, N>], v: &[Node<4, N>], a: &[Node<4, N>]) -> N {
+        let (u, rate) = (self.direction(x), self.direction_rate(v));
+        let second = u.perp(&self.direction_rate(a));
+        (second - N::of(2.0) * u.dot(&rate) * self.spin(x, v)) / u.norm_squared()
+    }
+
     /// The marker, if it is one.
     pub fn marker(&self) -> Option<&Marker<N>> {
         match self {

@@ -190,6 +190,16 @@ impl<N: Number> Evaluation<N> {
         (force, moment)
     }
 
+    /// Force (N) and moment (N m) of a coupling on what it couples to.
+    pub fn coupling(&self, system: &System, load: usize) -> (Vector2<N>, N) {
+        let at = self.instant(system);
+        match &system.loads[load] {
+            Load::Coupling(coupling) => (coupling.force(at), N::of(0.0)),
+            Load::Turning(coupling) => (Vector2::zeros(), coupling.moment(at)),
+            _ => (Vector2::zeros(), N::of(0.0)),
+        }
+    }
+
     pub(super) fn instant<'a>(&'a self, system: &'a System) -> Instant<'a, N> {
         Instant {
             time: self.time,

@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
 
 use super::joints::{Constraint, ConstraintKind, View};
+use super::loads::{Instant, Load};
 use super::{Dynamics, Model, State, System, Work};
 use crate::body::Node;
 use crate::math::vector::dot;
@@ -46,7 +47,7 @@ impl System {
         self.place(time, &state.coordinates, None, work);
         let mut x = nodes.to_vec();
         self.fit(&mut x, work)?;
-        self.start_hints(&mut state, &x);
+        self.start_hints(&mut state, &x, inputs);
         work.follow(&state);
         self.place(time, &state.coordinates, None, work);
         let missing = difference(&x, &work.x);
@@ -86,9 +87,24 @@ impl System {
     }
 
     /// Where angles and slides are counted from.
-    fn start_hints(&self, state: &mut State, x: &[Node<4>]) {
+    fn start_hints(&self, state: &mut State, x: &[Node<4>], inputs: &[f64]) {
         for (value, angle) in state.angles.iter_mut().zip(&self.angles) {
             *value = angle.value(x, 0.0);
+        }
+        for load in &self.loads {
+            // What a coupling turns along with may have turned fully before.
+            if let Load::Turning(turning) = load {
+                let outside = turning.angle.value(Instant {
+                    time: state.time,
+                    inputs,
+                    input_rates: &[],
+                    x,
+                    v: x,
+                    chains: &self.chains,
+                    angles: (&self.angles, &state.angles),
+                });
+                state.angles[turning.counted] = self.angles[turning.counted].value(x, outside);
+            }
         }
         self.find_slides(x, &mut state.travel);
     }

@@ -4,6 +4,7 @@ mod body;
 mod joint;
 mod load;
 mod output;
+mod port;
 mod strict;
 mod value;
 
@@ -14,6 +15,7 @@ pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Sectio
 pub use joint::{Joint, JointKind, Motion, MotionKind};
 pub use load::{Input, InputKind, Load, LoadKind};
 pub use output::{Output, OutputKind};
+pub use port::{Port, PortKind};
 pub use strict::INNER;
 pub use value::{LoadValue, MasterInput, MotionValue, Table, Value};
 
@@ -51,6 +53,9 @@ pub struct Scene {
     /// Quantities that the master reads.
     #[serde(default)]
     pub outputs: Vec<Output>,
+    /// Markers that the master couples to other units.
+    #[serde(default)]
+    pub ports: Vec<Port>,
     /// Where the simulation starts from.
     #[serde(default)]
     pub initial: Initial,

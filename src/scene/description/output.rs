@@ -42,6 +42,8 @@ pub enum OutputKind {
     Angle,
     /// Rate of the angle, rad/s.
     AngularVelocity,
+    /// Rate of the rate of the angle, rad/s^2.
+    AngularAcceleration,
     /// Axial strain at a marker of a cable, in the strain measure of the body.
     Strain,
     /// Curvature at a marker of a cable, in the strain measure of the body, 1/m.

@@ -8,6 +8,7 @@ mod loads;
 mod method;
 mod motions;
 mod outputs;
+mod ports;
 mod references;
 #[cfg(test)]
 mod tests;
@@ -47,6 +48,7 @@ impl Scene {
         }
         self.validate_inputs()?;
         self.validate_outputs()?;
+        self.validate_ports()?;
         let tolerance = self.accuracy.relative_tolerance;
         if !TOLERANCE.contains(&tolerance) {
             let (least, most) = (TOLERANCE.start(), TOLERANCE.end());
@@ -58,18 +60,20 @@ impl Scene {
         self.validate_method()
     }
 
-    /// Bodies, joints, motions and loads share their names.
+    /// Bodies, joints, motions, loads and ports share their names.
     fn validate_names(&self) -> Result<(), Error> {
         let mut names = BTreeSet::new();
         let bodies = self.bodies.iter().map(|body| body.name());
         let joints = self.joints.iter().map(|joint| joint.name.as_str());
         let motions = self.motions.iter().map(|motion| motion.name.as_str());
         let loads = self.loads.iter().map(|load| load.name.as_str());
+        let ports = self.ports.iter().map(|port| port.name.as_str());
         let named = |list: &'static str| move |(i, name)| (format!("{list}[{i}].name"), name);
         let all = bodies.enumerate().map(named("bodies"));
         let all = all.chain(joints.enumerate().map(named("joints")));
         let all = all.chain(motions.enumerate().map(named("motions")));
-        for (path, text) in all.chain(loads.enumerate().map(named("loads"))) {
+        let all = all.chain(loads.enumerate().map(named("loads")));
+        for (path, text) in all.chain(ports.enumerate().map(named("ports"))) {
             name(&path, text, &mut names)?;
         }
         Ok(())

@@ -21,8 +21,10 @@ impl Output {
         let (must, may): (&[&str], &[&str]) = match self.kind {
             Position | Velocity | Acceleration | Strain | Curvature | AxialForce
             | BendingMoment | ConnectivityForce => (&["marker"], &[]),
-            Angle | AngularVelocity if self.joint.is_some() => (&["joint"], &["marker"]),
-            Angle | AngularVelocity => (&["marker"], &[]),
+            Angle | AngularVelocity | AngularAcceleration if self.joint.is_some() => {
+                (&["joint"], &["marker"])
+            }
+            Angle | AngularVelocity | AngularAcceleration => (&["marker"], &[]),
             Travel => (&["joint"], &[]),
             Reaction | ReactionMoment if self.motion.is_some() => (&["motion"], &["joint"]),
             Reaction | ReactionMoment => (&["joint"], &[]),
@@ -85,7 +87,9 @@ impl Scene {
             OutputKind::Position | OutputKind::Velocity | OutputKind::Acceleration => {
                 self.require_marker(path, name).map(drop)
             }
-            OutputKind::Angle | OutputKind::AngularVelocity => self.require_turning(path, name),
+            OutputKind::Angle | OutputKind::AngularVelocity | OutputKind::AngularAcceleration => {
+                self.require_turning(path, name)
+            }
             _ => self.require_cable_marker(path, name),
         }
     }

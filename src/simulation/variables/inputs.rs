@@ -1,25 +1,51 @@
-//! Inputs: loads, then driven motions.
+//! Inputs: loads, then driven motions, then what comes into ports.
 
 use super::unit::*;
 use super::{AXES, List, Source, Unit, component};
-use crate::scene::{GROUND, Input, InputKind, Joint, Motion, MotionKind, Scene};
+use crate::scene::{GROUND, Input, InputKind, Joint, Motion, MotionKind, Port, Scene};
 
 /// Adds the inputs of a scene.
 pub(super) fn add(list: &mut List, scene: &Scene) {
     let layout = scene.input_layout();
     for (input, first) in scene.inputs.iter().zip(layout.of_inputs) {
-        add_load(list, scene, input, first);
+        add_load(list, scene, input, (None, first));
     }
     let driven = scene.motions.iter().filter_map(|motion| {
         let derivatives = motion.input_derivatives()?;
         Some((motion, derivatives))
     });
     for ((motion, derivatives), first) in driven.zip(layout.of_motions) {
-        add_motion(list, scene, motion, (first, derivatives));
+        add_motion(list, scene, (motion, "drives"), (first, derivatives));
+    }
+    for (port, first) in scene.ports.iter().zip(layout.of_ports) {
+        add_port(list, scene, port, first);
     }
 }
 
-fn add_load(list: &mut List, scene: &Scene, input: &Input, first: usize) {
+/// What comes into a port; a spring and a damper feel it at once.
+fn add_port(list: &mut List, scene: &Scene, port: &Port, mut first: usize) {
+    for input in port.inputs() {
+        add_load(list, scene, &input, (Some(&port.name), first));
+        first += input.components();
+    }
+    let before = list.0.len();
+    let verb = if port.is_coupling() {
+        "pulls"
+    } else {
+        "drives"
+    };
+    for motion in port.motions() {
+        let derivatives = motion.input_derivatives().unwrap_or(0);
+        add_motion(list, scene, (&motion, verb), (first, derivatives));
+        first += motion.input_count().unwrap_or(0);
+    }
+    if port.is_coupling() {
+        list.mark_direct(before);
+    }
+}
+
+/// A load; its variables bear the name of a port or of what it acts on.
+fn add_load(list: &mut List, scene: &Scene, input: &Input, (port, first): (Option<&str>, usize)) {
     let of = |name: &Option<String>| name.clone().unwrap_or_default();
     let (of, key, what, unit) = match input.kind {
         InputKind::Force if input.follower => (
@@ -47,7 +73,7 @@ fn add_load(list: &mut List, scene: &Scene, input: &Input, first: usize) {
     } else {
         ["component x", "component y"]
     };
-    let name = format!("{of}.{key}");
+    let name = format!("{}.{key}", port.unwrap_or(&of));
     let (starts, before) = (scene.input_start(input), list.0.len());
     for (axis, start) in starts.into_iter().enumerate() {
         let (name, suffix) = match input.kind {
@@ -100,7 +126,7 @@ fn orders(kind: MotionKind) -> [(&'static str, &'static str, Unit); 3] {
 fn add_motion(
     list: &mut List,
     scene: &Scene,
-    motion: &Motion,
+    (motion, verb): (&Motion, &str),
     (first, derivatives): (usize, usize),
 ) {
     let starts = start(scene, motion);
@@ -112,7 +138,7 @@ fn add_motion(
         }
         for (axis, start) in starts.iter().enumerate() {
             let name = format!("{}.{key}", motion.name);
-            let what = format!("{what} to which {} drives {of}", motion.name);
+            let what = format!("{what} to which {} {verb} {of}", motion.name);
             let source = Source::Input(first + axis * (derivatives + 1) + order);
             let start = if order == 0 { *start } else { 0.0 };
             let (name, what) = match motion.kind {

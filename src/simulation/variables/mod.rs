@@ -8,7 +8,7 @@ mod parameters;
 mod tests;
 mod unit;
 
-pub(super) use outputs::has_rest_length_input;
+pub(super) use outputs::sets_springs;
 pub use unit::Unit;
 
 use crate::scene::{MarkerReference, Scene};
@@ -49,7 +49,7 @@ pub enum Source {
     NaturalFrequency(usize),
 }
 
-/// Parameters by name; bodies, masses, joints and loads by index.
+/// Parameters by name; bodies, masses, joints, loads and ports by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
     /// Young's modulus of a cable.
@@ -78,6 +78,14 @@ pub enum Parameter {
     SpringStiffness(usize),
     /// Damping of a spring-damper.
     SpringDamping(usize),
+    /// Stiffness of a coupling.
+    CouplingStiffness(usize),
+    /// Damping of a coupling.
+    CouplingDamping(usize),
+    /// Rotational stiffness of a coupling.
+    TurningStiffness(usize),
+    /// Rotational damping of a coupling.
+    TurningDamping(usize),
     /// Component of gravity.
     Gravity(usize),
     /// Rate of the frame.
@@ -86,7 +94,7 @@ pub enum Parameter {
     RelativeTolerance,
 }
 
-/// Outputs; constraints by index: joints, then motions.
+/// Outputs; constraints by index: joints, motions, ports that drive their markers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantity {
     /// Component of the position of a marker.
@@ -95,12 +103,17 @@ pub enum Quantity {
     Velocity(MarkerReference, usize),
     /// Component of the acceleration of a marker.
     Acceleration(MarkerReference, usize),
-    /// Continuous angle of a marker or a joint, by its place among the outputs of this kind.
+    /// Continuous angle of a marker or a joint, by its place among the outputs of this kind, those of
+    /// ports last.
     Angle(usize),
     /// Angular velocity of the direction at a marker.
     AngularVelocity(MarkerReference),
     /// Angular velocity of the second marker of a joint less that of its first.
     JointVelocity(usize),
+    /// Angular acceleration of the direction at a marker.
+    AngularAcceleration(MarkerReference),
+    /// Angular acceleration of the second marker of a joint less that of its first.
+    JointAcceleration(usize),
     /// Axial strain at a marker.
     Strain(MarkerReference),
     /// Curvature at a marker.
@@ -117,13 +130,21 @@ pub enum Quantity {
     Reaction(usize, usize),
     /// Moment of a joint or motion.
     ReactionMoment(usize),
+    /// Component of the force on what drives a marker: opposite to the reaction.
+    MotionForce(usize, usize),
+    /// Moment on what turns a marker.
+    MotionMoment(usize),
+    /// Component of the force of a coupling on what it couples to, by its place among couplings.
+    CouplingForce(usize, usize),
+    /// Moment of a coupling on what it couples to.
+    CouplingMoment(usize),
     /// Kinetic energy.
     KineticEnergy,
     /// Strain energy.
     StrainEnergy,
     /// Potential energy of gravity, zero at the origin.
     GravityEnergy,
-    /// Energy in springs and hinges.
+    /// Energy in springs, hinges and couplings.
     SpringEnergy,
     /// Work done from outside since the start.
     Input,

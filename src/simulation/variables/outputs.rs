@@ -1,34 +1,53 @@
-//! Outputs and natural frequencies.
+//! Outputs, natural frequencies, and what goes out of ports.
 
 use super::unit::*;
 use super::{AXES, List, Quantity, Source, Unit, component};
 use crate::scene::{
-    At, InputKind, JointKind, LoadKind, MarkerReference, Output, OutputKind, Scene,
+    At, InputKind, JointKind, LoadKind, MarkerReference, Output, OutputKind, Port, Scene,
 };
 
 /// Adds the outputs of a scene.
 pub(super) fn add(list: &mut List, scene: &Scene) {
     let mut angles = 0;
     for output in &scene.outputs {
-        match output.kind {
-            OutputKind::Angle => {
-                add_angle(list, output, Quantity::Angle(angles));
-                angles += 1;
-            }
-            OutputKind::AngularVelocity => add_angular_velocity(list, scene, output),
-            OutputKind::Travel => add_travel(list, scene, output),
-            OutputKind::Reaction | OutputKind::ReactionMoment => add_reaction(list, scene, output),
-            OutputKind::Energy => add_energies(list, scene),
-            OutputKind::Work => add_work(list, scene),
-            OutputKind::Momentum => add_momentum(list),
-            OutputKind::CenterOfMass => {
-                let quantity = Quantity::CenterOfMass;
-                list.vector("center_of_mass", "Centre of mass", METRE, quantity);
-            }
-            OutputKind::Residual => add_residuals(list),
-            OutputKind::NaturalFrequency => add_frequencies(list, output),
-            _ => add_marker_output(list, scene, output),
+        add_output(list, scene, (output, None), &mut angles);
+    }
+    for (place, port) in scene.ports.iter().enumerate() {
+        for output in port.outputs() {
+            add_output(list, scene, (&output, Some(&port.name)), &mut angles);
         }
+        add_port_force(list, scene, place, port);
+    }
+}
+
+/// An output; the variables of a port bear its name. Angles are numbered in the order of listing.
+fn add_output(
+    list: &mut List,
+    scene: &Scene,
+    (output, port): (&Output, Option<&str>),
+    angles: &mut usize,
+) {
+    let of = port.or(output.marker.as_deref()).unwrap_or_default();
+    match output.kind {
+        OutputKind::Angle => {
+            add_angle(list, (output, of), Quantity::Angle(*angles));
+            *angles += 1;
+        }
+        OutputKind::AngularVelocity | OutputKind::AngularAcceleration => {
+            add_angular_rate(list, scene, (output, of));
+        }
+        OutputKind::Travel => add_travel(list, scene, output),
+        OutputKind::Reaction | OutputKind::ReactionMoment => add_reaction(list, scene, output),
+        OutputKind::Energy => add_energies(list, scene),
+        OutputKind::Work => add_work(list, scene),
+        OutputKind::Momentum => add_momentum(list),
+        OutputKind::CenterOfMass => {
+            let quantity = Quantity::CenterOfMass;
+            list.vector("center_of_mass", "Centre of mass", METRE, quantity);
+        }
+        OutputKind::Residual => add_residuals(list),
+        OutputKind::NaturalFrequency => add_frequencies(list, output),
+        _ => add_marker_output(list, scene, (output, of)),
     }
 }
 
@@ -50,12 +69,12 @@ fn marker_words(kind: OutputKind) -> (&'static str, &'static str, Option<Unit>) 
     }
 }
 
-fn add_marker_output(list: &mut List, scene: &Scene, output: &Output) {
+fn add_marker_output(list: &mut List, scene: &Scene, (output, of): (&Output, &str)) {
     use Quantity::*;
     let marker = output.marker.as_deref().unwrap_or_default();
     let at = reference(scene, marker);
     let (key, what, unit) = marker_words(output.kind);
-    let (name, what) = (format!("{marker}.{key}"), format!("{what} {marker}"));
+    let (name, what) = (format!("{of}.{key}"), format!("{what} {marker}"));
     let first = list.0.len();
     let scalar = match output.kind {
         OutputKind::Strain => Strain(at),
@@ -89,7 +108,7 @@ fn reference(scene: &Scene, marker: &str) -> MarkerReference {
     })
 }
 
-fn add_angle(list: &mut List, output: &Output, quantity: Quantity) {
+fn add_angle(list: &mut List, (output, of): (&Output, &str), quantity: Quantity) {
     let unit = Some(RADIAN);
     match (&output.joint, &output.marker) {
         (Some(joint), _) => {
@@ -102,28 +121,73 @@ fn add_angle(list: &mut List, output: &Output, quantity: Quantity) {
         (None, marker) => {
             let marker = marker.as_deref().unwrap_or_default();
             let what = format!("Direction at {marker}, counted on over full turns");
-            list.scalar(&format!("{marker}.angle"), &what, unit, quantity);
+            list.scalar(&format!("{of}.angle"), &what, unit, quantity);
         }
     }
 }
 
-fn add_angular_velocity(list: &mut List, scene: &Scene, output: &Output) {
-    let unit = Some(RADIAN_PER_SECOND);
-    match (&output.joint, &output.marker) {
+/// Angular velocity or acceleration.
+fn add_angular_rate(list: &mut List, scene: &Scene, (output, of): (&Output, &str)) {
+    use Quantity::{AngularAcceleration, AngularVelocity, JointAcceleration, JointVelocity};
+    let is_second = output.kind == OutputKind::AngularAcceleration;
+    let (key, what, unit) = match is_second {
+        true => (
+            "angular_acceleration",
+            "Angular acceleration",
+            RADIAN_PER_SECOND_2,
+        ),
+        false => ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND),
+    };
+    let (of, what, quantity) = match (&output.joint, &output.marker) {
         (Some(name), _) => {
-            let what =
-                format!("Angular velocity of the second marker of {name} less that of its first");
             let joint = scene.joint(name).unwrap_or(0);
-            let name = format!("{name}.angular_velocity");
-            list.scalar(&name, &what, unit, Quantity::JointVelocity(joint));
+            let what = format!("{what} of the second marker of {name} less that of its first");
+            let second = is_second.then_some(JointAcceleration(joint));
+            (name.as_str(), what, second.unwrap_or(JointVelocity(joint)))
         }
         (None, marker) => {
             let marker = marker.as_deref().unwrap_or_default();
-            let what = format!("Angular velocity of the direction at {marker}");
-            let quantity = Quantity::AngularVelocity(reference(scene, marker));
-            list.scalar(&format!("{marker}.angular_velocity"), &what, unit, quantity);
+            let at = reference(scene, marker);
+            let what = format!("{what} of the direction at {marker}");
+            let second = is_second.then_some(AngularAcceleration(at));
+            (of, what, second.unwrap_or(AngularVelocity(at)))
         }
+    };
+    let first = list.0.len();
+    list.scalar(&format!("{of}.{key}"), &what, Some(unit), quantity);
+    if is_second {
+        list.mark_direct(first);
     }
+}
+
+/// What a port that motions come into exerts on the outside.
+fn add_port_force(list: &mut List, scene: &Scene, place: usize, port: &Port) {
+    use Quantity::{CouplingForce, CouplingMoment, MotionForce, MotionMoment};
+    if port.motions().is_empty() {
+        return;
+    }
+    let first = list.0.len();
+    let (joint, coupling) = (
+        scene.joints_before_port(place),
+        scene.couplings_before_port(place),
+    );
+    let what = format!("of {} on what {} couples it to", port.marker, port.name);
+    let name = format!("{}.force", port.name);
+    list.vector(&name, &format!("Force {what}"), NEWTON, |axis| {
+        match port.is_coupling() {
+            true => CouplingForce(coupling, axis),
+            false => MotionForce(joint, axis),
+        }
+    });
+    if port.turns() {
+        let quantity = match port.is_coupling() {
+            true => CouplingMoment(coupling + 1),
+            false => MotionMoment(joint + 1),
+        };
+        let (name, what) = (format!("{}.moment", port.name), format!("Moment {what}"));
+        list.scalar(&name, &what, Some(NEWTON_METRE), quantity);
+    }
+    list.mark_direct(first);
 }
 
 fn add_travel(list: &mut List, scene: &Scene, output: &Output) {
@@ -185,29 +249,35 @@ fn add_energies(list: &mut List, scene: &Scene) {
         .joints
         .iter()
         .filter(|joint| joint.kind == JointKind::Hinge);
+    let couplings = scene
+        .ports
+        .iter()
+        .flat_map(|port| [port.stiffness, port.rotational_stiffness]);
     let mut stiffnesses = springs
         .map(|load| load.stiffness)
-        .chain(hinges.map(|joint| joint.stiffness));
+        .chain(hinges.map(|joint| joint.stiffness))
+        .chain(couplings);
     if stiffnesses.any(stiff) {
-        let (what, first) = ("Energy in springs and hinges", list.0.len());
+        let (what, first) = ("Energy in springs, hinges and couplings", list.0.len());
         list.scalar("energy.spring", what, Some(JOULE), SpringEnergy);
-        if has_rest_length_input(scene) {
+        if sets_springs(scene) {
             list.mark_direct(first);
         }
     }
 }
 
-/// Whether the master sets the length of a spring: it then works on the spring at once.
-pub(in crate::simulation) fn has_rest_length_input(scene: &Scene) -> bool {
+/// Whether the master sets the length of a spring or where one ends: it then works on the spring at once.
+pub(in crate::simulation) fn sets_springs(scene: &Scene) -> bool {
     let mut inputs = scene.inputs.iter();
     inputs.any(|input| input.kind == InputKind::RestLength)
+        || scene.ports.iter().any(Port::is_coupling)
 }
 
 fn add_work(list: &mut List, scene: &Scene) {
     let what = "Work that loads, inputs and motions have done since the start";
     let first = list.0.len();
     list.scalar("energy.input", what, Some(JOULE), Quantity::Input);
-    if has_rest_length_input(scene) {
+    if sets_springs(scene) {
         list.mark_direct(first);
     }
     let what = "Energy lost in dampers and in damping since the start";

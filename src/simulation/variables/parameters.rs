@@ -67,9 +67,9 @@ fn add_rigid(list: &mut List, i: usize, body: &RigidBody) {
     list.parameters(&body.name, "of", &rows);
 }
 
-/// Stiffness and damping of hinges and of spring-dampers.
+/// Stiffness and damping of hinges, spring-dampers and couplings.
 fn add_dampers(list: &mut List, scene: &Scene) {
-    use Parameter::{HingeDamping, HingeStiffness, SpringDamping, SpringStiffness};
+    use Parameter::*;
     let hinges = scene.joints.iter().enumerate();
     for (i, joint) in hinges.filter(|(_, joint)| joint.kind == JointKind::Hinge) {
         let units = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
@@ -83,6 +83,27 @@ fn add_dampers(list: &mut List, scene: &Scene) {
         let parameters = [SpringStiffness(i), SpringDamping(i)];
         let starts = [load.stiffness, load.damping];
         list.damper(&load.name, units, parameters, starts);
+    }
+    let ports = scene.ports.iter().enumerate();
+    for (i, port) in ports.filter(|(_, port)| port.is_coupling()) {
+        let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
+        let parameters = [CouplingStiffness(i), CouplingDamping(i)];
+        list.damper(
+            &port.name,
+            units,
+            parameters,
+            [port.stiffness, port.damping],
+        );
+        if port.turns() {
+            #[rustfmt::skip] // a table
+            let rows = [
+                ("rotational_stiffness", "Rotational stiffness", Some(NEWTON_METRE_PER_RADIAN),
+                    TurningStiffness(i), port.rotational_stiffness.unwrap_or(0.0)),
+                ("rotational_damping", "Rotational damping", Some(NEWTON_METRE_SECOND_PER_RADIAN),
+                    TurningDamping(i), port.rotational_damping.unwrap_or(0.0)),
+            ];
+            list.parameters(&port.name, "of", &rows);
+        }
     }
 }
 

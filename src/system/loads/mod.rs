@@ -1,12 +1,14 @@
 //! Loads: what acts on bodies besides gravity and joints. One file a kind. A size that changes is a
 //! [`Signal`]: a function of time or an input.
 
+mod coupling;
 mod distributed;
 mod force;
 mod hinge;
 mod moment;
 mod spring;
 
+pub use coupling::{Coupling, Turning};
 pub use distributed::Distributed;
 pub use force::Force;
 pub use hinge::Rotational;
@@ -32,6 +34,10 @@ pub enum Load {
     Spring(Spring),
     /// A rotational spring with a damper between two directions.
     Rotational(Rotational),
+    /// A spring with a damper from a marker to a point that moves.
+    Coupling(Coupling),
+    /// A rotational spring with a damper from the direction of a marker to an angle.
+    Turning(Turning),
 }
 
 /// Time, inputs and state as loads see them.
@@ -65,6 +71,8 @@ impl Load {
             Self::Distributed(load) => load.add_force(at, f),
             Self::Spring(load) => load.add_force(at, f),
             Self::Rotational(load) => load.add_force(at, f),
+            Self::Coupling(load) => load.add_force(at, f),
+            Self::Turning(load) => load.add_force(at, f),
         }
     }
 
@@ -77,6 +85,8 @@ impl Load {
             Self::Distributed(_) => {}
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
             Self::Rotational(load) => load.add_tangent(at, stiffness, damping),
+            Self::Coupling(load) => load.add_tangent(stiffness, damping),
+            Self::Turning(load) => load.add_tangent(at, stiffness, damping),
         }
     }
 
@@ -89,6 +99,8 @@ impl Load {
             Self::Distributed(load) => [load.power(at), none],
             Self::Spring(load) => load.power(at),
             Self::Rotational(load) => [none, load.dissipation(at)],
+            Self::Coupling(load) => load.power(at),
+            Self::Turning(load) => load.power(at),
         }
     }
 
@@ -97,6 +109,8 @@ impl Load {
         match self {
             Self::Spring(load) => load.energy(at),
             Self::Rotational(load) => load.energy(at),
+            Self::Coupling(load) => load.energy(at),
+            Self::Turning(load) => load.energy(at),
             _ => N::of(0.0),
         }
     }
@@ -108,7 +122,9 @@ impl Load {
             Self::Force(load) => load.work(before, after),
             Self::Moment(load) => load.work(before, after),
             Self::Distributed(load) => load.work(before, after),
-            Self::Spring(_) | Self::Rotational(_) => self.energy(before) - self.energy(after),
+            Self::Spring(_) | Self::Rotational(_) | Self::Coupling(_) | Self::Turning(_) => {
+                self.energy(before) - self.energy(after)
+            }
         }
     }
 
@@ -117,6 +133,8 @@ impl Load {
         match self {
             Self::Spring(load) => load.damping > 0.0,
             Self::Rotational(load) => load.damping > 0.0,
+            Self::Coupling(load) => load.damping > 0.0,
+            Self::Turning(load) => load.damping > 0.0,
             _ => false,
         }
     }
@@ -129,6 +147,8 @@ impl Load {
             Self::Distributed(load) => load.components.iter().collect(),
             Self::Spring(load) => vec![&load.length],
             Self::Rotational(_) => vec![],
+            Self::Coupling(load) => load.position.iter().chain(&load.velocity).collect(),
+            Self::Turning(load) => vec![&load.angle, &load.velocity],
         }
     }
 
@@ -140,6 +160,8 @@ impl Load {
             Self::Distributed(_) => vec![],
             Self::Spring(load) => load.ends.to_vec(),
             Self::Rotational(load) => load.ends.to_vec(),
+            Self::Coupling(load) => vec![End::Body(load.marker)],
+            Self::Turning(load) => vec![End::Body(load.marker)],
         }
     }
 }

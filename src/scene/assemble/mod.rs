@@ -1,11 +1,13 @@
 //! From a validated scene to a system.
 
+mod motions;
+mod ports;
+
 use nalgebra::Vector2;
 
 use super::{
-    At, Body, CableBody, Constraints, Error, Formulation, GROUND, InputKind, InputLayout,
-    JointKind, LoadKind, MarkerReference, Motion, MotionKind, MotionValue, OutputKind, Scene,
-    Strain, Value,
+    At, Body, CableBody, Constraints, Error, Formulation, GROUND, Input, InputKind, InputLayout,
+    JointKind, LoadKind, MarkerReference, OutputKind, Port, Scene, Strain, Value,
 };
 use crate::body::{self, Marker, Node};
 use crate::elements::cable::{self, Inertia};
@@ -14,7 +16,7 @@ use crate::math::function::Function;
 use crate::system::joints::{self, Joint};
 use crate::system::loads::{self, Load};
 use crate::system::{
-    Angle, BuildError, Constraints as Method, Drive, End, Lump, Parts, PlanarChain, Signal, System,
+    Angle, BuildError, Constraints as Method, End, Lump, Parts, PlanarChain, Signal, System,
 };
 
 /// A system and what of its scene is needed beside it.
@@ -26,10 +28,13 @@ pub struct Assembled {
     pub nodes: Vec<Node<4>>,
     /// Their rates as described.
     pub rates: Vec<Node<4>>,
-    /// For every output of kind `angle`, in order, its place among the angles of the system.
+    /// For every output of kind `angle`, in order, then for every port that forces come into and that
+    /// turns, its place among the angles of the system.
     pub angles: Vec<usize>,
     /// For every load of the scene, its place among the loads of the system.
     pub loads: Vec<usize>,
+    /// For every coupling, its place among the loads of the system.
+    pub couplings: Vec<usize>,
     places: Vec<Place>,
 }
 
@@ -75,6 +80,7 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Error> {
         rates: Vec::new(),
         angle_outputs: Vec::new(),
         load_places: Vec::new(),
+        couplings: Vec::new(),
         parts: Parts {
             nodes: Vec::new(),
             bodies: Vec::new(),
@@ -107,6 +113,7 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Error> {
     builder.motions();
     builder.loads();
     builder.inputs();
+    builder.ports();
     let nodes = builder.parts.nodes.clone();
     let system = System::new(builder.parts).map_err(|error| explain(scene, &error))?;
     Ok(Assembled {
@@ -115,6 +122,7 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Error> {
         rates: builder.rates,
         angles: builder.angle_outputs,
         loads: builder.load_places,
+        couplings: builder.couplings,
         places: builder.places,
     })
 }
@@ -123,11 +131,8 @@ fn explain(scene: &Scene, error: &BuildError) -> Error {
     match error {
         BuildError::Massless => Error::new("bodies", "expected bodies with mass, found none"),
         BuildError::Determined(joint) => {
-            let (joints, index) = (scene.joints.len(), joint.unwrap_or(0));
-            let path = match index.checked_sub(joints) {
-                None => format!("joints[{index}]"),
-                Some(motion) => format!("motions[{motion}]"),
-            };
+            let (list, place, _) = scene.holder(joint.unwrap_or(0));
+            let path = format!("{list}[{place}]");
             let message = "expected a motion of what joints and other motions leave free, found one of \
                            what they hold already";
             Error::new(path, message)
@@ -142,6 +147,7 @@ struct Builder<'a> {
     rates: Vec<Node<4>>,
     angle_outputs: Vec<usize>,
     load_places: Vec<usize>,
+    couplings: Vec<usize>,
     parts: Parts,
 }
 
@@ -250,7 +256,9 @@ impl Builder<'_> {
     }
 
     fn angles(&mut self) {
-        for output in &self.scene.outputs {
+        let scene = self.scene;
+        let of_ports = scene.ports.iter().flat_map(Port::outputs);
+        for output in scene.outputs.iter().cloned().chain(of_ports) {
             if output.kind != OutputKind::Angle {
                 continue;
             }
@@ -313,60 +321,6 @@ impl Builder<'_> {
         }
     }
 
-    fn motions(&mut self) {
-        for (index, motion) in self.scene.motions.iter().enumerate() {
-            let count = match motion.kind {
-                MotionKind::Position => 2,
-                _ => 1,
-            };
-            let drives: Vec<usize> = (0..count)
-                .map(|k| self.drive(index, &motion.value, k))
-                .collect();
-            let ground = End::Ground(Vector2::zeros());
-            let ends = match (&motion.marker, &motion.joint) {
-                (Some(marker), _) => [ground, End::Body(self.marker(marker))],
-                (None, joint) => self.joint_ends(joint.as_deref().unwrap_or_default()),
-            };
-            let kind = match motion.kind {
-                MotionKind::Angle => joints::JointKind::DrivenAngle(drives[0]),
-                MotionKind::Position => joints::JointKind::DrivenPosition([drives[0], drives[1]]),
-                MotionKind::Displacement => {
-                    let joint = motion
-                        .joint
-                        .as_deref()
-                        .and_then(|name| self.scene.joint(name));
-                    let along = direction(self.scene.joints[joint.unwrap_or(0)].direction);
-                    joints::JointKind::DrivenWay(along, drives[0])
-                }
-            };
-            self.parts.joints.push(Joint {
-                kind,
-                ends,
-                spring: None,
-            });
-        }
-    }
-
-    /// Component `k` of a motion.
-    fn drive(&mut self, motion: usize, value: &MotionValue, k: usize) -> usize {
-        self.parts.drives.push(match value {
-            MotionValue::Input(master) => {
-                let derivatives = usize::from(master.input);
-                let before = &self.scene.motions[..motion];
-                let place = before.iter().filter_map(Motion::input_count).count();
-                Drive::Input {
-                    first: self.layout.of_motions[place] + k * (derivatives + 1),
-                    derivatives,
-                }
-            }
-            given => {
-                let function = given.components()[k].motion_function();
-                Drive::Function(function.unwrap_or(Function::Constant(0.0)))
-            }
-        });
-        self.parts.drives.len() - 1
-    }
-
     fn loads(&mut self) {
         for load in &self.scene.loads {
             let values = load.value.as_ref().map_or(&[][..], |v| v.components());
@@ -423,34 +377,40 @@ impl Builder<'_> {
     }
 
     fn inputs(&mut self) {
-        for (input, first) in self.scene.inputs.iter().zip(&self.layout.of_inputs) {
-            let signal = |k: usize| Signal::Input(first + k);
-            let marker = input.marker.as_deref();
-            let built = match input.kind {
-                InputKind::Force => Load::Force(loads::Force {
-                    marker: self.marker(marker.unwrap_or_default()),
-                    follower: input.follower,
-                    components: [signal(0), signal(1)],
-                }),
-                InputKind::Moment => self.moment(marker, signal(0)),
-                InputKind::Torque => Load::Moment(loads::Moment {
-                    ends: self.joint_ends(input.joint.as_deref().unwrap_or_default()),
-                    size: signal(0),
-                }),
-                InputKind::Distributed => {
-                    self.distributed(input.body.as_deref(), [signal(0), signal(1)])
-                }
-                InputKind::RestLength => {
-                    let load = input.load.as_deref().and_then(|name| self.scene.load(name));
-                    let place = self.load_places[load.unwrap_or(0)];
-                    if let Load::Spring(spring) = &mut self.parts.loads[place] {
-                        spring.length = signal(0);
-                    }
-                    continue;
-                }
-            };
-            self.parts.loads.push(built);
+        let scene = self.scene;
+        for (place, input) in scene.inputs.iter().enumerate() {
+            self.input(input, self.layout.of_inputs[place]);
         }
+    }
+
+    /// A load whose size is an input.
+    fn input(&mut self, input: &Input, first: usize) {
+        let signal = |k: usize| Signal::Input(first + k);
+        let marker = input.marker.as_deref();
+        let built = match input.kind {
+            InputKind::Force => Load::Force(loads::Force {
+                marker: self.marker(marker.unwrap_or_default()),
+                follower: input.follower,
+                components: [signal(0), signal(1)],
+            }),
+            InputKind::Moment => self.moment(marker, signal(0)),
+            InputKind::Torque => Load::Moment(loads::Moment {
+                ends: self.joint_ends(input.joint.as_deref().unwrap_or_default()),
+                size: signal(0),
+            }),
+            InputKind::Distributed => {
+                self.distributed(input.body.as_deref(), [signal(0), signal(1)])
+            }
+            InputKind::RestLength => {
+                let load = input.load.as_deref().and_then(|name| self.scene.load(name));
+                let place = self.load_places[load.unwrap_or(0)];
+                if let Load::Spring(spring) = &mut self.parts.loads[place] {
+                    spring.length = signal(0);
+                }
+                return;
+            }
+        };
+        self.parts.loads.push(built);
     }
 }
 
