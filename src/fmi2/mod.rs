@@ -17,6 +17,7 @@ mod parts;
 mod state;
 mod status;
 mod symbols;
+mod terminals;
 mod values;
 
 pub use documentation::documentation;
@@ -26,6 +27,7 @@ pub use lifecycle::{Causality, Function, State};
 pub use logger::Category;
 pub use model_description::model_description;
 pub use status::Status;
+pub use terminals::terminals;
 
 use crate::scene::Scene;
 
@@ -34,13 +36,16 @@ pub const MODEL_IDENTIFIER: &str = "flexbody";
 
 /// The generated text files of a unit: path inside the package, content. The same scene gives the
 /// same bytes.
-pub fn describe(scene: &Scene) -> [(&'static str, String); 4] {
-    [
+pub fn describe(scene: &Scene) -> Vec<(&'static str, String)> {
+    let mut files = vec![
         ("modelDescription.xml", model_description(scene)),
         ("resources/scene.json", scene.to_json()),
         ("documentation/index.html", documentation(scene)),
         ("documentation/scene.svg", icon(scene)),
-    ]
+    ];
+    let terminals = terminals(scene);
+    files.extend(terminals.map(|text| ("terminalsAndIcons/terminalsAndIcons.xml", text)));
+    files
 }
 
 /// A scene with something of everything, for the tests of this folder.

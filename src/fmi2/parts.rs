@@ -1,10 +1,11 @@
-//! Joints, motions, loads and masses of a scene in words, as tables of the documentation.
+//! Joints, motions, loads, ports and masses of a scene in words, as tables of the documentation.
 
 use super::canvas::escape;
 use super::documentation::{row, table};
 use super::number::number;
 use crate::scene::{
-    GROUND, Joint, JointKind, Load, LoadKind, Motion, MotionKind, MotionValue, Scene, Value,
+    GROUND, Joint, JointKind, Load, LoadKind, Motion, MotionKind, MotionValue, Port, PortKind,
+    Scene, Value,
 };
 
 /// Tables of the parts of a scene; nothing for what it has none of.
@@ -21,6 +22,8 @@ pub(super) fn parts(scene: &Scene) -> String {
     });
     let loads = scene.loads.iter();
     let loads = loads.map(|load| row(&[&code(&load.name), acts(load), &on(load), &size(load)]));
+    let ports = scene.ports.iter();
+    let ports = ports.map(|port| row(&[&code(&port.name), &code(&port.marker), &crosses(port)]));
     let masses = scene.masses.iter().map(|mass| {
         let (size, inertia) = (number(mass.mass), number(mass.inertia));
         row(&[&code(&mass.marker), &size, &inertia])
@@ -42,6 +45,12 @@ pub(super) fn parts(scene: &Scene) -> String {
             loads.collect(),
         ),
         table(
+            "Ports",
+            PORTS,
+            &["Name", "At", "In and out"],
+            ports.collect(),
+        ),
+        table(
             "Masses at markers",
             "",
             &["At", "Mass, kg", "Inertia, kg m2"],
@@ -49,6 +58,50 @@ pub(super) fn parts(scene: &Scene) -> String {
         ),
     ]
     .concat()
+}
+
+/// How to use ports.
+const PORTS: &str = "<p>Connect a port that forces come into with one that motions come into, member by \
+    member; <code>terminalsAndIcons.xml</code> lists them, and what both have is connected. A spring and \
+    damper belong into the unit that feels them as loads, so that its solver meets their stiffness and \
+    not the communication step; without one, give accelerations too, and step short.</p>\n";
+
+/// What comes in and what goes out.
+fn crosses(port: &Port) -> String {
+    let (turn, turns) = match port.turns() {
+        true => (" and moment", ", angle and its rates"),
+        false => ("", ""),
+    };
+    match (port.kind, port.is_coupling()) {
+        (PortKind::Force, _) => {
+            format!("force{turn} in; position, velocity, acceleration{turns} out")
+        }
+        (PortKind::Motion, false) => {
+            format!("position, velocity, acceleration{turns} in; force{turn} on the outside out")
+        }
+        (PortKind::Motion, true) => {
+            let springs = [
+                (port.stiffness, "N/m"),
+                (port.damping, "N s/m"),
+                (port.rotational_stiffness, "N m/rad"),
+                (port.rotational_damping, "N m s/rad"),
+            ];
+            let sizes = springs.into_iter().filter_map(|(size, unit)| {
+                let size = size?;
+                Some(format!("{} {unit}", number(size)))
+            });
+            let sizes: Vec<String> = sizes.collect();
+            let turns = if port.turns() {
+                ", angle and its rate"
+            } else {
+                ""
+            };
+            format!(
+                "position, velocity{turns} in, through {}; force{turn} on the outside out",
+                sizes.join(", ")
+            )
+        }
+    }
 }
 
 fn code(text: &str) -> String {

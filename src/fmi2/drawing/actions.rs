@@ -3,7 +3,7 @@
 use super::Picture;
 use crate::fmi2::canvas::{Point, direction, moved};
 use crate::fmi2::symbols;
-use crate::scene::{At, InputKind, LoadKind, Scene};
+use crate::scene::{At, InputKind, LoadKind, PortKind, Scene};
 
 /// Arrows that stand for a distributed force.
 const ARROWS: u32 = 7;
@@ -32,7 +32,7 @@ pub(super) enum ActionKind {
     Distributed,
 }
 
-/// All loads and inputs of a scene but those of springs.
+/// All loads and inputs of a scene, those of ports included, but not those of springs.
 pub(super) fn actions(scene: &Scene) -> Vec<Action<'_>> {
     let inputs = scene.inputs.iter().filter_map(|input| {
         let (kind, on, label) = match input.kind {
@@ -68,7 +68,19 @@ pub(super) fn actions(scene: &Scene) -> Vec<Action<'_>> {
             follower: load.follower,
         })
     });
-    inputs.chain(loads).collect()
+    let ports = scene.ports.iter().filter(|p| p.kind == PortKind::Force);
+    let ports = ports.flat_map(|port| {
+        let kinds = [ActionKind::Force, ActionKind::Moment];
+        let count = if port.turns() { 2 } else { 1 };
+        kinds.into_iter().take(count).map(|kind| Action {
+            kind,
+            on: &port.marker,
+            label: &port.name,
+            components: [0.0; 2],
+            follower: false,
+        })
+    });
+    inputs.chain(loads).chain(ports).collect()
 }
 
 fn pair(values: &[f64]) -> [f64; 2] {

@@ -1,9 +1,9 @@
-//! Joints, springs and driven motions.
+//! Joints, springs, driven motions, and ports that motions come into.
 
 use super::{Picture, Place};
-use crate::fmi2::canvas::direction;
+use crate::fmi2::canvas::{direction, moved};
 use crate::fmi2::symbols;
-use crate::scene::{At, GROUND, Joint, JointKind, LoadKind, MotionKind};
+use crate::scene::{At, GROUND, Joint, JointKind, LoadKind, MotionKind, PortKind};
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
 fn outward(place: &Place) -> [f64; 2] {
@@ -75,6 +75,27 @@ impl Picture<'_> {
             symbols::spring(&mut self.canvas, from, to, self.unit);
             if markers[0] == GROUND {
                 symbols::revolute(&mut self.canvas, from, self.unit);
+            }
+        }
+    }
+
+    pub(super) fn ports(&mut self) {
+        let ports = self.scene.ports.iter();
+        for port in ports.filter(|port| port.kind == PortKind::Motion) {
+            let Some(place) = self.place(&port.marker) else {
+                continue;
+            };
+            let (mut at, unit) = (place.point, self.unit);
+            if port.is_coupling() {
+                // Its other end is where the marker is; it is drawn aside, where bodies are rare.
+                let aside = moved(at, direction([1.0, 1.0]), 4.0 * unit);
+                symbols::spring(&mut self.canvas, at, aside, unit);
+                at = aside;
+            }
+            symbols::way(&mut self.canvas, at, [1.0, 0.0], unit);
+            symbols::way(&mut self.canvas, at, [0.0, 1.0], unit);
+            if port.turns() {
+                symbols::turn(&mut self.canvas, at, unit, symbols::MOTION);
             }
         }
     }

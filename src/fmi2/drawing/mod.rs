@@ -104,6 +104,7 @@ impl<'a> Picture<'a> {
         self.marks();
         self.actions();
         self.motions();
+        self.ports();
         if self.names {
             self.name_all();
             self.gravity();
@@ -184,6 +185,7 @@ mod tests {
         for name in [
             "rod", "root", "middle", "tip", "pivot", "rail", "force", "moment", "g", "crank",
             "elbow", "pin", "drive", "hoist", "push", "wind", "ball", "link", "ring", "torque",
+            "plug", "socket", "mount",
         ] {
             assert!(picture.contains(&format!(">{name}</text>")), "{name}");
         }

@@ -5,7 +5,7 @@ use super::bodies::outline;
 use super::{BODY, FAINT, INK, Picture};
 use crate::fmi2::canvas::{LINE, Point, direction, moved};
 use crate::fmi2::symbols;
-use crate::scene::{At, Body, CableBody, JointKind, LoadKind, Scene};
+use crate::scene::{At, Body, CableBody, JointKind, LoadKind, PortKind, Scene};
 
 /// With more bodies than this, names would only cover each other.
 const MOST_BODIES: usize = 32;
@@ -99,7 +99,7 @@ impl<'a> Picture<'a> {
         labels.iter_mut().find(|label| way(label) < 0.8 * self.unit)
     }
 
-    /// Names of joints and motions at their second markers.
+    /// Names of joints, motions and ports at their second markers.
     fn add_joints(&self, labels: &mut [Label<'a>]) {
         let scene = self.scene;
         let joints = scene
@@ -113,7 +113,9 @@ impl<'a> Picture<'a> {
             let marker = motion.marker.as_ref().or(second)?;
             Some((marker, &motion.name, symbols::MOTION))
         });
-        for (marker, name, colour) in joints.chain(motions) {
+        let ports = scene.ports.iter().filter(|p| p.kind == PortKind::Motion);
+        let ports = ports.map(|port| (&port.marker, &port.name, symbols::MOTION));
+        for (marker, name, colour) in joints.chain(motions).chain(ports) {
             let place = self.place(marker);
             if let Some(label) = place.and_then(|place| self.label_at(labels, place.point)) {
                 label.add(name, colour);
