@@ -17,7 +17,7 @@ impl Scene {
         nodes(&path, elements, &self.loaded_coordinates(body))
     }
 
-    /// Material coordinates of a cable where joints, motions, loads, inputs and masses act or where
+    /// Material coordinates of a cable where joints, motions, loads, inputs, ports and masses act or where
     /// the force from element to element is read: the mesh has nodes there. Increasing.
     pub fn loaded_coordinates(&self, body: usize) -> Vec<f64> {
         let mut coordinates: Vec<f64> = self
@@ -49,6 +49,7 @@ impl Scene {
             .chain(self.loads.iter().flat_map(|load| &load.marker))
             .chain(springs.flatten())
             .chain(self.inputs.iter().flat_map(|input| &input.marker))
+            .chain(self.ports.iter().map(|port| &port.marker))
             .chain(self.masses.iter().map(|mass| &mass.marker))
             .chain(cuts.flat_map(|output| &output.marker))
             .collect()

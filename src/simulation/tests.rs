@@ -198,3 +198,169 @@ fn a_method_that_cannot_take_rates_is_refused_where_they_are_read() {
         undamped.expect("no rates are read");
     }
 }
+
+/// A pendulum of a rope and a wheel, with what is put in between.
+fn pendulum(rest: &str) -> Simulation {
+    simulation(&format!(
+        r#""gravity": [0.0, -9.81],
+        "bodies": [
+          {{ "name": "rope", "element": "cable", "elements": 3,
+            "material": {{ "youngs_modulus": 1.0e6, "density": 1000.0 }},
+            "section": {{ "area": 1.0e-3, "second_moment": 1.0e-8 }},
+            "shape": {{ "line": {{ "from": [0.0, 0.0], "to": [1.0, 0.0] }} }},
+            "markers": {{ "root": 0.0, "inside": 0.4, "tip": 1.0 }} }},
+          {{ "name": "wheel", "element": "rigid", "mass": 0.5, "inertia": 0.02, "position": [1.2, 0.1],
+            "angle": 0.3, "markers": {{ "rim": [-0.2, -0.1], "far": [0.2, 0.1] }} }} ],
+        "joints": [ {{ "name": "pin", "kind": "revolute", "markers": ["rope.tip", "wheel.rim"] }} ],
+        "accuracy": {{ "relative_tolerance": 1.0e-7 }}, {rest}"#
+    ))
+}
+
+#[test]
+fn a_force_port_is_a_force_and_outputs_at_its_marker() {
+    let kinds = ["position", "velocity", "acceleration", "angle"];
+    let kinds = kinds.map(|kind| format!(r#"{{ "kind": "{kind}", "marker": "wheel.far" }}"#));
+    let mut plain = pendulum(&format!(
+        r#""inputs": [ {{ "kind": "force", "marker": "wheel.far" }},
+             {{ "kind": "moment", "marker": "wheel.far" }} ], "outputs": [ {} ]"#,
+        kinds.join(", ")
+    ));
+    let mut port = pendulum(
+        r#""ports": [ { "name": "plug", "marker": "wheel.far", "kind": "force", "rotation": true } ]"#,
+    );
+    for step in 1..=10 {
+        let values = [0.3 * f64::from(step), -2.0, 0.05];
+        for (key, value) in ["force[1]", "force[2]", "moment"].into_iter().zip(values) {
+            set(&mut plain, &format!("wheel.far.{key}"), value);
+            set(&mut port, &format!("plug.{key}"), value);
+        }
+        for simulation in [&mut plain, &mut port] {
+            simulation.step(0.02 * f64::from(step)).expect("a step");
+        }
+        for key in ["position[1]", "velocity[2]", "acceleration[1]", "angle"] {
+            let expected = get(&mut plain, &format!("wheel.far.{key}"));
+            assert_eq!(get(&mut port, &format!("plug.{key}")), expected, "{key}");
+        }
+    }
+}
+
+#[test]
+fn angular_acceleration_is_the_rate_of_angular_velocity() {
+    let mut port = pendulum(
+        r#""outputs": [ { "kind": "angular_velocity", "marker": "rope.inside" },
+             { "kind": "angular_acceleration", "marker": "rope.inside" },
+             { "kind": "angular_velocity", "joint": "pin" },
+             { "kind": "angular_acceleration", "joint": "pin" } ]"#,
+    );
+    let h = 1e-4;
+    port.step(0.3).expect("a step");
+    for of in ["rope.inside", "pin"] {
+        let (velocity, acceleration) = (
+            format!("{of}.angular_velocity"),
+            format!("{of}.angular_acceleration"),
+        );
+        let before = get(&mut port, &velocity);
+        let first = get(&mut port, &acceleration);
+        let time = port.time();
+        port.step(time + h).expect("a step");
+        let change = (get(&mut port, &velocity) - before) / h;
+        let mean = 0.5 * (first + get(&mut port, &acceleration));
+        assert!(
+            (change - mean).abs() < 1e-3 * (1.0 + mean.abs()),
+            "{of}: {change}, {mean}"
+        );
+    }
+}
+
+#[test]
+fn a_motion_port_exerts_the_opposite_of_what_drives_its_marker() {
+    let motions = ["position", "angle"].map(|kind| {
+        format!(
+            r#"{{ "name": "{kind}", "kind": "{kind}", "marker": "rope.root", "value": {{ "input": 2 }} }}"#
+        )
+    });
+    let mut plain = pendulum(&format!(
+        r#""motions": [ {} ], "outputs": [ {{ "kind": "reaction", "motion": "position" }},
+             {{ "kind": "reaction_moment", "motion": "angle" }} ]"#,
+        motions.join(", ")
+    ));
+    let mut port = pendulum(
+        r#""ports": [ { "name": "hook", "marker": "rope.root", "kind": "motion", "rotation": true } ]"#,
+    );
+    for step in 1..=10 {
+        let t = 0.02 * f64::from(step - 1);
+        for (of, key, value) in [
+            ("position", "position[1]", 0.5 * t * t),
+            ("position", "velocity[1]", t),
+            ("position", "acceleration[1]", 1.0),
+            ("angle", "angle", -t * t),
+            ("angle", "angular_velocity", -2.0 * t),
+            ("angle", "angular_acceleration", -2.0),
+        ] {
+            set(&mut plain, &format!("{of}.{key}"), value);
+            set(&mut port, &format!("hook.{key}"), value);
+        }
+        for simulation in [&mut plain, &mut port] {
+            simulation.step(t + 0.02).expect("a step");
+        }
+        for (of, key) in [
+            ("position.reaction[1]", "force[1]"),
+            ("position.reaction[2]", "force[2]"),
+            ("angle.reaction_moment", "moment"),
+        ] {
+            let expected = -get(&mut plain, of);
+            assert_eq!(get(&mut port, &format!("hook.{key}")), expected, "{key}");
+            assert!(expected != 0.0);
+        }
+    }
+}
+
+#[test]
+fn work_through_a_coupling_is_counted_while_its_point_moves() {
+    let mut port = pendulum(
+        r#""ports": [ { "name": "mount", "marker": "rope.inside", "kind": "motion", "stiffness": 200.0,
+             "damping": 3.0, "rotational_stiffness": 1.0, "rotational_damping": 0.02 } ],
+           "outputs": [ { "kind": "energy" }, { "kind": "work" } ]"#,
+    );
+    port.initialize(0.0).expect("a valid scene");
+    let kept = ["kinetic", "strain", "gravity", "spring", "dissipated"];
+    let mut balance = |port: &mut Simulation| -> f64 {
+        let sum: f64 = kept
+            .iter()
+            .map(|of| get(port, &format!("energy.{of}")))
+            .sum();
+        sum - get(port, "energy.input")
+    };
+    let start = balance(&mut port);
+    for step in 0..100 {
+        let t = 0.005 * f64::from(step);
+        for (key, value) in [
+            ("position[1]", 0.4 + 0.1 * (4.0 * t).sin()),
+            ("velocity[1]", 0.4 * (4.0 * t).cos()),
+            ("velocity[2]", -0.3),
+            ("position[2]", -0.3 * t),
+            ("angle", 2.0 * t),
+            ("angular_velocity", 2.0),
+        ] {
+            set(&mut port, &format!("mount.{key}"), value);
+        }
+        port.step(t + 0.005).expect("a step");
+    }
+    let off = balance(&mut port) - start;
+    assert!(off.abs() < 1e-4, "{off}");
+    assert!(get(&mut port, "energy.dissipated") > 0.1);
+    assert!(get(&mut port, "energy.input").abs() > 0.1);
+}
+
+#[test]
+fn a_port_that_contradicts_a_joint_is_named() {
+    let mut port = pendulum(
+        r#""ports": [ { "name": "plug", "marker": "wheel.far", "kind": "force" },
+             { "name": "hook", "marker": "rope.root", "kind": "motion", "rotation": true },
+             { "name": "other", "marker": "rope.tip", "kind": "motion" },
+             { "name": "third", "marker": "wheel.rim", "kind": "motion" } ]"#,
+    );
+    let error = port.initialize(0.0).expect_err("one point driven twice");
+    let begins = "ports[3]: expected a motion of what joints and other motions leave free";
+    assert!(error.to_string().starts_with(begins), "{error}");
+}

@@ -1,7 +1,9 @@
 """The model description: fmpy's validation, and the rules that no checker notices."""
 
 import json
+from pathlib import Path
 
+import fmpy
 import pytest
 from conftest import all_scenes, place_of
 from fmpy.validation import validate_fmu
@@ -71,6 +73,27 @@ def test_derivatives_are_listed(xml, scalars):
     for index, (scalar, real) in enumerate(scalars, start=1):
         if real.get("derivative") is not None:
             assert str(index) in listed, scalar.get("name")
+
+
+def test_terminals_are_those_of_ports(fmu, scalars):
+    """FMI 2.0.4 takes the file, and its schema, from FMI 3.0."""
+    scene = json.loads((fmu.folder / "resources" / "scene.json").read_text(encoding="utf-8"))
+    path = fmu.folder / "terminalsAndIcons" / "terminalsAndIcons.xml"
+    if not scene["ports"]:
+        assert not path.exists()
+        return
+    found = etree.parse(path)
+    schema = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
+    etree.XMLSchema(etree.parse(schema)).assertValid(found)
+    terminals = found.findall("Terminals/Terminal")
+    assert [terminal.get("name") for terminal in terminals] == [port["name"] for port in scene["ports"]]
+    causalities = {scalar.get("name"): scalar.get("causality") for scalar, _ in scalars}
+    for terminal in terminals:
+        members = terminal.findall("TerminalMemberVariable")
+        names = [member.get("memberName") for member in members]
+        assert len(set(names)) == len(names) > 0
+        for member in members:
+            assert causalities[member.get("variableName")] in ("input", "output")
 
 
 def test_starts_lie_within_bounds(scalars):

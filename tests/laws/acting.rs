@@ -3,14 +3,14 @@
 
 use flexbody::body::Node;
 use flexbody::math::function::Function;
-use flexbody::system::loads::{Instant, Load, Rotational};
-use flexbody::system::{Angle, Signal};
+use flexbody::system::loads::{Coupling, Instant, Load, Rotational, Turning};
+use flexbody::system::{Angle, End, Signal};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 use crate::differences::{Outcome, check, within};
 use crate::frames::{Frame, along, ends, frame, frames, slope, wave};
-use crate::mechanism::{Acting, Body, Point};
+use crate::mechanism::{Acting, Body, Point, Wave};
 
 const CASES: u32 = 200;
 
@@ -139,7 +139,61 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
         load: made.load(action),
         angles: Vec::new(),
     };
-    actions.iter().map(acted).chain(rotational).collect()
+    let actions = actions.iter().map(acted);
+    actions.chain(couplings(frame)).chain(rotational).collect()
+}
+
+/// A number that changes in time, and its rate.
+fn moving(wave: Wave) -> [Signal; 2] {
+    let Wave {
+        amplitude,
+        frequency,
+        ..
+    } = wave;
+    let text = format!("{:?}*cos({frequency:?}*t)", amplitude * frequency);
+    let rate = Function::expression(&text).expect("an expression");
+    [Signal::Function(wave.function()), Signal::Function(rate)]
+}
+
+/// Springs and dampers to a point and an angle that move, and springs alone.
+fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
+    let made = &frame.made;
+    let mut couplings = Vec::new();
+    for [_, end] in ends(made) {
+        let end = made.product_end(end);
+        let End::Body(marker) = end else {
+            continue;
+        };
+        for damping in [0.0, 1.0 + made.noise[35]] {
+            let [x, y, turn] = [36, 39, 42].map(|k| moving(wave(made, k)));
+            let ([x, vx], [y, vy], [angle, velocity]) = (x, y, turn);
+            let ends = [End::Ground(Default::default()), end];
+            couplings.push(Acted {
+                frame,
+                load: Load::Coupling(Coupling {
+                    marker,
+                    stiffness: 3.0 + made.noise[34],
+                    damping,
+                    position: [x, y],
+                    velocity: [vx, vy],
+                }),
+                angles: Vec::new(),
+            });
+            couplings.push(Acted {
+                frame,
+                load: Load::Turning(Turning {
+                    marker,
+                    counted: 0,
+                    stiffness: 3.0 + made.noise[34],
+                    damping,
+                    angle,
+                    velocity,
+                }),
+                angles: vec![Angle { ends }],
+            });
+        }
+    }
+    couplings
 }
 
 fn law(acted: &Acted<'_>) -> Outcome {
@@ -159,7 +213,13 @@ fn law(acted: &Acted<'_>) -> Outcome {
             let exact = slope(5e-3, |s| acted.work(&along(x, &unit, s), t));
             within("work", (force[i] - exact).abs(), 1e-8 * most)?;
         }
-        if matches!(acted.load, Load::Spring(_) | Load::Rotational(_)) {
+        let conservative = match &acted.load {
+            Load::Spring(_) | Load::Rotational(_) => true,
+            Load::Coupling(load) => load.damping == 0.0,
+            Load::Turning(load) => load.damping == 0.0,
+            _ => false,
+        };
+        if conservative {
             let exact = -slope(5e-3, |s| acted.energy(&along(x, &unit, s), t));
             within("gradient", (force[i] - exact).abs(), 1e-8 * most)?;
         }

@@ -50,6 +50,7 @@ impl Scene {
             ("no masses", self.masses.len(), "masses"),
             ("no motions", self.motions.len(), "motions"),
             ("no loads but inputs", self.loads.len(), "loads"),
+            ("no ports", self.ports.len(), "ports"),
             (
                 "no inputs but dead forces and moments",
                 self.inputs.iter().filter(|input| !plain(input)).count(),

@@ -72,6 +72,12 @@ fn scene() -> Value {
             {"kind": "reaction_moment", "motion": "drive"}, {"kind": "reaction_moment", "joint": "clamp"},
             {"kind": "energy"}, {"kind": "work"}, {"kind": "momentum"}, {"kind": "center_of_mass"},
             {"kind": "residual"}, {"kind": "natural_frequency", "count": 3}
+        ],
+        "ports": [
+            {"name": "plug", "marker": "rod.tip", "kind": "force", "rotation": true},
+            {"name": "socket", "marker": "cart.top", "kind": "motion", "rotation": true},
+            {"name": "mount", "marker": "rope.mid", "kind": "motion", "stiffness": 1e4, "damping": 10,
+                "rotational_stiffness": 5, "rotational_damping": 0.1}
         ]
     })
 }
@@ -186,7 +192,7 @@ fn values_out_of_range_are_refused() {
 }
 
 #[test]
-fn names_are_shared_by_bodies_joints_motions_and_loads() {
+fn names_are_shared_by_bodies_joints_motions_loads_and_ports() {
     let new = ": expected a name not used yet";
     for (pointer, name) in [
         ("/bodies/1/name", "rod"),
@@ -195,6 +201,9 @@ fn names_are_shared_by_bodies_joints_motions_and_loads() {
         ("/loads/0/name", "drive"),
         ("/loads/1/name", "push"),
         ("/loads/1/name", "momentum"),
+        ("/ports/0/name", "hoist"),
+        ("/ports/1/name", "plug"),
+        ("/ports/2/name", "energy"),
         ("/bodies/3/name", "ground"),
     ] {
         let told = told(scene(), pointer, json!(name));
@@ -327,6 +336,31 @@ fn inputs_and_outputs_refer_to_what_has_them() {
 }
 
 #[test]
+fn ports_take_what_is_theirs_and_no_more() {
+    check(
+        scene,
+        r#"
+        /ports/0/name | "2nd" | ports[0].name: expected a letter or _, then
+        /ports/0/kind | "flow" | ports[0].kind: unknown variant
+        /ports/0/stiff | 1 | ports[0].stiff: unknown field
+        /ports/0/marker | "rod.top" | ports[0].marker: expected a marker of this scene (rod.low, 
+        /ports/0/marker | "load.eye" | ports[0].marker: expected a marker that can turn
+        /ports/0 | {"name": "plug", "marker": "load.eye", "kind": "force"} | accepted
+        /ports/0/stiffness | 1 | ports[0].stiffness: expected nothing for this kind of port, found a stiffness
+        /ports/0/rotational_damping | 1 | ports[0].rotational_damping: expected nothing for this kind of port
+        /ports/1/marker | "rope.tip" | ports[1].marker: expected a marker that is not driven yet, found "rope.tip"
+        /ports/1 | {"name": "socket", "marker": "crank.a", "kind": "motion"} | accepted
+        /ports/1 | {"name": "socket", "marker": "rope.mid", "kind": "motion", "rotational_damping": 1} | ports[1]: expected a stiffness or a damping, found neither
+        /ports/1/stiffness | 1 | ports[1]: expected a rotational stiffness or a rotational damping, found neither
+        /ports/2 | {"name": "mount", "marker": "cart.top", "kind": "motion", "rotation": true} | ports[2].marker: expected a marker that is not driven yet, found "cart.top"
+        /ports/2/stiffness | -1 | ports[2].stiffness: expected zero or a positive number (N/m), found -1
+        /ports/2/rotational_damping | -1 | ports[2].rotational_damping: expected zero or a positive number (N m s/rad)
+        /ports/2/rotation | true | accepted
+    "#,
+    );
+}
+
+#[test]
 fn methods_take_the_scenes_that_they_can() {
     check(
         scene,
@@ -348,6 +382,7 @@ fn methods_take_the_scenes_that_they_can() {
         /loads | [{"name": "m", "kind": "moment", "marker": "rod.tip", "value": 0}] | method.formulation: expected no loads but inputs
         /inputs | [{"kind": "torque", "joint": "pin"}] | method.formulation: expected no inputs but dead forces
         /inputs | [{"kind": "force", "marker": "rod.tip"}] | accepted
+        /ports | [{"name": "tip", "marker": "rod.tip", "kind": "force"}] | method.formulation: expected no ports
         /rotation | 1 | method.formulation: expected a frame that does not turn
     "#,
     );

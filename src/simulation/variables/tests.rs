@@ -133,9 +133,84 @@ fn what_jumps_with_an_input_is_direct() {
     assert!(spring.is_some_and(|v| !list.iter().any(|input| v.depends_on(input))));
 }
 
+/// Ports of every kind.
+fn with_ports() -> Scene {
+    let scene = scene();
+    let ports = r#"[
+      { "name": "plug", "marker": "crank.a", "kind": "force", "rotation": true },
+      { "name": "hook", "marker": "rod.tip", "kind": "motion", "rotation": true },
+      { "name": "mount", "marker": "cart.centre", "kind": "motion", "stiffness": 5.0, "damping": 0.5 },
+      { "name": "shaft", "marker": "rod.tip", "kind": "motion", "damping": 1.0,
+        "rotational_stiffness": 2.0 } ]"#;
+    let text = scene
+        .to_json()
+        .replace("\"ports\": []", &format!("\"ports\": {ports}"));
+    Scene::from_json(&text).expect("a valid scene")
+}
+
+#[test]
+fn a_port_has_one_set_of_variables() {
+    let list = variables(&with_ports());
+    let of = |port: &str| -> Vec<&str> {
+        let names = list.iter().map(|variable| variable.name.as_str());
+        let keys = names.filter_map(|name| name.split_once('.'));
+        let keys = keys.filter(|(of, _)| *of == port);
+        keys.map(|(_, key)| key.split('[').next().unwrap_or(key))
+            .collect()
+    };
+    let set = |port: &str| -> std::collections::BTreeSet<&str> { of(port).into_iter().collect() };
+    let full = [
+        "acceleration",
+        "angle",
+        "angular_acceleration",
+        "angular_velocity",
+        "force",
+        "moment",
+        "position",
+        "velocity",
+    ];
+    for port in ["plug", "hook"] {
+        assert_eq!(set(port), full.into(), "{port}");
+        assert_eq!(of(port).len(), 12, "{port}");
+    }
+    let expected = ["damping", "force", "position", "stiffness", "velocity"];
+    assert_eq!(set("mount"), expected.into());
+    assert_eq!(of("shaft").len(), 4 + 3 * 2 + 3);
+    let found = inputs(&list);
+    let starts = |name: &str| found.iter().find(|input| input.0 == name).map(|i| i.2);
+    let near = |name: &str, value: f64| starts(name).is_some_and(|s| (s - value).abs() < 1e-14);
+    assert!(near("hook.angle", std::f64::consts::FRAC_PI_2) && near("hook.position[2]", 1.0));
+    assert!(near("mount.position[1]", 4.0) && near("mount.velocity[1]", 0.0));
+    assert_eq!(start_inputs(&list).len(), with_ports().input_layout().total);
+}
+
+#[test]
+fn what_comes_into_a_coupling_acts_at_once() {
+    let list = variables(&with_ports());
+    for (name, is_direct) in [
+        ("plug.force[1]", true),
+        ("plug.moment", true),
+        ("plug.position[1]", false),
+        ("plug.angular_velocity", false),
+        ("plug.acceleration[2]", true),
+        ("plug.angular_acceleration", true),
+        ("hook.position[1]", false),
+        ("hook.force[2]", true),
+        ("hook.moment", true),
+        ("shaft.position[2]", true),
+        ("shaft.angular_velocity", true),
+        ("mount.force[1]", true),
+        ("shaft.moment", true),
+        ("energy.spring", true),
+    ] {
+        let found = list.iter().find(|variable| variable.name == name);
+        assert_eq!(found.map(|v| v.is_direct), Some(is_direct), "{name}");
+    }
+}
+
 #[test]
 fn names_are_unique() {
-    let list = variables(&scene());
+    let list = variables(&with_ports());
     let names: std::collections::BTreeSet<_> = list.iter().map(|v| &v.name).collect();
     assert_eq!(names.len(), list.len());
 }

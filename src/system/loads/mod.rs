@@ -122,9 +122,9 @@ impl Load {
             Self::Force(load) => load.work(before, after),
             Self::Moment(load) => load.work(before, after),
             Self::Distributed(load) => load.work(before, after),
-            Self::Spring(_) | Self::Rotational(_) | Self::Coupling(_) | Self::Turning(_) => {
-                self.energy(before) - self.energy(after)
-            }
+            Self::Coupling(load) => load.work(before, after),
+            Self::Turning(load) => load.work(before, after),
+            Self::Spring(_) | Self::Rotational(_) => self.energy(before) - self.energy(after),
         }
     }
 
