@@ -89,7 +89,7 @@ fn printed() -> Value {
     scene["bodies"] = json!([rod]);
     scene["joints"] = json!([pin]);
     scene["joints"][0]["point"] = Value::Null;
-    for list in ["masses", "motions", "loads", "inputs", "outputs"] {
+    for list in ["masses", "motions", "loads", "inputs", "outputs", "ports"] {
         scene[list] = json!([]);
     }
     scene["method"] = json!({"formulation": "as_printed", "integrator": "rk4"});
