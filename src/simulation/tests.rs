@@ -324,7 +324,7 @@ fn work_through_a_coupling_is_counted_while_its_point_moves() {
     );
     port.initialize(0.0).expect("a valid scene");
     let kept = ["kinetic", "strain", "gravity", "spring", "dissipated"];
-    let mut balance = |port: &mut Simulation| -> f64 {
+    let balance = |port: &mut Simulation| -> f64 {
         let sum: f64 = kept
             .iter()
             .map(|of| get(port, &format!("energy.{of}")))
