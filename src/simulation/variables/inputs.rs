@@ -2,7 +2,7 @@
 
 use super::unit::*;
 use super::{AXES, List, Source, Unit, component};
-use crate::scene::{GROUND, Input, InputKind, Joint, Motion, MotionKind, Port, Scene};
+use crate::scene::{GROUND, Input, InputKind, Joint, Motion, MotionKind, Scene};
 
 /// Adds the inputs of a scene.
 pub(super) fn add(list: &mut List, scene: &Scene) {
@@ -17,30 +17,35 @@ pub(super) fn add(list: &mut List, scene: &Scene) {
     for ((motion, derivatives), first) in driven.zip(layout.of_motions) {
         add_motion(list, scene, (motion, "drives"), (first, derivatives));
     }
-    for (port, first) in scene.ports.iter().zip(layout.of_ports) {
-        add_port(list, scene, port, first);
+    for (place, first) in layout.of_ports.into_iter().enumerate() {
+        add_port(list, scene, place, first);
     }
 }
 
 /// What comes into a port; a spring and a damper feel it at once.
-fn add_port(list: &mut List, scene: &Scene, port: &Port, mut first: usize) {
+fn add_port(list: &mut List, scene: &Scene, place: usize, mut first: usize) {
+    let port = &scene.ports[place];
     for input in port.inputs() {
         add_load(list, scene, &input, (Some(&port.name), first));
         first += input.components();
     }
-    let before = list.0.len();
-    let verb = if port.is_coupling() {
-        "pulls"
-    } else {
-        "drives"
+    let (coupling, verb) = match port.is_coupling() {
+        true => (Some(scene.couplings_before_port(place)), "pulls"),
+        false => (None, "drives"),
     };
-    for motion in port.motions() {
+    for (part, motion) in port.motions().iter().enumerate() {
+        let before = list.0.len();
         let derivatives = motion.input_derivatives().unwrap_or(0);
-        add_motion(list, scene, (&motion, verb), (first, derivatives));
+        add_motion(list, scene, (motion, verb), (first, derivatives));
         first += motion.input_count().unwrap_or(0);
-    }
-    if port.is_coupling() {
-        list.mark_direct(before);
+        if let Some(coupling) = coupling {
+            list.mark_direct(before);
+            // Coordinates come first, then their rates.
+            for (i, variable) in list.0[before..].iter_mut().enumerate() {
+                variable.coupling = Some(coupling + part);
+                variable.sets_length = i < motion.coordinates();
+            }
+        }
     }
 }
 

@@ -30,8 +30,11 @@ pub struct Variable {
     /// Of an input: whether it acts at once, as loads do; a driven motion moves in the next step. Of
     /// an output: whether it follows at once from such inputs.
     pub is_direct: bool,
-    /// Whether it is an input that sets the length of a spring, and with it the energy in there.
+    /// Whether it is an input that sets the length of a spring or where one ends, and with it the energy
+    /// in there.
     pub sets_length: bool,
+    /// Of an input: the coupling that it comes in through.
+    pub coupling: Option<usize>,
 }
 
 /// What a variable stands for.
@@ -167,13 +170,19 @@ impl Variable {
     }
 
     /// Whether it is an output that follows at once from this input (direct feedthrough). Energy follows
-    /// from nothing but the lengths of springs.
+    /// from nothing but the lengths of springs, the force of a coupling from what comes in through it.
     pub fn depends_on(&self, input: &Self) -> bool {
         let Source::Output(quantity) = self.source else {
             return false;
         };
-        let energy = matches!(quantity, Quantity::SpringEnergy | Quantity::Input);
-        self.is_direct && input.acts_at_once() && (!energy || input.sets_length)
+        let reaches = match quantity {
+            Quantity::SpringEnergy | Quantity::Input => input.sets_length,
+            Quantity::CouplingForce(place, _) | Quantity::CouplingMoment(place) => {
+                input.coupling == Some(place)
+            }
+            _ => true,
+        };
+        self.is_direct && input.acts_at_once() && reaches
     }
 
     /// Whether it is an input that acts at once.
@@ -233,6 +242,7 @@ impl List {
             start,
             is_direct: false,
             sets_length: false,
+            coupling: None,
         });
     }
 

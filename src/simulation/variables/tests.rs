@@ -209,6 +209,39 @@ fn what_comes_into_a_coupling_acts_at_once() {
 }
 
 #[test]
+fn forces_of_couplings_follow_from_what_comes_in_through_them() {
+    let list = variables(&with_ports());
+    let on = |name: &str| -> Vec<&str> {
+        let output = list.iter().find(|variable| variable.name == name);
+        let output = output.expect("an output of this name");
+        let inputs = list.iter().filter(|input| output.depends_on(input));
+        inputs.map(|input| input.name.as_str()).collect()
+    };
+    let mount = [
+        "mount.position[1]",
+        "mount.position[2]",
+        "mount.velocity[1]",
+        "mount.velocity[2]",
+    ];
+    assert_eq!(on("mount.force[2]"), mount);
+    let shaft = ["shaft.angle", "shaft.angular_velocity"];
+    assert_eq!(on("shaft.moment"), shaft);
+    let energy = on("energy.spring");
+    let set = [
+        "hoist.rest_length",
+        "mount.position[1]",
+        "mount.position[2]",
+        "shaft.position[1]",
+        "shaft.position[2]",
+        "shaft.angle",
+    ];
+    assert_eq!(energy, set);
+    assert!(on("plug.acceleration[1]").contains(&"mount.velocity[2]"));
+    assert!(on("plug.velocity[1]").is_empty());
+    assert!(on("hook.force[1]").contains(&"hook.acceleration[1]"));
+}
+
+#[test]
 fn names_are_unique() {
     let list = variables(&with_ports());
     let names: std::collections::BTreeSet<_> = list.iter().map(|v| &v.name).collect();
