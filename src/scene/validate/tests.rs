@@ -73,13 +73,18 @@ fn scene() -> Value {
             {"kind": "energy"}, {"kind": "work"}, {"kind": "momentum"}, {"kind": "center_of_mass"},
             {"kind": "residual"}, {"kind": "natural_frequency", "count": 3}
         ],
-        "ports": [
-            {"name": "plug", "marker": "rod.tip", "kind": "force", "rotation": true},
-            {"name": "socket", "marker": "cart.top", "kind": "motion", "rotation": true},
-            {"name": "mount", "marker": "rope.mid", "kind": "motion", "stiffness": 1e4, "damping": 10,
-                "rotational_stiffness": 5, "rotational_damping": 0.1}
-        ]
+        "ports": ports()
     })
+}
+
+/// Ports of every kind.
+fn ports() -> Value {
+    json!([
+        {"name": "plug", "marker": "rod.tip", "kind": "force", "rotation": true},
+        {"name": "socket", "marker": "cart.top", "kind": "motion", "rotation": true},
+        {"name": "mount", "marker": "rope.mid", "kind": "motion", "stiffness": 1e4, "damping": 10,
+            "rotational_stiffness": 5, "rotational_damping": 0.1}
+    ])
 }
 
 /// A scene with one pinned cable, as the printed formulation takes it.
