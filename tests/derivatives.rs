@@ -20,7 +20,14 @@ fn scenes() -> Vec<PathBuf> {
         .map(|entry| entry.expect("a file").path())
         .filter(|path| !path.to_string_lossy().contains("schema"))
         .collect();
-    found.extend(["mechanism.json", "swing.json"].map(|name| root.join("tests/fmpy").join(name)));
+    let others = [
+        "src/fmi2/example.json",
+        "tests/cases/coupled_mass/driven.json",
+        "tests/cases/coupled_mass/scene.json",
+        "tests/fmpy/mechanism.json",
+        "tests/fmpy/swing.json",
+    ];
+    found.extend(others.map(|name| root.join(name)));
     found.sort();
     assert!(found.len() > 10, "{found:?}");
     found
