@@ -17,7 +17,7 @@ def xtask(*arguments):
         raise AssertionError(f"{' '.join(command)}:\n{result.stdout}{result.stderr}")
 
 
-def package(scene, output):
+def package(scene, output, *options):
     """Packages a scene."""
-    xtask("package", scene, "--output", output)
+    xtask("package", scene, "--output", output, *options)
     return output

@@ -6,6 +6,8 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
+use crate::anonymous;
+use crate::linker::Linker;
 use crate::platform::Platform;
 use crate::process;
 
@@ -55,14 +57,27 @@ impl Workspace {
         command
     }
 
-    /// Builds a package as the shared library of an FMU and returns where it is.
+    /// Builds a package as the shared library of an FMU and returns where it is. What is in it
+    /// follows from the source, the versions of the tools and the platform, not from the place.
     pub fn library(&self, package: &str, platform: Platform) -> Result<PathBuf> {
+        let linker = Linker::prepare(self, platform)?;
+        let flags = [self.flags()?, linker.flags].concat();
+        let mut last = [vec!["-Cstrip=symbols".to_owned()], linker.arguments].concat();
+        if platform.is_darwin() {
+            // Else the library calls itself by the path that it was built at.
+            let name = format!("@rpath/{package}{}", platform.suffix());
+            last.extend([
+                "-Clink-arg=-install_name".into(),
+                format!("-Clink-arg={name}"),
+            ]);
+        }
         let mut command = self.cargo("rustc");
         command.args(["--lib", "--crate-type", "cdylib"]);
+        command.envs(linker.sdk.map(|folder| ("SDKROOT", folder)));
         if !platform.is_host() {
             command.args(["--target", platform.target()]);
         }
-        released(&mut command, package);
+        released(&mut command, package, &flags).arg("--").args(last);
         product(&mut command, package, |artifact| {
             let is_library = |file: &&str| file.ends_with(platform.suffix());
             let files = artifact["filenames"].as_array()?;
@@ -91,11 +106,21 @@ impl Workspace {
         self.executable(&mut command, package)
     }
 
+    fn flags(&self) -> Result<Vec<String>> {
+        anonymous::flags(&self.root, &self.target)
+    }
+
     fn executable(&self, command: &mut Command, package: &str) -> Result<PathBuf> {
-        let command = released(command, package);
+        // With the flags of libraries, so that the two share what they depend on.
+        let command = released(command, package, &self.flags()?);
         product(command, package, |artifact| artifact["executable"].as_str())
             .with_context(|| format!("building the {package} program"))
     }
+}
+
+/// The compiler that cargo uses.
+pub fn rustc() -> Command {
+    Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
 }
 
 fn cargo() -> Command {
@@ -103,8 +128,9 @@ fn cargo() -> Command {
 }
 
 /// Completes a command that builds a package in release.
-fn released<'a>(command: &'a mut Command, package: &str) -> &'a mut Command {
+fn released<'a>(command: &'a mut Command, package: &str, flags: &[String]) -> &'a mut Command {
     command
+        .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"))
         .args(["--package", package, "--release"])
         .args(["--message-format", "json-render-diagnostics"])
 }

@@ -6,12 +6,14 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use platform::Platform;
 
+mod anonymous;
 mod archive;
 mod cargo;
 mod chart;
 mod demo;
 mod describe;
 mod icon;
+mod linker;
 mod merge;
 mod package;
 mod partners;

@@ -27,11 +27,15 @@ pub fn package(
         [] => vec![Platform::host()?],
         named => named.to_vec(),
     };
+    // Libraries first: what their tools lack is said before the program is compiled.
+    let mut libraries = Vec::new();
+    for platform in platforms {
+        libraries.push((platform, workspace.library(PACKAGE, platform)?));
+    }
     let binary = workspace.binary()?;
     let stage = Stage::new(workspace)?;
     describe::describe(&binary, scene, &stage.0)?;
-    for platform in platforms {
-        let library = workspace.library(PACKAGE, platform)?;
+    for (platform, library) in libraries {
         put_library(&library, &stage.0, PACKAGE, platform)?;
     }
     let output = match output {

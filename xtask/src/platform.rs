@@ -64,6 +64,16 @@ impl Platform {
         }
     }
 
+    /// Whether it is one of Linux.
+    pub fn is_linux(self) -> bool {
+        matches!(self, Self::Linux64 | Self::Aarch64Linux)
+    }
+
+    /// Whether it is one of Apple's.
+    pub fn is_darwin(self) -> bool {
+        matches!(self, Self::Darwin64 | Self::Aarch64Darwin)
+    }
+
     /// What the file name of a shared library ends in.
     pub fn suffix(self) -> &'static str {
         match self {

@@ -15,6 +15,8 @@ const PROJECT: (&str, &str) = ("tests/fmpy/requirements.txt", "python");
 const PEERS: (&str, &str) = ("lab/exudyn/requirements.txt", "python-peers");
 /// The same of the masters that tests couple FMUs in; apart, so that a picture needs none of them.
 const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
+/// The linker of libraries; apart, so that what needs no library does not need it.
+const LINKER: (&str, &str) = ("xtask/linker.txt", "python-linker");
 /// Oldest Python that the pinned packages run on.
 const OLDEST: (u32, u32) = (3, 11);
 /// Where to look, best first: the version that the pins were made with, then any other.
@@ -50,6 +52,11 @@ impl Python {
     /// The environment of the masters.
     pub fn prepare_masters(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, MASTERS)
+    }
+
+    /// The environment of the linker.
+    pub fn prepare_linker(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, LINKER)
     }
 
     fn prepare_one(workspace: &Workspace, (requirements, folder): (&str, &str)) -> Result<Self> {
@@ -91,6 +98,11 @@ impl Python {
         let mut command = self.command();
         command.args(["-m", name]);
         command
+    }
+
+    /// A program that came with a package, or the interpreter itself.
+    pub fn program(&self, name: &str) -> PathBuf {
+        self.interpreter.with_file_name(name)
     }
 
     fn command(&self) -> Command {
