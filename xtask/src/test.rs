@@ -81,7 +81,7 @@ fn pytest(python: &Python, workspace: &Workspace, tests: &str) -> Result<()> {
     // The tests package their FMUs with this very program.
     run(python
         .module("pytest")
-        .args(["-p", "no:cacheprovider", "--durations", "5"])
+        .args(["-p", "no:cacheprovider", "--durations", "5", "-rs"])
         .arg(workspace.path(tests))
         .env("FLEXBODY_XTASK", xtask))
 }
