@@ -114,7 +114,7 @@ def test_merging_adds_platforms(swing, tmp_path):
 
 def test_merging_fmus_of_different_scenes_is_refused(swing, variant, tmp_path):
     other = variant(gravity=[0.0, -1.62])
-    with pytest.raises(AssertionError, match="different: .*modelDescription.xml, resources/scene.json"):
+    with pytest.raises(AssertionError, match="different: modelDescription.xml, .*resources/scene.json"):
         xtask("merge", swing.path, other.path, "--output", tmp_path / "merged.fmu")
     assert not (tmp_path / "merged.fmu").exists()
 

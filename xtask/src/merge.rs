@@ -47,7 +47,7 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
     let is_shared = |file: &&String| platform(file).is_none_or(|found| both.contains(found));
     let all: BTreeSet<&String> = first.keys().chain(second.keys()).collect();
     let differ = |file: &&String| first.get(*file) != second.get(*file);
-    let different: Vec<String> = all
+    let mut different: Vec<String> = all
         .into_iter()
         .filter(is_shared)
         .filter(differ)
@@ -57,6 +57,8 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
             _ => file.clone(),
         })
         .collect();
+    // The file that says what the others are for is named in any case.
+    different.sort_by_key(|file| !file.starts_with(DESCRIPTION));
     if !different.is_empty() {
         let more = different.len().saturating_sub(NAMED);
         let named = different[..different.len() - more].join(", ");
