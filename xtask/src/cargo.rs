@@ -127,6 +127,19 @@ fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
+/// Runs a build and returns the programs that cargo's messages name.
+pub fn executables(command: &mut Command) -> Result<Vec<PathBuf>> {
+    let messages = process::stdout(command.args(["--message-format", "json-render-diagnostics"]))?;
+    let parsed = messages.lines().map(serde_json::from_str::<Value>);
+    let parsed: Vec<Value> = parsed
+        .collect::<Result<_, _>>()
+        .context("expected JSON messages of cargo")?;
+    let programs = parsed
+        .iter()
+        .filter_map(|message| message["executable"].as_str());
+    Ok(programs.map(PathBuf::from).collect())
+}
+
 /// Completes a command that builds a package in release.
 fn released<'a>(command: &'a mut Command, package: &str, flags: &[String]) -> &'a mut Command {
     command

@@ -12,6 +12,7 @@ mod cargo;
 mod chart;
 mod demo;
 mod describe;
+mod fuzz;
 mod icon;
 mod linker;
 mod merge;

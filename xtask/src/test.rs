@@ -5,20 +5,21 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 
 use crate::cargo::Workspace;
-use crate::describe;
 use crate::process::run;
 use crate::python::Python;
+use crate::{describe, fuzz};
 
 type Step = (&'static str, fn(&Workspace) -> Result<()>);
 
 /// The checks in order.
-const STEPS: [Step; 6] = [
+const STEPS: [Step; 7] = [
     ("formatting", formatting),
     ("clippy", clippy),
     ("Rust tests", rust_tests),
     ("generated files", describe::check),
     ("FMUs under fmpy", fmpy_tests),
     ("coupled FMUs under other masters", master_tests),
+    ("fuzzing", fuzz::test),
 ];
 
 /// Runs every check and stops at the first that fails.

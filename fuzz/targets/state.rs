@@ -1,0 +1,72 @@
+//! Bytes as a saved state: refused, or restored and simulated, and never in the way of what follows.
+#![no_main]
+
+#[path = "../../tests/abi/support.rs"]
+#[allow(dead_code, reason = "shared with the tests of the C interface")]
+mod support;
+
+use flexbody::scene::Scene;
+use libfuzzer_sys::fuzz_target;
+use sha2::{Digest, Sha256};
+use support::{Instance, Status, Unit, call};
+
+/// A flexible pendulum; rigid bodies with constraints, and a trolley that inputs drive.
+const SCENES: [&str; 2] = [support::SCENE, include_str!("crane.json")];
+
+/// Bytes of what says whose state it is: magic, version, GUID.
+const HEADER: usize = 8 + 4 + 38;
+
+/// A state in bytes with the header and the scene of another and a checksum that fits, so that the
+/// fuzzer gets beyond them.
+fn sealed(other: &[u8], body: &[u8], scene: &str) -> Vec<u8> {
+    let mut bytes = [&other[..HEADER], body, scene.as_bytes()].concat();
+    let hash = Sha256::digest(&bytes);
+    bytes.extend(hash);
+    bytes
+}
+
+/// Steps, outputs and the end of an instance in whatever state it is.
+fn used(instance: &Instance<'_>) {
+    let c = instance.component;
+    let _ = call!(fmi2ExitInitializationMode, c);
+    let time = instance.unit.reference("time");
+    for _ in 0..3 {
+        let mut now = 0.0;
+        let _ = call!(fmi2GetReal, c, &time, 1, &mut now);
+        let _ = instance.step(now, 1e-3);
+        for reference in 0..instance.unit.variables.len() as u32 {
+            let mut value = 0.0;
+            if call!(fmi2GetReal, c, &reference, 1, &mut value) == Status::Ok {
+                assert!(value.is_finite(), "{value} of reference {reference}");
+            }
+        }
+    }
+    let _ = call!(fmi2Terminate, c);
+}
+
+fuzz_target!(|data: &[u8]| {
+    let (scene, body) = data.split_first().unwrap_or((&0, &[]));
+    let text = SCENES[usize::from(*scene) % SCENES.len()];
+    let unit = Unit::of(text);
+    let instance = Instance::new(&unit);
+    let fresh = instance.fingerprint();
+    assert_eq!(instance.deserialize(body), None, "without its checksum");
+    let scene = Scene::from_json(text).expect("a valid scene").to_json();
+    if let Some(state) = instance.deserialize(&sealed(&fresh, body, &scene)) {
+        let bare = Instance::bare(&unit);
+        let restored = [&instance, &bare].map(|instance| instance.restore(state));
+        assert_eq!(restored[0], restored[1]);
+        if restored == [Status::Ok; 2] {
+            let bytes = instance.serialize(state);
+            assert_eq!(instance.fingerprint(), bytes);
+            assert_eq!(bare.fingerprint(), bytes);
+            used(&instance);
+        } else {
+            assert_eq!(instance.fingerprint(), fresh, "changed though refused");
+        }
+        instance.free(state);
+    }
+    assert_eq!(call!(fmi2Reset, instance.component), Status::Ok);
+    assert_eq!(instance.fingerprint(), fresh);
+    instance.start();
+});
