@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufWriter, Read, Write};
+use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
@@ -29,8 +29,8 @@ pub fn pack(folder: &Path, archive: &Path) -> Result<()> {
 pub fn write(content: &Content, archive: &Path) -> Result<()> {
     // Under another name first: a reader never meets half an archive.
     let partial = archive.with_extension("fmu.partial");
-    let written =
-        write_to(content, &partial).and_then(|()| Ok(std::fs::rename(&partial, archive)?));
+    let bytes = zipped(content)?;
+    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, archive));
     if written.is_err() {
         // A full disk is no place for half an archive; the first error is the one to tell.
         let _ = std::fs::remove_file(&partial);
@@ -86,8 +86,9 @@ pub fn entry_name(folder: &Path, path: &Path) -> Result<String> {
     Ok(parts.collect::<Result<Vec<_>>>()?.join("/"))
 }
 
-fn write_to(content: &Content, archive: &Path) -> Result<()> {
-    let mut zip = ZipWriter::new(BufWriter::new(File::create(archive)?));
+/// The bytes of an archive: in memory, because a writer of archives cannot give up a full disk quietly.
+fn zipped(content: &Content) -> Result<Vec<u8>> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .compression_level(Some(9))
@@ -99,8 +100,7 @@ fn write_to(content: &Content, archive: &Path) -> Result<()> {
         zip.start_file(name, options.unix_permissions(mode))?;
         zip.write_all(bytes)?;
     }
-    zip.finish()?.flush()?;
-    Ok(())
+    Ok(zip.finish()?.into_inner())
 }
 
 #[cfg(test)]
