@@ -184,7 +184,7 @@ def test_another_platform_computes_the_same(foreign, scene, fmu_of, tmp_path):
     there = Fmu(package(scene, tmp_path / f"{scene.stem}.fmu", "--platform", foreign.platform), tmp_path / "extracted")
     assert there.description.guid == here.description.guid
     outputs = here.names("output")
-    step = here.description.defaultExperiment.stepSize
+    step = float(here.description.defaultExperiment.stepSize)
     with Instance(here) as instance:
         instance.initialize()
         expected = []
