@@ -182,7 +182,7 @@ fn derivatives_in_time_are_those_of_the_motion() {
         let (share, coarse) = if moving.is_driven() {
             (5e-3, [1e4, 1e10])
         } else {
-            (1e-4, [1.0; 2])
+            (1e-3, [1.0; 2])
         };
         for (i, index) in outputs.iter().enumerate() {
             let place = format!("{} {}", path.display(), moving.name(*index));
