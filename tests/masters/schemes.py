@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from fmpy.fmi1 import FMICallException
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples"))
 
@@ -89,18 +90,25 @@ def interpolation(coming, points, step, degree):
     ][degree]
 
 
-def largest_stable_step(make, output, lowest, highest, count=1000, precision=0.002):
-    """Where stability first ends, going up from a step that is stable; nothing if it does not.
+def largest_stable_step(make, output, lowest, highest, count=600, least=0.0, precision=0.002):
+    """Where stability first ends, going up: nothing if nowhere, zero if the lowest step is not stable.
 
-    `make` gives a master that is ready for its first step, `count` is the number of steps of a run."""
-    low = high = lowest
-    while is_stable(make(), high, output, count):
+    `make` gives a master that is ready for its first step. A run has `count` steps, or more if it
+    would be shorter than `least`, s."""
+
+    def stable(step):
+        return is_stable(make(), step, output, max(count, round(least / step)))
+
+    if not stable(lowest):
+        return 0.0
+    low, high = lowest, 1.15 * lowest
+    while stable(high):
         if high >= highest:
             return None
-        low, high = high, min(1.3 * high, highest)
+        low, high = high, min(1.15 * high, highest)
     while high > low * (1 + precision):
         middle = (low * high) ** 0.5
-        low, high = (middle, high) if is_stable(make(), middle, output, count) else (low, middle)
+        low, high = (middle, high) if stable(middle) else (low, middle)
     return (low * high) ** 0.5
 
 
@@ -109,12 +117,17 @@ def is_stable(master, step, output, count):
     name, variable = output.split(".", 1)
     unit = master.interface.units[name]
     quarters = [0.0] * 4
-    for number in range(count):
-        master.step(number * step, step)
-        size = abs(unit.getReal([unit.numbers[variable]])[0])
-        quarters[4 * number // count] = max(quarters[4 * number // count], size)
-        if not size < 1e6:
-            break
-    for unit in master.interface.units.values():
-        unit.freeInstance()
-    return size < 1e6 and quarters[3] <= quarters[1]
+    try:
+        for number in range(count):
+            master.step(number * step, step)
+            size = abs(unit.getReal([unit.numbers[variable]])[0])
+            quarters[4 * number // count] = max(quarters[4 * number // count], size)
+            if not size < 1e3:
+                return False
+    except (FMICallException, RuntimeError):
+        # A unit or the master could not follow any more.
+        return False
+    finally:
+        for unit in master.interface.units.values():
+            unit.freeInstance()
+    return quarters[3] <= quarters[1]

@@ -3,11 +3,16 @@
 import math
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
-from coupled import FIGURES, BeamAndMass, TwoMasses
+from coupled import FIGURES, BeamAndMass, TwoMasses, mass_scene
+from coupling import Scenes, Whole, curve
+from references import cantilever_with_sprung_mass
 from schemes import Asking, Extrapolating, RollbackMaster, interface, largest_stable_step
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "rollback_master.py"
 
 FIRST = {"J": None, "GS": "two"}
 
@@ -17,12 +22,13 @@ def masses(systems):
     return TwoMasses(systems.partners)
 
 
-def end(master, step, stop=1.0):
-    """Position of the first mass at the end."""
-    for number in range(round(stop / step)):
+def end(master, step, output="one.position"):
+    """Position of the first mass after a second."""
+    for number in range(round(1.0 / step)):
         master.step(number * step, step)
-    unit = master.interface.units["one"]
-    return unit.getReal([unit.numbers["position"]])[0]
+    name, variable = output.split(".", 1)
+    unit = master.interface.units[name]
+    return unit.getReal([unit.numbers[variable]])[0]
 
 
 @pytest.mark.parametrize("time, expected", [(row[0], row[1:]) for row in FIGURES["response"]["rows"]])
@@ -81,3 +87,60 @@ def test_rollback_agrees_at_every_point_with_steps_where_others_are_unstable(mas
         assert np.abs(known.get() - master.inputs).max() < 1e-6
     assert np.abs(master.inputs).max() < 1.0
     assert master.attempts < 6 * 40
+
+
+def test_the_example_runs_as_it_says(masses):
+    system = masses.system("FD")
+    command = [sys.executable, str(EXAMPLE)]
+    command += [f"{name}={unit['fmu']}" for name, unit in system["units"].items()]
+    command += ["--connect", *("=".join(pair) for pair in system["connections"])]
+    starts = [(name, *start) for name, unit in system["units"].items() for start in unit["start"].items()]
+    command += ["--start", *(f"{name}.{variable}={value}" for name, variable, value in starts)]
+    command += ["--step", "0.01", "--stop-time", "1", "--degree", "2"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    assert result.returncode == 0, result.stderr
+    header, *_, last = result.stdout.splitlines()
+    assert header == "time,two.position,two.velocity,one.coupling_force"
+    assert float(last.split(",")[1]) == pytest.approx(masses.exact(1.0)[2], abs=1e-4)
+    assert len(EXAMPLE.read_text(encoding="utf-8").splitlines()) <= 150
+
+
+@pytest.fixture(scope="session")
+def packaged(systems):
+    return Scenes(systems)
+
+
+@pytest.mark.parametrize("way", ["FD", "DD", "FF"])
+def test_ports_do_what_exact_units_do(systems, masses, packaged, way):
+    scenes = TwoMasses(systems.partners, lambda *body: packaged(mass_scene, *body))
+    for degree in (0, 2):
+        found, expected = (
+            end(Extrapolating(interface(system), degree), 0.02, system["outputs"][0])
+            for system in (scenes.system(way), masses.system(way))
+        )
+        assert found == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_beam_and_a_mass_move_as_in_one_scene(systems, packaged):
+    """The scene has its reference: modes in closed form."""
+    stop = 0.4
+    values = BeamAndMass.values
+    closed = cantilever_with_sprung_mass(
+        length=1.0,
+        bending_stiffness=175.0,
+        line_density=0.785,
+        stiffness=values["coupling_stiffness"],
+        mass=BeamAndMass.mass,
+        velocity=BeamAndMass.velocity,
+        stop=stop,
+    )
+    undamped = Whole(systems, stop, is_damped=False)
+    assert undamped(stop) == pytest.approx(closed[0], abs=1e-4 * undamped.size)
+    both = BeamAndMass(systems.partners, lambda has_spring: packaged(BeamAndMass.beam_scene, has_spring))
+    known, whole = both.system("FD"), Whole(systems, stop, is_damped=True)
+    errors = [
+        curve(lambda: RollbackMaster(interface(known), 2), step, stop, known["outputs"][0], whole)[0]
+        for step in (0.005, 0.0025)
+    ]
+    assert errors[1] < 1e-3
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(3, abs=0.3)

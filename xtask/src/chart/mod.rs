@@ -10,6 +10,7 @@ mod bench;
 mod bodies;
 mod constraints;
 mod cost;
+mod coupling;
 mod drift;
 mod energies;
 mod failures;
@@ -44,6 +45,8 @@ pub enum Chart {
     Bodies,
     /// What a unit costs besides its solver
     Overhead,
+    /// Coupled units: error against communication step, largest stable steps
+    Coupling,
     /// Projection and partitioning: error against CPU time
     Constraints,
     /// Energy and residuals of mechanisms over a minute
@@ -68,6 +71,7 @@ impl Chart {
             Self::Cost => "cost",
             Self::Bodies => "bodies",
             Self::Overhead => "overhead",
+            Self::Coupling => "coupling",
             Self::Constraints => "constraints",
             Self::Energies => "energies",
             Self::Peers => "peers",
@@ -87,6 +91,7 @@ impl Chart {
             Self::Cost => cost::chart(bench),
             Self::Bodies => bodies::chart(bench),
             Self::Overhead => overhead::chart(bench),
+            Self::Coupling => coupling::chart(bench),
             Self::Constraints => constraints::chart(bench),
             Self::Energies => energies::chart(bench),
             Self::Peers => peers::chart(bench),
