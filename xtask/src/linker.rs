@@ -64,7 +64,12 @@ impl Linker {
 
     /// Rust's own: Zig's leaves in what nothing uses, exports it and names a library by its path.
     fn darwin(workspace: &Workspace, python: &Python) -> Result<Self> {
-        let arguments = ["-Clinker-flavor=ld64.lld", "-Clinker=rust-lld"];
+        // The last leaves out the paths of object files, which the library's UUID is made of.
+        let arguments = [
+            "-Clinker-flavor=ld64.lld",
+            "-Clinker=rust-lld",
+            "-Clink-arg=-S",
+        ];
         Ok(Self {
             flags: Vec::new(),
             arguments: arguments.map(String::from).into(),
