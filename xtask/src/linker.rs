@@ -15,8 +15,9 @@ use crate::python::Python;
 const FOLDER: &str = "linker";
 /// Oldest glibc that a library for Linux loads on: the oldest that Rust's own standard library does.
 const GLIBC: &str = "2.17";
-/// The libraries that rustc names for macOS are all in the first.
-const DARWIN_LIBRARIES: [&str; 3] = ["libSystem", "libc", "libm"];
+/// The libraries that rustc names for macOS. The first holds all that is used: nothing here calls iconv, which
+/// the crate libc names all the same.
+const DARWIN_LIBRARIES: [&str; 4] = ["libSystem", "libc", "libm", "libiconv"];
 
 /// What cargo builds the library of a platform with.
 #[derive(Default)]
