@@ -131,32 +131,32 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
     let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
     page::write_csv(&bench.output("overhead.csv"), &header, &cells)?;
     let marks = [Mark::Dot, Mark::Triangle, Mark::Ring, Mark::Square];
-    let lines = |names: &[(&str, &str)], chosen: [usize; 4], time: fn(&Row, usize) -> f64| {
-        let line = |(index, part): (usize, usize)| {
+    let lines = |names: &[(&str, &str)], chosen: &[usize], time: fn(&Row, usize) -> f64| {
+        let line = |(index, part): (usize, &usize)| {
             let cables = rows.iter().filter(|row| row.elements > 0);
-            let points = cables.map(|row| (f64::from(row.elements), time(row, part)));
-            Line::new(names[part].1, points.collect(), index, marks[index])
+            let points = cables.map(|row| (f64::from(row.elements), time(row, *part)));
+            Line::new(names[*part].1, points.collect(), index, marks[index])
         };
-        chosen.into_iter().enumerate().map(line).collect()
+        chosen.iter().enumerate().map(line).collect()
     };
     let panels = [
         Panel {
             title: "From instantiation to the first step".into(),
             x: Axis::counts("elements", &MESHES),
             y: Axis::log("CPU time / ms"),
-            lines: lines(&START, [5, 0, 2, 4], |row, part| 1e3 * row.start[part]),
+            lines: lines(&START, &[5, 0, 2, 4], |row, part| 1e3 * row.start[part]),
         },
         Panel {
             title: "At every step".into(),
             x: Axis::counts("elements", &MESHES),
             y: Axis::log("CPU time / µs"),
-            lines: lines(&STEP, [0, 1, 2, 3], |row, part| 1e6 * row.step[part]),
+            lines: lines(&STEP, &[0, 3], |row, part| 1e6 * row.step[part]),
         },
         Panel {
             title: "Between steps".into(),
             x: Axis::counts("elements", &MESHES),
             y: Axis::log("CPU time / µs"),
-            lines: lines(&STATE, [1, 2, 4, 6], |row, part| 1e6 * row.state[part]),
+            lines: lines(&STATE, &[1, 2, 4, 6], |row, part| 1e6 * row.state[part]),
         },
     ];
     draw(&bench.output("overhead.svg"), &panels)
