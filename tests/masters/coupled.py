@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from references import cantilever_with_sprung_mass
 
 HERE = Path(__file__).parent
 FIGURES = json.loads((HERE / "two_masses.json").read_text(encoding="utf-8"))
@@ -159,6 +160,19 @@ class BeamAndMass:
     period = 0.05188
     # FD with the spring in the beam's port, then in the mass.
     ways = ("FD", "FD'", "FF")
+
+    @classmethod
+    def closed_form(cls, stop):
+        """Where beam and mass would be without damping, from the modes of both."""
+        return cantilever_with_sprung_mass(
+            length=1.0,
+            bending_stiffness=175.0,
+            line_density=0.785,
+            stiffness=cls.values["coupling_stiffness"],
+            mass=cls.mass,
+            velocity=cls.velocity,
+            stop=stop,
+        )
 
     def __init__(self, partners, beam):
         """`beam` gives an FMU of the beam with a port that has the spring or none."""

@@ -14,7 +14,6 @@ from conftest import Systems, package, xtask
 from coupled import FIGURES, WAYS, BeamAndMass, TwoMasses, mass_scene
 from fmpy.fmi1 import FMICallException
 from masters import ecco, libcosimpy
-from references import cantilever_with_sprung_mass
 from schemes import Asking, Extrapolating, RollbackMaster, interface, largest_stable_step
 
 # Masters by name on the chart, with their degree.
@@ -161,16 +160,7 @@ def beam(systems, package):
     both = BeamAndMass(systems.partners, lambda has_spring: package(BeamAndMass.beam_scene, has_spring))
     stop = 0.4
     undamped = Whole(systems, stop, is_damped=False)
-    values = BeamAndMass.values
-    closed = cantilever_with_sprung_mass(
-        length=1.0,
-        bending_stiffness=175.0,
-        line_density=0.785,
-        stiffness=values["coupling_stiffness"],
-        mass=both.mass,
-        velocity=both.velocity,
-        stop=stop,
-    )
+    closed = BeamAndMass.closed_form(stop)
     rows = [("FD", *master) for master in MASTERS]
     rows += [(way, "Jacobi", degree) for way in ("FD'", "FF") for degree in (0, 1, 2)]
     return {

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from coupled import FIGURES, BeamAndMass, TwoMasses, mass_scene
 from coupling import Scenes, Whole, curve
-from references import cantilever_with_sprung_mass
 from schemes import Asking, Extrapolating, RollbackMaster, interface, largest_stable_step
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "rollback_master.py"
@@ -124,16 +123,7 @@ def test_ports_do_what_exact_units_do(systems, masses, packaged, way):
 def test_a_beam_and_a_mass_move_as_in_one_scene(systems, packaged):
     """The scene has its reference: modes in closed form."""
     stop = 0.4
-    values = BeamAndMass.values
-    closed = cantilever_with_sprung_mass(
-        length=1.0,
-        bending_stiffness=175.0,
-        line_density=0.785,
-        stiffness=values["coupling_stiffness"],
-        mass=BeamAndMass.mass,
-        velocity=BeamAndMass.velocity,
-        stop=stop,
-    )
+    closed = BeamAndMass.closed_form(stop)
     undamped = Whole(systems, stop, is_damped=False)
     assert undamped(stop) == pytest.approx(closed[0], abs=1e-4 * undamped.size)
     both = BeamAndMass(systems.partners, lambda has_spring: packaged(BeamAndMass.beam_scene, has_spring))
