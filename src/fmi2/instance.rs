@@ -13,7 +13,7 @@ use super::logger::{Category, Logger};
 use super::state::SavedState;
 use super::status::{Fault, Status};
 use crate::scene::{self, Scene};
-use crate::simulation::{self, Parameter, Simulation, Source, Variable};
+use crate::simulation::{self, Simulation};
 
 /// Relative difference up to which two times are the same; masters add up their time in many ways.
 const SAME_TIME: f64 = 1e-5;
@@ -23,8 +23,8 @@ pub struct Instance {
     pub(super) logger: Logger,
     pub(super) simulation: Simulation,
     pub(super) state: State,
-    /// Parameters and inputs as last accepted: what a call that is refused goes back to.
-    pub(super) values: Vec<f64>,
+    /// What the variables of the last set call were set to before.
+    pub(super) before: Vec<f64>,
     guid: String,
     /// The scene, JSON.
     scene: Arc<str>,
@@ -144,27 +144,18 @@ impl Instance {
             }
         };
         let simulation = simulation.unwrap_or_else(|| Simulation::new(Scene::default()));
-        let mut instance = Self {
+        // A set call names few variables twice: it allocates nothing.
+        let before = Vec::with_capacity(simulation.variables().len());
+        Self {
             logger,
             scene: simulation.scene().to_json().into(),
             simulation,
             state,
-            values: Vec::new(),
+            before,
             guid: request.guid.into(),
             start_time: 0.0,
             stop_time: None,
-        };
-        instance.copy_start_values();
-        instance
-    }
-
-    fn copy_start_values(&mut self) {
-        let starts = self
-            .simulation
-            .variables()
-            .iter()
-            .map(|v| v.start.unwrap_or(0.0));
-        self.values = starts.collect();
+        }
     }
 
     /// The guard around every function: lifecycle, then the panic boundary.
@@ -219,12 +210,6 @@ impl Instance {
         }
         if let Some(tolerance) = tolerance {
             self.simulation.set_tolerance(tolerance)?;
-            let is_tolerance = |variable: &Variable| {
-                variable.source == Source::Parameter(Parameter::RelativeTolerance)
-            };
-            if let Some(index) = self.simulation.variables().iter().position(is_tolerance) {
-                self.values[index] = tolerance;
-            }
         }
         self.start_time = start_time;
         self.stop_time = stop_time;
@@ -273,7 +258,6 @@ impl Instance {
     /// `fmi2Reset`.
     pub(super) fn reset(&mut self) -> Result<(), Fault> {
         self.simulation = Simulation::new(self.simulation.scene().clone());
-        self.copy_start_values();
         self.state = State::Instantiated;
         self.start_time = 0.0;
         self.stop_time = None;
@@ -285,7 +269,6 @@ impl Instance {
     pub(super) fn do_step(&mut self, current: f64, step: f64) -> Result<(), Fault> {
         let until = self.end_of_step(current, step)?;
         let outcome = self.simulation.step(until);
-        self.simulation.copy_values(&mut self.values);
         let report = self.simulation.report();
         let message = format_args!(
             "to time {} s: {}, {} steps, {} rejected, {} Newton iterations",
@@ -372,7 +355,6 @@ impl Instance {
         } else {
             self.simulation.restore(&saved.snapshot).map_err(refused)?;
         }
-        self.values.clone_from(&saved.snapshot.values);
         self.state = saved.lifecycle;
         self.start_time = saved.start_time;
         self.stop_time = saved.stop_time;

@@ -54,16 +54,13 @@ impl Instance {
                 });
             }
         }
-        let current = self.simulation.is_current();
+        let current = self.remember(references);
         for (done, (reference, value)) in references.iter().zip(values).enumerate() {
             let index = *reference as usize;
             if let Err(error) = self.simulation.set_real(index, *value) {
                 self.take_back(&references[..done], current);
                 return Err(error.into());
             }
-        }
-        for (reference, value) in references.iter().zip(values) {
-            self.values[*reference as usize] = *value;
         }
         Ok(())
     }
@@ -73,16 +70,13 @@ impl Instance {
         for reference in references {
             self.settable(*reference, INTEGER)?;
         }
-        let current = self.simulation.is_current();
+        let current = self.remember(references);
         for (done, (reference, value)) in references.iter().zip(values).enumerate() {
             let index = *reference as usize;
             if let Err(error) = self.simulation.set_integer(index, *value) {
                 self.take_back(&references[..done], current);
                 return Err(error.into());
             }
-        }
-        for (reference, value) in references.iter().zip(values) {
-            self.values[*reference as usize] = f64::from(*value);
         }
         Ok(())
     }
@@ -219,13 +213,23 @@ impl Instance {
         })
     }
 
+    /// Keeps what variables are set to, for [`Self::take_back`]; whether the initial state belongs to it.
+    fn remember(&mut self, references: &[u32]) -> bool {
+        let settings = references
+            .iter()
+            .map(|r| self.simulation.setting(*r as usize));
+        self.before.clear();
+        self.before.extend(settings);
+        self.simulation.is_current()
+    }
+
     /// Sets variables back to the values before a call that was refused half-way. The simulation
     /// accepted these values before, so it accepts them again; an initial state that belonged to them
     /// does so again.
     fn take_back(&mut self, references: &[u32], current: bool) {
-        for reference in references {
-            let index = *reference as usize;
-            let value = self.values[index];
+        // Backwards, through the settings that were accepted on the way.
+        for (place, reference) in references.iter().enumerate().rev() {
+            let (index, value) = (*reference as usize, self.before[place]);
             let accepted = if self.simulation.variables()[index].is_integer() {
                 // Written from an i32 in the first place.
                 self.simulation.set_integer(index, value as i32)

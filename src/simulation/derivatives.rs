@@ -16,13 +16,13 @@ impl Simulation {
         value: f64,
     ) -> Result<(), Error> {
         self.check_input_derivative(index, order, value)?;
-        self.drop_slopes();
-        self.moving = true;
+        self.inputs.drop_slopes();
+        self.inputs.moving = true;
         if let Source::Input(place) = self.variables[index].source {
             self.inputs.slopes[place][order as usize - 1] = value;
         }
         if let Some(engine) = &mut self.engine {
-            engine.inputs_changed();
+            engine.inputs_changed(&self.inputs.values);
         }
         Ok(())
     }
@@ -48,13 +48,6 @@ impl Simulation {
             return Err(self.refuse(index, &format!("expected a finite number, found {value}")));
         }
         Ok(())
-    }
-
-    /// Derivatives of inputs that are not of the next step are of the one before, which has passed.
-    pub(super) fn drop_slopes(&mut self) {
-        if !self.moving {
-            self.inputs.slopes.fill([0.0; 2]);
-        }
     }
 
     /// Derivative in time of an output now: exact up to order 2, zero of higher ones. Inputs go on as

@@ -8,7 +8,7 @@ use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
 use crate::math::jet::{Jet, part};
 use crate::scene::{Assembled, Initial, Scene, assemble};
 use crate::system::{
-    Derivatives, Evaluation, Model, NotAssembled, State, System, Work, equilibrium,
+    Derivatives, Evaluation, Model, NotAssembled, State, System, Work, equilibrium, moved,
     natural_frequencies,
 };
 
@@ -21,12 +21,13 @@ enum Derived {
     Inputs,
 }
 
-/// Inputs, their derivatives, and whether those move them in the next step.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Inputs in the order of the system ([`crate::scene::InputLayout`]).
 pub(super) struct Inputs {
     pub values: Vec<f64>,
     /// First and second derivatives.
     pub slopes: Vec<[f64; 2]>,
+    /// Whether the derivatives are of the next step; else they are of the one before.
+    pub moving: bool,
 }
 
 pub(super) struct Engine {
@@ -53,9 +54,21 @@ impl Inputs {
     /// Moves on by a time, s.
     fn advance(&mut self, t: f64) {
         for (value, [first, second]) in self.values.iter_mut().zip(&mut self.slopes) {
-            *value += t * (*first + 0.5 * t * *second);
-            *first += t * *second;
+            [*value, *first] = moved([*value, *first, *second], t);
         }
+    }
+
+    /// Forgets derivatives of the step before, which has passed.
+    pub(super) fn drop_slopes(&mut self) {
+        if !self.moving {
+            self.slopes.fill([0.0; 2]);
+        }
+    }
+
+    /// A step begins; whether inputs move in it.
+    pub(super) fn begin_step(&mut self) -> bool {
+        self.drop_slopes();
+        std::mem::take(&mut self.moving)
     }
 }
 
@@ -246,7 +259,8 @@ impl Engine {
     }
 
     /// The inputs have changed: positions and velocities stand.
-    pub(super) fn inputs_changed(&mut self) {
+    pub(super) fn inputs_changed(&mut self, inputs: &[f64]) {
+        self.evaluation.set_inputs(inputs);
         self.evaluated = self.evaluated.min(Evaluated::Kinematics);
         self.derived = Derived::Nothing;
     }
@@ -364,8 +378,8 @@ impl Engine {
 
     fn evaluate(&mut self, needs: Evaluated, state: &State, inputs: &[f64]) {
         let system = &self.assembled.system;
-        self.evaluation.set_inputs(inputs);
         if needs >= Evaluated::Kinematics && self.evaluated < Evaluated::Kinematics {
+            self.evaluation.set_inputs(inputs);
             self.evaluation.kinematics(system, state, &mut self.work);
             self.evaluated = Evaluated::Kinematics;
         }

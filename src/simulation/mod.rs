@@ -73,10 +73,7 @@ pub struct Simulation {
     variables: Vec<Variable>,
     /// Parameters and inputs, one per variable.
     values: Vec<f64>,
-    /// Inputs in the order of the system ([`crate::scene::InputLayout`]).
     inputs: Inputs,
-    /// Derivatives of inputs are of the next step, not of the last one.
-    moving: bool,
     /// A direction of the inputs.
     direction: Vec<f64>,
     engine: Option<Engine>,
@@ -100,8 +97,8 @@ impl Simulation {
             inputs: Inputs {
                 slopes: vec![[0.0; 2]; inputs.len()],
                 values: inputs,
+                moving: false,
             },
-            moving: false,
             scene,
             variables,
             values,
@@ -129,9 +126,9 @@ impl Simulation {
         &self.variables
     }
 
-    /// Copies parameters and inputs, one number per variable, without allocating.
-    pub fn copy_values(&self, to: &mut Vec<f64>) {
-        to.clone_from(&self.values);
+    /// Current value of a parameter or an input; 0 of all else.
+    pub fn setting(&self, index: usize) -> f64 {
+        self.values.get(index).copied().unwrap_or(0.0)
     }
 
     /// Current time, s.
@@ -261,17 +258,18 @@ impl Simulation {
                 reason: error.to_string(),
             })?;
         }
-        self.drop_slopes();
-        self.moving = false;
+        let moves = self.inputs.begin_step();
         let time = self.state.time;
         let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
             time,
             reason: "expected a simulation that has been initialized".into(),
         })?;
         let (report, result) = engine.step(&mut self.state, &mut self.inputs, until);
-        for (variable, value) in self.variables.iter().zip(&mut self.values) {
-            if let Source::Input(place) = variable.source {
-                *value = self.inputs.values[place];
+        if moves {
+            for (variable, value) in self.variables.iter().zip(&mut self.values) {
+                if let Source::Input(place) = variable.source {
+                    *value = self.inputs.values[place];
+                }
             }
         }
         self.report = report;
@@ -302,11 +300,11 @@ impl Simulation {
         let before = self.values[index];
         match self.variables[index].source {
             Source::Input(place) => {
-                self.drop_slopes();
+                self.inputs.drop_slopes();
                 self.values[index] = value;
                 self.inputs.values[place] = value;
                 if let Some(engine) = &mut self.engine {
-                    engine.inputs_changed();
+                    engine.inputs_changed(&self.inputs.values);
                 }
             }
             Source::Parameter(_) if self.started => {

@@ -31,7 +31,7 @@ impl Simulation {
             values: self.values.clone(),
             initialized: self.engine.is_some() && self.current,
             started: self.started,
-            moving: self.moving,
+            moving: self.inputs.moving,
             slopes: self.inputs.slopes.clone(),
             frequencies: self.frequencies.clone(),
             state: self.state.clone(),
@@ -86,7 +86,7 @@ impl Simulation {
         }
         self.collect_inputs();
         self.inputs.slopes.clone_from(&snapshot.slopes);
-        self.moving = snapshot.moving;
+        self.inputs.moving = snapshot.moving;
         self.state.clone_from(&snapshot.state);
         self.frequencies.clone_from(&snapshot.frequencies);
         self.started = snapshot.started;

@@ -5,7 +5,7 @@ use nalgebra::Complex;
 
 use super::joints::ConstraintKind;
 use super::loads::Instant;
-use super::signal::Course;
+use super::signal::{Course, moved};
 use super::{Constraints, State, System, Work};
 use crate::body::Node;
 use crate::elements::Element;
@@ -147,8 +147,8 @@ impl<'a> Model<'a> {
         self.time = time;
         let t = time - self.start;
         for (i, [first, second]) in self.slopes.iter().enumerate() {
-            self.work.inputs[i] = self.inputs[i] + t * (first + 0.5 * t * second);
-            self.work.input_rates[i] = first + t * second;
+            let [value, rate] = moved([self.inputs[i], *first, *second], t);
+            (self.work.inputs[i], self.work.input_rates[i]) = (value, rate);
         }
         let v = self.system.reads_rates().then_some(v);
         self.system.place(time, q, v, self.work);

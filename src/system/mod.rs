@@ -24,7 +24,7 @@ pub use end::{Angle, End};
 pub use frequencies::{fastest, natural_frequencies};
 pub use outputs::Evaluation;
 pub use placement::NotAssembled;
-pub use signal::{Course, Drive, Signal};
+pub use signal::{Course, Drive, Signal, moved};
 pub use state::State;
 pub use work::Work;
 

@@ -130,28 +130,35 @@ impl Course {
     }
 }
 
+/// Value and rate, after a time, of what has this value, first and second derivative.
+pub fn moved([value, first, second]: [f64; 3], t: f64) -> [f64; 2] {
+    [value + t * (first + 0.5 * t * second), first + t * second]
+}
+
 /// Value, first and second derivative after `h` of a coordinate that is at `p` and follows inputs. A
 /// derivative that is an input carries on what is below it, unless that has a rate of its own.
 fn destination(h: f64, p: f64, inputs: &[[f64; 3]]) -> [f64; 3] {
-    let at_end = |[value, first, second]: [f64; 3]| value + h * (first + 0.5 * h * second);
+    let at_end = |input: [f64; 3]| moved(input, h)[0];
     let gained =
         |[value, first, second]: [f64; 3]| h * (value + h * (first / 2.0 + h * second / 6.0));
     let moves = |[_, first, second]: [f64; 3]| first != 0.0 || second != 0.0;
     match *inputs {
         [] => [p, 0.0, 0.0],
-        [value] if moves(value) => [at_end(value), value[1] + h * value[2], value[2]],
+        [value] if moves(value) => {
+            let [target, rate] = moved(value, h);
+            [target, rate, value[2]]
+        }
         [[value, ..]] => [value, (value - p) / h, 0.0],
         [value, rate, ref rest @ ..] => {
             let second = rest.first().copied().unwrap_or([rate[1], rate[2], 0.0]);
-            let course = [second[0], second[1], second[2]];
             let rate_at_end = match moves(rate) {
                 true => at_end(rate),
-                false => rate[0] + gained(course),
+                false => rate[0] + gained(second),
             };
             let way = match moves(rate) {
                 true => gained(rate),
                 false => {
-                    let [a, b, c] = course;
+                    let [a, b, c] = second;
                     h * (rate[0] + h * (a / 2.0 + h * (b / 6.0 + h * c / 24.0)))
                 }
             };
