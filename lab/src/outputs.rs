@@ -1,7 +1,7 @@
 //! What runs write: the same columns for every method.
 
 use flexbody::body::Marker;
-use flexbody::scene::OutputKind;
+use flexbody::scene::Output;
 use flexbody::system::{Evaluation, State, Work};
 
 use crate::scene::Start;
@@ -17,21 +17,25 @@ pub struct Outputs {
 impl Outputs {
     /// The header.
     pub fn new(start: &Start) -> Self {
-        let read = start.scene.outputs.iter();
-        let names: Vec<&str> = read
-            .filter(|output| output.kind == OutputKind::Position)
-            .filter_map(|output| output.marker.as_deref())
+        let resolved = start.scene.resolved();
+        let read: Vec<_> = (resolved.outputs.iter())
+            .filter_map(|output| match output {
+                Output::Position(marker) => Some(*marker),
+                _ => None,
+            })
             .collect();
-        let found = names.iter().filter_map(|name| start.marker(name));
         let mut header = vec!["time".to_owned()];
-        for name in &names {
+        for marker in &read {
+            let name = marker.name;
             header.extend([format!("{name}.position[1]"), format!("{name}.position[2]")]);
         }
         let rest = ["kinetic", "strain", "gravity"].map(|kind| format!("energy.{kind}"));
         header.extend(rest);
         header.extend(["momentum[1]", "momentum[2]", "angular_momentum"].map(str::to_owned));
         Self {
-            markers: found.map(|marker| start.assembled.marker(marker)).collect(),
+            markers: (read.iter())
+                .map(|marker| *start.assembled.marker(marker.id))
+                .collect(),
             evaluation: Evaluation::new(&start.assembled.system),
             text: header.join(",") + "\n",
         }

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use flexbody::scene::{Assembled, Initial, MarkerReference, Scene, assemble};
-use flexbody::system::{State, Work, equilibrium};
+use flexbody::scene::{Assembled, Initial, MarkerId, Scene};
+use flexbody::system::{Drive, State, Work, equilibrium};
 use serde_json::Value;
 
 /// What is wrong, in words.
@@ -72,19 +72,15 @@ pub struct Start {
 impl Start {
     /// Assembles a scene; inputs keep their start values.
     pub fn new(scene: Scene) -> Outcome<Self> {
-        let assembled = assemble(&scene).map_err(|error| error.to_string())?;
-        if scene
-            .motions
-            .iter()
-            .any(|motion| motion.input_count().is_some())
-        {
+        let resolved = scene.resolve().map_err(|error| error.to_string())?;
+        let assembled = resolved.assemble().map_err(|error| error.to_string())?;
+        let drives = (resolved.motions.iter()).flat_map(|motion| motion.kind.drives());
+        let is_input = |drive: &Drive| matches!(drive, Drive::Input { .. });
+        if drives.into_iter().any(is_input) {
             return Err("motions: expected functions of time, found one driven by inputs".into());
         }
-        let inputs: Vec<f64> = scene
-            .inputs
-            .iter()
-            .flat_map(|input| scene.input_start(input))
-            .collect();
+        let inputs = resolved.inputs.iter();
+        let inputs: Vec<f64> = inputs.flat_map(|input| input.start.clone()).collect();
         let system = &assembled.system;
         let mut work = Work::new(system);
         let described = (&assembled.nodes[..], &assembled.rates[..]);
@@ -103,8 +99,12 @@ impl Start {
         })
     }
 
-    /// The marker that an output names `body.marker`.
-    pub fn marker(&self, name: &str) -> Option<MarkerReference> {
-        self.scene.marker(name)
+    /// The marker `body.marker`.
+    pub fn marker(&self, name: &str) -> Option<MarkerId> {
+        let (body, name) = name.split_once('.')?;
+        let resolved = self.scene.resolved();
+        let mut markers = resolved.markers.iter();
+        let found = markers.find(|m| m.name == name && m.place.body().name() == body);
+        Some(found?.id)
     }
 }

@@ -143,7 +143,7 @@ impl Instance {
                 State::Bare
             }
         };
-        let simulation = simulation.unwrap_or_else(|| Simulation::new(Scene::default()));
+        let simulation = simulation.unwrap_or_default();
         // A set call names few variables twice: it allocates nothing.
         let before = Vec::with_capacity(simulation.variables().len());
         Self {

@@ -4,29 +4,31 @@ use super::canvas::escape;
 use super::documentation::{row, table};
 use super::number::number;
 use crate::scene::{
-    GROUND, Joint, JointKind, Load, LoadKind, Motion, MotionKind, MotionValue, Port, PortKind,
-    Scene, Value,
+    Action, Ends, First, Joint, JointKind, Load, LoadKind, Motion, MotionKind, Port, PortKind,
+    Scene, Turning, Value,
 };
+use crate::system::Drive;
 
 /// Tables of the parts of a scene; nothing for what it has none of.
 pub(super) fn parts(scene: &Scene) -> String {
-    let joints = scene.joints.iter().map(|joint| {
-        let between = joint.markers.each_ref().map(|name| code(name));
-        let between = between.join(", ");
-        row(&[&code(&joint.name), kind(joint), &between, &holds(joint)])
+    let resolved = scene.resolved();
+    let joints = resolved.joints.iter().map(|joint| {
+        let (kind, between, holds) = joint_in_words(joint);
+        row(&[&code(joint.name), kind, &between, &holds])
     });
-    let motions = scene.motions.iter().map(|motion| {
-        let of = motion.marker.as_ref().or(motion.joint.as_ref());
-        let what = format!("{} {}", driven(motion), code(of.map_or("", String::as_str)));
-        row(&[&code(&motion.name), &what, &course(motion)])
+    let motions = resolved.motions.iter().map(|motion| {
+        let what = format!("{} {}", driven(motion), code(motion.kind.of()));
+        row(&[&code(motion.name), &what, &course(motion)])
     });
-    let loads = scene.loads.iter();
-    let loads = loads.map(|load| row(&[&code(&load.name), acts(load), &on(load), &size(load)]));
-    let ports = scene.ports.iter();
-    let ports = ports.map(|port| row(&[&code(&port.name), &code(&port.marker), &crosses(port)]));
-    let masses = scene.masses.iter().map(|mass| {
+    let loads = resolved.loads.iter().map(|load| {
+        let (acts, on, size) = load_in_words(load);
+        row(&[&code(load.name), acts, &on, &size])
+    });
+    let ports = resolved.ports.iter();
+    let ports = ports.map(|port| row(&[&code(port.name), &code(port.marker.name), &crosses(port)]));
+    let masses = resolved.masses.iter().map(|mass| {
         let (size, inertia) = (number(mass.mass), number(mass.inertia));
-        row(&[&code(&mass.marker), &size, &inertia])
+        row(&[&code(mass.marker.name), &size, &inertia])
     });
     let heads = ["Name", "Kind", "Between", "Holds"];
     let note = "<p>The reaction of a joint is what it exerts on its second marker.</p>\n";
@@ -67,31 +69,32 @@ const PORTS: &str = "<p>Connect a port that forces come into with one that motio
     not the communication step; without one, give accelerations too, and step short.</p>\n";
 
 /// What comes in and what goes out.
-fn crosses(port: &Port) -> String {
-    let (turn, turns) = match port.turns() {
+fn crosses(port: &Port<'_>) -> String {
+    let given = port.given;
+    let (turn, turns) = match given.turns() {
         true => (" and moment", ", angle and its rates"),
         false => ("", ""),
     };
-    match (port.kind, port.is_coupling()) {
-        (PortKind::Force, _) => {
+    match &port.kind {
+        PortKind::Force { .. } => {
             format!("force{turn} in; position, velocity, acceleration{turns} out")
         }
-        (PortKind::Motion, false) => {
+        PortKind::Motion { .. } => {
             format!("position, velocity, acceleration{turns} in; force{turn} on the outside out")
         }
-        (PortKind::Motion, true) => {
+        PortKind::Coupling { .. } => {
             let springs = [
-                (port.stiffness, "N/m"),
-                (port.damping, "N s/m"),
-                (port.rotational_stiffness, "N m/rad"),
-                (port.rotational_damping, "N m s/rad"),
+                (given.stiffness, "N/m"),
+                (given.damping, "N s/m"),
+                (given.rotational_stiffness, "N m/rad"),
+                (given.rotational_damping, "N m s/rad"),
             ];
             let sizes = springs.into_iter().filter_map(|(size, unit)| {
                 let size = size?;
                 Some(format!("{} {unit}", number(size)))
             });
             let sizes: Vec<String> = sizes.collect();
-            let turns = if port.turns() {
+            let turns = if given.turns() {
                 ", angle and its rate"
             } else {
                 ""
@@ -108,114 +111,131 @@ fn code(text: &str) -> String {
     format!("<code>{}</code>", escape(text))
 }
 
-fn kind(joint: &Joint) -> &'static str {
-    match joint.kind {
-        JointKind::Revolute => "revolute",
-        JointKind::Weld => "weld",
-        JointKind::Slider => "slider",
-        JointKind::Orientation => "orientation",
-        JointKind::Distance => "distance",
-        JointKind::Hinge => "hinge",
-        JointKind::Along => "along",
+fn ends_in_words(ends: &Ends<'_>) -> String {
+    let first = match ends.first {
+        First::Ground(_) => "ground",
+        First::Marker(marker) => marker.name,
+    };
+    format!("{}, {}", code(first), code(ends.second.name))
+}
+
+/// The point of the ground, where one is given.
+fn at_point(ends: &Ends<'_>) -> String {
+    let point = ends.point();
+    point.map_or(String::new(), |point| format!(" at {}", vector(point)))
+}
+
+/// A number with words around it, where one is given.
+fn given(before: &str, value: Option<f64>, unit: &str) -> String {
+    value.map_or(String::new(), |value| {
+        format!("{before} {} {unit}", number(value))
+    })
+}
+
+/// Kind of a joint, what it joins and what it holds.
+fn joint_in_words(joint: &Joint<'_>) -> (&'static str, String, String) {
+    match &joint.kind {
+        JointKind::Revolute(ends) => {
+            let holds = format!("the position{}", at_point(ends));
+            ("revolute", ends_in_words(ends), holds)
+        }
+        JointKind::Weld(ends, angle) => {
+            let (point, angle) = (at_point(ends), given(" at", *angle, "rad"));
+            let holds = format!("position{point} and direction{angle}");
+            ("weld", ends_in_words(ends), holds)
+        }
+        JointKind::Slider(slider) => {
+            let ends = slider.ends();
+            let (along, point) = (vector(slider.direction), at_point(&ends));
+            let holds = format!("the position on a line along {along}{point}");
+            ("slider", ends_in_words(&ends), holds)
+        }
+        JointKind::Orientation(ends, angle) => {
+            let holds = format!("the direction{}", given(" at", *angle, "rad"));
+            ("orientation", ends_in_words(ends), holds)
+        }
+        JointKind::Distance(ends, length) => {
+            let length = given(" of", *length, "m");
+            let holds = format!("the distance{length}{}", at_point(ends));
+            ("distance", ends_in_words(ends), holds)
+        }
+        JointKind::Hinge {
+            ends,
+            rest,
+            stiffness,
+            damping,
+        } => {
+            let (point, rest) = (at_point(ends), given(", at rest at", *rest, "rad"));
+            let [k, c] = [*stiffness, *damping].map(number);
+            let holds = format!(
+                "the position{point}; {k} N m/rad and {c} N m s/rad against rotation{rest}"
+            );
+            ("hinge", ends_in_words(ends), holds)
+        }
+        JointKind::Along { cable, marker, .. } => {
+            let between = format!("{}, {}", code(&cable.body.name), code(marker.name));
+            let holds = "the position on the line of the cable".into();
+            ("along", between, holds)
+        }
     }
 }
 
-fn holds(joint: &Joint) -> String {
-    let angle = joint
-        .angle
-        .map(|angle| format!(" at {} rad", number(angle)));
-    let angle = angle.unwrap_or_default();
-    let point = joint.point.map(|p| format!(" at {}", vector(p)));
-    let point = point.unwrap_or_default();
-    match joint.kind {
-        JointKind::Revolute => format!("the position{point}"),
-        JointKind::Weld => format!("position{point} and direction{angle}"),
-        JointKind::Slider => {
-            let along = vector(joint.direction.unwrap_or_default());
-            format!("the position on a line along {along}{point}")
-        }
-        JointKind::Orientation => format!("the direction{angle}"),
-        JointKind::Distance => {
-            let length = joint
-                .length
-                .map(|length| format!(" of {} m", number(length)));
-            let from = if joint.markers[0] == GROUND {
-                &point
-            } else {
-                ""
+fn driven(motion: &Motion<'_>) -> &'static str {
+    match &motion.kind {
+        MotionKind::Angle(Turning::Marker(_), _) => "the direction of",
+        MotionKind::Angle(Turning::Pivot(_), _) => "the angle of",
+        MotionKind::Position(..) => "the position of",
+        MotionKind::Displacement(..) => "the way along",
+    }
+}
+
+fn course(motion: &Motion<'_>) -> String {
+    let derivatives = motion.kind.drives().iter().find_map(|drive| match drive {
+        Drive::Input { derivatives, .. } => Some(*derivatives),
+        Drive::Function(_) => None,
+    });
+    match derivatives {
+        None => values(motion.values),
+        Some(0) => "input".into(),
+        Some(1) => "input, with its rate".into(),
+        Some(_) => "input, with its rate and acceleration".into(),
+    }
+}
+
+/// What acts, on what, and its size.
+fn load_in_words(load: &Load<'_>) -> (&'static str, String, String) {
+    match &load.kind {
+        LoadKind::Action {
+            action,
+            values: as_written,
+        } => {
+            let what = match action {
+                Action::Force { follower: true, .. } => "force that turns along (along and across)",
+                Action::Force { .. } => "force, N",
+                Action::Moment(..) => "moment, N m",
+                Action::Torque(..) => "torque, N m",
+                Action::Distributed(..) => "force per reference length, N/m",
             };
-            format!("the distance{}{from}", length.unwrap_or_default())
+            (what, code(action.on()), values(as_written))
         }
-        JointKind::Hinge => {
-            let [k, c] = [joint.stiffness, joint.damping].map(|v| number(v.unwrap_or(0.0)));
-            let rest = if angle.is_empty() {
-                String::new()
-            } else {
-                format!(", at rest{angle}")
+        LoadKind::Spring(spring) => {
+            let first = match spring.ends.first {
+                First::Ground(_) => code("ground"),
+                First::Marker(marker) => code(marker.name),
             };
-            format!("the position{point}; {k} N m/rad and {c} N m s/rad against rotation{rest}")
+            let (point, second) = (at_point(&spring.ends), code(spring.ends.second.name));
+            let [k, c] = [spring.stiffness, spring.damping].map(number);
+            let length = spring.given.map_or(String::new(), |length| {
+                format!(", length at rest {} m", value(length))
+            });
+            let size = format!("{k} N/m, {c} N s/m{length}");
+            (
+                "spring and damper",
+                format!("{first}{point}, {second}"),
+                size,
+            )
         }
-        JointKind::Along => "the position on the line of the cable".into(),
     }
-}
-
-fn driven(motion: &Motion) -> &'static str {
-    match (motion.kind, &motion.joint) {
-        (MotionKind::Angle, None) => "the direction of",
-        (MotionKind::Angle, Some(_)) => "the angle of",
-        (MotionKind::Position, _) => "the position of",
-        (MotionKind::Displacement, _) => "the way along",
-    }
-}
-
-fn course(motion: &Motion) -> String {
-    match &motion.value {
-        MotionValue::Input(input) => match input.input {
-            0 => "input".into(),
-            1 => "input, with its rate".into(),
-            _ => "input, with its rate and acceleration".into(),
-        },
-        known => values(known.components()),
-    }
-}
-
-fn acts(load: &Load) -> &'static str {
-    match load.kind {
-        LoadKind::Force if load.follower => "force that turns along (along and across)",
-        LoadKind::Force => "force, N",
-        LoadKind::Moment => "moment, N m",
-        LoadKind::Torque => "torque, N m",
-        LoadKind::Distributed => "force per reference length, N/m",
-        LoadKind::SpringDamper => "spring and damper",
-    }
-}
-
-fn on(load: &Load) -> String {
-    let one = [&load.marker, &load.joint, &load.body];
-    let names = one
-        .into_iter()
-        .flatten()
-        .chain(load.markers.iter().flatten());
-    let mut names: Vec<String> = names.map(|name| code(name)).collect();
-    if let Some(point) = load.point {
-        names[0] += &format!(" at {}", vector(point));
-    }
-    names.join(", ")
-}
-
-fn size(load: &Load) -> String {
-    if load.kind != LoadKind::SpringDamper {
-        return load
-            .value
-            .as_ref()
-            .map_or(String::new(), |value| values(value.components()));
-    }
-    let [k, c] = [load.stiffness, load.damping].map(|v| number(v.unwrap_or(0.0)));
-    let length = load
-        .length
-        .as_ref()
-        .map(|length| format!(", length at rest {} m", value(length)));
-    format!("{k} N/m, {c} N s/m{}", length.unwrap_or_default())
 }
 
 fn vector(point: [f64; 2]) -> String {

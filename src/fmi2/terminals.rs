@@ -6,32 +6,34 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use super::lifecycle::Causality;
-use crate::scene::{Port, PortKind, Scene};
+use crate::scene::{Port, PortKind, Resolved, Scene};
 use crate::simulation::{Variable, variables};
 
 type Xml = Writer<Vec<u8>>;
 
 /// The terminals of a scene; nothing where it has no ports.
 pub fn terminals(scene: &Scene) -> Option<String> {
-    if scene.ports.is_empty() {
+    let resolved = scene.resolved();
+    if resolved.ports.is_empty() {
         return None;
     }
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    write_all(&mut xml, scene).expect("writing into memory cannot fail");
+    write_all(&mut xml, &resolved).expect("writing into memory cannot fail");
     let mut bytes = xml.into_inner();
     bytes.push(b'\n');
     Some(String::from_utf8(bytes).expect("written from texts"))
 }
 
-fn write_all(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
-    let variables = variables(scene);
+fn write_all(xml: &mut Xml, resolved: &Resolved<'_>) -> io::Result<()> {
+    let variables = variables(resolved.scene);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     // FMI 2.0.4 takes the file as FMI 3.0 defines it, with its schema.
     xml.create_element("fmiTerminalsAndIcons")
         .with_attribute(("fmiVersion", "3.0"))
         .write_inner_content(|xml| {
             xml.create_element("Terminals").write_inner_content(|xml| {
-                (scene.ports.iter()).try_for_each(|port| write_terminal(xml, port, &variables))
+                let mut ports = resolved.ports.iter();
+                ports.try_for_each(|port| write_terminal(xml, port, &variables))
             })?;
             Ok(())
         })?;
@@ -39,18 +41,18 @@ fn write_all(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
 }
 
 /// Any two ports fit: what both have is connected, and a spring and damper feel no acceleration.
-fn write_terminal(xml: &mut Xml, port: &Port, variables: &[Variable]) -> io::Result<()> {
-    let what = match port.kind {
-        PortKind::Force => "force in, motion out",
-        PortKind::Motion => "motion in, force out",
+fn write_terminal(xml: &mut Xml, port: &Port<'_>, variables: &[Variable]) -> io::Result<()> {
+    let what = match &port.kind {
+        PortKind::Force { .. } => "force in, motion out",
+        PortKind::Motion { .. } | PortKind::Coupling { .. } => "motion in, force out",
     };
-    let description = format!("{}: {what}", port.marker);
+    let description = format!("{}: {what}", port.marker.name);
     xml.create_element("Terminal")
-        .with_attribute(("name", port.name.as_str()))
+        .with_attribute(("name", port.name))
         .with_attribute(("matchingRule", "bus"))
         .with_attribute(("description", description.as_str()))
         .write_inner_content(|xml| {
-            for (variable, member) in members(port, variables) {
+            for (variable, member) in members(port.name, variables) {
                 xml.create_element("TerminalMemberVariable")
                     .with_attribute(("variableName", variable.name.as_str()))
                     .with_attribute(("memberName", member.as_str()))
@@ -64,17 +66,17 @@ fn write_terminal(xml: &mut Xml, port: &Port, variables: &[Variable]) -> io::Res
 
 /// Inputs and outputs of a port, and what they are called in every port.
 pub(super) fn members<'a>(
-    port: &'a Port,
+    port: &'a str,
     variables: &'a [Variable],
 ) -> impl Iterator<Item = (&'a Variable, String)> {
-    variables.iter().filter_map(|variable| {
+    variables.iter().filter_map(move |variable| {
         let (of, key) = variable.name.split_once('.')?;
         let is_signal = matches!(
             Causality::of(variable),
             Causality::Input | Causality::Output
         );
         let member = key.replace("[1]", "_x").replace("[2]", "_y");
-        (of == port.name && is_signal).then_some((variable, member))
+        (of == port && is_signal).then_some((variable, member))
     })
 }
 
@@ -92,7 +94,9 @@ mod tests {
         let of = |name: &str| -> BTreeSet<String> {
             let port = scene.ports.iter().find(|port| port.name == name);
             let port = port.expect("a port of the example");
-            members(port, &list).map(|(_, member)| member).collect()
+            members(&port.name, &list)
+                .map(|(_, member)| member)
+                .collect()
         };
         let (plug, socket, mount) = (of("plug"), of("socket"), of("mount"));
         assert_eq!(plug.len(), 12);

@@ -1,131 +1,342 @@
-//! Markers: what their names refer to, and where they are at the start.
+//! Bodies and markers: how they are found by name, and where they are at the start.
 
-use super::{Body, Input, Load, Scene, Value};
+use super::resolved::{
+    Action, BodyReference, Cable, CableId, Ends, First, Joint, JointKind, Marker, MarkerId,
+    MotionKind, Pivot, Place, Resolved, Rigid, RigidId, Slider, Turning,
+};
+use super::{Body, CableBody, RigidBody, Scene};
+use crate::system::Drive;
 
 /// What stands for the ground where a marker is named.
-pub const GROUND: &str = "ground";
+pub(super) const GROUND: &str = "ground";
 
-/// A place on a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum At {
-    /// Material coordinate of a cable in [0, 1].
-    Along(f64),
-    /// Point in the frame of a rigid body, m.
-    Point([f64; 2]),
-}
+impl<'a> Resolved<'a> {
+    /// A scene with its bodies and their markers, and nothing else so far.
+    pub(super) fn bare(scene: &'a Scene) -> Self {
+        let mut resolved = Self {
+            scene,
+            bodies: Vec::new(),
+            markers: Vec::new(),
+            masses: Vec::new(),
+            joints: Vec::new(),
+            motions: Vec::new(),
+            loads: Vec::new(),
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+            ports: Vec::new(),
+            holders: Vec::new(),
+            angles: Vec::new(),
+            couplings: 0,
+            numbers: 0,
+            bodies_by_name: Default::default(),
+            markers_by_name: Default::default(),
+        };
+        let mut chains = 0;
+        for (body, described) in scene.bodies.iter().enumerate() {
+            let reference = match described {
+                Body::Cable(described) => {
+                    let id = CableId {
+                        body,
+                        chain: chains,
+                    };
+                    chains += 1;
+                    BodyReference::Cable(Cable {
+                        id,
+                        body: described,
+                    })
+                }
+                Body::Rigid(described) => BodyReference::Rigid(Rigid {
+                    id: RigidId(body),
+                    body: described,
+                }),
+            };
+            resolved.bodies.push(reference);
+            resolved.bodies_by_name.insert(described.name(), reference);
+            for (name, place) in reference.places() {
+                let id = MarkerId(resolved.markers.len());
+                resolved.markers.push(Marker {
+                    id,
+                    name,
+                    place,
+                    position: place.position(),
+                    direction: place.direction(),
+                });
+                let key = (described.name(), name);
+                resolved.markers_by_name.insert(key, id);
+            }
+        }
+        resolved
+    }
 
-/// A marker found by name.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MarkerReference {
-    /// Index of the body.
-    pub body: usize,
-    /// Where on the body.
-    pub at: At,
+    /// Finds a marker by `body.marker`.
+    pub(super) fn marker(&self, name: &'a str) -> Option<Marker<'a>> {
+        let id = self.markers_by_name.get(&name.split_once('.')?)?;
+        let marker = self.markers[id.0];
+        Some(Marker { name, ..marker })
+    }
 }
 
 impl Scene {
-    /// Finds a marker by `body.marker`.
-    pub fn marker(&self, name: &str) -> Option<MarkerReference> {
-        let (body_name, marker_name) = name.split_once('.')?;
-        let body = self.body(body_name)?;
-        let at = self.bodies[body].marker(marker_name)?;
-        Some(MarkerReference { body, at })
-    }
-
-    /// Index of a body by its name.
-    pub fn body(&self, name: &str) -> Option<usize> {
-        self.bodies.iter().position(|body| body.name() == name)
-    }
-
-    /// Index of a joint by its name.
-    pub fn joint(&self, name: &str) -> Option<usize> {
-        self.joints.iter().position(|joint| joint.name == name)
-    }
-
-    /// Index of a motion by its name.
-    pub fn motion(&self, name: &str) -> Option<usize> {
-        self.motions.iter().position(|motion| motion.name == name)
-    }
-
-    /// Index of a load by its name.
-    pub fn load(&self, name: &str) -> Option<usize> {
-        self.loads.iter().position(|load| load.name == name)
-    }
-
-    /// Where a marker is in the shapes and positions that the scene describes, m.
-    pub fn position(&self, marker: MarkerReference) -> [f64; 2] {
-        self.bodies[marker.body].position(marker.at)
-    }
-
-    /// Direction of a marker in the shapes and positions that the scene describes: a unit vector.
-    pub fn direction(&self, marker: MarkerReference) -> [f64; 2] {
-        self.bodies[marker.body].direction(marker.at)
-    }
-
-    /// Distance at the start between the places that a joint or a spring joins, m. The ground is at
-    /// `point`, or where the second marker is.
-    pub fn distance(&self, markers: &[String; 2], point: Option<[f64; 2]>) -> f64 {
-        let at = |name: &String| Some(self.position(self.marker(name)?));
-        let b = at(&markers[1]).unwrap_or_default();
-        let a = point.or_else(|| at(&markers[0])).unwrap_or(b);
-        (b[0] - a[0]).hypot(b[1] - a[1])
-    }
-
-    /// Values of an input before the master sets one; a rest length is that of the spring.
-    pub fn input_start(&self, input: &Input) -> Vec<f64> {
-        if !input.start.is_empty() {
-            return input.start.clone();
-        }
-        let load = input.load.as_deref().and_then(|name| self.load(name));
-        match load.map(|load| &self.loads[load]) {
-            Some(load) => vec![self.rest_length(load)],
-            None => vec![0.0; input.components()],
+    /// A cable, to be changed.
+    pub fn cable_mut(&mut self, id: CableId) -> &mut CableBody {
+        match &mut self.bodies[id.body] {
+            Body::Cable(body) => body,
+            Body::Rigid(_) => unreachable!("a number of a cable is that of a cable"),
         }
     }
 
-    /// Length at rest of a spring-damper, m, where it does not change in time.
-    fn rest_length(&self, load: &Load) -> f64 {
-        match (&load.length, &load.markers) {
-            (Some(Value::Number(length)), _) => *length,
-            (_, Some(markers)) => self.distance(markers, load.point),
-            (_, None) => 0.0,
+    /// A rigid body, to be changed.
+    pub fn rigid_mut(&mut self, id: RigidId) -> &mut RigidBody {
+        match &mut self.bodies[id.0] {
+            Body::Rigid(body) => body,
+            Body::Cable(_) => unreachable!("a number of a rigid body is that of a rigid body"),
         }
     }
 }
 
-impl Body {
-    /// Finds a marker by its name in the body.
-    pub fn marker(&self, name: &str) -> Option<At> {
+impl<'a> BodyReference<'a> {
+    /// Name of the body.
+    pub fn name(self) -> &'a str {
         match self {
-            Self::Cable(body) => body.markers.get(name).copied().map(At::Along),
-            Self::Rigid(body) => body.markers.get(name).copied().map(At::Point),
+            Self::Cable(cable) => &cable.body.name,
+            Self::Rigid(rigid) => &rigid.body.name,
         }
     }
 
-    /// Where a place on the body is at the start, m; the origin of the body for a place on another
-    /// kind of body.
-    pub fn position(&self, at: At) -> [f64; 2] {
-        match (self, at) {
-            (Self::Cable(body), At::Along(s)) => body.shape.point(s),
-            (Self::Cable(body), At::Point(_)) => body.shape.point(0.0),
-            (Self::Rigid(body), At::Point(point)) => {
-                let (sin, cos) = body.angle.sin_cos();
-                [
-                    body.position[0] + cos * point[0] - sin * point[1],
-                    body.position[1] + sin * point[0] + cos * point[1],
-                ]
+    /// Its markers: name and place, in alphabetical order.
+    fn places(self) -> Vec<(&'a str, Place<'a>)> {
+        match self {
+            Self::Cable(cable) => (cable.body.markers.iter())
+                .map(|(name, s)| (name.as_str(), Place::Along(cable, *s)))
+                .collect(),
+            Self::Rigid(rigid) => (rigid.body.markers.iter())
+                .map(|(name, point)| (name.as_str(), Place::Point(rigid, *point)))
+                .collect(),
+        }
+    }
+}
+
+impl<'a> Place<'a> {
+    /// The body.
+    pub fn body(self) -> BodyReference<'a> {
+        match self {
+            Self::Along(cable, _) => BodyReference::Cable(cable),
+            Self::Point(rigid, _) => BodyReference::Rigid(rigid),
+        }
+    }
+
+    /// Index of the body.
+    pub(super) fn body_index(self) -> usize {
+        match self {
+            Self::Along(cable, _) => cable.id.body,
+            Self::Point(rigid, _) => rigid.id.0,
+        }
+    }
+
+    /// Whether it has a direction: on a cable, or on a rigid body that has inertia.
+    pub(super) fn turns(self) -> bool {
+        match self {
+            Self::Along(..) => true,
+            Self::Point(rigid, _) => rigid.body.inertia > 0.0,
+        }
+    }
+
+    /// Where it is as described, m.
+    fn position(self) -> [f64; 2] {
+        match self {
+            Self::Along(cable, s) => cable.body.shape.point(s),
+            Self::Point(rigid, point) => rigid.body.point(point),
+        }
+    }
+
+    /// Its direction as described.
+    fn direction(self) -> [f64; 2] {
+        match self {
+            Self::Along(cable, s) => cable.body.shape.tangent(s),
+            Self::Point(rigid, _) => [rigid.body.angle.cos(), rigid.body.angle.sin()],
+        }
+    }
+}
+
+impl RigidBody {
+    /// Where a point of the body's frame is at the start, m.
+    pub fn point(&self, point: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = self.angle.sin_cos();
+        [
+            self.position[0] + cos * point[0] - sin * point[1],
+            self.position[1] + sin * point[0] + cos * point[1],
+        ]
+    }
+}
+
+impl<'a> Ends<'a> {
+    /// Where both ends are as described, m.
+    pub fn points(&self) -> [[f64; 2]; 2] {
+        let second = self.second.position;
+        let first = match self.first {
+            First::Ground(point) => point.unwrap_or(second),
+            First::Marker(marker) => marker.position,
+        };
+        [first, second]
+    }
+
+    /// Distance between the ends as described, m.
+    pub fn distance(&self) -> f64 {
+        let [a, b] = self.points();
+        (b[0] - a[0]).hypot(b[1] - a[1])
+    }
+
+    /// Direction of the second end less that of the first as described, from -pi to pi, rad.
+    pub fn angle(&self) -> f64 {
+        let a = match self.first {
+            First::Ground(_) => [1.0, 0.0],
+            First::Marker(marker) => marker.direction,
+        };
+        let b = self.second.direction;
+        (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+    }
+
+    /// The point of the ground, where one is given, m.
+    pub fn point(&self) -> Option<[f64; 2]> {
+        match self.first {
+            First::Ground(point) => point,
+            First::Marker(_) => None,
+        }
+    }
+
+    /// Whether the first end is the ground.
+    pub fn is_grounded(&self) -> bool {
+        matches!(self.first, First::Ground(_))
+    }
+
+    /// The markers of both ends.
+    pub(super) fn markers(&self) -> Vec<Marker<'a>> {
+        match self.first {
+            First::Ground(_) => vec![self.second],
+            First::Marker(first) => vec![first, self.second],
+        }
+    }
+}
+
+impl<'a> Slider<'a> {
+    /// The ground and what slides.
+    pub fn ends(&self) -> Ends<'a> {
+        Ends {
+            first: First::Ground(self.point),
+            second: self.marker,
+        }
+    }
+}
+
+impl<'a> Joint<'a> {
+    /// Its second end: what it holds.
+    pub fn second(&self) -> Marker<'a> {
+        match self.kind {
+            JointKind::Revolute(ends)
+            | JointKind::Weld(ends, _)
+            | JointKind::Orientation(ends, _)
+            | JointKind::Distance(ends, _)
+            | JointKind::Hinge { ends, .. } => ends.second,
+            JointKind::Slider(slider) => slider.marker,
+            JointKind::Along { marker, .. } => marker,
+        }
+    }
+
+    /// Its ends, unless the first is a cable as a whole.
+    fn ends(&self) -> Option<Ends<'a>> {
+        match self.kind {
+            JointKind::Revolute(ends)
+            | JointKind::Weld(ends, _)
+            | JointKind::Orientation(ends, _)
+            | JointKind::Distance(ends, _)
+            | JointKind::Hinge { ends, .. } => Some(ends),
+            JointKind::Slider(slider) => Some(slider.ends()),
+            JointKind::Along { .. } => None,
+        }
+    }
+
+    /// The point of the ground, where one is given, m.
+    pub fn point(&self) -> Option<[f64; 2]> {
+        self.ends()?.point()
+    }
+
+    /// The markers at both ends; the cable that it slides on has none.
+    pub(super) fn markers(&self) -> Vec<Marker<'a>> {
+        self.ends()
+            .map_or(vec![self.second()], |ends| ends.markers())
+    }
+}
+
+impl<'a> Turning<'a> {
+    /// Name of the marker or joint.
+    pub fn name(&self) -> &'a str {
+        match self {
+            Self::Marker(marker) => marker.name,
+            Self::Pivot(Pivot { name, .. }) => name,
+        }
+    }
+
+    /// The marker, or the second one of the joint.
+    pub fn marker(&self) -> Marker<'a> {
+        match self {
+            Self::Marker(marker) => *marker,
+            Self::Pivot(pivot) => pivot.ends.second,
+        }
+    }
+}
+
+impl<'a> MotionKind<'a> {
+    /// Name of the marker or joint that is driven.
+    pub fn of(&self) -> &'a str {
+        match self {
+            Self::Angle(turning, _) => turning.name(),
+            Self::Position(marker, _) => marker.name,
+            Self::Displacement(slider, _) => slider.name,
+        }
+    }
+
+    /// The marker that is driven, or the second one of the joint.
+    pub fn marker(&self) -> Marker<'a> {
+        match self {
+            Self::Angle(turning, _) => turning.marker(),
+            Self::Position(marker, _) => *marker,
+            Self::Displacement(slider, _) => slider.marker,
+        }
+    }
+
+    /// The course of every coordinate.
+    pub fn drives(&self) -> &[Drive] {
+        match self {
+            Self::Angle(_, drive) | Self::Displacement(_, drive) => std::slice::from_ref(drive),
+            Self::Position(_, drives) => drives,
+        }
+    }
+
+    /// Where what is driven is as described, one number a coordinate, m or rad.
+    pub fn start(&self) -> Vec<f64> {
+        match self {
+            Self::Angle(Turning::Marker(marker), _) => {
+                let [x, y] = marker.direction;
+                vec![y.atan2(x)]
             }
-            (Self::Rigid(body), At::Along(_)) => body.position,
+            Self::Angle(Turning::Pivot(pivot), _) => vec![pivot.ends.angle()],
+            Self::Position(marker, _) => marker.position.to_vec(),
+            Self::Displacement(slider, _) => vec![slider.point.map_or(0.0, |point| {
+                let ([x, y], along) = (slider.marker.position, slider.direction);
+                let dot = (x - point[0]) * along[0] + (y - point[1]) * along[1];
+                dot / along[0].hypot(along[1])
+            })],
         }
     }
+}
 
-    /// Direction of a place on the body at the start: the tangent of a cable, the first axis of the
-    /// frame of a rigid body; a unit vector.
-    pub fn direction(&self, at: At) -> [f64; 2] {
-        match (self, at) {
-            (Self::Cable(body), At::Along(s)) => body.shape.tangent(s),
-            (Self::Cable(body), At::Point(_)) => body.shape.tangent(0.0),
-            (Self::Rigid(body), _) => [body.angle.cos(), body.angle.sin()],
+impl<'a> Action<'a> {
+    /// Name of the marker, joint or cable that it acts on.
+    pub fn on(&self) -> &'a str {
+        match self {
+            Self::Force { marker, .. } | Self::Moment(marker, _) => marker.name,
+            Self::Torque(pivot, _) => pivot.name,
+            Self::Distributed(cable, _) => &cable.body.name,
         }
     }
 }

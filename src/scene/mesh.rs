@@ -1,33 +1,29 @@
 //! Meshes: nodes where something acts on a cable or is joined to it, the rest spread evenly.
 
-use super::{At, Error, JointKind, OutputKind, Scene};
+use super::Error;
+use super::resolved::{
+    Action, Cable, InputKind, LoadKind, Marker, MotionKind, Output, Place, Resolved, Turning,
+};
 
-impl Scene {
-    /// Material coordinates in [0, 1] of the nodes of a cable, by the index of the body; none of a
-    /// rigid body.
+impl<'a> Resolved<'a> {
+    /// Material coordinates in [0, 1] of the nodes of a cable.
     ///
     /// # Errors
     /// When there are too few elements for what acts inside the body.
-    pub fn nodes(&self, body: usize) -> Result<Vec<f64>, Error> {
-        let path = format!("bodies[{body}].elements");
-        let Some(cable) = self.bodies[body].cable() else {
-            return Ok(Vec::new());
-        };
-        let elements = cable.elements as usize;
-        nodes(&path, elements, &self.loaded_coordinates(body))
+    pub fn nodes(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
+        let path = format!("bodies[{}].elements", cable.id.body);
+        let elements = cable.body.elements as usize;
+        nodes(&path, elements, &self.loaded_coordinates(cable))
     }
 
     /// Material coordinates of a cable where joints, motions, loads, inputs, ports and masses act or where
     /// the force from element to element is read: the mesh has nodes there. Increasing.
-    pub fn loaded_coordinates(&self, body: usize) -> Vec<f64> {
-        let mut coordinates: Vec<f64> = self
-            .loaded_markers()
-            .into_iter()
-            .filter_map(|name| self.marker(name))
-            .filter(|marker| marker.body == body)
-            .filter_map(|marker| match marker.at {
-                At::Along(coordinate) => Some(coordinate),
-                At::Point(_) => None,
+    pub fn loaded_coordinates(&self, cable: Cable<'_>) -> Vec<f64> {
+        let loaded = self.loaded_markers().into_iter();
+        let mut coordinates: Vec<f64> = loaded
+            .filter_map(|marker| match marker.place {
+                Place::Along(of, coordinate) if of.id == cable.id => Some(coordinate),
+                Place::Along(..) | Place::Point(..) => None,
             })
             .collect();
         coordinates.sort_by(f64::total_cmp);
@@ -35,24 +31,36 @@ impl Scene {
         coordinates
     }
 
-    fn loaded_markers(&self) -> Vec<&String> {
-        // The cable that a joint of kind `along` slides on is named without a marker.
-        let joints = self.joints.iter().flat_map(|joint| match joint.kind {
-            JointKind::Along => &joint.markers[1..],
-            _ => &joint.markers[..],
-        });
-        let springs = self.loads.iter().flat_map(|load| load.markers.iter());
-        let is_cut = |kind| kind == OutputKind::ConnectivityForce;
-        let cuts = self.outputs.iter().filter(|output| is_cut(output.kind));
-        joints
-            .chain(self.motions.iter().flat_map(|motion| &motion.marker))
-            .chain(self.loads.iter().flat_map(|load| &load.marker))
-            .chain(springs.flatten())
-            .chain(self.inputs.iter().flat_map(|input| &input.marker))
-            .chain(self.ports.iter().map(|port| &port.marker))
-            .chain(self.masses.iter().map(|mass| &mass.marker))
-            .chain(cuts.flat_map(|output| &output.marker))
-            .collect()
+    fn loaded_markers(&self) -> Vec<Marker<'a>> {
+        let mut found: Vec<Marker<'a>> = self.masses.iter().map(|mass| mass.marker).collect();
+        found.extend(self.ports.iter().map(|port| port.marker));
+        found.extend(self.joints.iter().flat_map(|joint| joint.markers()));
+        found.extend(self.motions.iter().filter_map(|motion| match motion.kind {
+            MotionKind::Position(marker, _) => Some(marker),
+            MotionKind::Angle(Turning::Marker(marker), _) => Some(marker),
+            // The joint has its nodes.
+            MotionKind::Angle(Turning::Pivot(_), _) | MotionKind::Displacement(..) => None,
+        }));
+        let mut actions = Vec::new();
+        for load in &self.loads {
+            match &load.kind {
+                LoadKind::Action { action, .. } => actions.push(action),
+                LoadKind::Spring(spring) => found.extend(spring.ends.markers()),
+            }
+        }
+        actions.extend(self.inputs.iter().filter_map(|input| match &input.kind {
+            InputKind::Action(action) => Some(action),
+            InputKind::RestLength(_) => None,
+        }));
+        found.extend(actions.into_iter().filter_map(|action| match action {
+            Action::Force { marker, .. } | Action::Moment(marker, _) => Some(*marker),
+            Action::Torque(..) | Action::Distributed(..) => None,
+        }));
+        found.extend(self.outputs.iter().filter_map(|output| match output {
+            Output::ConnectivityForce(marker) => Some(*marker),
+            _ => None,
+        }));
+        found
     }
 }
 

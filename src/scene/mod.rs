@@ -7,22 +7,24 @@
 
 mod assemble;
 mod description;
-mod inputs;
 mod marker;
 mod mesh;
 mod ports;
+mod resolved;
 mod shape;
 mod validate;
 
 pub use assemble::{Assembled, assemble};
 pub use description::{
-    Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion, Input,
-    InputKind, Integrator, Joint, JointKind, Load, LoadKind, LoadValue, Mass, MasterInput,
-    Material, Method, Motion, MotionKind, MotionValue, Output, OutputKind, Port, PortKind,
-    RigidBody, Scene, Section, Shape, Strain, Table, Value,
+    Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion,
+    Integrator, Material, Method, RigidBody, Scene, Section, Shape, Strain, Table, Value,
 };
-pub use inputs::InputLayout;
-pub use marker::{At, GROUND, MarkerReference};
+pub use resolved::{
+    Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Holder,
+    HolderId, Input, InputKind, Joint, JointKind, Load, LoadKind, Marker, MarkerId, Mass, Motion,
+    MotionKind, Output, Pivot, Place, Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId,
+    Slider, Spring, Turning,
+};
 pub use validate::{ELEMENTS, TOLERANCE};
 
 /// What is wrong with a scene, and where.
@@ -65,7 +67,7 @@ impl Scene {
         })?;
         json.end()
             .map_err(|error| Error::new("scene", error.to_string()))?;
-        scene.validate()?;
+        scene.resolve()?;
         Ok(scene)
     }
 

@@ -63,7 +63,7 @@ impl Simulation {
         else {
             return Ok(0.0);
         };
-        Ok(engine.derivative((index, quantity), order as usize, state, inputs))
+        Ok(engine.derivative(quantity, order as usize, state, inputs))
     }
 
     /// Whether [`Self::output_derivative`] would answer this.
@@ -128,7 +128,7 @@ impl Simulation {
             return Err(self.refuse(index, "expected an output as an unknown"));
         };
         let engine = self.engine.as_mut();
-        let change = engine.map(|engine| engine.change((index, quantity), &self.state));
+        let change = engine.map(|engine| engine.change(quantity, &self.state));
         Ok(change.unwrap_or(0.0))
     }
 }

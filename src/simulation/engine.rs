@@ -1,12 +1,11 @@
 //! A system with its scratch, integrator and evaluated outputs.
 
-use super::quantities::{Evaluated, marker_of, needs, value};
+use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
 use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
-use crate::body::Marker;
 use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
 use crate::math::jet::{Jet, part};
-use crate::scene::{Assembled, Initial, Scene, assemble};
+use crate::scene::{Assembled, Initial, Resolved};
 use crate::system::{
     Derivatives, Evaluation, Model, NotAssembled, State, System, Work, equilibrium, moved,
     natural_frequencies,
@@ -21,7 +20,7 @@ enum Derived {
     Inputs,
 }
 
-/// Inputs in the order of the system ([`crate::scene::InputLayout`]).
+/// Inputs in the order of the system ([`Resolved::numbers`]).
 pub(super) struct Inputs {
     pub values: Vec<f64>,
     /// First and second derivatives.
@@ -31,7 +30,10 @@ pub(super) struct Inputs {
 }
 
 pub(super) struct Engine {
-    scene: Scene,
+    initial: Initial,
+    /// Names of what holds something in the system, and of bodies.
+    holders: Vec<String>,
+    bodies: Vec<String>,
     assembled: Assembled,
     work: Work,
     method: Box<dyn Method>,
@@ -40,8 +42,6 @@ pub(super) struct Engine {
     evaluated: Evaluated,
     derivatives: Option<Box<Derivatives>>,
     derived: Derived,
-    /// The marker of every variable that has one.
-    markers: Vec<Option<Marker>>,
     /// Number of natural frequencies wanted.
     frequencies: usize,
     /// Whether inputs that jump do work on springs.
@@ -72,19 +72,16 @@ impl Inputs {
     }
 }
 
+fn names<'a>(names: &mut dyn Iterator<Item = &'a str>) -> Vec<String> {
+    names.map(str::to_owned).collect()
+}
+
 impl Engine {
-    /// Builds the system of a valid scene.
-    pub(super) fn new(scene: &Scene, variables: &[Variable]) -> Result<Self, Error> {
-        let assembled = assemble(scene)?;
+    /// Builds the system of a scene.
+    pub(super) fn new(resolved: &Resolved<'_>, variables: &[Variable]) -> Result<Self, Error> {
+        let assembled = resolved.assemble()?;
         let system = &assembled.system;
         let (mut work, mut evaluation) = (Work::new(system), Evaluation::new(system));
-        let marker = |variable: &Variable| {
-            let Source::Output(quantity) = variable.source else {
-                return None;
-            };
-            Some(assembled.marker(marker_of(quantity)?))
-        };
-        let markers = variables.iter().map(marker).collect();
         let frequencies = variables
             .iter()
             .filter_map(|variable| match variable.source {
@@ -105,17 +102,18 @@ impl Engine {
             kinetic: evaluation.kinetic_energy(system),
             inputs: &inputs,
         };
-        let (tolerance, method) = method::choose(scene, &start, &mut work)?;
+        let (tolerance, method) = method::choose(resolved, &start, &mut work)?;
         Ok(Self {
-            scene: scene.clone(),
+            initial: resolved.scene.initial,
+            holders: names(&mut resolved.holders.iter().map(|holder| holder.name)),
+            bodies: names(&mut resolved.bodies.iter().map(|body| body.name())),
             evaluated: Evaluated::Nothing,
             derivatives: None,
             derived: Derived::Nothing,
             frequencies: frequencies.max().unwrap_or(0),
-            sets_springs: sets_springs(scene),
+            sets_springs: sets_springs(resolved),
             start: state.ok().map(|state| (inputs, state)),
             evaluation,
-            markers,
             work,
             method,
             tolerance,
@@ -141,7 +139,7 @@ impl Engine {
             _ => system.initial_state(time, inputs, described, &mut self.work),
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
-        if self.scene.initial == Initial::StaticEquilibrium {
+        if self.initial == Initial::StaticEquilibrium {
             equilibrium::find(system, inputs, &mut self.work, &mut state)?;
         }
         let count = self.frequencies;
@@ -173,7 +171,7 @@ impl Engine {
 
     /// Name of a joint, motion or port that holds something in the system.
     fn name(&self, index: usize) -> &str {
-        self.scene.holder(index).2
+        &self.holders[index]
     }
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
@@ -183,9 +181,7 @@ impl Engine {
         let (joints, bodies) = system.redundant_at(state, &mut self.work);
         self.forget();
         let joints = joints.into_iter().map(|joint| self.name(joint).to_owned());
-        let bodies = bodies
-            .into_iter()
-            .map(|b| self.scene.bodies[b].name().to_owned());
+        let bodies = bodies.into_iter().map(|body| self.bodies[body].clone());
         joints.chain(bodies).collect()
     }
 
@@ -266,26 +262,19 @@ impl Engine {
     }
 
     /// Value of an output; computes only what it needs and has not computed yet.
-    pub(super) fn output(
-        &mut self,
-        index: usize,
-        quantity: Quantity,
-        state: &State,
-        inputs: &[f64],
-    ) -> f64 {
+    pub(super) fn output(&mut self, quantity: Quantity, state: &State, inputs: &[f64]) -> f64 {
         self.evaluate(needs(quantity), state, inputs);
         let mut work = state.work;
         if quantity == Quantity::Input {
             work[0] += self.set_energy(state, inputs);
         }
-        let marker = self.markers[index].as_ref();
-        value(quantity, marker, &self.evaluation, &self.assembled, work)
+        value(quantity, &self.evaluation, &self.assembled, work)
     }
 
     /// Derivative in time, of order 1 or 2, of an output while inputs go on as they do.
     pub(super) fn derivative(
         &mut self,
-        (index, quantity): (usize, Quantity),
+        quantity: Quantity,
         order: usize,
         state: &State,
         inputs: &Inputs,
@@ -300,7 +289,7 @@ impl Engine {
             self.derived = Derived::Time(order);
         }
         let derived = self.derived_value(
-            (index, quantity),
+            quantity,
             |values, system, done| {
                 let [input, lost] = values.power(system);
                 [
@@ -324,10 +313,10 @@ impl Engine {
     }
 
     /// How an output changes with inputs along the direction given before.
-    pub(super) fn change(&mut self, output: (usize, Quantity), state: &State) -> f64 {
+    pub(super) fn change(&mut self, quantity: Quantity, state: &State) -> f64 {
         let sets_springs = self.sets_springs;
         let derived = self.derived_value(
-            output,
+            quantity,
             |values, system, done| {
                 let none = Jet::from_re(0.0);
                 let set = if sets_springs {
@@ -355,7 +344,7 @@ impl Engine {
     /// An output with the derivatives at hand, given those of work.
     fn derived_value(
         &self,
-        (index, quantity): (usize, Quantity),
+        quantity: Quantity,
         work: impl Fn(&Evaluation<Jet>, &System, [f64; 2]) -> [Jet; 2],
         state: &State,
     ) -> Jet {
@@ -367,13 +356,7 @@ impl Engine {
             Quantity::Input | Quantity::Dissipated => work(values, &assembled.system, state.work),
             _ => [Jet::from_re(0.0); 2],
         };
-        value(
-            quantity,
-            self.markers[index].as_ref(),
-            values,
-            assembled,
-            work,
-        )
+        value(quantity, values, assembled, work)
     }
 
     fn evaluate(&mut self, needs: Evaluated, state: &State, inputs: &[f64]) {

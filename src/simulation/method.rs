@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::integrators::{Method, Nystrom, RKN43, Radau, Rk4, Tolerance, VERLET};
-use crate::scene::{Error, Integrator, JointKind, LoadKind, Scene};
+use crate::scene::{Error, Integrator, JointKind, LoadKind, Resolved};
 use crate::system::{State, System, Work, fastest};
 
 /// Explicit methods pay up to a frequency of this many natural rates, times the cube root of the inverse
@@ -35,12 +35,12 @@ pub(super) struct Start<'a> {
 /// # Errors
 /// When the integrator that the scene names cannot take this system.
 pub(super) fn choose(
-    scene: &Scene,
+    resolved: &Resolved<'_>,
     start: &Start<'_>,
     work: &mut Work,
 ) -> Result<(Tolerance, Box<dyn Method>), Error> {
-    let system = start.system;
-    let rate = natural_rate(scene, system, start.kinetic);
+    let (scene, system) = (resolved.scene, start.system);
+    let rate = natural_rate(resolved, system, start.kinetic);
     let relative = scene.accuracy.relative_tolerance;
     let tolerance = Tolerance {
         relative,
@@ -81,12 +81,16 @@ pub(super) fn choose(
 
 /// How fast the scene moves, 1/s: by gravity, by its motion at the start, by the turning of its frame;
 /// where it has none of them, by its slowest bending (or stretching) or by its springs.
-fn natural_rate(scene: &Scene, system: &System, kinetic: f64) -> f64 {
+fn natural_rate(resolved: &Resolved<'_>, system: &System, kinetic: f64) -> f64 {
     let (size, mass) = (system.size(), system.mass());
     let by_motion = (2.0 * kinetic / mass).sqrt() / size;
     let by_gravity = (system.gravity().norm() / size).sqrt();
-    let rate = by_motion.max(by_gravity).max(scene.rotation.abs());
-    let slow = [rate, elastic_rate(scene), spring_rate(scene, size, mass)];
+    let rate = by_motion.max(by_gravity).max(resolved.scene.rotation.abs());
+    let slow = [
+        rate,
+        elastic_rate(resolved),
+        spring_rate(resolved, size, mass),
+    ];
     let found = slow
         .into_iter()
         .find(|rate| *rate > 0.0 && rate.is_finite());
@@ -94,8 +98,8 @@ fn natural_rate(scene: &Scene, system: &System, kinetic: f64) -> f64 {
 }
 
 /// Slowest bending (or stretching) of the first cable between supports; 0 without one.
-fn elastic_rate(scene: &Scene) -> f64 {
-    let mut cables = scene.bodies.iter().filter_map(|body| body.cable());
+fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
+    let mut cables = resolved.scene.bodies.iter().filter_map(|body| body.cable());
     let Some(cable) = cables.next() else {
         return 0.0;
     };
@@ -109,13 +113,15 @@ fn elastic_rate(scene: &Scene) -> f64 {
 }
 
 /// Rate of the whole mass on the stiffest spring or hinge; 0 without one.
-fn spring_rate(scene: &Scene, size: f64, mass: f64) -> f64 {
-    let springs = scene.loads.iter();
-    let springs = springs.filter(|load| load.kind == LoadKind::SpringDamper);
-    let hinges = scene.joints.iter();
-    let hinges = hinges.filter(|joint| joint.kind == JointKind::Hinge);
-    let of_springs = springs.filter_map(|load| load.stiffness);
-    let of_hinges = hinges.filter_map(|joint| joint.stiffness);
+fn spring_rate(resolved: &Resolved<'_>, size: f64, mass: f64) -> f64 {
+    let of_springs = resolved.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Spring(spring) => Some(spring.stiffness),
+        LoadKind::Action { .. } => None,
+    });
+    let of_hinges = resolved.joints.iter().filter_map(|joint| match joint.kind {
+        JointKind::Hinge { stiffness, .. } => Some(stiffness),
+        _ => None,
+    });
     let stiffest = of_springs
         .chain(of_hinges.map(|stiffness| stiffness / (size * size)))
         .fold(0.0, f64::max);

@@ -86,10 +86,23 @@ pub struct Simulation {
     report: Report,
 }
 
+impl Default for Simulation {
+    /// A simulation of nothing: it has no variables and cannot be initialized.
+    fn default() -> Self {
+        Self::with(Vec::new(), Scene::default())
+    }
+}
+
 impl Simulation {
     /// A simulation of a valid scene, with its start values.
+    ///
+    /// # Panics
+    /// When the scene is not valid ([`Scene::resolved`]).
     pub fn new(scene: Scene) -> Self {
-        let variables = variables(&scene);
+        Self::with(variables(&scene), scene)
+    }
+
+    fn with(variables: Vec<Variable>, scene: Scene) -> Self {
         let values = variables.iter().map(|v| v.start.unwrap_or(0.0)).collect();
         let inputs = start_inputs(&variables);
         Self {
@@ -206,7 +219,7 @@ impl Simulation {
                 let value = self
                     .engine
                     .as_mut()
-                    .map(|engine| engine.output(index, quantity, &self.state, &self.inputs.values));
+                    .map(|engine| engine.output(quantity, &self.state, &self.inputs.values));
                 Ok(value.unwrap_or(0.0))
             }
         }
@@ -229,7 +242,8 @@ impl Simulation {
     /// # Errors
     /// Parameters that make no valid scene, no static equilibrium.
     pub fn initialize(&mut self, start_time: f64) -> Result<(), Error> {
-        let mut engine = Engine::new(&self.parametrized()?, &self.variables)?;
+        let scene = self.parametrized();
+        let mut engine = Engine::new(&scene.resolve()?, &self.variables)?;
         let (state, frequencies) = engine.initial_state(start_time, &self.inputs.values)?;
         (self.engine, self.state, self.frequencies) = (Some(engine), state, frequencies);
         self.current = true;
@@ -312,7 +326,7 @@ impl Simulation {
             }
             Source::Parameter(_) => {
                 self.values[index] = value;
-                if let Err(error) = self.parametrized() {
+                if let Err(error) = self.parametrized().resolve() {
                     self.values[index] = before;
                     return Err(self.refuse(index, &error.message));
                 }
@@ -325,8 +339,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// The scene with the current parameters, validated.
-    fn parametrized(&self) -> Result<Scene, SceneError> {
+    /// The scene with the current parameters, to be resolved: their values may make it invalid.
+    fn parametrized(&self) -> Scene {
         let mut scene = self.scene.clone();
         for (variable, value) in self.variables.iter().zip(&self.values) {
             let Source::Parameter(parameter) = variable.source else {
@@ -334,8 +348,7 @@ impl Simulation {
             };
             set_parameter(&mut scene, parameter, *value);
         }
-        scene.validate()?;
-        Ok(scene)
+        scene
     }
 
     fn collect_inputs(&mut self) {
@@ -366,29 +379,14 @@ impl Simulation {
 fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
     use Parameter::*;
     match parameter {
-        YoungsModulus(i) | Density(i) | DampingTime(i) | Area(i) | SecondMoment(i)
-        | Elements(i) => {
-            let Some(cable) = scene.bodies[i].cable_mut() else {
-                return;
-            };
-            match parameter {
-                YoungsModulus(_) => cable.material.youngs_modulus = value,
-                Density(_) => cable.material.density = value,
-                DampingTime(_) => cable.material.damping_time = value,
-                Area(_) => cable.section.area = value,
-                SecondMoment(_) => cable.section.second_moment = value,
-                _ => cable.elements = value.max(0.0) as u32,
-            }
-        }
-        Mass(i) | Inertia(i) => {
-            let Some(body) = scene.bodies[i].rigid_mut() else {
-                return;
-            };
-            match parameter {
-                Mass(_) => body.mass = value,
-                _ => body.inertia = value,
-            }
-        }
+        YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = value,
+        Density(id) => scene.cable_mut(id).material.density = value,
+        DampingTime(id) => scene.cable_mut(id).material.damping_time = value,
+        Area(id) => scene.cable_mut(id).section.area = value,
+        SecondMoment(id) => scene.cable_mut(id).section.second_moment = value,
+        Elements(id) => scene.cable_mut(id).elements = value.max(0.0) as u32,
+        Mass(id) => scene.rigid_mut(id).mass = value,
+        Inertia(id) => scene.rigid_mut(id).inertia = value,
         LumpedMass(i) => scene.masses[i].mass = value,
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),

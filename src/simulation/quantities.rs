@@ -3,7 +3,7 @@
 use super::Quantity;
 use crate::body::Marker;
 use crate::math::jet::Number;
-use crate::scene::{Assembled, MarkerReference};
+use crate::scene::{Assembled, HolderId, MarkerId};
 use crate::system::{End, Evaluation};
 
 /// How much of the outputs belongs to the current state and inputs.
@@ -14,51 +14,49 @@ pub(super) enum Evaluated {
     Dynamics,
 }
 
-/// Value of an output with its marker, if it has one; `work` came in and was dissipated so far.
+/// Value of an output; `work` came in and was dissipated so far.
 pub(super) fn value<N: Number>(
     quantity: Quantity,
-    marker: Option<&Marker>,
     values: &Evaluation<N>,
     assembled: &Assembled,
     work: [N; 2],
 ) -> N {
     use Quantity::*;
     let system = &assembled.system;
-    let none = N::of(0.0);
-    let on = |f: &dyn Fn(Marker<N>) -> N| marker.map_or(none, |marker| f(marker.lift()));
-    let at = |f: &dyn Fn(&Marker) -> N| marker.map_or(none, f);
+    let on = |id: MarkerId| -> Marker<N> { assembled.marker(id).lift() };
+    let at = |id: MarkerId| assembled.marker(id);
+    let ends = |joint: HolderId| system.joints()[joint.index()].ends;
     match quantity {
-        Position(_, axis) => on(&|m| m.position(&values.x)[axis]),
-        Velocity(_, axis) => on(&|m| m.position(&values.v)[axis]),
-        Acceleration(_, axis) => on(&|m| m.position(&values.acceleration)[axis]),
-        Angle(place) => values.angles[assembled.angles[place]],
-        AngularVelocity(_) => on(&|m| End::Body(m).spin(&values.x, &values.v)),
+        Position(id, axis) => on(id).position(&values.x)[axis],
+        Velocity(id, axis) => on(id).position(&values.v)[axis],
+        Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
+        Angle(angle) => values.angles[angle.index()],
+        AngularVelocity(id) => End::Body(on(id)).spin(&values.x, &values.v),
         JointVelocity(joint) => {
-            let ends = system.joints()[joint].ends;
-            let [a, b] = ends.map(|end| end.lift().spin(&values.x, &values.v));
+            let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
             b - a
         }
-        AngularAcceleration(_) => {
-            on(&|m| End::Body(m).spin_rate(&values.x, &values.v, &values.acceleration))
+        AngularAcceleration(id) => {
+            End::Body(on(id)).spin_rate(&values.x, &values.v, &values.acceleration)
         }
         JointAcceleration(joint) => {
             let rate =
                 |end: End| (end.lift()).spin_rate(&values.x, &values.v, &values.acceleration);
-            let [a, b] = system.joints()[joint].ends.map(rate);
+            let [a, b] = ends(joint).map(rate);
             b - a
         }
-        Strain(_) => at(&|m| values.strain(system, m).0),
-        Curvature(_) => at(&|m| values.strain(system, m).1),
-        AxialForce(_) => at(&|m| values.section(system, m).0),
-        BendingMoment(_) => at(&|m| values.section(system, m).1),
-        ConnectivityForce(_, axis) => at(&|m| values.connectivity_force(system, m)[axis]),
-        Travel(place) => values.travel[place],
-        Reaction(joint, axis) => values.reaction(system, joint).0[axis],
-        ReactionMoment(joint) => values.reaction(system, joint).1,
-        MotionForce(joint, axis) => -values.reaction(system, joint).0[axis],
-        MotionMoment(joint) => -values.reaction(system, joint).1,
-        CouplingForce(place, axis) => values.coupling(system, assembled.couplings[place]).0[axis],
-        CouplingMoment(place) => values.coupling(system, assembled.couplings[place]).1,
+        Strain(id) => values.strain(system, at(id)).0,
+        Curvature(id) => values.strain(system, at(id)).1,
+        AxialForce(id) => values.section(system, at(id)).0,
+        BendingMoment(id) => values.section(system, at(id)).1,
+        ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
+        Travel(slide) => values.travel[slide.index()],
+        Reaction(joint, axis) => values.reaction(system, joint.index()).0[axis],
+        ReactionMoment(joint) => values.reaction(system, joint.index()).1,
+        MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
+        MotionMoment(joint) => -values.reaction(system, joint.index()).1,
+        CouplingForce(id, axis) => values.coupling(system, assembled.coupling(id)).0[axis],
+        CouplingMoment(id) => values.coupling(system, assembled.coupling(id)).1,
         KineticEnergy => values.kinetic_energy(system),
         StrainEnergy => values.strain_energy(system),
         GravityEnergy => values.gravity_energy(system),
@@ -86,23 +84,5 @@ pub(super) fn needs(quantity: Quantity) -> Evaluated {
         | MotionMoment(_) => Evaluated::Dynamics,
         Input | Dissipated => Evaluated::Nothing,
         _ => Evaluated::Kinematics,
-    }
-}
-
-/// The marker that a quantity belongs to.
-pub(super) fn marker_of(quantity: Quantity) -> Option<MarkerReference> {
-    use Quantity::*;
-    match quantity {
-        Position(at, _)
-        | Velocity(at, _)
-        | Acceleration(at, _)
-        | AngularVelocity(at)
-        | AngularAcceleration(at)
-        | Strain(at)
-        | Curvature(at)
-        | AxialForce(at)
-        | BendingMoment(at)
-        | ConnectivityForce(at, _) => Some(at),
-        _ => None,
     }
 }

@@ -100,14 +100,18 @@ impl Simulation {
     /// The engine that a snapshot needs, where the present one has other parameters.
     fn engine_for(&self, snapshot: &Snapshot, before: &[f64]) -> Result<Option<Engine>, Error> {
         if !snapshot.initialized {
-            return self.parametrized().map(|_| None).map_err(Error::from);
+            self.parametrized().resolve()?;
+            return Ok(None);
         }
         let is_parameter = |v: &Variable| matches!(v.source, Source::Parameter(_));
         let same = (self.variables.iter().zip(before.iter().zip(&self.values)))
             .all(|(variable, (a, b))| !is_parameter(variable) || a == b);
         let rebuilt = match &self.engine {
             Some(_) if same && self.current => None,
-            _ => Some(Engine::new(&self.parametrized()?, &self.variables)?),
+            _ => Some(Engine::new(
+                &self.parametrized().resolve()?,
+                &self.variables,
+            )?),
         };
         let engine = rebuilt.as_ref().or(self.engine.as_ref());
         let found = &snapshot.state;

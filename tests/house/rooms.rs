@@ -189,6 +189,57 @@ fn below_the_scene_and_in_the_simulation_nothing_sees_the_world() {
     no_complaints(&complaints);
 }
 
+/// Lists of a scene whose parts name others. Only `scene/` reads them and finds what the names refer to;
+/// parameters are written into them.
+const NAMED: [&str; 7] = [
+    "masses", "joints", "motions", "loads", "inputs", "outputs", "ports",
+];
+
+/// Where a list of a scene as described is read: `.scene.joints` or `scene.joints`, not
+/// `resolved.joints`, and not to set a value (`scene.joints[i].stiffness = ...`).
+fn reads_of_names(code: &str) -> Vec<usize> {
+    let mut found = Vec::new();
+    for at in words(code, "scene") {
+        let rest = code[at + "scene".len()..].trim_start();
+        let Some(rest) = rest
+            .strip_prefix("()")
+            .unwrap_or(rest)
+            .trim_start()
+            .strip_prefix('.')
+        else {
+            continue;
+        };
+        let rest = rest.trim_start();
+        let line = rest.split(&['\n', ';', ','][..]).next().unwrap_or_default();
+        if NAMED.contains(&&*identifier(rest)) && !line.contains(" = ") {
+            found.push(at);
+        }
+    }
+    found
+}
+
+#[test]
+fn what_a_scene_names_is_found_in_its_own_room_only() {
+    let mut complaints = Vec::new();
+    for source in sources(&["src"]) {
+        if source.room() == Some("scene") {
+            continue;
+        }
+        for at in reads_of_names(source.product()) {
+            let line = source.line(at);
+            complaints.push(format!(
+                "{}:{line}: reads names, not what they refer to",
+                source.path
+            ));
+        }
+    }
+    no_complaints(&complaints);
+    let planted =
+        "let j = scene\n    .joints.iter(); self.scene().loads; scene.ports[i].damping = Some(v);";
+    assert_eq!(reads_of_names(planted).len(), 2);
+    assert!(reads_of_names("resolved.joints.iter(); scene.bodies[0]").is_empty());
+}
+
 /// Files by prefix below `src/`, with rooms that they must not know although those are below them.
 const STRANGERS: [(&str, &[&str]); 6] = [
     ("system/joints/", &["elements", "Cable", "integrators"]),

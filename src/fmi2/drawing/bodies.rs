@@ -2,7 +2,7 @@
 
 use super::{BODY, INK, INSIDE, Picture};
 use crate::fmi2::canvas::{Point, Style};
-use crate::scene::{At, Body, CableBody, RigidBody};
+use crate::scene::{BodyReference, Cable, CableBody, RigidBody};
 
 /// Parts of the polyline that stands for a cable.
 const PARTS: u32 = 96;
@@ -10,17 +10,24 @@ const PARTS: u32 = 96;
 const MOST_NODES: u32 = 64;
 
 /// Points along a cable; corners around a rigid body's markers and its centre, m.
-pub(super) fn outline(body: &Body) -> Vec<[f64; 2]> {
+pub(super) fn outline(body: BodyReference<'_>) -> Vec<[f64; 2]> {
     match body {
-        Body::Cable(cable) => (0..=PARTS)
-            .map(|part| cable.shape.point(f64::from(part) / f64::from(PARTS)))
-            .collect(),
-        Body::Rigid(rigid) => {
-            let markers = rigid.markers.values();
-            let points = markers.map(|point| body.position(At::Point(*point)));
-            hull(points.chain([rigid.position]).collect())
-        }
+        BodyReference::Cable(cable) => cable_outline(cable.body),
+        BodyReference::Rigid(rigid) => rigid_outline(rigid.body),
     }
+}
+
+fn cable_outline(cable: &CableBody) -> Vec<[f64; 2]> {
+    (0..=PARTS)
+        .map(|part| cable.shape.point(f64::from(part) / f64::from(PARTS)))
+        .collect()
+}
+
+/// Corners around a rigid body's markers and its centre, m.
+pub(super) fn rigid_outline(rigid: &RigidBody) -> Vec<[f64; 2]> {
+    let markers = rigid.markers.values();
+    let points = markers.map(|point| rigid.point(*point));
+    hull(points.chain([rigid.position]).collect())
 }
 
 /// Corners of the smallest convex polygon around points, counter-clockwise; the two ends where all lie
@@ -54,17 +61,16 @@ fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 }
 
 impl Picture<'_> {
-    pub(super) fn body(&mut self, index: usize) {
-        let scene = self.scene;
-        let body = &scene.bodies[index];
+    pub(super) fn body(&mut self, body: BodyReference<'_>) {
         let points: Vec<Point> = outline(body).iter().map(|point| self.at(*point)).collect();
         match body {
-            Body::Cable(cable) => self.cable(index, cable, &points),
-            Body::Rigid(rigid) => self.rigid(rigid, &points),
+            BodyReference::Cable(cable) => self.cable(cable, &points),
+            BodyReference::Rigid(rigid) => self.rigid(rigid.body, &points),
         }
     }
 
-    fn cable(&mut self, index: usize, body: &CableBody, points: &[Point]) {
+    fn cable(&mut self, cable: Cable<'_>, points: &[Point]) {
+        let body = cable.body;
         let style = Style {
             stroke: BODY,
             width: 0.42 * self.unit,
@@ -79,7 +85,8 @@ impl Picture<'_> {
             width: 0.8,
             fill: INSIDE,
         };
-        for along in self.scene.nodes(index).unwrap_or_default() {
+        // A mesh that is too coarse is drawn without nodes, and refused when it is built.
+        for along in self.resolved.nodes(cable).into_iter().flatten() {
             let centre = self.at(body.shape.point(along));
             self.canvas.circle(centre, 0.26 * self.unit, node);
         }
@@ -107,25 +114,18 @@ impl Picture<'_> {
             width: 0.0,
             fill: BODY,
         };
-        for of in &self.scene.masses {
-            if let Some(place) = self.place(&of.marker) {
-                self.canvas.circle(place.point, 0.7 * self.unit, mass);
-            }
+        for of in &self.resolved.masses {
+            let centre = self.at(of.marker.position);
+            self.canvas.circle(centre, 0.7 * self.unit, mass);
         }
         let mark = Style {
             stroke: INK,
             width: 0.0,
             fill: INK,
         };
-        for body in &self.scene.bodies {
-            for at in body
-                .marker_names()
-                .iter()
-                .filter_map(|name| body.marker(name))
-            {
-                let centre = self.at(body.position(at));
-                self.canvas.circle(centre, 0.3 * self.unit, mark);
-            }
+        for marker in &self.resolved.markers {
+            let centre = self.at(marker.position);
+            self.canvas.circle(centre, 0.3 * self.unit, mark);
         }
     }
 }

@@ -1,132 +1,127 @@
 //! Joints, springs, driven motions, and ports that motions come into.
 
 use super::{Picture, Place};
-use crate::fmi2::canvas::{direction, moved};
+use crate::fmi2::canvas::{Point, direction, moved};
 use crate::fmi2::symbols;
-use crate::scene::{At, GROUND, Joint, JointKind, LoadKind, MotionKind, PortKind};
+use crate::scene::{Ends, Joint, JointKind, LoadKind, MotionKind, Place as On, PortKind};
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
-fn outward(place: &Place) -> [f64; 2] {
-    match place.at {
-        At::Along(s) if s < 0.5 => place.direction.map(|part| -part),
-        _ => place.direction,
+fn outward(place: &Place<'_>) -> [f64; 2] {
+    match place.on {
+        On::Along(_, s) if s < 0.5 => place.direction.map(|part| -part),
+        On::Along(..) | On::Point(..) => place.direction,
     }
 }
 
 impl Picture<'_> {
     pub(super) fn joints(&mut self) {
-        for joint in &self.scene.joints {
+        for joint in &self.resolved.joints {
             self.joint(joint);
         }
     }
 
-    fn joint(&mut self, joint: &Joint) {
-        let Some(place) = self.place(&joint.markers[1]) else {
-            return;
-        };
-        let is_ground = joint.markers[0] == GROUND;
-        // The cable that a joint of kind `along` runs on is no place of its own.
-        let ends = match joint.kind {
-            JointKind::Along => None,
-            _ => self.ends(&joint.markers, joint.point),
-        };
-        let [first, second] = ends.unwrap_or([place.point; 2]);
-        let (canvas, unit) = (&mut self.canvas, self.unit);
-        match joint.kind {
-            JointKind::Revolute if is_ground => symbols::revolute(canvas, first, unit),
-            JointKind::Revolute => symbols::pin(canvas, second, unit),
-            JointKind::Hinge => {
-                symbols::spiral(canvas, second, unit);
-                if is_ground {
-                    symbols::revolute(canvas, first, unit);
-                } else {
-                    symbols::pin(canvas, second, unit);
-                }
+    fn joint(&mut self, joint: &Joint<'_>) {
+        let place = self.place(joint.second());
+        let (second, unit) = (place.point, self.unit);
+        match &joint.kind {
+            JointKind::Revolute(ends) => self.pin(ends),
+            JointKind::Hinge { ends, .. } => {
+                symbols::spiral(&mut self.canvas, second, unit);
+                self.pin(ends);
             }
-            JointKind::Weld if is_ground => symbols::weld(canvas, first, outward(&place), unit),
-            JointKind::Weld => symbols::block(canvas, second, place.direction, unit),
-            JointKind::Slider => {
-                let [x, y] = joint.direction.unwrap_or([1.0, 0.0]);
-                symbols::slider(canvas, second, direction([x, -y]), unit);
+            JointKind::Weld(ends, _) if ends.is_grounded() => {
+                let [first, _] = self.ends(ends);
+                symbols::weld(&mut self.canvas, first, outward(&place), unit);
             }
-            JointKind::Orientation => symbols::orientation(canvas, second, place.direction, unit),
-            JointKind::Distance => {
-                symbols::link(canvas, first, second, unit);
-                if is_ground {
-                    symbols::revolute(canvas, first, unit);
-                } else {
-                    symbols::pin(canvas, first, unit);
-                }
-                symbols::pin(canvas, second, unit);
+            JointKind::Weld(..) => {
+                symbols::block(&mut self.canvas, second, place.direction, unit);
             }
-            JointKind::Along => symbols::ring(canvas, second, unit),
+            JointKind::Slider(slider) => {
+                let along = in_image(slider.direction);
+                symbols::slider(&mut self.canvas, second, along, unit);
+            }
+            JointKind::Orientation(..) => {
+                symbols::orientation(&mut self.canvas, second, place.direction, unit);
+            }
+            JointKind::Distance(ends, _) => {
+                let [first, second] = self.ends(ends);
+                symbols::link(&mut self.canvas, first, second, unit);
+                self.foot(ends, first);
+                symbols::pin(&mut self.canvas, second, unit);
+            }
+            JointKind::Along { .. } => symbols::ring(&mut self.canvas, second, unit),
+        }
+    }
+
+    /// A pin between two bodies, or between the ground and one.
+    fn pin(&mut self, ends: &Ends<'_>) {
+        let [first, second] = self.ends(ends);
+        let at = if ends.is_grounded() { first } else { second };
+        self.foot(ends, at);
+    }
+
+    /// A pin, on the ground if one end is.
+    fn foot(&mut self, ends: &Ends<'_>, at: Point) {
+        match ends.is_grounded() {
+            true => symbols::revolute(&mut self.canvas, at, self.unit),
+            false => symbols::pin(&mut self.canvas, at, self.unit),
         }
     }
 
     pub(super) fn springs(&mut self) {
-        let loads = self.scene.loads.iter();
-        for load in loads.filter(|load| load.kind == LoadKind::SpringDamper) {
-            let Some(markers) = &load.markers else {
+        for load in &self.resolved.loads {
+            let LoadKind::Spring(spring) = &load.kind else {
                 continue;
             };
-            let Some([from, to]) = self.ends(markers, load.point) else {
-                continue;
-            };
+            let [from, to] = self.ends(&spring.ends);
             symbols::spring(&mut self.canvas, from, to, self.unit);
-            if markers[0] == GROUND {
+            if spring.ends.is_grounded() {
                 symbols::revolute(&mut self.canvas, from, self.unit);
             }
         }
     }
 
     pub(super) fn ports(&mut self) {
-        let ports = self.scene.ports.iter();
-        for port in ports.filter(|port| port.kind == PortKind::Motion) {
-            let Some(place) = self.place(&port.marker) else {
-                continue;
+        for port in &self.resolved.ports {
+            let (mut at, unit) = (self.at(port.marker.position), self.unit);
+            let turns = match &port.kind {
+                PortKind::Force { .. } => continue,
+                PortKind::Motion { angle, .. } => angle.is_some(),
+                PortKind::Coupling { angle, .. } => {
+                    // Its other end is where the marker is; it is drawn aside, where bodies are rare.
+                    let aside = moved(at, direction([1.0, 1.0]), 4.0 * unit);
+                    symbols::spring(&mut self.canvas, at, aside, unit);
+                    at = aside;
+                    angle.is_some()
+                }
             };
-            let (mut at, unit) = (place.point, self.unit);
-            if port.is_coupling() {
-                // Its other end is where the marker is; it is drawn aside, where bodies are rare.
-                let aside = moved(at, direction([1.0, 1.0]), 4.0 * unit);
-                symbols::spring(&mut self.canvas, at, aside, unit);
-                at = aside;
-            }
             symbols::way(&mut self.canvas, at, [1.0, 0.0], unit);
             symbols::way(&mut self.canvas, at, [0.0, 1.0], unit);
-            if port.turns() {
+            if turns {
                 symbols::turn(&mut self.canvas, at, unit, symbols::MOTION);
             }
         }
     }
 
     pub(super) fn motions(&mut self) {
-        for motion in &self.scene.motions {
-            let joint = motion
-                .joint
-                .as_deref()
-                .and_then(|name| self.scene.joint(name));
-            let joint = joint.map(|joint| &self.scene.joints[joint]);
-            let marker = motion
-                .marker
-                .as_ref()
-                .or(joint.map(|joint| &joint.markers[1]));
-            let Some(place) = marker.and_then(|marker| self.place(marker)) else {
-                continue;
-            };
-            let (canvas, at, unit) = (&mut self.canvas, place.point, self.unit);
-            match motion.kind {
-                MotionKind::Angle => symbols::turn(canvas, at, unit, symbols::MOTION),
-                MotionKind::Position => {
+        for motion in &self.resolved.motions {
+            let at = self.at(motion.kind.marker().position);
+            let (canvas, unit) = (&mut self.canvas, self.unit);
+            match &motion.kind {
+                MotionKind::Angle(..) => symbols::turn(canvas, at, unit, symbols::MOTION),
+                MotionKind::Position(..) => {
                     symbols::way(canvas, at, [1.0, 0.0], unit);
                     symbols::way(canvas, at, [0.0, 1.0], unit);
                 }
-                MotionKind::Displacement => {
-                    let along = joint.and_then(|joint| joint.direction);
-                    let [x, y] = along.unwrap_or([1.0, 0.0]);
-                    symbols::way(canvas, at, direction([x, -y]), unit);
+                MotionKind::Displacement(slider, _) => {
+                    symbols::way(canvas, at, in_image(slider.direction), unit);
                 }
             }
         }
     }
+}
+
+/// A direction of the scene, y downwards.
+fn in_image([x, y]: [f64; 2]) -> Point {
+    direction([x, -y])
 }

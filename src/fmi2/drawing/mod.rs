@@ -6,7 +6,7 @@ mod joints;
 mod names;
 
 use super::canvas::{Canvas, Point, Style, direction, moved};
-use crate::scene::{At, GROUND, Scene};
+use crate::scene::{Ends, LoadKind, Marker, Place as On, Resolved, Scene};
 
 const BODY: &str = "#2b5c8a";
 const INSIDE: &str = "#dce6f0";
@@ -19,12 +19,13 @@ const MARGIN: f64 = 84.0;
 
 /// The scene as an SVG image, with the names of its parts.
 pub fn drawing(scene: &Scene) -> String {
+    let resolved = scene.resolved();
     let picture = |margin: f64| {
-        let [low, high] = bounds(scene);
+        let [low, high] = bounds(&resolved);
         let [across, up] = [high[0] - low[0], high[1] - low[1]];
         let inner = (WIDTH - 2.0 * margin) * up / across.max(1e-3 * up);
         let height = inner.clamp(40.0, 360.0) + 2.0 * margin;
-        Picture::new(scene, [WIDTH, height], margin, 11.0, true)
+        Picture::new(&resolved, [WIDTH, height], margin, 11.0, true)
     };
     let room = picture(MARGIN).room();
     picture(MARGIN.max(room)).draw()
@@ -32,16 +33,22 @@ pub fn drawing(scene: &Scene) -> String {
 
 /// The scene as a square SVG image without text.
 pub fn icon(scene: &Scene) -> String {
-    Picture::new(scene, [256.0, 256.0], 56.0, 17.0, false).draw()
+    Picture::new(&scene.resolved(), [256.0, 256.0], 56.0, 17.0, false).draw()
 }
 
 /// The corners of the box around all bodies and all points of the ground, m.
-fn bounds(scene: &Scene) -> [[f64; 2]; 2] {
+fn bounds(resolved: &Resolved<'_>) -> [[f64; 2]; 2] {
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
-    let joints = scene.joints.iter().filter_map(|joint| joint.point);
-    let loads = scene.loads.iter().filter_map(|load| load.point);
-    let outlines = scene.bodies.iter().flat_map(bodies::outline);
+    let joints = resolved.joints.iter().filter_map(|joint| joint.point());
+    let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Spring(spring) => spring.ends.point(),
+        LoadKind::Action { .. } => None,
+    });
+    let outlines = resolved
+        .bodies
+        .iter()
+        .flat_map(|body| bodies::outline(*body));
     for point in outlines.chain(joints).chain(loads) {
         for axis in 0..2 {
             low[axis] = low[axis].min(point[axis]);
@@ -57,8 +64,8 @@ fn bounds(scene: &Scene) -> [[f64; 2]; 2] {
 
 /// A marker in the image.
 #[derive(Clone, Copy)]
-struct Place {
-    at: At,
+struct Place<'a> {
+    on: On<'a>,
     /// Where it is, pixels.
     point: Point,
     /// Its direction, y downwards.
@@ -66,6 +73,7 @@ struct Place {
 }
 
 struct Picture<'a> {
+    resolved: &'a Resolved<'a>,
     scene: &'a Scene,
     canvas: Canvas,
     /// Pixels a metre.
@@ -80,10 +88,12 @@ struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
-    fn new(scene: &'a Scene, size: Point, margin: f64, unit: f64, names: bool) -> Self {
-        let [low, high] = bounds(scene);
+    fn new(resolved: &'a Resolved<'a>, size: Point, margin: f64, unit: f64, names: bool) -> Self {
+        let scene = resolved.scene;
+        let [low, high] = bounds(resolved);
         let room = |axis: usize| (size[axis] - 2.0 * margin) / (high[axis] - low[axis]);
         Self {
+            resolved,
             scene,
             canvas: Canvas::new(size[0], size[1]),
             // One extent of a straight line is zero and asks for no room; the other is not.
@@ -96,8 +106,8 @@ impl<'a> Picture<'a> {
     }
 
     fn draw(mut self) -> String {
-        for index in 0..self.scene.bodies.len() {
-            self.body(index);
+        for body in &self.resolved.bodies {
+            self.body(*body);
         }
         self.joints();
         self.springs();
@@ -121,28 +131,19 @@ impl<'a> Picture<'a> {
         ]
     }
 
-    /// The marker of this name.
-    fn place(&self, name: &str) -> Option<Place> {
-        let scene = self.scene;
-        let marker = scene.marker(name)?;
-        let [x, y] = scene.direction(marker);
-        Some(Place {
-            at: marker.at,
-            point: self.at(scene.position(marker)),
+    /// A marker in the image.
+    fn place(&self, marker: Marker<'a>) -> Place<'a> {
+        let [x, y] = marker.direction;
+        Place {
+            on: marker.place,
+            point: self.at(marker.position),
             direction: [x, -y],
-        })
+        }
     }
 
-    /// Where the two ends of a joint or spring are. The ground is at `point`, or where the second
-    /// marker is.
-    fn ends(&self, markers: &[String; 2], point: Option<[f64; 2]>) -> Option<[Point; 2]> {
-        let second = self.place(&markers[1])?.point;
-        let first = match point {
-            Some(point) => self.at(point),
-            None if markers[0] == GROUND => second,
-            None => self.place(&markers[0])?.point,
-        };
-        Some([first, second])
+    /// Where the two ends of a joint or spring are.
+    fn ends(&self, ends: &Ends<'_>) -> [Point; 2] {
+        ends.points().map(|point| self.at(point))
     }
 
     /// An arrow in the upper right corner, where no body is drawn.

@@ -1,11 +1,14 @@
 //! Names beside what they name.
 
-use super::actions::{ActionKind, actions};
-use super::bodies::outline;
+use super::actions::actions;
+use super::bodies::rigid_outline;
 use super::{BODY, FAINT, INK, Picture};
 use crate::fmi2::canvas::{LINE, Point, direction, moved};
 use crate::fmi2::symbols;
-use crate::scene::{At, Body, CableBody, JointKind, LoadKind, PortKind, Scene};
+use crate::scene::{
+    Action as Kind, BodyReference, CableBody, Ends, JointKind, LoadKind, Place as On, PortKind,
+    RigidBody,
+};
 
 /// With more bodies than this, names would only cover each other.
 const MOST_BODIES: usize = 32;
@@ -61,8 +64,9 @@ impl<'a> Picture<'a> {
 
     /// A particle has no side of its own to be named at.
     fn add_particles(&self, labels: &mut [Label<'a>]) {
-        for body in &self.scene.bodies {
-            if let [point] = outline(body)[..]
+        for body in &self.resolved.bodies {
+            if let BodyReference::Rigid(rigid) = body
+                && let [point] = rigid_outline(rigid.body)[..]
                 && let Some(label) = self.label_at(labels, self.at(point))
             {
                 label.lines.insert(0, (body.name(), BODY));
@@ -73,22 +77,16 @@ impl<'a> Picture<'a> {
     /// One label for all markers at the same place.
     fn marker_labels(&self) -> Vec<Label<'a>> {
         let mut labels: Vec<Label<'a>> = Vec::new();
-        let scene: &'a Scene = self.scene;
-        for body in &scene.bodies {
-            for name in body.marker_names() {
-                let Some(at) = body.marker(name) else {
-                    continue;
-                };
-                let point = self.at(body.position(at));
-                match self.label_at(&mut labels, point) {
-                    Some(label) => label.add(name, INK),
-                    None => labels.push(Label {
-                        at: point,
-                        side: self.side(body, at),
-                        lines: vec![(name, INK)],
-                        is_far: false,
-                    }),
-                }
+        for marker in &self.resolved.markers {
+            let point = self.at(marker.position);
+            match self.label_at(&mut labels, point) {
+                Some(label) => label.add(marker.name, INK),
+                None => labels.push(Label {
+                    at: point,
+                    side: side(marker.place),
+                    lines: vec![(marker.name, INK)],
+                    is_far: false,
+                }),
             }
         }
         labels
@@ -101,23 +99,17 @@ impl<'a> Picture<'a> {
 
     /// Names of joints, motions and ports at their second markers.
     fn add_joints(&self, labels: &mut [Label<'a>]) {
-        let scene = self.scene;
-        let joints = scene
-            .joints
-            .iter()
-            .filter(|joint| joint.kind != JointKind::Distance);
-        let joints = joints.map(|joint| (&joint.markers[1], &joint.name, FAINT));
-        let motions = scene.motions.iter().filter_map(|motion| {
-            let joint = motion.joint.as_deref().and_then(|name| scene.joint(name));
-            let second = joint.map(|joint| &scene.joints[joint].markers[1]);
-            let marker = motion.marker.as_ref().or(second)?;
-            Some((marker, &motion.name, symbols::MOTION))
-        });
-        let ports = scene.ports.iter().filter(|p| p.kind == PortKind::Motion);
-        let ports = ports.map(|port| (&port.marker, &port.name, symbols::MOTION));
+        let resolved = self.resolved;
+        let is_link = |kind: &JointKind<'_>| matches!(kind, JointKind::Distance(..));
+        let joints = resolved.joints.iter().filter(|j| !is_link(&j.kind));
+        let joints = joints.map(|joint| (joint.second(), joint.name, FAINT));
+        let motions = resolved.motions.iter();
+        let motions = motions.map(|m| (m.kind.marker(), m.name, symbols::MOTION));
+        let is_force = |kind: &PortKind<'_>| matches!(kind, PortKind::Force { .. });
+        let ports = resolved.ports.iter().filter(|p| !is_force(&p.kind));
+        let ports = ports.map(|port| (port.marker, port.name, symbols::MOTION));
         for (marker, name, colour) in joints.chain(motions).chain(ports) {
-            let place = self.place(marker);
-            if let Some(label) = place.and_then(|place| self.label_at(labels, place.point)) {
+            if let Some(label) = self.label_at(labels, self.at(marker.position)) {
                 label.add(name, colour);
                 label.is_far = true;
             }
@@ -126,16 +118,14 @@ impl<'a> Picture<'a> {
 
     /// Names of moments; forces have theirs at the tail and take the side that they come from.
     fn add_actions(&self, labels: &mut [Label<'a>]) {
-        for action in actions(self.scene) {
-            let joint = self.scene.joint(action.on);
-            let second = joint.map(|joint| self.scene.joints[joint].markers[1].as_str());
-            let Some(place) = self.place(second.unwrap_or(action.on)) else {
+        for action in actions(self.resolved) {
+            let Some(place) = action.marker().map(|marker| self.place(marker)) else {
                 continue;
             };
             let Some(label) = self.label_at(labels, place.point) else {
                 continue;
             };
-            if matches!(action.kind, ActionKind::Moment | ActionKind::Torque) {
+            if matches!(action.kind, Kind::Moment(..) | Kind::Torque(..)) {
                 label.add(action.label, symbols::LOAD);
                 label.is_far = true;
             } else {
@@ -148,19 +138,19 @@ impl<'a> Picture<'a> {
     }
 
     fn name_bodies(&mut self) {
-        let scene = self.scene;
-        for body in &scene.bodies {
+        for body in &self.resolved.bodies {
             let (at, side, distance) = match body {
                 // A quarter along the way, where markers are rare, on the side without their names.
-                Body::Cable(cable) => {
-                    let side = cable_side(cable, 0.25).map(|part| -part);
-                    (self.at(cable.shape.point(0.25)), side, 1.5)
+                BodyReference::Cable(cable) => {
+                    let side = cable_side(cable.body, 0.25).map(|part| -part);
+                    (self.at(cable.body.shape.point(0.25)), side, 1.5)
                 }
-                Body::Rigid(rigid) => {
-                    if outline(body).len() < 2 && !rigid.markers.is_empty() {
+                BodyReference::Rigid(rigid) => {
+                    let rigid = rigid.body;
+                    if rigid_outline(rigid).len() < 2 && !rigid.markers.is_empty() {
                         continue;
                     }
-                    let side = self.side(body, At::Point([0.0; 2])).map(|part| -part);
+                    let side = rigid_side(rigid, [0.0; 2]).map(|part| -part);
                     (self.at(rigid.position), side, 1.8)
                 }
             };
@@ -171,47 +161,44 @@ impl<'a> Picture<'a> {
 
     /// Names of springs and links in their middle.
     fn name_links(&mut self) {
-        let scene = self.scene;
-        let springs = scene.loads.iter().filter_map(|load| {
-            let markers = load.markers.as_ref()?;
-            (load.kind == LoadKind::SpringDamper).then_some((
-                markers,
-                load.point,
-                &load.name,
-                symbols::SPRING,
-            ))
-        });
-        let links = scene.joints.iter();
-        let links = links.filter(|joint| joint.kind == JointKind::Distance);
-        let links = links.map(|joint| (&joint.markers, joint.point, &joint.name, FAINT));
-        for (markers, point, name, colour) in springs.chain(links) {
-            let Some([a, b]) = self.ends(markers, point) else {
-                continue;
-            };
-            let side = upper(direction([a[1] - b[1], b[0] - a[0]]));
-            let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-            let at = moved(middle, side, 1.4 * self.unit);
-            self.canvas.texts(at, side, &[(name, colour)]);
+        for load in &self.resolved.loads {
+            if let LoadKind::Spring(spring) = &load.kind {
+                self.name_link(&spring.ends, load.name, symbols::SPRING);
+            }
+        }
+        for joint in &self.resolved.joints {
+            if let JointKind::Distance(ends, _) = &joint.kind {
+                self.name_link(ends, joint.name, FAINT);
+            }
         }
     }
 
-    /// The side of a body for the name of a place on it, in the image.
-    fn side(&self, body: &Body, at: At) -> Point {
-        match (body, at) {
-            (Body::Cable(cable), At::Along(along)) => cable_side(cable, along),
-            (Body::Cable(cable), At::Point(_)) => cable_side(cable, 0.0),
-            (Body::Rigid(rigid), _) => {
-                let corners = outline(body);
-                let p = body.position(at);
-                let out = [p[0] - rigid.position[0], p[1] - rigid.position[1]];
-                match corners[..] {
-                    // A rod: above it.
-                    [a, b] => upper(direction([a[1] - b[1], a[0] - b[0]])),
-                    _ if out[0].hypot(out[1]) > 0.0 => direction([out[0], -out[1]]),
-                    _ => [0.0, -1.0],
-                }
-            }
-        }
+    fn name_link(&mut self, ends: &Ends<'_>, name: &str, colour: &'static str) {
+        let [a, b] = self.ends(ends);
+        let side = upper(direction([a[1] - b[1], b[0] - a[0]]));
+        let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
+        let at = moved(middle, side, 1.4 * self.unit);
+        self.canvas.texts(at, side, &[(name, colour)]);
+    }
+}
+
+/// The side of a body for the name of a place on it, in the image.
+fn side(on: On<'_>) -> Point {
+    match on {
+        On::Along(cable, s) => cable_side(cable.body, s),
+        On::Point(rigid, point) => rigid_side(rigid.body, point),
+    }
+}
+
+fn rigid_side(rigid: &RigidBody, point: [f64; 2]) -> Point {
+    let corners = rigid_outline(rigid);
+    let p = rigid.point(point);
+    let out = [p[0] - rigid.position[0], p[1] - rigid.position[1]];
+    match corners[..] {
+        // A rod: above it.
+        [a, b] => upper(direction([a[1] - b[1], a[0] - b[0]])),
+        _ if out[0].hypot(out[1]) > 0.0 => direction([out[0], -out[1]]),
+        _ => [0.0, -1.0],
     }
 }
 

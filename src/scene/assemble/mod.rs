@@ -5,10 +5,11 @@ mod ports;
 
 use nalgebra::Vector2;
 
-use super::{
-    At, Body, CableBody, Constraints, Error, Formulation, GROUND, Input, InputKind, InputLayout,
-    JointKind, LoadKind, MarkerReference, OutputKind, Port, Scene, Strain, Value,
+use super::resolved::{
+    self, Action, BodyReference, CouplingId, Ends, First, InputKind, JointKind, LoadKind, MarkerId,
+    Output, Place, Resolved, Spring, Turning,
 };
+use super::{CableBody, Constraints, Error, Formulation, Scene, Strain};
 use crate::body::{self, Marker, Node};
 use crate::elements::cable::{self, Inertia};
 use crate::elements::{self, Nodal};
@@ -28,60 +29,73 @@ pub struct Assembled {
     pub nodes: Vec<Node<4>>,
     /// Their rates as described.
     pub rates: Vec<Node<4>>,
-    /// For every output of kind `angle`, in order, then for every port that forces come into and that
-    /// turns, its place among the angles of the system.
-    pub angles: Vec<usize>,
-    /// For every load of the scene, its place among the loads of the system.
-    pub loads: Vec<usize>,
+    /// For every marker, itself in the system.
+    markers: Vec<Marker>,
     /// For every coupling, its place among the loads of the system.
-    pub couplings: Vec<usize>,
-    places: Vec<Place>,
-}
-
-/// Where a body is in the system.
-#[derive(Clone, Copy, Debug)]
-enum Place {
-    /// Its chain and length, m.
-    Chain(usize, f64),
-    /// Its node.
-    Node(usize),
+    couplings: Vec<usize>,
 }
 
 impl Assembled {
     /// The marker of the system that a marker of the scene is.
-    pub fn marker(&self, reference: MarkerReference) -> Marker {
-        marker(&self.places, self.system.chains(), reference)
+    pub fn marker(&self, id: MarkerId) -> &Marker {
+        &self.markers[id.index()]
+    }
+
+    /// Place among the loads of the system of a coupling.
+    pub fn coupling(&self, id: CouplingId) -> usize {
+        self.couplings[id.index()]
     }
 }
 
-fn marker(places: &[Place], chains: &[PlanarChain], reference: MarkerReference) -> Marker {
-    let MarkerReference { body, at } = reference;
-    match (places[body], at) {
-        (Place::Chain(chain, length), At::Along(s)) => {
-            Marker::along(body, &chains[chain], s * length)
-        }
-        (Place::Node(node), At::Point(point)) => Marker::rigid(body, node, point),
-        // A valid scene names points of rigid bodies and lengths of cables.
-        (Place::Chain(chain, _), At::Point(_)) => Marker::along(body, &chains[chain], 0.0),
-        (Place::Node(node), At::Along(_)) => Marker::rigid(body, node, [0.0; 2]),
-    }
-}
-
-/// Builds the system that a valid scene describes.
+/// Builds the system that a scene describes.
 ///
 /// # Errors
-/// When a mesh is too coarse for what acts inside its body, when a motion contradicts joints, when a body
+/// When the scene is not valid, when a mesh is too coarse for what acts inside its body, when a motion contradicts joints, when a body
 /// has no mass.
 pub fn assemble(scene: &Scene) -> Result<Assembled, Error> {
-    let mut builder = Builder {
-        scene,
-        layout: scene.input_layout(),
-        places: Vec::new(),
-        rates: Vec::new(),
-        angle_outputs: Vec::new(),
-        load_places: Vec::new(),
-        couplings: Vec::new(),
-        parts: Parts {
+    scene.resolve()?.assemble()
+}
+
+impl Resolved<'_> {
+    /// Builds the system that the scene describes.
+    ///
+    /// # Errors
+    /// When a mesh is too coarse for what acts inside its body, when a motion contradicts joints, when a
+    /// body has no mass.
+    pub fn assemble(&self) -> Result<Assembled, Error> {
+        let mut builder = Builder {
+            resolved: self,
+            rates: Vec::new(),
+            markers: Vec::new(),
+            couplings: Vec::new(),
+            parts: self.parts(),
+        };
+        for index in 0..self.bodies.len() {
+            builder.body(index)?;
+        }
+        builder.markers();
+        builder.masses();
+        builder.angles();
+        builder.joints();
+        builder.motions();
+        builder.loads();
+        builder.inputs();
+        builder.ports();
+        let nodes = builder.parts.nodes.clone();
+        let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
+        Ok(Assembled {
+            system,
+            nodes,
+            rates: builder.rates,
+            markers: builder.markers,
+            couplings: builder.couplings,
+        })
+    }
+
+    /// Nothing but what belongs to the scene as a whole.
+    fn parts(&self) -> Parts {
+        let scene = self.scene;
+        Parts {
             nodes: Vec::new(),
             bodies: Vec::new(),
             chains: Vec::new(),
@@ -101,64 +115,40 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Error> {
                 Constraints::Projection => Method::Projection,
                 Constraints::Partitioning => Method::Partitioning,
             },
-            tracks_work: scene.outputs.iter().any(|o| o.kind == OutputKind::Work),
-        },
-    };
-    for index in 0..scene.bodies.len() {
-        builder.body(index)?;
+            tracks_work: self.outputs.iter().any(|o| matches!(o, Output::Work)),
+        }
     }
-    builder.masses();
-    builder.angles();
-    builder.joints();
-    builder.motions();
-    builder.loads();
-    builder.inputs();
-    builder.ports();
-    let nodes = builder.parts.nodes.clone();
-    let system = System::new(builder.parts).map_err(|error| explain(scene, &error))?;
-    Ok(Assembled {
-        system,
-        nodes,
-        rates: builder.rates,
-        angles: builder.angle_outputs,
-        loads: builder.load_places,
-        couplings: builder.couplings,
-        places: builder.places,
-    })
-}
 
-fn explain(scene: &Scene, error: &BuildError) -> Error {
-    match error {
-        BuildError::Massless => Error::new("bodies", "expected bodies with mass, found none"),
-        BuildError::Determined(joint) => {
-            let (list, place, _) = scene.holder(joint.unwrap_or(0));
-            let path = format!("{list}[{place}]");
-            let message = "expected a motion of what joints and other motions leave free, found one of \
-                           what they hold already";
-            Error::new(path, message)
+    fn explain(&self, error: &BuildError) -> Error {
+        match error {
+            BuildError::Massless => Error::new("bodies", "expected bodies with mass, found none"),
+            BuildError::Determined(joint) => {
+                let path = joint.map_or("motions", |joint| &self.holders[joint].path);
+                let message = "expected a motion of what joints and other motions leave free, found one of \
+                               what they hold already";
+                Error::new(path, message)
+            }
         }
     }
 }
 
 struct Builder<'a> {
-    scene: &'a Scene,
-    layout: InputLayout,
-    places: Vec<Place>,
+    resolved: &'a Resolved<'a>,
     rates: Vec<Node<4>>,
-    angle_outputs: Vec<usize>,
-    load_places: Vec<usize>,
+    markers: Vec<Marker>,
     couplings: Vec<usize>,
     parts: Parts,
 }
 
-impl Builder<'_> {
+impl<'a> Builder<'a> {
     fn body(&mut self, index: usize) -> Result<(), Error> {
         let first = self.parts.nodes.len();
-        let motion = self.scene.bodies[index].motion();
-        match &self.scene.bodies[index] {
-            Body::Cable(cable) => {
-                let mesh = self.scene.nodes(index)?;
-                let (connected, inertia) = match self.scene.method.formulation {
+        let motion = self.resolved.scene.bodies[index].motion();
+        match self.resolved.bodies[index] {
+            BodyReference::Cable(reference) => {
+                let cable = reference.body;
+                let mesh = self.resolved.nodes(reference)?;
+                let (connected, inertia) = match self.resolved.scene.method.formulation {
                     Formulation::MassWeighted => (true, Inertia::Corrected),
                     Formulation::AsPrinted => (false, Inertia::Consistent),
                 };
@@ -175,11 +165,10 @@ impl Builder<'_> {
                         self.parts.nodes.push(node(s));
                     }
                 }
-                let place = Place::Chain(self.parts.chains.len(), chain.length());
-                self.places.push(place);
                 self.parts.chains.push(chain);
             }
-            Body::Rigid(rigid) => {
+            BodyReference::Rigid(rigid) => {
+                let rigid = rigid.body;
                 let (sin, cos) = rigid.angle.sin_cos();
                 let [x, y] = rigid.position;
                 self.parts.nodes.push([x, y, cos, sin]);
@@ -189,7 +178,6 @@ impl Builder<'_> {
                     mass: rigid.mass,
                     inertia: rigid.inertia,
                 });
-                self.places.push(Place::Node(first));
             }
         }
         let origin = self.parts.nodes[first];
@@ -205,19 +193,29 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// A marker of the scene by its name, which a valid scene has.
-    fn marker(&self, name: &str) -> Marker {
-        let start = MarkerReference {
-            body: 0,
-            at: At::Along(0.0),
-        };
-        let reference = self.scene.marker(name).unwrap_or(start);
-        marker(&self.places, &self.parts.chains, reference)
+    /// Markers as the scene numbers them.
+    fn markers(&mut self) {
+        for marker in &self.resolved.markers {
+            self.markers.push(match marker.place {
+                Place::Along(cable, s) => {
+                    let chain = &self.parts.chains[cable.id.chain];
+                    Marker::along(cable.id.body, chain, s * chain.length())
+                }
+                Place::Point(rigid, point) => {
+                    let body = rigid.id.index();
+                    Marker::rigid(body, self.parts.bodies[body].start, point)
+                }
+            });
+        }
+    }
+
+    fn marker(&self, marker: resolved::Marker<'_>) -> Marker {
+        self.markers[marker.id.index()]
     }
 
     fn masses(&mut self) {
-        for mass in &self.scene.masses {
-            let marker = self.marker(&mass.marker);
+        for mass in &self.resolved.masses {
+            let marker = self.marker(mass.marker);
             self.parts.lumps.push(Lump {
                 marker,
                 mass: mass.mass,
@@ -226,28 +224,35 @@ impl Builder<'_> {
         }
     }
 
-    /// The ends of something between two markers; the ground where it is at the start, or at `point`.
-    fn ends(&self, markers: &[String; 2], point: Option<[f64; 2]>) -> [End; 2] {
-        let second = self.marker(&markers[1]);
-        let first = if markers[0] == GROUND {
-            let here = second.position(&self.parts.nodes);
-            End::Ground(point.map_or(here, Vector2::from))
-        } else {
-            End::Body(self.marker(&markers[0]))
+    /// The ends of something; the ground where the second one is at the start, or at its point.
+    fn ends(&self, ends: Ends<'_>) -> [End; 2] {
+        let second = self.marker(ends.second);
+        let first = match ends.first {
+            First::Ground(point) => {
+                let here = second.position(&self.parts.nodes);
+                End::Ground(point.map_or(here, Vector2::from))
+            }
+            First::Marker(marker) => End::Body(self.marker(marker)),
         };
         [first, End::Body(second)]
     }
 
-    /// The ends of a joint of the scene.
-    fn joint_ends(&self, name: &str) -> [End; 2] {
-        let joint = self.scene.joint(name).unwrap_or(0);
-        let joint = &self.scene.joints[joint];
-        self.ends(&joint.markers, joint.point)
+    /// A marker, seen from the ground.
+    fn on_marker(&self, marker: resolved::Marker<'_>) -> [End; 2] {
+        let ground = End::Ground(Vector2::zeros());
+        [ground, End::Body(self.marker(marker))]
     }
 
-    /// Angle from the direction of the first end to that of the second at the start, rad.
-    fn angle_at_start(&self, ends: &[End; 2]) -> f64 {
-        Angle { ends: *ends }.value(&self.parts.nodes, 0.0)
+    fn turning(&self, turning: &Turning<'_>) -> [End; 2] {
+        match turning {
+            Turning::Marker(marker) => self.on_marker(*marker),
+            Turning::Pivot(pivot) => self.ends(pivot.ends),
+        }
+    }
+
+    fn distance_at_start(&self, ends: &[End; 2]) -> f64 {
+        let nodes = &self.parts.nodes;
+        (ends[1].position(nodes) - ends[0].position(nodes)).norm()
     }
 
     fn count_angle(&mut self, ends: [End; 2]) -> usize {
@@ -255,172 +260,144 @@ impl Builder<'_> {
         self.parts.angles.len() - 1
     }
 
+    /// Angles that are read, as the scene numbers them; those of hinges and ports follow.
     fn angles(&mut self) {
-        let scene = self.scene;
-        let of_ports = scene.ports.iter().flat_map(Port::outputs);
-        for output in scene.outputs.iter().cloned().chain(of_ports) {
-            if output.kind != OutputKind::Angle {
-                continue;
-            }
-            let ends = match (&output.marker, &output.joint) {
-                (Some(marker), _) => [
-                    End::Ground(Vector2::zeros()),
-                    End::Body(self.marker(marker)),
-                ],
-                (None, Some(joint)) => self.joint_ends(joint),
-                (None, None) => continue,
-            };
-            let angle = self.count_angle(ends);
-            self.angle_outputs.push(angle);
+        for turning in &self.resolved.angles {
+            self.count_angle(self.turning(turning));
         }
     }
 
+    fn hold(&mut self, kind: joints::JointKind, ends: [End; 2]) {
+        let spring = None;
+        self.parts.joints.push(Joint { kind, ends, spring });
+    }
+
     fn joints(&mut self) {
-        for joint in &self.scene.joints {
-            let mut spring = None;
-            if joint.kind == JointKind::Along {
-                let cable = self.scene.body(&joint.markers[0]).unwrap_or(0);
-                let (chain, length) = match self.places[cable] {
-                    Place::Chain(chain, length) => (chain, length),
-                    Place::Node(_) => (0, 0.0),
-                };
-                let first = Marker::along(cable, &self.parts.chains[chain], 0.5 * length);
-                self.parts.joints.push(Joint {
-                    kind: joints::JointKind::Along(chain),
-                    ends: [End::Body(first), End::Body(self.marker(&joint.markers[1]))],
-                    spring,
-                });
-                continue;
+        for joint in &self.resolved.joints {
+            self.joint(&joint.kind);
+        }
+    }
+
+    fn joint(&mut self, kind: &JointKind<'_>) {
+        // From the direction of the first end to that of the second at the start, where none is given.
+        let angle = |builder: &Self, ends: [End; 2], given: Option<f64>| {
+            given.unwrap_or_else(|| Angle { ends }.value(&builder.parts.nodes, 0.0))
+        };
+        match *kind {
+            JointKind::Revolute(ends) => self.hold(joints::JointKind::Revolute, self.ends(ends)),
+            JointKind::Weld(ends, given) => {
+                let ends = self.ends(ends);
+                self.hold(joints::JointKind::Weld(angle(self, ends, given)), ends);
             }
-            let ends = self.ends(&joint.markers, joint.point);
-            let angle = joint.angle.unwrap_or_else(|| self.angle_at_start(&ends));
-            let kind = match joint.kind {
-                JointKind::Revolute | JointKind::Along => joints::JointKind::Revolute,
-                JointKind::Weld => joints::JointKind::Weld(angle),
-                JointKind::Orientation => joints::JointKind::Orientation(angle),
-                JointKind::Slider => joints::JointKind::Slider(direction(joint.direction)),
-                JointKind::Distance => {
-                    let nodes = &self.parts.nodes;
-                    let now = (ends[1].position(nodes) - ends[0].position(nodes)).norm();
-                    joints::JointKind::Distance(joint.length.unwrap_or(now))
-                }
-                JointKind::Hinge => {
-                    spring = Some(self.parts.loads.len());
-                    let counted = self.count_angle(ends);
-                    self.parts.loads.push(Load::Rotational(loads::Rotational {
-                        ends,
-                        angle: counted,
-                        stiffness: joint.stiffness.unwrap_or(0.0),
-                        damping: joint.damping.unwrap_or(0.0),
-                        rest: angle,
-                    }));
-                    joints::JointKind::Revolute
-                }
-            };
-            self.parts.joints.push(Joint { kind, ends, spring });
+            JointKind::Orientation(ends, given) => {
+                let ends = self.ends(ends);
+                let kind = joints::JointKind::Orientation(angle(self, ends, given));
+                self.hold(kind, ends);
+            }
+            JointKind::Slider(slider) => {
+                let kind = joints::JointKind::Slider(unit(slider.direction));
+                self.hold(kind, self.ends(slider.ends()));
+            }
+            JointKind::Distance(ends, given) => {
+                let ends = self.ends(ends);
+                let length = given.unwrap_or_else(|| self.distance_at_start(&ends));
+                self.hold(joints::JointKind::Distance(length), ends);
+            }
+            JointKind::Hinge {
+                ends,
+                rest,
+                stiffness,
+                damping,
+            } => {
+                let ends = self.ends(ends);
+                let spring = loads::Rotational {
+                    ends,
+                    angle: self.count_angle(ends),
+                    stiffness,
+                    damping,
+                    rest: angle(self, ends, rest),
+                };
+                self.parts.joints.push(Joint {
+                    kind: joints::JointKind::Revolute,
+                    ends,
+                    spring: Some(self.parts.loads.len()),
+                });
+                self.parts.loads.push(Load::Rotational(spring));
+            }
+            JointKind::Along { cable, marker, .. } => {
+                let chain = &self.parts.chains[cable.id.chain];
+                let first = Marker::along(cable.id.body, chain, 0.5 * chain.length());
+                let ends = [End::Body(first), End::Body(self.marker(marker))];
+                self.hold(joints::JointKind::Along(cable.id.chain), ends);
+            }
         }
     }
 
     fn loads(&mut self) {
-        for load in &self.scene.loads {
-            let values = load.value.as_ref().map_or(&[][..], |v| v.components());
-            let signal = |k: usize| function(values.get(k));
-            let marker = load.marker.as_deref();
-            let built = match load.kind {
-                LoadKind::Force => Load::Force(loads::Force {
-                    marker: self.marker(marker.unwrap_or_default()),
-                    follower: load.follower,
-                    components: [signal(0), signal(1)],
-                }),
-                LoadKind::Moment => self.moment(marker, signal(0)),
-                LoadKind::Torque => Load::Moment(loads::Moment {
-                    ends: self.joint_ends(load.joint.as_deref().unwrap_or_default()),
-                    size: signal(0),
-                }),
-                LoadKind::Distributed => {
-                    self.distributed(load.body.as_deref(), [signal(0), signal(1)])
-                }
-                LoadKind::SpringDamper => {
-                    let none = [String::new(), String::new()];
-                    let ends = self.ends(load.markers.as_ref().unwrap_or(&none), load.point);
-                    let nodes = &self.parts.nodes;
-                    let now = (ends[1].position(nodes) - ends[0].position(nodes)).norm();
-                    let rest = Signal::Function(Function::Constant(now));
-                    Load::Spring(loads::Spring {
-                        ends,
-                        stiffness: load.stiffness.unwrap_or(0.0),
-                        damping: load.damping.unwrap_or(0.0),
-                        length: load.length.as_ref().map_or(rest, |l| function(Some(l))),
-                    })
-                }
+        for load in &self.resolved.loads {
+            let built = match &load.kind {
+                LoadKind::Action { action, .. } => self.action(action),
+                LoadKind::Spring(spring) => self.spring(spring),
             };
-            self.load_places.push(self.parts.loads.len());
             self.parts.loads.push(built);
         }
     }
 
-    fn moment(&self, marker: Option<&str>, size: Signal) -> Load {
-        let end = End::Body(self.marker(marker.unwrap_or_default()));
-        Load::Moment(loads::Moment {
-            ends: [End::Ground(Vector2::zeros()), end],
-            size,
+    fn spring(&self, spring: &Spring<'_>) -> Load {
+        let ends = self.ends(spring.ends);
+        let now = || Signal::Function(Function::Constant(self.distance_at_start(&ends)));
+        Load::Spring(loads::Spring {
+            ends,
+            stiffness: spring.stiffness,
+            damping: spring.damping,
+            length: spring.length.clone().unwrap_or_else(now),
         })
     }
 
-    fn distributed(&self, body: Option<&str>, components: [Signal; 2]) -> Load {
-        let body = body.and_then(|name| self.scene.body(name)).unwrap_or(0);
-        let chain = match self.places[body] {
-            Place::Chain(chain, _) => chain,
-            Place::Node(_) => 0,
-        };
-        Load::Distributed(loads::Distributed { chain, components })
-    }
-
-    fn inputs(&mut self) {
-        let scene = self.scene;
-        for (place, input) in scene.inputs.iter().enumerate() {
-            self.input(input, self.layout.of_inputs[place]);
+    fn action(&self, action: &Action<'_>) -> Load {
+        match action {
+            Action::Force {
+                marker,
+                follower,
+                components,
+            } => Load::Force(loads::Force {
+                marker: self.marker(*marker),
+                follower: *follower,
+                components: components.clone(),
+            }),
+            Action::Moment(marker, size) => Load::Moment(loads::Moment {
+                ends: self.on_marker(*marker),
+                size: size.clone(),
+            }),
+            Action::Torque(pivot, size) => Load::Moment(loads::Moment {
+                ends: self.ends(pivot.ends),
+                size: size.clone(),
+            }),
+            Action::Distributed(cable, components) => Load::Distributed(loads::Distributed {
+                chain: cable.id.chain,
+                components: components.clone(),
+            }),
         }
     }
 
-    /// A load whose size is an input.
-    fn input(&mut self, input: &Input, first: usize) {
-        let signal = |k: usize| Signal::Input(first + k);
-        let marker = input.marker.as_deref();
-        let built = match input.kind {
-            InputKind::Force => Load::Force(loads::Force {
-                marker: self.marker(marker.unwrap_or_default()),
-                follower: input.follower,
-                components: [signal(0), signal(1)],
-            }),
-            InputKind::Moment => self.moment(marker, signal(0)),
-            InputKind::Torque => Load::Moment(loads::Moment {
-                ends: self.joint_ends(input.joint.as_deref().unwrap_or_default()),
-                size: signal(0),
-            }),
-            InputKind::Distributed => {
-                self.distributed(input.body.as_deref(), [signal(0), signal(1)])
-            }
-            InputKind::RestLength => {
-                let load = input.load.as_deref().and_then(|name| self.scene.load(name));
-                let place = self.load_places[load.unwrap_or(0)];
-                if let Load::Spring(spring) = &mut self.parts.loads[place] {
-                    spring.length = signal(0);
-                }
-                return;
-            }
-        };
-        self.parts.loads.push(built);
+    fn inputs(&mut self) {
+        for input in &self.resolved.inputs {
+            self.input(&input.kind);
+        }
+    }
+
+    /// A load whose size is an input; a spring whose length is one has been built.
+    fn input(&mut self, input: &InputKind<'_>) {
+        if let InputKind::Action(action) = input {
+            let built = self.action(action);
+            self.parts.loads.push(built);
+        }
     }
 }
 
-fn function(value: Option<&Value>) -> Signal {
-    let function = value.and_then(|value| value.function().ok());
-    Signal::Function(function.unwrap_or(Function::Constant(0.0)))
-}
-
-fn direction(direction: Option<[f64; 2]>) -> Vector2<f64> {
-    Vector2::from(direction.unwrap_or([1.0, 0.0])).normalize()
+/// The direction as a unit vector.
+fn unit(direction: [f64; 2]) -> Vector2<f64> {
+    Vector2::from(direction).normalize()
 }
 
 fn build_elements(body: &CableBody, nodes: &[f64], inertia: Inertia) -> Vec<cable::Cable<2, 1>> {

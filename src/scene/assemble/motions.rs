@@ -1,74 +1,42 @@
 //! Driven motions: those of the scene, then those of ports.
 
-use nalgebra::Vector2;
-
-use super::{Builder, direction};
-use crate::math::function::Function;
-use crate::scene::{Motion, MotionKind, MotionValue};
-use crate::system::joints::{self, Joint};
-use crate::system::{Drive, End};
+use super::{Builder, unit};
+use crate::scene::resolved::{MotionKind, PortKind};
+use crate::system::{Drive, joints};
 
 impl Builder<'_> {
     pub(super) fn motions(&mut self) {
-        let scene = self.scene;
-        let mut driven = self.layout.of_motions.clone().into_iter();
-        for motion in &scene.motions {
-            let first = motion.input_count().and_then(|_| driven.next());
-            self.motion(motion, first.unwrap_or(0));
+        for motion in &self.resolved.motions {
+            self.motion(&motion.kind);
         }
-        for (place, port) in scene.ports.iter().enumerate() {
-            let mut first = self.layout.of_ports[place];
-            for motion in port.motions().iter().filter(|_| port.drives()) {
-                self.motion(motion, first);
-                first += motion.input_count().unwrap_or(0);
+        for port in &self.resolved.ports {
+            if let PortKind::Motion { position, angle } = &port.kind {
+                self.motion(&position.kind);
+                angle.iter().for_each(|angle| self.motion(&angle.kind));
             }
         }
     }
 
-    /// A motion; `first` is the index of its first input if it has any.
-    fn motion(&mut self, motion: &Motion, first: usize) {
-        let drives: Vec<usize> = (0..motion.coordinates())
-            .map(|k| self.drive(&motion.value, first, k))
-            .collect();
-        let ground = End::Ground(Vector2::zeros());
-        let ends = match (&motion.marker, &motion.joint) {
-            (Some(marker), _) => [ground, End::Body(self.marker(marker))],
-            (None, joint) => self.joint_ends(joint.as_deref().unwrap_or_default()),
-        };
-        let kind = match motion.kind {
-            MotionKind::Angle => joints::JointKind::DrivenAngle(drives[0]),
-            MotionKind::Position => joints::JointKind::DrivenPosition([drives[0], drives[1]]),
-            MotionKind::Displacement => {
-                let joint = motion
-                    .joint
-                    .as_deref()
-                    .and_then(|name| self.scene.joint(name));
-                let along = direction(self.scene.joints[joint.unwrap_or(0)].direction);
-                joints::JointKind::DrivenWay(along, drives[0])
+    fn motion(&mut self, motion: &MotionKind<'_>) {
+        match motion {
+            MotionKind::Angle(turning, drive) => {
+                let kind = joints::JointKind::DrivenAngle(self.drive(drive));
+                self.hold(kind, self.turning(turning));
             }
-        };
-        self.parts.joints.push(Joint {
-            kind,
-            ends,
-            spring: None,
-        });
+            MotionKind::Position(marker, [x, y]) => {
+                let kind = joints::JointKind::DrivenPosition([self.drive(x), self.drive(y)]);
+                self.hold(kind, self.on_marker(*marker));
+            }
+            MotionKind::Displacement(slider, drive) => {
+                let along = unit(slider.direction);
+                let kind = joints::JointKind::DrivenWay(along, self.drive(drive));
+                self.hold(kind, self.ends(slider.ends()));
+            }
+        }
     }
 
-    /// Component `k` of a motion.
-    fn drive(&mut self, value: &MotionValue, first: usize, k: usize) -> usize {
-        self.parts.drives.push(match value {
-            MotionValue::Input(master) => {
-                let derivatives = usize::from(master.input);
-                Drive::Input {
-                    first: first + k * (derivatives + 1),
-                    derivatives,
-                }
-            }
-            given => {
-                let function = given.components()[k].motion_function();
-                Drive::Function(function.unwrap_or(Function::Constant(0.0)))
-            }
-        });
+    fn drive(&mut self, drive: &Drive) -> usize {
+        self.parts.drives.push(drive.clone());
         self.parts.drives.len() - 1
     }
 }

@@ -1,54 +1,49 @@
 //! Loads of ports: what comes in, and springs and dampers to what moves outside.
 
-use nalgebra::Vector2;
-
 use super::Builder;
-use crate::scene::{Port, PortKind};
-use crate::system::loads::{Coupling, Load, Turning};
-use crate::system::{End, Signal};
+use crate::scene::resolved::{Coupling, Port, PortKind};
+use crate::system::Signal;
+use crate::system::loads::{self, Load, Turning};
 
 impl Builder<'_> {
     pub(super) fn ports(&mut self) {
-        let scene = self.scene;
-        for (place, port) in scene.ports.iter().enumerate() {
-            let first = self.layout.of_ports[place];
-            match port.kind {
-                PortKind::Force => self.force_port(port, first),
-                PortKind::Motion if port.is_coupling() => self.coupling(port, first),
-                PortKind::Motion => {}
+        for port in &self.resolved.ports {
+            match &port.kind {
+                PortKind::Force { inputs, .. } => {
+                    inputs.iter().for_each(|input| self.input(&input.kind));
+                }
+                PortKind::Motion { .. } => {}
+                PortKind::Coupling { position, angle } => {
+                    self.couple_position(port, position);
+                    if let Some(angle) = angle {
+                        self.couple_angle(port, angle);
+                    }
+                }
             }
         }
     }
 
-    fn force_port(&mut self, port: &Port, mut first: usize) {
-        for input in port.inputs() {
-            self.input(&input, first);
-            first += input.components();
-        }
-    }
-
-    fn coupling(&mut self, port: &Port, first: usize) {
-        let (marker, signal) = (self.marker(&port.marker), |k| Signal::Input(first + k));
-        // As with motions, the value and the rate of each coordinate lie side by side.
-        self.couple(Load::Coupling(Coupling {
-            marker,
-            stiffness: port.stiffness.unwrap_or(0.0),
-            damping: port.damping.unwrap_or(0.0),
+    fn couple_position(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
+        let signal = |k| Signal::Input(coupling.first + k);
+        self.couple(Load::Coupling(loads::Coupling {
+            marker: self.marker(port.marker),
+            stiffness: coupling.stiffness,
+            damping: coupling.damping,
             position: [signal(0), signal(2)],
             velocity: [signal(1), signal(3)],
         }));
-        if port.turns() {
-            let ends = [End::Ground(Vector2::zeros()), End::Body(marker)];
-            let counted = self.count_angle(ends);
-            self.couple(Load::Turning(Turning {
-                marker,
-                counted,
-                stiffness: port.rotational_stiffness.unwrap_or(0.0),
-                damping: port.rotational_damping.unwrap_or(0.0),
-                angle: signal(4),
-                velocity: signal(5),
-            }));
-        }
+    }
+
+    fn couple_angle(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
+        let counted = self.count_angle(self.on_marker(port.marker));
+        self.couple(Load::Turning(Turning {
+            marker: self.marker(port.marker),
+            counted,
+            stiffness: coupling.stiffness,
+            damping: coupling.damping,
+            angle: Signal::Input(coupling.first),
+            velocity: Signal::Input(coupling.first + 1),
+        }));
     }
 
     fn couple(&mut self, load: Load) {

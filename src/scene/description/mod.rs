@@ -17,7 +17,7 @@ pub use load::{Input, InputKind, Load, LoadKind};
 pub use output::{Output, OutputKind};
 pub use port::{Port, PortKind};
 pub use strict::INNER;
-pub use value::{LoadValue, MasterInput, MotionValue, Table, Value};
+pub use value::{LoadValue, MotionValue, Table, Value};
 
 /// A scene: bodies, joints, what drives and loads them, what goes in and what comes out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use super::ELEMENTS;
 use super::checks::{expected, finite, name, not_negative, positive, quoted, vector};
-use crate::scene::{Body, CableBody, Error, InitialMotion, RigidBody, Scene, Shape};
+use crate::scene::resolved::{Mass, Place, Resolved};
+use crate::scene::{Body, CableBody, Error, InitialMotion, RigidBody, Shape};
 
 impl Body {
     pub(super) fn validate(&self, path: &str) -> Result<(), Error> {
@@ -102,10 +103,10 @@ impl Shape {
     }
 }
 
-impl Scene {
-    pub(super) fn validate_masses(&self) -> Result<(), Error> {
+impl Resolved<'_> {
+    pub(super) fn resolve_masses(&mut self) -> Result<(), Error> {
         let mut seen = BTreeSet::new();
-        for (index, mass) in self.masses.iter().enumerate() {
+        for (index, mass) in self.scene.masses.iter().enumerate() {
             let path = format!("masses[{index}]");
             let at = |key: &str| format!("{path}.{key}");
             let marker = self.require_marker(&at("marker"), &mass.marker)?;
@@ -115,13 +116,19 @@ impl Scene {
             }
             not_negative(&at("mass"), "kg", mass.mass)?;
             not_negative(&at("inertia"), "kg m^2", mass.inertia)?;
-            if mass.inertia > 0.0 && self.bodies[marker.body].rigid().is_some() {
+            if mass.inertia > 0.0 && matches!(marker.place, Place::Point(..)) {
                 let wanted = "0 at a marker of a rigid body, which has its own inertia";
                 return Err(expected(&at("inertia"), wanted, mass.inertia));
             }
             if mass.mass + mass.inertia <= 0.0 {
                 return Err(expected(&at("mass"), "a positive number (kg)", mass.mass));
             }
+            let (mass, inertia) = (mass.mass, mass.inertia);
+            self.masses.push(Mass {
+                marker,
+                mass,
+                inertia,
+            });
         }
         Ok(())
     }

@@ -3,7 +3,10 @@
 use std::collections::BTreeSet;
 use std::fmt::Display;
 
-use crate::scene::{Error, GROUND, Value};
+use crate::math::function::Function;
+use crate::scene::Error;
+use crate::scene::description::Value;
+use crate::scene::marker::GROUND;
 
 /// Words that begin variable names of the scene itself, or stand for something else.
 const RESERVED: [&str; 11] = [
@@ -48,6 +51,11 @@ pub fn keys(path: &str, of: &str, all: &[Key], must: &[&str], may: &[&str]) -> R
     Ok(())
 }
 
+/// The value of a key that its kind demands.
+pub fn needed<T>(path: &str, key: &str, what: &str, value: Option<T>) -> Result<T, Error> {
+    value.ok_or_else(|| expected(&format!("{path}.{key}"), what, "nothing"))
+}
+
 /// Checks that a number is finite.
 pub fn finite(path: &str, value: f64) -> Result<(), Error> {
     if value.is_finite() {
@@ -80,12 +88,12 @@ pub fn not_negative(path: &str, unit: &str, value: f64) -> Result<(), Error> {
     Err(expected(path, &wanted, value))
 }
 
-/// Checks a spring and a damper side by side, of which one may be missing.
+/// Stiffness and damping of a spring and a damper side by side; one that is missing has none.
 pub fn spring_damper(
     path: &str,
     stiffness: (Option<f64>, &str),
     damping: (Option<f64>, &str),
-) -> Result<(), Error> {
+) -> Result<[f64; 2], Error> {
     if stiffness.0.is_none() && damping.0.is_none() {
         return Err(expected(path, "a stiffness or a damping", "neither"));
     }
@@ -94,20 +102,21 @@ pub fn spring_damper(
             not_negative(&format!("{path}.{key}"), unit, value)?;
         }
     }
-    Ok(())
+    Ok([stiffness.0, damping.0].map(Option::unwrap_or_default))
 }
 
-/// Checks a value that may change in time; tables of motions are splines.
-pub fn value(path: &str, value: &Value, of_motion: bool) -> Result<(), Error> {
+/// The function of time that a value is; tables of motions are splines.
+pub fn value(path: &str, value: &Value, of_motion: bool) -> Result<Function, Error> {
     let (place, built) = match value {
-        Value::Number(number) => return finite(path, *number),
+        Value::Number(number) => {
+            finite(path, *number)?;
+            return Ok(Function::constant(*number));
+        }
         Value::Expression(_) => (path.to_owned(), value.function()),
         Value::Table(_) if of_motion => (format!("{path}.table"), value.motion_function()),
         Value::Table(_) => (format!("{path}.table"), value.function()),
     };
-    built
-        .map(drop)
-        .map_err(|message| Error::new(place, message))
+    built.map_err(|message| Error::new(place, message))
 }
 
 /// Checks the name of a scene, which is that of the FMU too.

@@ -2,8 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, finite, keys, not_negative, quoted};
-use crate::scene::{Error, Input, InputKind, LoadKind, Scene, Value};
+use super::checks::{Key, expected, finite, keys, needed, not_negative, quoted};
+use crate::scene::Error;
+use crate::scene::description::{Input, InputKind, Value};
+use crate::scene::resolved::{self, Action, LoadKind, Resolved};
+use crate::system::Signal;
 
 impl Input {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
@@ -24,80 +27,120 @@ impl Input {
         keys(path, "input", &all, must, may)
     }
 
-    /// The name of what it acts on.
-    fn target(&self) -> &str {
-        let names = [&self.marker, &self.joint, &self.body, &self.load];
-        names
-            .into_iter()
-            .flatten()
-            .next()
-            .map_or("", String::as_str)
+    fn validate_start(&self, path: &str) -> Result<(), Error> {
+        let components = self.components();
+        if !self.start.is_empty() && self.start.len() != components {
+            let wanted = format!("{components} component(s)");
+            let place = format!("{path}.start");
+            return Err(expected(&place, &wanted, self.start.len()));
+        }
+        for (axis, value) in self.start.iter().enumerate() {
+            let place = format!("{path}.start[{axis}]");
+            match self.kind {
+                InputKind::RestLength => not_negative(&place, "m", *value)?,
+                _ => finite(&place, *value)?,
+            }
+        }
+        Ok(())
     }
 }
 
-impl Scene {
-    pub(super) fn validate_inputs(&self) -> Result<(), Error> {
-        let mut seen = BTreeSet::new();
-        for (index, input) in self.inputs.iter().enumerate() {
+impl<'a> Resolved<'a> {
+    pub(super) fn resolve_inputs(&mut self) -> Result<(), Error> {
+        let (mut seen, mut first) = (BTreeSet::new(), 0);
+        for (index, input) in self.scene.inputs.iter().enumerate() {
             let path = format!("inputs[{index}]");
             input.validate_keys(&path)?;
-            self.validate_target(&path, input)?;
-            if !seen.insert((input.kind as u8, input.target(), input.follower)) {
+            let (kind, start) = self.resolve_input(&path, input, first)?;
+            let of = match &kind {
+                resolved::InputKind::Action(action) => action.on(),
+                resolved::InputKind::RestLength(name) => name,
+            };
+            if !seen.insert((input.kind as u8, of, input.follower)) {
                 let wanted = "an input not declared before";
-                return Err(expected(&path, wanted, quoted(input.target())));
+                return Err(expected(&path, wanted, quoted(of)));
             }
-            let components = input.components();
-            if !input.start.is_empty() && input.start.len() != components {
-                let wanted = format!("{components} component(s)");
-                let place = format!("{path}.start");
-                return Err(expected(&place, &wanted, input.start.len()));
-            }
-            for (axis, value) in input.start.iter().enumerate() {
-                let place = format!("{path}.start[{axis}]");
-                match input.kind {
-                    InputKind::RestLength => not_negative(&place, "m", *value)?,
-                    _ => finite(&place, *value)?,
+            input.validate_start(&path)?;
+            let start = match input.start.is_empty() {
+                true => start,
+                false => input.start.clone(),
+            };
+            self.inputs.push(resolved::Input { kind, first, start });
+            first += input.components();
+        }
+        Ok(())
+    }
+
+    /// What an input sets, and its values where none are given.
+    fn resolve_input(
+        &mut self,
+        path: &str,
+        input: &'a Input,
+        first: usize,
+    ) -> Result<(resolved::InputKind<'a>, Vec<f64>), Error> {
+        let named = |key: &str, name: &'a Option<String>| {
+            let name = needed(path, key, "a name", name.as_deref())?;
+            Ok::<_, Error>((format!("{path}.{key}"), name))
+        };
+        let action = match input.kind {
+            InputKind::Force => {
+                let (at, name) = named("marker", &input.marker)?;
+                let marker = match input.follower {
+                    true => self.require_turning(&at, name)?,
+                    false => self.require_marker(&at, name)?,
+                };
+                Action::Force {
+                    marker,
+                    follower: input.follower,
+                    components: [0, 1].map(|k| Signal::Input(first + k)),
                 }
             }
-        }
-        Ok(())
-    }
-
-    fn validate_target(&self, path: &str, input: &Input) -> Result<(), Error> {
-        let name = input.target();
-        match input.kind {
-            InputKind::Force if !input.follower => {
-                self.require_marker(&format!("{path}.marker"), name)?;
+            InputKind::Moment => {
+                let (at, name) = named("marker", &input.marker)?;
+                Action::Moment(self.require_turning(&at, name)?, Signal::Input(first))
             }
-            InputKind::Force | InputKind::Moment => {
-                self.require_turning(&format!("{path}.marker"), name)?;
+            InputKind::Torque => {
+                let (at, name) = named("joint", &input.joint)?;
+                Action::Torque(self.require_pivot(&at, name)?, Signal::Input(first))
             }
-            InputKind::Torque => self.require_pivot(&format!("{path}.joint"), name)?,
             InputKind::Distributed => {
-                self.require_cable(&format!("{path}.body"), name)?;
+                let (at, name) = named("body", &input.body)?;
+                let components = [0, 1].map(|k| Signal::Input(first + k));
+                Action::Distributed(self.require_cable(&at, name)?, components)
             }
-            InputKind::RestLength => self.require_spring(&format!("{path}.load"), name)?,
-        }
-        Ok(())
+            InputKind::RestLength => {
+                let (at, name) = named("load", &input.load)?;
+                let start = self.set_rest_length(&at, name, first)?;
+                return Ok((resolved::InputKind::RestLength(name), vec![start]));
+            }
+        };
+        let start = vec![0.0; input.components()];
+        Ok((resolved::InputKind::Action(action), start))
     }
 
-    /// A spring-damper whose rest length nothing else changes.
-    fn require_spring(&self, path: &str, name: &str) -> Result<(), Error> {
-        let found = self.load(name).map(|load| &self.loads[load]);
-        let Some(load) = found.filter(|load| load.kind == LoadKind::SpringDamper) else {
+    /// Makes the rest length of a spring-damper, which nothing else changes, an input; what it was, m.
+    fn set_rest_length(&mut self, path: &str, name: &str, first: usize) -> Result<f64, Error> {
+        let spring = self.loads.iter_mut().find_map(|load| match &mut load.kind {
+            LoadKind::Spring(spring) if load.name == name => Some(spring),
+            _ => None,
+        });
+        let Some(spring) = spring else {
             return Err(expected(
                 path,
                 "a spring-damper of this scene",
                 quoted(name),
             ));
         };
-        match load.length {
-            None | Some(Value::Number(_)) => Ok(()),
+        let length = match spring.given {
+            None => spring.ends.distance(),
+            Some(Value::Number(length)) => *length,
             Some(_) => {
                 let wanted = "a spring-damper whose length is a number";
                 let found = format!("{}, whose length changes in time", quoted(name));
-                Err(expected(path, wanted, found))
+                return Err(expected(path, wanted, found));
             }
-        }
+        };
+        spring.length = Some(Signal::Input(first));
+        Ok(length)
     }
 }

@@ -1,7 +1,10 @@
 //! Checks of joints.
 
-use super::checks::{Key, expected, finite, keys, positive, quoted, spring_damper, vector};
-use crate::scene::{Error, GROUND, Joint, JointKind, Scene};
+use super::checks::{Key, expected, finite, keys, needed, positive, quoted, spring_damper, vector};
+use crate::scene::Error;
+use crate::scene::description::{Joint, JointKind};
+use crate::scene::marker::GROUND;
+use crate::scene::resolved::{self, Ends, Resolved, SlideId, Slider};
 
 impl Joint {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
@@ -40,28 +43,52 @@ impl Joint {
         if let Some(length) = self.length {
             positive(&at("length"), "m", length)?;
         }
-        if self.kind == JointKind::Hinge {
-            let stiffness = (self.stiffness, "N m/rad");
-            spring_damper(path, stiffness, (self.damping, "N m s/rad"))?;
-        }
         Ok(())
     }
 }
 
-impl Scene {
-    pub(super) fn validate_joint(&self, path: &str, joint: &Joint) -> Result<(), Error> {
-        joint.validate_keys(path)?;
+impl<'a> Resolved<'a> {
+    pub(super) fn resolve_joints(&mut self) -> Result<(), Error> {
+        for (index, joint) in self.scene.joints.iter().enumerate() {
+            let path = format!("joints[{index}]");
+            joint.validate_keys(&path)?;
+            let kind = self.resolve_joint(&path, joint)?;
+            let holder = self.hold(&path, &joint.name);
+            self.joints.push(resolved::Joint {
+                name: &joint.name,
+                holder,
+                kind,
+            });
+        }
+        Ok(())
+    }
+
+    fn resolve_slide(
+        &self,
+        path: &str,
+        joint: &'a Joint,
+    ) -> Result<resolved::JointKind<'a>, Error> {
+        let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));
+        let cable = self.require_cable(&first, &joint.markers[0])?;
+        let marker = self.require_marker(&second, &joint.markers[1])?;
+        self.require_two(path, [cable.id.body, marker.place.body_index()])?;
+        let is_slide =
+            |joint: &&resolved::Joint| matches!(joint.kind, resolved::JointKind::Along { .. });
+        Ok(resolved::JointKind::Along {
+            cable,
+            marker,
+            slide: SlideId(self.joints.iter().filter(is_slide).count()),
+        })
+    }
+
+    /// What a joint between two ends joins; their values are checked.
+    fn joint_ends(&self, path: &str, joint: &'a Joint) -> Result<Ends<'a>, Error> {
         let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));
         let [a, b] = &joint.markers;
-        if joint.kind == JointKind::Along {
-            let cable = self.require_cable(&first, a)?;
-            let marker = self.require_marker(&second, b)?;
-            return self.require_two(path, cable, marker.body);
-        }
         if joint.kind == JointKind::Slider && a != GROUND {
             return Err(expected(&first, "\"ground\"", quoted(a)));
         }
-        self.require_pair(path, &joint.markers, joint.point)?;
+        let ends = self.require_pair(path, &joint.markers, joint.point)?;
         use JointKind::{Hinge, Orientation, Weld};
         if matches!(joint.kind, Weld | Orientation | Hinge) {
             if a != GROUND {
@@ -70,11 +97,46 @@ impl Scene {
             self.require_turning(&second, b)?;
         }
         joint.validate_numbers(path)?;
-        let apart = joint.length.is_some() || self.distance(&joint.markers, joint.point) > 0.0;
-        if joint.kind == JointKind::Distance && !apart {
-            let wanted = "a length, since the markers are at the same place at the start";
-            return Err(expected(&format!("{path}.length"), wanted, "nothing"));
-        }
-        Ok(())
+        Ok(ends)
+    }
+
+    fn resolve_joint(
+        &self,
+        path: &str,
+        joint: &'a Joint,
+    ) -> Result<resolved::JointKind<'a>, Error> {
+        use resolved::JointKind as Kind;
+        let ends = || self.joint_ends(path, joint);
+        Ok(match joint.kind {
+            JointKind::Revolute => Kind::Revolute(ends()?),
+            JointKind::Weld => Kind::Weld(ends()?, joint.angle),
+            JointKind::Slider => Kind::Slider(Slider {
+                name: &joint.name,
+                point: joint.point,
+                marker: ends()?.second,
+                direction: needed(path, "direction", "a direction [x, y]", joint.direction)?,
+            }),
+            JointKind::Orientation => Kind::Orientation(ends()?, joint.angle),
+            JointKind::Distance => {
+                let ends = ends()?;
+                if joint.length.is_none() && ends.distance() <= 0.0 {
+                    let wanted = "a length, since the markers are at the same place at the start";
+                    return Err(expected(&format!("{path}.length"), wanted, "nothing"));
+                }
+                Kind::Distance(ends, joint.length)
+            }
+            JointKind::Hinge => {
+                let (ends, stiffness) = (ends()?, (joint.stiffness, "N m/rad"));
+                let [stiffness, damping] =
+                    spring_damper(path, stiffness, (joint.damping, "N m s/rad"))?;
+                Kind::Hinge {
+                    ends,
+                    rest: joint.angle,
+                    stiffness,
+                    damping,
+                }
+            }
+            JointKind::Along => self.resolve_slide(path, joint)?,
+        })
     }
 }

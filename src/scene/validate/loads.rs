@@ -1,7 +1,10 @@
 //! Checks of loads.
 
-use super::checks::{Key, expected, keys, not_negative, spring_damper, value};
-use crate::scene::{Error, Load, LoadKind, LoadValue, Scene, Value};
+use super::checks::{Key, expected, keys, needed, not_negative, spring_damper, value};
+use crate::scene::Error;
+use crate::scene::description::{Load, LoadKind, LoadValue, Value};
+use crate::scene::resolved::{self, Action, Resolved, Spring};
+use crate::system::Signal;
 
 impl Load {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
@@ -26,52 +29,96 @@ impl Load {
         };
         keys(path, "load", &all, must, may)
     }
+}
 
-    fn validate_values(&self, path: &str) -> Result<(), Error> {
-        let place = format!("{path}.value");
-        let is_vector = matches!(self.kind, LoadKind::Force | LoadKind::Distributed);
-        match &self.value {
-            None => Ok(()),
-            Some(LoadValue::One(_)) if is_vector => {
-                Err(expected(&place, "two values [x, y]", "one value"))
-            }
-            Some(LoadValue::Two(_)) if !is_vector => Err(expected(&place, "one value", "two")),
-            Some(LoadValue::One(of)) => value(&place, of, false),
-            Some(LoadValue::Two(values)) => {
-                value(&format!("{place}[0]"), &values[0], false)?;
-                value(&format!("{place}[1]"), &values[1], false)
-            }
+impl<'a> Resolved<'a> {
+    pub(super) fn resolve_loads(&mut self) -> Result<(), Error> {
+        for (index, load) in self.scene.loads.iter().enumerate() {
+            let path = format!("loads[{index}]");
+            load.validate_keys(&path)?;
+            let kind = self.resolve_load(&path, load)?;
+            let name = &load.name;
+            self.loads.push(resolved::Load { name, kind });
         }
+        Ok(())
+    }
+
+    fn resolve_load(&self, path: &str, load: &'a Load) -> Result<resolved::LoadKind<'a>, Error> {
+        let named = |key: &str, name: &'a Option<String>| {
+            let name = needed(path, key, "a name", name.as_deref())?;
+            Ok::<_, Error>((format!("{path}.{key}"), name))
+        };
+        let given = || needed(path, "value", "a value", load.value.as_ref());
+        let place = format!("{path}.value");
+        let action = match load.kind {
+            LoadKind::Force => {
+                let (at, name) = named("marker", &load.marker)?;
+                let marker = match load.follower {
+                    true => self.require_turning(&at, name)?,
+                    false => self.require_marker(&at, name)?,
+                };
+                Action::Force {
+                    marker,
+                    follower: load.follower,
+                    components: two(&place, given()?)?,
+                }
+            }
+            LoadKind::Moment => {
+                let (at, name) = named("marker", &load.marker)?;
+                Action::Moment(self.require_turning(&at, name)?, one(&place, given()?)?)
+            }
+            LoadKind::Torque => {
+                let (at, name) = named("joint", &load.joint)?;
+                Action::Torque(self.require_pivot(&at, name)?, one(&place, given()?)?)
+            }
+            LoadKind::Distributed => {
+                let (at, name) = named("body", &load.body)?;
+                Action::Distributed(self.require_cable(&at, name)?, two(&place, given()?)?)
+            }
+            LoadKind::SpringDamper => {
+                return self.spring(path, load).map(resolved::LoadKind::Spring);
+            }
+        };
+        Ok(resolved::LoadKind::Action {
+            action,
+            values: given()?.components(),
+        })
+    }
+
+    fn spring(&self, path: &str, load: &'a Load) -> Result<Spring<'a>, Error> {
+        let markers = needed(path, "markers", "two names", load.markers.as_ref())?;
+        let ends = self.require_pair(path, markers, load.point)?;
+        let stiffness = (load.stiffness, "N/m");
+        let [stiffness, damping] = spring_damper(path, stiffness, (load.damping, "N s/m"))?;
+        let place = format!("{path}.length");
+        if let Some(Value::Number(length)) = &load.length {
+            not_negative(&place, "m", *length)?;
+        }
+        let length = load.length.as_ref();
+        let length = length.map(|length| value(&place, length, false));
+        Ok(Spring {
+            ends,
+            stiffness,
+            damping,
+            given: load.length.as_ref(),
+            length: length.transpose()?.map(Signal::Function),
+        })
     }
 }
 
-impl Scene {
-    pub(super) fn validate_load(&self, path: &str, load: &Load) -> Result<(), Error> {
-        load.validate_keys(path)?;
-        if let Some(marker) = &load.marker {
-            let place = format!("{path}.marker");
-            if load.kind == LoadKind::Moment || load.follower {
-                self.require_turning(&place, marker)?;
-            }
-            self.require_marker(&place, marker)?;
-        }
-        if let Some(joint) = &load.joint {
-            self.require_pivot(&format!("{path}.joint"), joint)?;
-        }
-        if let Some(body) = &load.body {
-            self.require_cable(&format!("{path}.body"), body)?;
-        }
-        if let Some(markers) = &load.markers {
-            self.require_pair(path, markers, load.point)?;
-            let stiffness = (load.stiffness, "N/m");
-            spring_damper(path, stiffness, (load.damping, "N s/m"))?;
-        }
-        let place = format!("{path}.length");
-        match &load.length {
-            Some(Value::Number(length)) => not_negative(&place, "m", *length)?,
-            Some(length) => value(&place, length, false)?,
-            None => {}
-        }
-        load.validate_values(path)
+fn one(path: &str, given: &LoadValue) -> Result<Signal, Error> {
+    match given {
+        LoadValue::One(of) => value(path, of, false).map(Signal::Function),
+        LoadValue::Two(_) => Err(expected(path, "one value", "two")),
+    }
+}
+
+fn two(path: &str, given: &LoadValue) -> Result<[Signal; 2], Error> {
+    match given {
+        LoadValue::One(_) => Err(expected(path, "two values [x, y]", "one value")),
+        LoadValue::Two([x, y]) => Ok([
+            Signal::Function(value(&format!("{path}[0]"), x, false)?),
+            Signal::Function(value(&format!("{path}[1]"), y, false)?),
+        ]),
     }
 }

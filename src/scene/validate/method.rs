@@ -1,9 +1,9 @@
 //! Checks of the chosen method.
 
 use super::checks::{expected, quoted};
-use crate::scene::{
-    Constraints, Error, Formulation, GROUND, InputKind, Integrator, JointKind, Scene,
-};
+use crate::scene::description::{Input, InputKind, Joint, JointKind};
+use crate::scene::marker::GROUND;
+use crate::scene::{Constraints, Error, Formulation, Integrator, Scene};
 
 impl Scene {
     pub(super) fn validate_method(&self) -> Result<(), Error> {
@@ -36,14 +36,14 @@ impl Scene {
         if let Some(body) = self.bodies.iter().find(|body| body.cable().is_none()) {
             return Some(("one cable only", quoted(body.name())));
         }
-        let is_pin = |joint: &&crate::scene::Joint| {
+        let is_pin = |joint: &&Joint| {
             joint.kind == JointKind::Revolute && joint.markers[0] == GROUND && joint.point.is_none()
         };
         if let Some(joint) = self.joints.iter().find(|joint| !is_pin(joint)) {
             let wanted = "revolute joints to ground, where the cable is, only";
             return Some((wanted, quoted(&joint.name)));
         }
-        let plain = |input: &&crate::scene::Input| {
+        let plain = |input: &&Input| {
             matches!(input.kind, InputKind::Force | InputKind::Moment) && !input.follower
         };
         let lists = [

@@ -1,4 +1,4 @@
-//! Checks that a scene means something.
+//! Checks that a scene means something, and finds what its names refer to.
 
 mod bodies;
 mod checks;
@@ -16,6 +16,7 @@ mod tests;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
+use super::resolved::{Holder, HolderId, Resolved};
 use super::{Error, Initial, InitialMotion, Scene};
 use checks::{expected, finite, name, positive, scene_name, vector};
 
@@ -25,11 +26,11 @@ pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
 pub const TOLERANCE: RangeInclusive<f64> = 1e-12..=0.1;
 
 impl Scene {
-    /// Checks every value of the scene.
+    /// Checks every value of the scene and resolves every reference.
     ///
     /// # Errors
     /// The first value that is out of range or refers to nothing.
-    pub fn validate(&self) -> Result<(), Error> {
+    pub fn resolve(&self) -> Result<Resolved<'_>, Error> {
         scene_name(&self.name)?;
         if self.dimension != 2 {
             return Err(expected("dimension", "2 (planar)", self.dimension));
@@ -38,17 +39,14 @@ impl Scene {
         finite("rotation", self.rotation)?;
         self.validate_names()?;
         self.validate_bodies()?;
-        self.validate_masses()?;
-        for (index, joint) in self.joints.iter().enumerate() {
-            self.validate_joint(&format!("joints[{index}]"), joint)?;
-        }
-        self.validate_motions()?;
-        for (index, load) in self.loads.iter().enumerate() {
-            self.validate_load(&format!("loads[{index}]"), load)?;
-        }
-        self.validate_inputs()?;
-        self.validate_outputs()?;
-        self.validate_ports()?;
+        let mut resolved = Resolved::bare(self);
+        resolved.resolve_masses()?;
+        resolved.resolve_joints()?;
+        resolved.resolve_motions()?;
+        resolved.resolve_loads()?;
+        resolved.resolve_inputs()?;
+        resolved.resolve_outputs()?;
+        resolved.resolve_ports()?;
         let tolerance = self.accuracy.relative_tolerance;
         if !TOLERANCE.contains(&tolerance) {
             let (least, most) = (TOLERANCE.start(), TOLERANCE.end());
@@ -57,7 +55,17 @@ impl Scene {
         }
         positive("experiment.stop_time", "s", self.experiment.stop_time)?;
         positive("experiment.step", "s", self.experiment.step)?;
-        self.validate_method()
+        self.validate_method()?;
+        Ok(resolved)
+    }
+
+    /// The scene with its references resolved.
+    ///
+    /// # Panics
+    /// When the scene is not valid: one that was read is, but values may have been changed since. Where
+    /// that may be, [`Self::resolve`] says what is wrong.
+    pub fn resolved(&self) -> Resolved<'_> {
+        self.resolve().expect("a valid scene")
     }
 
     /// Bodies, joints, motions, loads and ports share their names.
@@ -94,5 +102,22 @@ impl Scene {
             }
         }
         Ok(())
+    }
+}
+
+impl<'a> Resolved<'a> {
+    /// Numbers what holds something in the system.
+    fn hold(&mut self, path: &str, name: &'a str) -> HolderId {
+        self.holders.push(Holder {
+            path: path.into(),
+            name,
+        });
+        HolderId(self.holders.len() - 1)
+    }
+
+    /// Places for as many numbers that the master sets; gives back the first.
+    fn place(&mut self, count: usize) -> usize {
+        self.numbers += count;
+        self.numbers - count
     }
 }

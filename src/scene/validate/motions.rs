@@ -2,29 +2,45 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, keys, quoted, value};
-use crate::scene::{Error, JointKind, Motion, MotionKind, MotionValue, Scene};
+use super::checks::{Key, expected, keys, needed, quoted, value};
+use crate::scene::Error;
+use crate::scene::description::{Motion, MotionKind, MotionValue};
+use crate::scene::resolved::{self, JointKind, Resolved, Slider, Turning};
+use crate::system::Drive;
 
 /// Most derivatives that the master sets with a motion.
 const MOST_DERIVATIVES: u8 = 2;
 
-impl Scene {
-    pub(super) fn validate_motions(&self) -> Result<(), Error> {
+impl<'a> Resolved<'a> {
+    pub(super) fn resolve_motions(&mut self) -> Result<(), Error> {
+        // Inputs have the first numbers.
+        let inputs = self.scene.inputs.iter();
+        self.numbers = inputs.map(|input| input.components()).sum();
         let mut seen = BTreeSet::new();
-        for (index, motion) in self.motions.iter().enumerate() {
+        for (index, motion) in self.scene.motions.iter().enumerate() {
             let path = format!("motions[{index}]");
-            self.validate_motion(&path, motion)?;
-            let of = motion.marker.as_ref().or(motion.joint.as_ref());
-            if !seen.insert((motion.kind as u8, of)) {
-                let name = of.map_or("it", String::as_str);
+            let kind = self.resolve_motion(&path, motion)?;
+            if !seen.insert((motion.kind as u8, kind.of())) {
                 let wanted = "a motion of what is not driven yet";
-                return Err(expected(&path, wanted, quoted(name)));
+                return Err(expected(&path, wanted, quoted(kind.of())));
             }
+            let holder = self.hold(&path, &motion.name);
+            self.motions.push(resolved::Motion {
+                name: &motion.name,
+                holder,
+                kind,
+                values: motion.value.components(),
+            });
         }
         Ok(())
     }
 
-    fn validate_motion(&self, path: &str, motion: &Motion) -> Result<(), Error> {
+    fn resolve_motion(
+        &mut self,
+        path: &str,
+        motion: &'a Motion,
+    ) -> Result<resolved::MotionKind<'a>, Error> {
+        use resolved::MotionKind as Kind;
         let all: [Key; 2] = [
             ("marker", motion.marker.is_some(), "a name"),
             ("joint", motion.joint.is_some(), "a name"),
@@ -38,44 +54,74 @@ impl Scene {
             return Err(expected(path, "either a marker or a joint", found));
         }
         keys(path, "motion", &all, must, &[])?;
-        let place = format!("{path}.marker");
-        if let Some(marker) = &motion.marker {
-            match motion.kind {
-                MotionKind::Angle => self.require_turning(&place, marker)?,
-                _ => drop(self.require_marker(&place, marker)?),
+        let [at_marker, at_joint, at_value] =
+            ["marker", "joint", "value"].map(|key| format!("{path}.{key}"));
+        let marker = || needed(path, "marker", "a name", motion.marker.as_deref());
+        let joint = || needed(path, "joint", "a name", motion.joint.as_deref());
+        Ok(match (motion.kind, &motion.joint) {
+            (MotionKind::Position, _) => {
+                let marker = self.require_marker(&at_marker, marker()?)?;
+                Kind::Position(marker, self.two_drives(&at_value, &motion.value)?)
             }
-        }
-        let place = format!("{path}.joint");
-        if let Some(joint) = &motion.joint {
-            match motion.kind {
-                MotionKind::Angle => self.require_pivot(&place, joint)?,
-                _ if self.require_joint(&place, joint)?.kind != JointKind::Slider => {
-                    return Err(expected(&place, "a slider", quoted(joint)));
-                }
-                _ => {}
+            (MotionKind::Angle, None) => {
+                let turning = Turning::Marker(self.require_turning(&at_marker, marker()?)?);
+                Kind::Angle(turning, self.one_drive(&at_value, &motion.value)?)
             }
-        }
-        motion.validate_value(&format!("{path}.value"))
+            (MotionKind::Angle, Some(joint)) => {
+                let turning = Turning::Pivot(self.require_pivot(&at_joint, joint)?);
+                Kind::Angle(turning, self.one_drive(&at_value, &motion.value)?)
+            }
+            (MotionKind::Displacement, _) => {
+                let slider = self.require_slider(&at_joint, joint()?)?;
+                Kind::Displacement(slider, self.one_drive(&at_value, &motion.value)?)
+            }
+        })
     }
-}
 
-impl Motion {
-    fn validate_value(&self, path: &str) -> Result<(), Error> {
-        match (&self.value, self.kind) {
-            (MotionValue::Input(input), _) if input.input > MOST_DERIVATIVES => {
-                Err(expected(&format!("{path}.input"), "0, 1 or 2", input.input))
+    fn require_slider(&self, path: &str, name: &str) -> Result<Slider<'a>, Error> {
+        match self.require_joint(path, name)?.kind {
+            JointKind::Slider(slider) => Ok(slider),
+            _ => Err(expected(path, "a slider", quoted(name))),
+        }
+    }
+
+    fn one_drive(&mut self, path: &str, given: &MotionValue) -> Result<Drive, Error> {
+        match given {
+            MotionValue::Input(input) => Ok(self.driven(derivatives(path, input.input)?)),
+            MotionValue::One(of) => value(path, of, true).map(Drive::Function),
+            MotionValue::Two(_) => Err(expected(path, "one value", "two")),
+        }
+    }
+
+    fn two_drives(&mut self, path: &str, given: &MotionValue) -> Result<[Drive; 2], Error> {
+        match given {
+            MotionValue::Input(input) => {
+                let derivatives = derivatives(path, input.input)?;
+                Ok([(); 2].map(|()| self.driven(derivatives)))
             }
-            (MotionValue::Input(_), _) => Ok(()),
-            (MotionValue::One(_), MotionKind::Position) => {
+            MotionValue::One(_) => {
                 let wanted = "two values [x, y] or {\"input\": 0, 1 or 2}";
                 Err(expected(path, wanted, "one value"))
             }
-            (MotionValue::Two(values), MotionKind::Position) => {
-                value(&format!("{path}[0]"), &values[0], true)?;
-                value(&format!("{path}[1]"), &values[1], true)
-            }
-            (MotionValue::One(of), _) => value(path, of, true),
-            (MotionValue::Two(_), _) => Err(expected(path, "one value", "two")),
+            MotionValue::Two([x, y]) => Ok([
+                Drive::Function(value(&format!("{path}[0]"), x, true)?),
+                Drive::Function(value(&format!("{path}[1]"), y, true)?),
+            ]),
         }
     }
+
+    /// A coordinate that the master drives, with as many derivatives.
+    pub(super) fn driven(&mut self, derivatives: usize) -> Drive {
+        Drive::Input {
+            first: self.place(1 + derivatives),
+            derivatives,
+        }
+    }
+}
+
+fn derivatives(path: &str, input: u8) -> Result<usize, Error> {
+    if input > MOST_DERIVATIVES {
+        return Err(expected(&format!("{path}.input"), "0, 1 or 2", input));
+    }
+    Ok(input.into())
 }

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, keys, quoted};
-use crate::scene::{Error, JointKind, MotionKind, Output, OutputKind, Scene};
+use super::checks::{Key, expected, keys, needed, quoted};
+use crate::scene::Error;
+use crate::scene::description::{Output, OutputKind};
+use crate::scene::resolved::{self, AngleId, JointKind, MotionKind, Reaction, Resolved, Turning};
 
 /// Most natural frequencies: they are computed with dense matrices.
 const MOST_FREQUENCIES: u32 = 100;
@@ -50,93 +52,155 @@ impl Output {
     }
 }
 
-impl Scene {
-    pub(super) fn validate_outputs(&self) -> Result<(), Error> {
+impl<'a> Resolved<'a> {
+    pub(super) fn resolve_outputs(&mut self) -> Result<(), Error> {
         let mut seen = BTreeSet::new();
-        for (index, output) in self.outputs.iter().enumerate() {
+        for (index, output) in self.scene.outputs.iter().enumerate() {
             let path = format!("outputs[{index}]");
             output.validate_keys(&path)?;
             output.validate_count(&path)?;
-            if let Some(name) = &output.marker {
-                self.validate_marker_output(&format!("{path}.marker"), output.kind, name)?;
-            }
-            if let Some(name) = &output.joint {
-                self.validate_joint_output(&format!("{path}.joint"), output.kind, name)?;
-            }
-            if let Some(name) = &output.motion {
-                self.validate_motion_output(&format!("{path}.motion"), output.kind, name)?;
-            }
-            if let Some(name) = &output.body {
-                self.validate_body_output(&format!("{path}.body"), name)?;
-            }
+            let resolved = self.resolve_output(&path, output)?;
             let of = [&output.marker, &output.joint, &output.motion, &output.body];
             if !seen.insert((output.kind as u8, of)) {
                 return Err(expected(&path, "an output not declared before", "it again"));
             }
+            self.outputs.push(resolved);
         }
         Ok(())
     }
 
-    fn validate_marker_output(
-        &self,
+    fn resolve_output(
+        &mut self,
         path: &str,
-        kind: OutputKind,
-        name: &str,
-    ) -> Result<(), Error> {
-        match kind {
-            OutputKind::Position | OutputKind::Velocity | OutputKind::Acceleration => {
-                self.require_marker(path, name).map(drop)
-            }
-            OutputKind::Angle | OutputKind::AngularVelocity | OutputKind::AngularAcceleration => {
-                self.require_turning(path, name)
-            }
-            _ => self.require_cable_marker(path, name),
-        }
-    }
-
-    fn validate_joint_output(&self, path: &str, kind: OutputKind, name: &str) -> Result<(), Error> {
-        let joint = self.require_joint(path, name)?.kind;
-        let (wanted, offered) = match kind {
-            OutputKind::Travel => ("a joint of kind along", joint == JointKind::Along),
-            OutputKind::Reaction => (
-                "a joint that transmits a force",
-                joint != JointKind::Orientation,
-            ),
-            OutputKind::ReactionMoment => (
-                "a joint that transmits a moment",
-                matches!(joint, JointKind::Weld | JointKind::Orientation),
-            ),
-            _ => return self.require_pivot(path, name),
+        output: &'a Output,
+    ) -> Result<resolved::Output<'a>, Error> {
+        use resolved::Output as To;
+        let named = |key: &str, name: &'a Option<String>| {
+            let name = needed(path, key, "a name", name.as_deref())?;
+            Ok::<_, Error>((format!("{path}.{key}"), name))
         };
-        if offered {
-            return Ok(());
-        }
-        Err(expected(path, wanted, quoted(name)))
+        let marker = || {
+            let (at, name) = named("marker", &output.marker)?;
+            self.require_marker(&at, name)
+        };
+        let on_cable = || {
+            let (at, name) = named("marker", &output.marker)?;
+            self.require_cable_marker(&at, name)
+        };
+        let turning = || match &output.joint {
+            Some(joint) => {
+                let pivot = self.require_pivot(&format!("{path}.joint"), joint)?;
+                Ok::<_, Error>(Turning::Pivot(pivot))
+            }
+            None => {
+                let (at, name) = named("marker", &output.marker)?;
+                Ok(Turning::Marker(self.require_turning(&at, name)?))
+            }
+        };
+        Ok(match output.kind {
+            OutputKind::Position => To::Position(marker()?),
+            OutputKind::Velocity => To::Velocity(marker()?),
+            OutputKind::Acceleration => To::Acceleration(marker()?),
+            OutputKind::Angle => {
+                let turning = turning()?;
+                To::Angle(turning, self.count_angle(turning))
+            }
+            OutputKind::AngularVelocity => To::AngularVelocity(turning()?),
+            OutputKind::AngularAcceleration => To::AngularAcceleration(turning()?),
+            OutputKind::Strain => To::Strain(on_cable()?),
+            OutputKind::Curvature => To::Curvature(on_cable()?),
+            OutputKind::AxialForce => To::AxialForce(on_cable()?),
+            OutputKind::BendingMoment => To::BendingMoment(on_cable()?),
+            OutputKind::ConnectivityForce => To::ConnectivityForce(on_cable()?),
+            OutputKind::Travel => {
+                let (at, name) = named("joint", &output.joint)?;
+                self.travel(&at, name)?
+            }
+            OutputKind::Reaction => To::Reaction(self.reaction(path, output)?),
+            OutputKind::ReactionMoment => To::ReactionMoment(self.reaction(path, output)?),
+            OutputKind::Energy => To::Energy,
+            OutputKind::Work => To::Work,
+            OutputKind::Momentum => To::Momentum,
+            OutputKind::CenterOfMass => To::CenterOfMass,
+            OutputKind::Residual => To::Residual,
+            OutputKind::NaturalFrequency => {
+                let count = needed(path, "count", "a count", output.count)?;
+                let body = output.body.as_deref();
+                if let Some(name) = body {
+                    self.validate_body_output(&format!("{path}.body"), name)?;
+                }
+                To::NaturalFrequency(body, count)
+            }
+        })
     }
 
-    fn validate_motion_output(
+    pub(super) fn count_angle(&mut self, turning: Turning<'a>) -> AngleId {
+        self.angles.push(turning);
+        AngleId(self.angles.len() - 1)
+    }
+
+    fn travel(&self, path: &str, name: &str) -> Result<resolved::Output<'a>, Error> {
+        let joint = self.require_joint(path, name)?;
+        match joint.kind {
+            JointKind::Along { slide, .. } => Ok(resolved::Output::Travel(joint.name, slide)),
+            _ => Err(expected(path, "a joint of kind along", quoted(name))),
+        }
+    }
+
+    fn reaction(&self, path: &str, output: &'a Output) -> Result<Reaction<'a>, Error> {
+        let is_moment = output.kind == OutputKind::ReactionMoment;
+        if let Some(name) = &output.motion {
+            return self.motion_reaction(&format!("{path}.motion"), name, is_moment);
+        }
+        let name = needed(path, "joint", "a name", output.joint.as_deref())?;
+        let path = format!("{path}.joint");
+        let joint = self.require_joint(&path, name)?;
+        let (wanted, offered) = match (is_moment, joint.kind) {
+            (false, kind) => (
+                "a joint that transmits a force",
+                !matches!(kind, JointKind::Orientation(..)),
+            ),
+            (true, kind) => (
+                "a joint that transmits a moment",
+                matches!(kind, JointKind::Weld(..) | JointKind::Orientation(..)),
+            ),
+        };
+        if !offered {
+            return Err(expected(&path, wanted, quoted(name)));
+        }
+        Ok(Reaction {
+            name: joint.name,
+            holder: joint.holder,
+            is_motion: false,
+        })
+    }
+
+    fn motion_reaction(
         &self,
         path: &str,
-        kind: OutputKind,
         name: &str,
-    ) -> Result<(), Error> {
-        let Some(motion) = self.motion(name) else {
+        is_moment: bool,
+    ) -> Result<Reaction<'a>, Error> {
+        let Some(motion) = self.motions.iter().find(|motion| motion.name == name) else {
             return Err(expected(path, "a motion of this scene", quoted(name)));
         };
-        let by_moment = self.motions[motion].kind == MotionKind::Angle;
-        if by_moment == (kind == OutputKind::ReactionMoment) {
-            return Ok(());
+        if matches!(motion.kind, MotionKind::Angle(..)) != is_moment {
+            let wanted = match is_moment {
+                true => "a motion driven by a moment",
+                false => "a motion driven by a force",
+            };
+            return Err(expected(path, wanted, quoted(name)));
         }
-        let wanted = match kind {
-            OutputKind::ReactionMoment => "a motion driven by a moment",
-            _ => "a motion driven by a force",
-        };
-        Err(expected(path, wanted, quoted(name)))
+        Ok(Reaction {
+            name: motion.name,
+            holder: motion.holder,
+            is_motion: true,
+        })
     }
 
     /// Natural frequencies belong to the scene; one body may stand for it.
     fn validate_body_output(&self, path: &str, name: &str) -> Result<(), Error> {
-        if self.body(name).is_none() {
+        if !self.bodies_by_name.contains_key(name) {
             return Err(expected(path, "a body of this scene", quoted(name)));
         }
         if self.bodies.len() > 1 {

@@ -3,7 +3,13 @@
 use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, not_negative, quoted, spring_damper};
-use crate::scene::{Error, MotionKind, Port, PortKind, Scene};
+use crate::scene::Error;
+use crate::scene::description::{Port, PortKind};
+use crate::scene::resolved::{
+    self, Action, Coupling, CouplingId, InputKind, Marker, Motion, MotionKind, Output, Resolved,
+    Turning,
+};
+use crate::system::Signal;
 
 impl Port {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
@@ -51,33 +57,135 @@ impl Port {
     }
 }
 
-impl Scene {
-    pub(super) fn validate_ports(&self) -> Result<(), Error> {
-        let motions = self.motions.iter();
-        let driven = motions.map(|motion| (motion.kind as u8, motion.marker.clone()));
-        let mut driven: BTreeSet<(u8, Option<String>)> = driven.collect();
-        for (index, port) in self.ports.iter().enumerate() {
+impl<'a> Resolved<'a> {
+    pub(super) fn resolve_ports(&mut self) -> Result<(), Error> {
+        let driven = self.motions.iter().filter_map(|motion| match &motion.kind {
+            MotionKind::Position(marker, _) => Some((false, marker.name)),
+            MotionKind::Angle(Turning::Marker(marker), _) => Some((true, marker.name)),
+            MotionKind::Angle(Turning::Pivot(_), _) | MotionKind::Displacement(..) => None,
+        });
+        let mut driven: BTreeSet<(bool, &str)> = driven.collect();
+        for (index, port) in self.scene.ports.iter().enumerate() {
             let path = format!("ports[{index}]");
             let place = format!("{path}.marker");
             port.validate_keys(&path)?;
             port.validate_springs(&path)?;
-            self.require_marker(&place, &port.marker)?;
-            if port.turns() {
-                self.require_turning(&place, &port.marker)?;
-            }
-            if !port.drives() {
-                continue;
-            }
-            for motion in port.motions() {
-                if !driven.insert((motion.kind as u8, motion.marker)) {
-                    let wanted = match motion.kind {
-                        MotionKind::Angle => "a marker whose direction is not driven yet",
-                        _ => "a marker that is not driven yet",
-                    };
-                    return Err(expected(&place, wanted, quoted(&port.marker)));
+            let marker = match port.turns() {
+                true => self.require_turning(&place, &port.marker)?,
+                false => self.require_marker(&place, &port.marker)?,
+            };
+            if port.drives() {
+                for is_angle in [false, true]
+                    .into_iter()
+                    .take(1 + usize::from(port.turns()))
+                {
+                    if !driven.insert((is_angle, marker.name)) {
+                        let wanted = match is_angle {
+                            true => "a marker whose direction is not driven yet",
+                            false => "a marker that is not driven yet",
+                        };
+                        return Err(expected(&place, wanted, quoted(&port.marker)));
+                    }
                 }
             }
+            let kind = match port.kind {
+                PortKind::Force => self.force_port(port, marker),
+                PortKind::Motion if port.is_coupling() => self.coupling_port(port, marker),
+                PortKind::Motion => self.motion_port(&path, port, marker),
+            };
+            self.ports.push(resolved::Port {
+                name: &port.name,
+                marker,
+                kind,
+                given: port,
+            });
         }
         Ok(())
+    }
+
+    fn force_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
+        let first = self.place(2);
+        let mut inputs = vec![resolved::Input {
+            kind: InputKind::Action(Action::Force {
+                marker,
+                follower: false,
+                components: [0, 1].map(|k| Signal::Input(first + k)),
+            }),
+            first,
+            start: vec![0.0; 2],
+        }];
+        let mut outputs = vec![
+            Output::Position(marker),
+            Output::Velocity(marker),
+            Output::Acceleration(marker),
+        ];
+        if port.turns() {
+            let (first, turning) = (self.place(1), Turning::Marker(marker));
+            inputs.push(resolved::Input {
+                kind: InputKind::Action(Action::Moment(marker, Signal::Input(first))),
+                first,
+                start: vec![0.0],
+            });
+            outputs.extend([
+                Output::Angle(turning, self.count_angle(turning)),
+                Output::AngularVelocity(turning),
+                Output::AngularAcceleration(turning),
+            ]);
+        }
+        resolved::PortKind::Force { inputs, outputs }
+    }
+
+    /// The motions that come in: with two derivatives or, with a spring and damper, which do not feel
+    /// accelerations, with one.
+    fn position(&mut self, marker: Marker<'a>, derivatives: usize) -> MotionKind<'a> {
+        let drives = [(); 2].map(|()| self.driven(derivatives));
+        MotionKind::Position(marker, drives)
+    }
+
+    fn angle(&mut self, marker: Marker<'a>, derivatives: usize) -> MotionKind<'a> {
+        MotionKind::Angle(Turning::Marker(marker), self.driven(derivatives))
+    }
+
+    fn motion_port(
+        &mut self,
+        path: &str,
+        port: &'a Port,
+        marker: Marker<'a>,
+    ) -> resolved::PortKind<'a> {
+        let position = self.position(marker, 2);
+        let angle = port.turns().then(|| self.angle(marker, 2));
+        let mut motion = |kind| Motion {
+            name: &port.name,
+            holder: self.hold(path, &port.name),
+            kind,
+            values: &[],
+        };
+        resolved::PortKind::Motion {
+            position: motion(position),
+            angle: angle.map(motion),
+        }
+    }
+
+    fn coupling_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
+        let coupling = |resolved: &mut Self, motion, first, stiffness, damping| {
+            resolved.couplings += 1;
+            Coupling {
+                id: CouplingId(resolved.couplings - 1),
+                motion,
+                first,
+                stiffness: Option::unwrap_or_default(stiffness),
+                damping: Option::unwrap_or_default(damping),
+            }
+        };
+        let first = self.numbers;
+        let motion = self.position(marker, 1);
+        let position = coupling(self, motion, first, port.stiffness, port.damping);
+        let angle = port.turns().then(|| {
+            let first = self.numbers;
+            let motion = self.angle(marker, 1);
+            let (stiffness, damping) = (port.rotational_stiffness, port.rotational_damping);
+            coupling(self, motion, first, stiffness, damping)
+        });
+        resolved::PortKind::Coupling { position, angle }
     }
 }

@@ -1,53 +1,55 @@
-//! Checks of names that refer to other parts of a scene.
+//! Names that refer to other parts of a scene, and what they refer to.
 
-use super::checks::{expected, quoted};
-use crate::scene::{Error, GROUND, Joint, JointKind, MarkerReference, Scene};
+use super::checks::{expected, quoted, vector};
+use crate::scene::Error;
+use crate::scene::marker::GROUND;
+use crate::scene::resolved::{
+    BodyReference, Cable, Ends, First, Joint, JointKind, Marker, Pivot, Place, Resolved,
+};
 
-impl Scene {
-    pub(super) fn require_marker(&self, path: &str, name: &str) -> Result<MarkerReference, Error> {
+impl<'a> Resolved<'a> {
+    pub(super) fn require_marker(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         self.marker(name).ok_or_else(|| {
-            let of = |body: &crate::scene::Body| {
-                let named = |marker: &str| format!("{}.{marker}", body.name());
-                body.marker_names()
-                    .into_iter()
-                    .map(named)
-                    .collect::<Vec<_>>()
-            };
-            let known: Vec<String> = self.bodies.iter().flat_map(of).collect();
+            let of =
+                |marker: &Marker<'_>| format!("{}.{}", marker.place.body().name(), marker.name);
+            let known: Vec<String> = self.markers.iter().map(of).collect();
             let wanted = format!("a marker of this scene ({})", known.join(", "));
             expected(path, &wanted, quoted(name))
         })
     }
 
     /// A marker with a direction: of a cable, or of a rigid body that has inertia.
-    pub(super) fn require_turning(&self, path: &str, name: &str) -> Result<(), Error> {
+    pub(super) fn require_turning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
-        if self.turns(marker) {
-            return Ok(());
+        if marker.place.turns() {
+            return Ok(marker);
         }
         let wanted = "a marker that can turn";
         let found = format!("{}, whose body has no inertia", quoted(name));
         Err(expected(path, wanted, found))
     }
 
-    fn turns(&self, marker: MarkerReference) -> bool {
-        let rigid = self.bodies[marker.body].rigid();
-        rigid.is_none_or(|body| body.inertia > 0.0)
-    }
-
-    pub(super) fn require_cable_marker(&self, path: &str, name: &str) -> Result<(), Error> {
+    pub(super) fn require_cable_marker(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
-        if self.bodies[marker.body].cable().is_some() {
-            return Ok(());
+        if matches!(marker.place, Place::Along(..)) {
+            return Ok(marker);
         }
         Err(expected(path, "a marker of a cable", quoted(name)))
     }
 
-    /// Index of a cable.
-    pub(super) fn require_cable(&self, path: &str, name: &str) -> Result<usize, Error> {
-        let body = self.body(name);
-        body.filter(|body| self.bodies[*body].cable().is_some())
-            .ok_or_else(|| expected(path, "the name of a cable of this scene", quoted(name)))
+    pub(super) fn require_cable(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
+        match self.bodies_by_name.get(name) {
+            Some(BodyReference::Cable(cable)) => Ok(*cable),
+            _ => Err(expected(
+                path,
+                "the name of a cable of this scene",
+                quoted(name),
+            )),
+        }
     }
 
     /// Two markers of different bodies, the first of which may be the ground, and a point that is
@@ -55,13 +57,17 @@ impl Scene {
     pub(super) fn require_pair(
         &self,
         path: &str,
-        markers: &[String; 2],
+        markers: &'a [String; 2],
         point: Option<[f64; 2]>,
-    ) -> Result<(), Error> {
+    ) -> Result<Ends<'a>, Error> {
         let second = self.require_marker(&format!("{path}.markers[1]"), &markers[1])?;
         let place = format!("{path}.point");
         if markers[0] == GROUND {
-            return point.map_or(Ok(()), |point| super::checks::vector(&place, point));
+            if let Some(point) = point {
+                vector(&place, point)?;
+            }
+            let first = First::Ground(point);
+            return Ok(Ends { first, second });
         }
         let first = self.require_marker(&format!("{path}.markers[0]"), &markers[0])?;
         if point.is_some() {
@@ -71,10 +77,13 @@ impl Scene {
                 "a point [x, y]",
             ));
         }
-        self.require_two(path, first.body, second.body)
+        let bodies = [first, second].map(|marker| marker.place.body_index());
+        self.require_two(path, bodies)?;
+        let first = First::Marker(first);
+        Ok(Ends { first, second })
     }
 
-    pub(super) fn require_two(&self, path: &str, a: usize, b: usize) -> Result<(), Error> {
+    pub(super) fn require_two(&self, path: &str, [a, b]: [usize; 2]) -> Result<(), Error> {
         if a != b {
             return Ok(());
         }
@@ -86,21 +95,20 @@ impl Scene {
         ))
     }
 
-    pub(super) fn require_joint(&self, path: &str, name: &str) -> Result<&Joint, Error> {
-        let found = self.joint(name).map(|joint| &self.joints[joint]);
+    pub(super) fn require_joint(&self, path: &str, name: &str) -> Result<Joint<'a>, Error> {
+        let found = self.joints.iter().find(|joint| joint.name == name).copied();
         found.ok_or_else(|| expected(path, "a joint of this scene", quoted(name)))
     }
 
     /// A joint with an angle of its own.
-    pub(super) fn require_pivot(&self, path: &str, name: &str) -> Result<(), Error> {
-        let joint = self.require_joint(path, name)?;
-        if !matches!(joint.kind, JointKind::Revolute | JointKind::Hinge) {
+    pub(super) fn require_pivot(&self, path: &str, name: &str) -> Result<Pivot<'a>, Error> {
+        let found = self.require_joint(path, name)?;
+        let (JointKind::Revolute(ends) | JointKind::Hinge { ends, .. }) = found.kind else {
             return Err(expected(path, "a revolute joint or a hinge", quoted(name)));
-        }
-        let markers = joint.markers.iter().filter(|marker| *marker != GROUND);
-        for marker in markers.filter_map(|marker| self.marker(marker)) {
-            if !self.turns(marker) {
-                let body = quoted(self.bodies[marker.body].name());
+        };
+        for marker in ends.markers() {
+            if !marker.place.turns() {
+                let body = quoted(marker.place.body().name());
                 let found = format!("{}, where {body} has no inertia", quoted(name));
                 return Err(expected(
                     path,
@@ -109,6 +117,10 @@ impl Scene {
                 ));
             }
         }
-        Ok(())
+        Ok(Pivot {
+            name: found.name,
+            joint: found.holder,
+            ends,
+        })
     }
 }

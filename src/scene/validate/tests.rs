@@ -4,7 +4,8 @@
 use serde_json::{Value, json};
 
 use crate::math::function::Function;
-use crate::scene::{At, Body, MarkerReference, Scene};
+use crate::scene::{Body, BodyReference, LoadKind, Place, Scene};
+use crate::system::Drive;
 
 /// A scene with every kind of part.
 fn scene() -> Value {
@@ -396,31 +397,18 @@ fn methods_take_the_scenes_that_they_can() {
 #[test]
 fn markers_are_found_on_cables_and_rigid_bodies() {
     let scene = Scene::from_json(&scene().to_string()).expect("a valid scene");
-    let mid = scene.marker("rod.mid").expect("a marker");
-    let top = scene.marker("cart.top").expect("a marker");
-    assert_eq!(
-        mid,
-        MarkerReference {
-            body: 0,
-            at: At::Along(0.5)
-        }
-    );
-    assert_eq!(
-        top,
-        MarkerReference {
-            body: 4,
-            at: At::Point([0.0, 0.1])
-        }
-    );
-    assert_eq!(scene.position(mid), [0.5, 0.0]);
+    let resolved = scene.resolved();
+    let mid = resolved.marker("rod.mid").expect("a marker");
+    let top = resolved.marker("cart.top").expect("a marker");
+    assert!(matches!(mid.place, Place::Along(cable, 0.5) if cable.body.name == "rod"));
+    assert!(matches!(top.place, Place::Point(rigid, [0.0, 0.1]) if rigid.body.name == "cart"));
+    assert_eq!((mid.place.body_index(), top.place.body_index()), (0, 4));
+    assert_eq!(mid.position, [0.5, 0.0]);
     let (sin, cos) = 0.5_f64.sin_cos();
-    assert_eq!(scene.position(top), [-sin * 0.1, -1.0 + cos * 0.1]);
-    assert_eq!(
-        (scene.direction(mid), scene.direction(top)),
-        ([1.0, 0.0], [cos, sin])
-    );
+    assert_eq!(top.position, [-sin * 0.1, -1.0 + cos * 0.1]);
+    assert_eq!((mid.direction, top.direction), ([1.0, 0.0], [cos, sin]));
     for name in ["ground", "rod", "rod.top", "rode.tip", "rod.mid.x"] {
-        assert_eq!(scene.marker(name), None);
+        assert!(resolved.marker(name).is_none());
     }
     assert_eq!(
         scene.bodies.iter().map(Body::name).collect::<Vec<_>>(),
@@ -431,39 +419,44 @@ fn markers_are_found_on_cables_and_rigid_bodies() {
 #[test]
 fn nodes_are_where_something_acts_or_is_cut() {
     let scene = Scene::from_json(&scene().to_string()).expect("a valid scene");
-    assert_eq!(scene.loaded_coordinates(0), [0.0, 0.25, 0.5, 1.0]);
+    let resolved = scene.resolved();
+    let cables: Vec<_> = (resolved.bodies.iter())
+        .filter_map(|body| match body {
+            BodyReference::Cable(cable) => Some(*cable),
+            BodyReference::Rigid(_) => None,
+        })
+        .collect();
+    assert_eq!(
+        resolved.loaded_coordinates(cables[0]),
+        [0.0, 0.25, 0.5, 1.0]
+    );
     // The joint along the rope slides; what acts are the clamp, the motion and the spring.
-    assert_eq!(scene.loaded_coordinates(1), [0.0, 0.5, 1.0]);
-    assert_eq!(scene.loaded_coordinates(2), [0.0; 0]);
-    assert_eq!(scene.nodes(0).map(|nodes| nodes.len()), Ok(9));
-    assert_eq!(scene.nodes(2), Ok(Vec::new()));
+    assert_eq!(resolved.loaded_coordinates(cables[1]), [0.0, 0.5, 1.0]);
+    assert_eq!(resolved.nodes(cables[0]).map(|nodes| nodes.len()), Ok(9));
 }
 
 #[test]
 fn values_become_functions_and_inputs_have_their_starts() {
     let scene = Scene::from_json(&scene().to_string()).expect("a valid scene");
-    let starts: Vec<_> = scene
-        .inputs
-        .iter()
-        .map(|input| scene.input_start(input))
-        .collect();
-    assert_eq!(starts[0], [1.0, 2.0]);
-    assert_eq!(starts[1], [0.0, 0.0]);
-    assert_eq!(starts[2], [0.0]);
-    assert_eq!(starts[5], [1.0]);
+    let resolved = scene.resolved();
+    let starts: Vec<_> = resolved.inputs.iter().map(|input| &input.start).collect();
+    assert_eq!(starts[0][..], [1.0, 2.0]);
+    assert_eq!(starts[1][..], [0.0, 0.0]);
+    assert_eq!(starts[2][..], [0.0]);
+    assert_eq!(starts[5][..], [1.0]);
     let table = &scene.motions[1].value.components()[0];
     let smooth = table.motion_function().expect("a spline");
     let straight = table.function().expect("a table");
     assert!(matches!(smooth, Function::Spline(_)) && matches!(straight, Function::Linear(_)));
     assert_eq!((smooth.value(0.25), straight.value(0.25)), (0.3125, 0.5));
-    assert_eq!(scene.motions[2].value.components(), []);
-    assert_eq!(
-        scene.loads[0]
-            .value
-            .as_ref()
-            .map(|value| value.components().len()),
-        Some(2)
-    );
+    let [Drive::Function(Function::Spline(_))] = resolved.motions[1].kind.drives() else {
+        panic!("a spline");
+    };
+    assert_eq!(resolved.motions[2].values, []);
+    let LoadKind::Action { values, .. } = &resolved.loads[0].kind else {
+        panic!("a force");
+    };
+    assert_eq!(values.len(), 2);
 }
 
 #[test]

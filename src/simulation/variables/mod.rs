@@ -11,7 +11,9 @@ mod unit;
 pub(super) use outputs::sets_springs;
 pub use unit::Unit;
 
-use crate::scene::{MarkerReference, Scene};
+use crate::scene::{
+    AngleId, CableId, CouplingId, HolderId, MarkerId, Resolved, RigidId, Scene, SlideId,
+};
 use unit::SECOND;
 
 /// A scalar variable of a simulation.
@@ -34,7 +36,7 @@ pub struct Variable {
     /// in there.
     pub sets_length: bool,
     /// Of an input: the coupling that it comes in through.
-    pub coupling: Option<usize>,
+    pub coupling: Option<CouplingId>,
 }
 
 /// What a variable stands for.
@@ -44,7 +46,7 @@ pub enum Source {
     Time,
     /// Parameter that may be set until initialization ends.
     Parameter(Parameter),
-    /// Input: its place among the numbers that the master sets ([`crate::scene::InputLayout`]).
+    /// Input: its place among the numbers that the master sets ([`Resolved::numbers`]).
     Input(usize),
     /// Output computed from the state.
     Output(Quantity),
@@ -52,25 +54,25 @@ pub enum Source {
     NaturalFrequency(usize),
 }
 
-/// Parameters by name; bodies, masses, joints, loads and ports by index.
+/// Parameters by name; masses, joints, loads and ports by their places in the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
     /// Young's modulus of a cable.
-    YoungsModulus(usize),
+    YoungsModulus(CableId),
     /// Density of a cable.
-    Density(usize),
+    Density(CableId),
     /// Kelvin-Voigt damping time of a cable.
-    DampingTime(usize),
+    DampingTime(CableId),
     /// Area of a cable's cross section.
-    Area(usize),
+    Area(CableId),
     /// Second moment of area of a cable's cross section.
-    SecondMoment(usize),
+    SecondMoment(CableId),
     /// Number of elements of a cable; the one integer variable.
-    Elements(usize),
+    Elements(CableId),
     /// Mass of a rigid body.
-    Mass(usize),
+    Mass(RigidId),
     /// Moment of inertia of a rigid body.
-    Inertia(usize),
+    Inertia(RigidId),
     /// Mass lumped at a marker.
     LumpedMass(usize),
     /// Stiffness of a hinge.
@@ -97,50 +99,49 @@ pub enum Parameter {
     RelativeTolerance,
 }
 
-/// Outputs; constraints by index: joints, motions, ports that drive their markers.
+/// Outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantity {
     /// Component of the position of a marker.
-    Position(MarkerReference, usize),
+    Position(MarkerId, usize),
     /// Component of the velocity of a marker.
-    Velocity(MarkerReference, usize),
+    Velocity(MarkerId, usize),
     /// Component of the acceleration of a marker.
-    Acceleration(MarkerReference, usize),
-    /// Continuous angle of a marker or a joint, by its place among the outputs of this kind, those of
-    /// ports last.
-    Angle(usize),
+    Acceleration(MarkerId, usize),
+    /// Continuous angle of a marker or a joint.
+    Angle(AngleId),
     /// Angular velocity of the direction at a marker.
-    AngularVelocity(MarkerReference),
+    AngularVelocity(MarkerId),
     /// Angular velocity of the second marker of a joint less that of its first.
-    JointVelocity(usize),
+    JointVelocity(HolderId),
     /// Angular acceleration of the direction at a marker.
-    AngularAcceleration(MarkerReference),
+    AngularAcceleration(MarkerId),
     /// Angular acceleration of the second marker of a joint less that of its first.
-    JointAcceleration(usize),
+    JointAcceleration(HolderId),
     /// Axial strain at a marker.
-    Strain(MarkerReference),
+    Strain(MarkerId),
     /// Curvature at a marker.
-    Curvature(MarkerReference),
+    Curvature(MarkerId),
     /// Axial force at a marker.
-    AxialForce(MarkerReference),
+    AxialForce(MarkerId),
     /// Bending moment at a marker.
-    BendingMoment(MarkerReference),
+    BendingMoment(MarkerId),
     /// Component of the force that the part of a cable before a marker exerts on the part after it.
-    ConnectivityForce(MarkerReference, usize),
-    /// Where a slide is on its cable, by its place among the joints of kind `along`.
-    Travel(usize),
+    ConnectivityForce(MarkerId, usize),
+    /// Where a slide is on its cable.
+    Travel(SlideId),
     /// Component of the force of a joint or motion.
-    Reaction(usize, usize),
+    Reaction(HolderId, usize),
     /// Moment of a joint or motion.
-    ReactionMoment(usize),
+    ReactionMoment(HolderId),
     /// Component of the force on what drives a marker: opposite to the reaction.
-    MotionForce(usize, usize),
+    MotionForce(HolderId, usize),
     /// Moment on what turns a marker.
-    MotionMoment(usize),
-    /// Component of the force of a coupling on what it couples to, by its place among couplings.
-    CouplingForce(usize, usize),
+    MotionMoment(HolderId),
+    /// Component of the force of a coupling on what it couples to.
+    CouplingForce(CouplingId, usize),
     /// Moment of a coupling on what it couples to.
-    CouplingMoment(usize),
+    CouplingMoment(CouplingId),
     /// Kinetic energy.
     KineticEnergy,
     /// Strain energy.
@@ -193,8 +194,14 @@ impl Variable {
 
 /// The variables of a scene: time, parameters, inputs, outputs, natural frequencies.
 ///
-/// The scene must be valid.
+/// # Panics
+/// When the scene is not valid ([`Scene::resolved`]).
 pub fn variables(scene: &Scene) -> Vec<Variable> {
+    list(&scene.resolved())
+}
+
+/// The variables of a scene whose references are resolved.
+pub(super) fn list(scene: &Resolved<'_>) -> Vec<Variable> {
     let mut list = List(Vec::new());
     list.add("time", "Simulated time", Some(SECOND), Source::Time, None);
     parameters::add(&mut list, scene);
@@ -203,7 +210,7 @@ pub fn variables(scene: &Scene) -> Vec<Variable> {
     list.0
 }
 
-/// Start values of all inputs, in the order of [`crate::scene::InputLayout`].
+/// Start values of all inputs, in the order of the system ([`Resolved::numbers`]).
 pub(super) fn start_inputs(variables: &[Variable]) -> Vec<f64> {
     let places = variables
         .iter()

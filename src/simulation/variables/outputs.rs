@@ -1,234 +1,193 @@
 //! Outputs, natural frequencies, and what goes out of ports.
 
 use super::unit::*;
-use super::{AXES, List, Quantity, Source, Unit, component};
+use super::{AXES, HolderId, List, MarkerId, Quantity, Source, Unit, component};
 use crate::scene::{
-    At, InputKind, JointKind, LoadKind, MarkerReference, Output, OutputKind, Port, Scene,
+    InputKind, JointKind, LoadKind, Marker, Output, Port, PortKind, Reaction, Resolved, Turning,
 };
 
 /// Adds the outputs of a scene.
-pub(super) fn add(list: &mut List, scene: &Scene) {
-    let mut angles = 0;
-    for output in &scene.outputs {
-        add_output(list, scene, (output, None), &mut angles);
+pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
+    for output in &resolved.outputs {
+        add_output(list, resolved, output, None);
     }
-    for (place, port) in scene.ports.iter().enumerate() {
-        for output in port.outputs() {
-            add_output(list, scene, (&output, Some(&port.name)), &mut angles);
+    for port in &resolved.ports {
+        if let PortKind::Force { outputs, .. } = &port.kind {
+            for output in outputs {
+                add_output(list, resolved, output, Some(port.name));
+            }
         }
-        add_port_force(list, scene, place, port);
+        add_port_force(list, port);
     }
 }
 
-/// An output; the variables of a port bear its name. Angles are numbered in the order of listing.
-fn add_output(
-    list: &mut List,
-    scene: &Scene,
-    (output, port): (&Output, Option<&str>),
-    angles: &mut usize,
-) {
-    let of = port.or(output.marker.as_deref()).unwrap_or_default();
-    match output.kind {
-        OutputKind::Angle => {
-            add_angle(list, (output, of), Quantity::Angle(*angles));
-            *angles += 1;
+/// An output; the variables of a port bear its name.
+fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, port: Option<&str>) {
+    let first = list.0.len();
+    match output {
+        Output::Position(m) => {
+            let words = ("position", "Position of", METRE);
+            list.vector_at(m, port, words, Quantity::Position);
         }
-        OutputKind::AngularVelocity | OutputKind::AngularAcceleration => {
-            add_angular_rate(list, scene, (output, of));
+        Output::Velocity(m) => {
+            let words = ("velocity", "Velocity of", METRE_PER_SECOND);
+            list.vector_at(m, port, words, Quantity::Velocity);
         }
-        OutputKind::Travel => add_travel(list, scene, output),
-        OutputKind::Reaction | OutputKind::ReactionMoment => add_reaction(list, scene, output),
-        OutputKind::Energy => add_energies(list, scene),
-        OutputKind::Work => add_work(list, scene),
-        OutputKind::Momentum => add_momentum(list),
-        OutputKind::CenterOfMass => {
+        Output::Acceleration(m) => {
+            let words = ("acceleration", "Acceleration of", METRE_PER_SECOND_2);
+            list.vector_at(m, port, words, Quantity::Acceleration);
+            list.mark_direct(first);
+        }
+        Output::ConnectivityForce(m) => {
+            let what = "Force of the part before on the part after";
+            let words = ("connectivity_force", what, NEWTON);
+            list.vector_at(m, port, words, Quantity::ConnectivityForce);
+            list.mark_direct(first);
+        }
+        Output::Strain(m) => {
+            list.scalar_at(m, ("strain", "Axial strain at", None), Quantity::Strain);
+        }
+        Output::Curvature(m) => {
+            let words = ("curvature", "Curvature at", Some(PER_METRE));
+            list.scalar_at(m, words, Quantity::Curvature);
+        }
+        Output::AxialForce(m) => {
+            let words = ("axial_force", "Axial force at", Some(NEWTON));
+            list.scalar_at(m, words, Quantity::AxialForce);
+        }
+        Output::BendingMoment(m) => {
+            let words = ("bending_moment", "Bending moment at", Some(NEWTON_METRE));
+            list.scalar_at(m, words, Quantity::BendingMoment);
+        }
+        Output::Angle(turning, angle) => {
+            add_angle(list, (turning, port), Quantity::Angle(*angle));
+        }
+        Output::AngularVelocity(turning) => {
+            let words = ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND);
+            let quantities = (Quantity::AngularVelocity, Quantity::JointVelocity);
+            add_angular_rate(list, (turning, port), words, quantities);
+        }
+        Output::AngularAcceleration(turning) => {
+            let words = (
+                "angular_acceleration",
+                "Angular acceleration",
+                RADIAN_PER_SECOND_2,
+            );
+            let quantities = (Quantity::AngularAcceleration, Quantity::JointAcceleration);
+            add_angular_rate(list, (turning, port), words, quantities);
+            list.mark_direct(first);
+        }
+        Output::Travel(joint, slide) => {
+            let what = format!("Length along the cable at which {joint} stands");
+            let quantity = Quantity::Travel(*slide);
+            list.scalar(&format!("{joint}.travel"), &what, Some(METRE), quantity);
+        }
+        Output::Reaction(reaction) => add_reaction(list, reaction, false),
+        Output::ReactionMoment(reaction) => add_reaction(list, reaction, true),
+        Output::Energy => add_energies(list, resolved),
+        Output::Work => add_work(list, resolved),
+        Output::Momentum => add_momentum(list),
+        Output::CenterOfMass => {
             let quantity = Quantity::CenterOfMass;
             list.vector("center_of_mass", "Centre of mass", METRE, quantity);
         }
-        OutputKind::Residual => add_residuals(list),
-        OutputKind::NaturalFrequency => add_frequencies(list, output),
-        _ => add_marker_output(list, scene, (output, of)),
+        Output::Residual => add_residuals(list),
+        Output::NaturalFrequency(body, count) => add_frequencies(list, *body, *count),
     }
 }
 
-/// Key, meaning and unit of a quantity at a marker.
-fn marker_words(kind: OutputKind) -> (&'static str, &'static str, Option<Unit>) {
-    match kind {
-        OutputKind::Velocity => ("velocity", "Velocity of", Some(METRE_PER_SECOND)),
-        OutputKind::Acceleration => ("acceleration", "Acceleration of", Some(METRE_PER_SECOND_2)),
-        OutputKind::Strain => ("strain", "Axial strain at", None),
-        OutputKind::Curvature => ("curvature", "Curvature at", Some(PER_METRE)),
-        OutputKind::AxialForce => ("axial_force", "Axial force at", Some(NEWTON)),
-        OutputKind::BendingMoment => ("bending_moment", "Bending moment at", Some(NEWTON_METRE)),
-        OutputKind::ConnectivityForce => (
-            "connectivity_force",
-            "Force of the part before on the part after",
-            Some(NEWTON),
+fn add_angle(list: &mut List, (turning, port): (&Turning<'_>, Option<&str>), quantity: Quantity) {
+    let what = match turning {
+        Turning::Pivot(pivot) => format!(
+            "Direction of the second marker of {} less that of its first, counted on over full turns",
+            pivot.name
         ),
-        _ => ("position", "Position of", Some(METRE)),
-    }
-}
-
-fn add_marker_output(list: &mut List, scene: &Scene, (output, of): (&Output, &str)) {
-    use Quantity::*;
-    let marker = output.marker.as_deref().unwrap_or_default();
-    let at = reference(scene, marker);
-    let (key, what, unit) = marker_words(output.kind);
-    let (name, what) = (format!("{of}.{key}"), format!("{what} {marker}"));
-    let first = list.0.len();
-    let scalar = match output.kind {
-        OutputKind::Strain => Strain(at),
-        OutputKind::Curvature => Curvature(at),
-        OutputKind::AxialForce => AxialForce(at),
-        OutputKind::BendingMoment => BendingMoment(at),
-        kind => {
-            let unit = unit.unwrap_or(METRE);
-            return match kind {
-                OutputKind::Velocity => list.vector(&name, &what, unit, |i| Velocity(at, i)),
-                OutputKind::Acceleration => {
-                    list.vector(&name, &what, unit, |i| Acceleration(at, i));
-                    list.mark_direct(first);
-                }
-                OutputKind::ConnectivityForce => {
-                    list.vector(&name, &what, unit, |i| ConnectivityForce(at, i));
-                    list.mark_direct(first);
-                }
-                _ => list.vector(&name, &what, unit, |i| Position(at, i)),
-            };
+        Turning::Marker(marker) => {
+            format!("Direction at {}, counted on over full turns", marker.name)
         }
     };
-    list.scalar(&name, &what, unit, scalar);
+    let name = format!("{}.angle", port.unwrap_or(turning.name()));
+    list.scalar(&name, &what, Some(RADIAN), quantity);
 }
 
-/// The marker of this name; a valid scene has it.
-fn reference(scene: &Scene, marker: &str) -> MarkerReference {
-    scene.marker(marker).unwrap_or(MarkerReference {
-        body: 0,
-        at: At::Along(0.0),
-    })
-}
-
-fn add_angle(list: &mut List, (output, of): (&Output, &str), quantity: Quantity) {
-    let unit = Some(RADIAN);
-    match (&output.joint, &output.marker) {
-        (Some(joint), _) => {
-            let what = format!(
-                "Direction of the second marker of {joint} less that of its first, counted on over \
-                 full turns"
-            );
-            list.scalar(&format!("{joint}.angle"), &what, unit, quantity);
-        }
-        (None, marker) => {
-            let marker = marker.as_deref().unwrap_or_default();
-            let what = format!("Direction at {marker}, counted on over full turns");
-            list.scalar(&format!("{of}.angle"), &what, unit, quantity);
-        }
-    }
-}
-
-/// Angular velocity or acceleration.
-fn add_angular_rate(list: &mut List, scene: &Scene, (output, of): (&Output, &str)) {
-    use Quantity::{AngularAcceleration, AngularVelocity, JointAcceleration, JointVelocity};
-    let is_second = output.kind == OutputKind::AngularAcceleration;
-    let (key, what, unit) = match is_second {
-        true => (
-            "angular_acceleration",
-            "Angular acceleration",
-            RADIAN_PER_SECOND_2,
+/// Angular velocity or acceleration, of a marker or a joint.
+fn add_angular_rate(
+    list: &mut List,
+    (turning, port): (&Turning<'_>, Option<&str>),
+    (key, what, unit): (&str, &str, Unit),
+    (of_marker, of_joint): (impl Fn(MarkerId) -> Quantity, impl Fn(HolderId) -> Quantity),
+) {
+    let (what, quantity) = match turning {
+        Turning::Pivot(pivot) => (
+            format!(
+                "{what} of the second marker of {} less that of its first",
+                pivot.name
+            ),
+            of_joint(pivot.joint),
         ),
-        false => ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND),
+        Turning::Marker(marker) => (
+            format!("{what} of the direction at {}", marker.name),
+            of_marker(marker.id),
+        ),
     };
-    let (of, what, quantity) = match (&output.joint, &output.marker) {
-        (Some(name), _) => {
-            let joint = scene.joint(name).unwrap_or(0);
-            let what = format!("{what} of the second marker of {name} less that of its first");
-            let second = is_second.then_some(JointAcceleration(joint));
-            (name.as_str(), what, second.unwrap_or(JointVelocity(joint)))
-        }
-        (None, marker) => {
-            let marker = marker.as_deref().unwrap_or_default();
-            let at = reference(scene, marker);
-            let what = format!("{what} of the direction at {marker}");
-            let second = is_second.then_some(AngularAcceleration(at));
-            (of, what, second.unwrap_or(AngularVelocity(at)))
-        }
-    };
-    let first = list.0.len();
-    list.scalar(&format!("{of}.{key}"), &what, Some(unit), quantity);
-    if is_second {
-        list.mark_direct(first);
-    }
+    let name = format!("{}.{key}", port.unwrap_or(turning.name()));
+    list.scalar(&name, &what, Some(unit), quantity);
 }
 
 /// What a port that motions come into exerts on the outside.
-fn add_port_force(list: &mut List, scene: &Scene, place: usize, port: &Port) {
+fn add_port_force(list: &mut List, port: &Port<'_>) {
     use Quantity::{CouplingForce, CouplingMoment, MotionForce, MotionMoment};
-    if port.motions().is_empty() {
-        return;
-    }
     let first = list.0.len();
-    let (joint, coupling) = (
-        scene.joints_before_port(place),
-        scene.couplings_before_port(place),
+    let what = format!(
+        "of {} on what {} couples it to",
+        port.marker.name, port.name
     );
-    let what = format!("of {} on what {} couples it to", port.marker, port.name);
-    let name = format!("{}.force", port.name);
-    list.vector(&name, &format!("Force {what}"), NEWTON, |axis| {
-        match port.is_coupling() {
-            true => CouplingForce(coupling, axis),
-            false => MotionForce(joint, axis),
+    let (force, force_what) = (format!("{}.force", port.name), format!("Force {what}"));
+    let moment = match &port.kind {
+        PortKind::Force { .. } => return,
+        PortKind::Motion { position, angle } => {
+            let quantity = |axis| MotionForce(position.holder, axis);
+            list.vector(&force, &force_what, NEWTON, quantity);
+            angle.as_ref().map(|angle| MotionMoment(angle.holder))
         }
-    });
-    if port.turns() {
-        let quantity = match port.is_coupling() {
-            true => CouplingMoment(coupling + 1),
-            false => MotionMoment(joint + 1),
-        };
+        PortKind::Coupling { position, angle } => {
+            let quantity = |axis| CouplingForce(position.id, axis);
+            list.vector(&force, &force_what, NEWTON, quantity);
+            angle.as_ref().map(|angle| CouplingMoment(angle.id))
+        }
+    };
+    if let Some(quantity) = moment {
         let (name, what) = (format!("{}.moment", port.name), format!("Moment {what}"));
         list.scalar(&name, &what, Some(NEWTON_METRE), quantity);
     }
     list.mark_direct(first);
 }
 
-fn add_travel(list: &mut List, scene: &Scene, output: &Output) {
-    let name = output.joint.as_deref().unwrap_or_default();
-    let before = &scene.joints[..scene.joint(name).unwrap_or(0)];
-    let place = before.iter().filter(|joint| joint.kind == JointKind::Along);
-    let quantity = Quantity::Travel(place.count());
-    let what = format!("Length along the cable at which {name} stands");
-    list.scalar(&format!("{name}.travel"), &what, Some(METRE), quantity);
-}
-
-fn add_reaction(list: &mut List, scene: &Scene, output: &Output) {
-    let (name, index, on) = match (&output.motion, &output.joint) {
-        (Some(name), _) => {
-            let motion = scene.motion(name).unwrap_or(0);
-            (name.as_str(), scene.joints.len() + motion, "what it drives")
-        }
-        (None, joint) => {
-            let name = joint.as_deref().unwrap_or_default();
-            (name, scene.joint(name).unwrap_or(0), "its second marker")
-        }
+fn add_reaction(list: &mut List, reaction: &Reaction<'_>, is_moment: bool) {
+    let (name, holder) = (reaction.name, reaction.holder);
+    let on = match reaction.is_motion {
+        true => "what it drives",
+        false => "its second marker",
     };
     let first = list.0.len();
-    if output.kind == OutputKind::Reaction {
-        let what = format!("Force of {name} on {on}");
-        let quantity = |axis| Quantity::Reaction(index, axis);
-        list.vector(&format!("{name}.reaction"), &what, NEWTON, quantity);
-    } else {
+    if is_moment {
         let what = format!("Moment of {name} on {on}");
         let (name, quantity) = (
             format!("{name}.reaction_moment"),
-            Quantity::ReactionMoment(index),
+            Quantity::ReactionMoment(holder),
         );
         list.scalar(&name, &what, Some(NEWTON_METRE), quantity);
+    } else {
+        let what = format!("Force of {name} on {on}");
+        let quantity = |axis| Quantity::Reaction(holder, axis);
+        list.vector(&format!("{name}.reaction"), &what, NEWTON, quantity);
     }
     list.mark_direct(first);
 }
 
-fn add_energies(list: &mut List, scene: &Scene) {
+fn add_energies(list: &mut List, resolved: &Resolved<'_>) {
     use Quantity::{GravityEnergy, KineticEnergy, SpringEnergy, StrainEnergy};
-    let gravity = if scene.rotation == 0.0 {
+    let gravity = if resolved.scene.rotation == 0.0 {
         "Potential energy of gravity, zero at the origin"
     } else {
         "Potential energy of gravity and of the centrifugal force, zero at the origin"
@@ -240,44 +199,46 @@ fn add_energies(list: &mut List, scene: &Scene) {
     ] {
         list.scalar(name, what, Some(JOULE), quantity);
     }
-    let stiff = |stiffness: Option<f64>| stiffness.is_some_and(|stiffness| stiffness > 0.0);
-    let springs = scene
-        .loads
-        .iter()
-        .filter(|load| load.kind == LoadKind::SpringDamper);
-    let hinges = scene
-        .joints
-        .iter()
-        .filter(|joint| joint.kind == JointKind::Hinge);
-    let couplings = scene
-        .ports
-        .iter()
-        .flat_map(|port| [port.stiffness, port.rotational_stiffness]);
-    let mut stiffnesses = springs
-        .map(|load| load.stiffness)
-        .chain(hinges.map(|joint| joint.stiffness))
-        .chain(couplings);
-    if stiffnesses.any(stiff) {
+    if stiffnesses(resolved).into_iter().any(|k| k > 0.0) {
         let (what, first) = ("Energy in springs, hinges and couplings", list.0.len());
         list.scalar("energy.spring", what, Some(JOULE), SpringEnergy);
-        if sets_springs(scene) {
+        if sets_springs(resolved) {
             list.mark_direct(first);
         }
     }
 }
 
-/// Whether the master sets the length of a spring or where one ends: it then works on the spring at once.
-pub(in crate::simulation) fn sets_springs(scene: &Scene) -> bool {
-    let mut inputs = scene.inputs.iter();
-    inputs.any(|input| input.kind == InputKind::RestLength)
-        || scene.ports.iter().any(Port::is_coupling)
+/// Stiffnesses of springs, hinges and couplings.
+fn stiffnesses(resolved: &Resolved<'_>) -> Vec<f64> {
+    let springs = resolved.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Spring(spring) => Some(spring.stiffness),
+        LoadKind::Action { .. } => None,
+    });
+    let hinges = resolved.joints.iter().filter_map(|joint| match joint.kind {
+        JointKind::Hinge { stiffness, .. } => Some(stiffness),
+        _ => None,
+    });
+    let couplings = resolved.ports.iter().filter_map(|port| match &port.kind {
+        PortKind::Coupling { position, angle } => {
+            let turning = angle.as_ref().map_or(0.0, |angle| angle.stiffness);
+            Some(position.stiffness.max(turning))
+        }
+        PortKind::Force { .. } | PortKind::Motion { .. } => None,
+    });
+    springs.chain(hinges).chain(couplings).collect()
 }
 
-fn add_work(list: &mut List, scene: &Scene) {
+/// Whether the master sets the length of a spring or where one ends: it then works on the spring at once.
+pub(in crate::simulation) fn sets_springs(resolved: &Resolved<'_>) -> bool {
+    let mut inputs = resolved.inputs.iter();
+    inputs.any(|input| matches!(input.kind, InputKind::RestLength(_))) || resolved.couplings > 0
+}
+
+fn add_work(list: &mut List, resolved: &Resolved<'_>) {
     let what = "Work that loads, inputs and motions have done since the start";
     let first = list.0.len();
     list.scalar("energy.input", what, Some(JOULE), Quantity::Input);
-    if sets_springs(scene) {
+    if sets_springs(resolved) {
         list.mark_direct(first);
     }
     let what = "Energy lost in dampers and in damping since the start";
@@ -300,12 +261,12 @@ fn add_residuals(list: &mut List) {
     list.scalar("residual.velocity", what, unit, Quantity::Residual(1));
 }
 
-fn add_frequencies(list: &mut List, output: &Output) {
-    let name = match &output.body {
+fn add_frequencies(list: &mut List, body: Option<&str>, count: u32) {
+    let name = match body {
         Some(body) => format!("{body}.natural_frequency"),
         None => "natural_frequency".into(),
     };
-    for number in 0..output.count.unwrap_or(0) as usize {
+    for number in 0..count as usize {
         let what = format!(
             "Natural frequency {} about the initial configuration; an unstable one is negative",
             number + 1
@@ -317,6 +278,32 @@ fn add_frequencies(list: &mut List, output: &Output) {
 }
 
 impl List {
+    /// The two components of a vector at a marker; of a port, by its name.
+    fn vector_at(
+        &mut self,
+        marker: &Marker<'_>,
+        port: Option<&str>,
+        (key, what, unit): (&str, &str, Unit),
+        quantity: fn(MarkerId, usize) -> Quantity,
+    ) {
+        let name = format!("{}.{key}", port.unwrap_or(marker.name));
+        let what = format!("{what} {}", marker.name);
+        self.vector(&name, &what, unit, |axis| quantity(marker.id, axis));
+    }
+
+    fn scalar_at(
+        &mut self,
+        marker: &Marker<'_>,
+        (key, what, unit): (&str, &str, Option<Unit>),
+        quantity: fn(MarkerId) -> Quantity,
+    ) {
+        let (name, what) = (
+            format!("{}.{key}", marker.name),
+            format!("{what} {}", marker.name),
+        );
+        self.scalar(&name, &what, unit, quantity(marker.id));
+    }
+
     /// The two components of a vector.
     fn vector(&mut self, name: &str, what: &str, unit: Unit, quantity: impl Fn(usize) -> Quantity) {
         for axis in 0..2 {

@@ -2,26 +2,27 @@
 
 use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
-use crate::scene::{Body, CableBody, JointKind, LoadKind, RigidBody, Scene};
+use crate::scene::{BodyReference, Cable, JointKind, LoadKind, PortKind, Resolved, Rigid};
 
 /// Key, meaning, unit, what it stands for, start value.
 type Row<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
 
 /// Adds the parameters of a scene.
-pub(super) fn add(list: &mut List, scene: &Scene) {
-    for (i, body) in scene.bodies.iter().enumerate() {
+pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
+    for body in &resolved.bodies {
         match body {
-            Body::Cable(body) => add_cable(list, i, body),
-            Body::Rigid(body) => add_rigid(list, i, body),
+            BodyReference::Cable(cable) => add_cable(list, cable),
+            BodyReference::Rigid(rigid) => add_rigid(list, rigid),
         }
     }
-    for (i, mass) in scene.masses.iter().enumerate() {
+    for (i, mass) in resolved.masses.iter().enumerate() {
         let what = "Mass lumped";
         let parameter = Parameter::LumpedMass(i);
         let row = ("mass", what, Some(KILOGRAM), parameter, mass.mass);
-        list.parameters(&mass.marker, "at", &[row]);
+        list.parameters(mass.marker.name, "at", &[row]);
     }
-    add_dampers(list, scene);
+    add_dampers(list, resolved);
+    let scene = resolved.scene;
     for axis in 0..2 {
         let what = format!("Gravitational acceleration, component {}", AXES[axis]);
         let (unit, parameter) = (Some(METRE_PER_SECOND_2), Parameter::Gravity(axis));
@@ -41,8 +42,9 @@ pub(super) fn add(list: &mut List, scene: &Scene) {
     list.parameter("relative_tolerance", what, None, parameter, start);
 }
 
-fn add_cable(list: &mut List, i: usize, body: &CableBody) {
+fn add_cable(list: &mut List, cable: &Cable<'_>) {
     use Parameter::*;
+    let (i, body) = (cable.id, cable.body);
     let (material, section) = (&body.material, &body.section);
     let elements = f64::from(body.elements);
     #[rustfmt::skip] // a table
@@ -57,7 +59,8 @@ fn add_cable(list: &mut List, i: usize, body: &CableBody) {
     list.parameters(&body.name, "of", &rows);
 }
 
-fn add_rigid(list: &mut List, i: usize, body: &RigidBody) {
+fn add_rigid(list: &mut List, rigid: &Rigid<'_>) {
+    let (i, body) = (rigid.id, rigid.body);
     let (mass, inertia) = (Parameter::Mass(i), Parameter::Inertia(i));
     let about = "Moment of inertia about the centre of mass";
     let rows = [
@@ -68,41 +71,43 @@ fn add_rigid(list: &mut List, i: usize, body: &RigidBody) {
 }
 
 /// Stiffness and damping of hinges, spring-dampers and couplings.
-fn add_dampers(list: &mut List, scene: &Scene) {
+fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
-    let hinges = scene.joints.iter().enumerate();
-    for (i, joint) in hinges.filter(|(_, joint)| joint.kind == JointKind::Hinge) {
-        let units = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
-        let parameters = [HingeStiffness(i), HingeDamping(i)];
-        let starts = [joint.stiffness, joint.damping];
-        list.damper(&joint.name, units, parameters, starts);
+    for (i, joint) in resolved.joints.iter().enumerate() {
+        if let JointKind::Hinge {
+            stiffness, damping, ..
+        } = joint.kind
+        {
+            let units = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
+            let parameters = [HingeStiffness(i), HingeDamping(i)];
+            list.damper(joint.name, units, parameters, [stiffness, damping]);
+        }
     }
-    let springs = scene.loads.iter().enumerate();
-    for (i, load) in springs.filter(|(_, load)| load.kind == LoadKind::SpringDamper) {
-        let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
-        let parameters = [SpringStiffness(i), SpringDamping(i)];
-        let starts = [load.stiffness, load.damping];
-        list.damper(&load.name, units, parameters, starts);
+    for (i, load) in resolved.loads.iter().enumerate() {
+        if let LoadKind::Spring(spring) = &load.kind {
+            let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
+            let parameters = [SpringStiffness(i), SpringDamping(i)];
+            let starts = [spring.stiffness, spring.damping];
+            list.damper(load.name, units, parameters, starts);
+        }
     }
-    let ports = scene.ports.iter().enumerate();
-    for (i, port) in ports.filter(|(_, port)| port.is_coupling()) {
+    for (i, port) in resolved.ports.iter().enumerate() {
+        let PortKind::Coupling { position, angle } = &port.kind else {
+            continue;
+        };
         let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
         let parameters = [CouplingStiffness(i), CouplingDamping(i)];
-        list.damper(
-            &port.name,
-            units,
-            parameters,
-            [port.stiffness, port.damping],
-        );
-        if port.turns() {
+        let starts = [position.stiffness, position.damping];
+        list.damper(port.name, units, parameters, starts);
+        if let Some(angle) = angle {
             #[rustfmt::skip] // a table
             let rows = [
                 ("rotational_stiffness", "Rotational stiffness", Some(NEWTON_METRE_PER_RADIAN),
-                    TurningStiffness(i), port.rotational_stiffness.unwrap_or(0.0)),
+                    TurningStiffness(i), angle.stiffness),
                 ("rotational_damping", "Rotational damping", Some(NEWTON_METRE_SECOND_PER_RADIAN),
-                    TurningDamping(i), port.rotational_damping.unwrap_or(0.0)),
+                    TurningDamping(i), angle.damping),
             ];
-            list.parameters(&port.name, "of", &rows);
+            list.parameters(port.name, "of", &rows);
         }
     }
 }
@@ -128,17 +133,10 @@ impl List {
         }
     }
 
-    fn damper(
-        &mut self,
-        of: &str,
-        units: [Unit; 2],
-        parameters: [Parameter; 2],
-        starts: [Option<f64>; 2],
-    ) {
+    fn damper(&mut self, of: &str, units: [Unit; 2], parameters: [Parameter; 2], starts: [f64; 2]) {
         let keys = [("stiffness", "Stiffness"), ("damping", "Damping")];
         for (i, (key, what)) in keys.into_iter().enumerate() {
-            let start = starts[i].unwrap_or(0.0);
-            let row = (key, what, Some(units[i]), parameters[i], start);
+            let row = (key, what, Some(units[i]), parameters[i], starts[i]);
             self.parameters(of, "of", &[row]);
         }
     }

@@ -1,0 +1,464 @@
+//! A scene whose references are resolved: what a kind demands is there, what it names has been found, and
+//! what is numbered is numbered once. Values are checked while it is made (`validate/`).
+
+use std::collections::BTreeMap;
+
+use super::description::{CableBody, Port as GivenPort, RigidBody, Scene, Value};
+use crate::system::{Drive, Signal};
+
+/// Numbers that are only made here, so that one list is never read with the number of another.
+macro_rules! numbers {
+    ($($(#[$doc:meta])* $name:ident;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub struct $name(pub(super) usize);
+
+        impl $name {
+            /// The number.
+            pub fn index(self) -> usize {
+                self.0
+            }
+        }
+    )*};
+}
+
+numbers! {
+    /// A marker among those of all bodies.
+    MarkerId;
+    /// What holds something in the system: joints, then motions, then what ports drive.
+    HolderId;
+    /// A joint of kind `along` among those of its kind.
+    SlideId;
+    /// An angle that is counted on over full turns.
+    AngleId;
+    /// A spring and damper of a port.
+    CouplingId;
+    /// A rigid body, by its place among all bodies.
+    RigidId;
+}
+
+/// A cable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CableId {
+    /// Its place among all bodies.
+    pub(super) body: usize,
+    /// Its place among the cables.
+    pub(super) chain: usize,
+}
+
+/// A flexible body.
+#[derive(Clone, Copy, Debug)]
+pub struct Cable<'a> {
+    /// Which one.
+    pub id: CableId,
+    /// As described.
+    pub body: &'a CableBody,
+}
+
+/// A rigid body.
+#[derive(Clone, Copy, Debug)]
+pub struct Rigid<'a> {
+    /// Which one.
+    pub id: RigidId,
+    /// As described.
+    pub body: &'a RigidBody,
+}
+
+/// A body of either kind.
+#[derive(Clone, Copy, Debug)]
+pub enum BodyReference<'a> {
+    /// Flexible.
+    Cable(Cable<'a>),
+    /// Rigid.
+    Rigid(Rigid<'a>),
+}
+
+/// A place on a body.
+#[derive(Clone, Copy, Debug)]
+pub enum Place<'a> {
+    /// Material coordinate of a cable in [0, 1].
+    Along(Cable<'a>, f64),
+    /// Point in the frame of a rigid body, m.
+    Point(Rigid<'a>, [f64; 2]),
+}
+
+/// A marker.
+#[derive(Clone, Copy, Debug)]
+pub struct Marker<'a> {
+    /// Which one.
+    pub id: MarkerId,
+    /// Its name: `body.marker` where it is referred to, without the body among those of all bodies.
+    pub name: &'a str,
+    /// Where it is on which body.
+    pub place: Place<'a>,
+    /// Where it is in the shapes and positions that the scene describes, m.
+    pub position: [f64; 2],
+    /// Direction there: tangent of a cable, first axis of the frame of a rigid body; a unit vector.
+    pub direction: [f64; 2],
+}
+
+/// The first of two ends.
+#[derive(Clone, Copy, Debug)]
+pub enum First<'a> {
+    /// The ground at a point, m; where the second end is at the start if none is given.
+    Ground(Option<[f64; 2]>),
+    /// A marker.
+    Marker(Marker<'a>),
+}
+
+/// The two ends of a joint or a spring.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<'a> {
+    /// The ground or a marker.
+    pub first: First<'a>,
+    /// A marker of another body.
+    pub second: Marker<'a>,
+}
+
+/// A revolute joint or a hinge: a joint with an angle.
+#[derive(Clone, Copy, Debug)]
+pub struct Pivot<'a> {
+    /// Name of the joint.
+    pub name: &'a str,
+    /// Which holder it is.
+    pub joint: HolderId,
+    /// What it joins.
+    pub ends: Ends<'a>,
+}
+
+/// A joint that holds a marker on a line through a point of the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Slider<'a> {
+    /// Name of the joint.
+    pub name: &'a str,
+    /// A point of the line, m; where the marker is at the start if none is given.
+    pub point: Option<[f64; 2]>,
+    /// What it holds.
+    pub marker: Marker<'a>,
+    /// Direction of the line, of any length.
+    pub direction: [f64; 2],
+}
+
+/// What has a direction: a marker, or a joint between two.
+#[derive(Clone, Copy, Debug)]
+pub enum Turning<'a> {
+    /// Direction at a marker.
+    Marker(Marker<'a>),
+    /// Direction of the second marker less that of the first.
+    Pivot(Pivot<'a>),
+}
+
+/// A mass lumped at a marker.
+#[derive(Clone, Copy, Debug)]
+pub struct Mass<'a> {
+    /// Where it sits.
+    pub marker: Marker<'a>,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Moment of inertia, kg m^2.
+    pub inertia: f64,
+}
+
+/// A joint.
+#[derive(Clone, Copy, Debug)]
+pub struct Joint<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Which holder it is.
+    pub holder: HolderId,
+    /// What it holds.
+    pub kind: JointKind<'a>,
+}
+
+/// What a joint holds. Angles (rad) and lengths (m) that are not given are those at the start.
+#[derive(Clone, Copy, Debug)]
+pub enum JointKind<'a> {
+    /// The position.
+    Revolute(Ends<'a>),
+    /// The position and the direction at this angle from that of the first end.
+    Weld(Ends<'a>, Option<f64>),
+    /// The marker on a fixed line.
+    Slider(Slider<'a>),
+    /// The direction at this angle from that of the first end.
+    Orientation(Ends<'a>, Option<f64>),
+    /// This distance.
+    Distance(Ends<'a>, Option<f64>),
+    /// The position; a spring and a damper act against rotation.
+    Hinge {
+        /// What it joins.
+        ends: Ends<'a>,
+        /// Angle at rest.
+        rest: Option<f64>,
+        /// Stiffness, N m/rad.
+        stiffness: f64,
+        /// Damping, N m s/rad.
+        damping: f64,
+    },
+    /// The marker on the line of a cable.
+    Along {
+        /// The cable.
+        cable: Cable<'a>,
+        /// What slides on it.
+        marker: Marker<'a>,
+        /// Which slide it is.
+        slide: SlideId,
+    },
+}
+
+/// A driven motion.
+#[derive(Clone, Debug)]
+pub struct Motion<'a> {
+    /// Name; of a port, where it belongs to one.
+    pub name: &'a str,
+    /// Which holder it is.
+    pub holder: HolderId,
+    /// What is driven and how.
+    pub kind: MotionKind<'a>,
+    /// Its course as written; nothing if the master sets it.
+    pub values: &'a [Value],
+}
+
+/// What is driven, and the course of every coordinate.
+#[derive(Clone, Debug)]
+pub enum MotionKind<'a> {
+    /// An angle, rad.
+    Angle(Turning<'a>, Drive),
+    /// The position of a marker, m.
+    Position(Marker<'a>, [Drive; 2]),
+    /// The way along a slider from its point, m.
+    Displacement(Slider<'a>, Drive),
+}
+
+/// A load that the scene knows.
+#[derive(Clone, Debug)]
+pub struct Load<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// What acts.
+    pub kind: LoadKind<'a>,
+}
+
+/// What acts.
+#[derive(Clone, Debug)]
+pub enum LoadKind<'a> {
+    /// A force or a moment.
+    Action {
+        /// Which and where.
+        action: Action<'a>,
+        /// Its size as written.
+        values: &'a [Value],
+    },
+    /// A spring and a damper side by side.
+    Spring(Spring<'a>),
+}
+
+/// A spring and a damper between two ends.
+#[derive(Clone, Debug)]
+pub struct Spring<'a> {
+    /// What they are fixed to.
+    pub ends: Ends<'a>,
+    /// Stiffness, N/m.
+    pub stiffness: f64,
+    /// Damping, N s/m.
+    pub damping: f64,
+    /// Length at rest as written, m.
+    pub given: Option<&'a Value>,
+    /// Length at rest, m; the distance at the start if there is none.
+    pub length: Option<Signal>,
+}
+
+/// A force or a moment, known or an input.
+#[derive(Clone, Debug)]
+pub enum Action<'a> {
+    /// A force at a marker, N.
+    Force {
+        /// Where.
+        marker: Marker<'a>,
+        /// Whether it turns with the marker.
+        follower: bool,
+        /// Its components.
+        components: [Signal; 2],
+    },
+    /// A moment at a marker, N m.
+    Moment(Marker<'a>, Signal),
+    /// A moment in a joint, N m.
+    Torque(Pivot<'a>, Signal),
+    /// A force per reference length of a cable, N/m.
+    Distributed(Cable<'a>, [Signal; 2]),
+}
+
+/// An input.
+#[derive(Clone, Debug)]
+pub struct Input<'a> {
+    /// What is set.
+    pub kind: InputKind<'a>,
+    /// Place of its first component among the numbers that the master sets; the others follow.
+    pub first: usize,
+    /// Values before the master sets some, one a component.
+    pub start: Vec<f64>,
+}
+
+/// What an input sets.
+#[derive(Clone, Debug)]
+pub enum InputKind<'a> {
+    /// A force or a moment.
+    Action(Action<'a>),
+    /// Length at rest of the spring-damper of this name, m.
+    RestLength(&'a str),
+}
+
+/// A joint or a motion that reacts.
+#[derive(Clone, Copy, Debug)]
+pub struct Reaction<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Which one.
+    pub holder: HolderId,
+    /// Whether it is a motion.
+    pub is_motion: bool,
+}
+
+/// A quantity that the master reads.
+#[derive(Clone, Debug)]
+pub enum Output<'a> {
+    /// Position of a marker.
+    Position(Marker<'a>),
+    /// Velocity of a marker.
+    Velocity(Marker<'a>),
+    /// Acceleration of a marker.
+    Acceleration(Marker<'a>),
+    /// Angle, counted on over full turns.
+    Angle(Turning<'a>, AngleId),
+    /// Its rate.
+    AngularVelocity(Turning<'a>),
+    /// Rate of its rate.
+    AngularAcceleration(Turning<'a>),
+    /// Axial strain at a marker of a cable.
+    Strain(Marker<'a>),
+    /// Curvature at a marker of a cable.
+    Curvature(Marker<'a>),
+    /// Axial force at a marker of a cable.
+    AxialForce(Marker<'a>),
+    /// Bending moment at a marker of a cable.
+    BendingMoment(Marker<'a>),
+    /// Force of the part before a marker of a cable on the part after it.
+    ConnectivityForce(Marker<'a>),
+    /// Where the slide of a joint of this name is.
+    Travel(&'a str, SlideId),
+    /// Force of a joint or motion.
+    Reaction(Reaction<'a>),
+    /// Moment of a joint or motion.
+    ReactionMoment(Reaction<'a>),
+    /// Energies.
+    Energy,
+    /// Work and dissipation.
+    Work,
+    /// Linear and angular momentum.
+    Momentum,
+    /// Centre of mass.
+    CenterOfMass,
+    /// Residuals of constraints.
+    Residual,
+    /// Natural frequencies: how many, and the body whose name theirs begin with.
+    NaturalFrequency(Option<&'a str>, u32),
+}
+
+/// A port.
+#[derive(Clone, Debug)]
+pub struct Port<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Where it is.
+    pub marker: Marker<'a>,
+    /// What comes in and what goes out.
+    pub kind: PortKind<'a>,
+    /// As described.
+    pub given: &'a GivenPort,
+}
+
+/// What comes in and what goes out.
+#[derive(Clone, Debug)]
+pub enum PortKind<'a> {
+    /// A force, and a moment if it turns, in; the motion of the marker out.
+    Force {
+        /// What comes in.
+        inputs: Vec<Input<'a>>,
+        /// What goes out.
+        outputs: Vec<Output<'a>>,
+    },
+    /// A motion that drives the marker in; what it takes out.
+    Motion {
+        /// The position.
+        position: Motion<'a>,
+        /// The angle, if it turns.
+        angle: Option<Motion<'a>>,
+    },
+    /// A motion in, through a spring and a damper; their force out.
+    Coupling {
+        /// Between positions.
+        position: Coupling<'a>,
+        /// Between directions, if it turns.
+        angle: Option<Coupling<'a>>,
+    },
+}
+
+/// A spring and a damper between a marker and what comes in.
+#[derive(Clone, Debug)]
+pub struct Coupling<'a> {
+    /// Which one.
+    pub id: CouplingId,
+    /// What comes in: value and rate of every coordinate.
+    pub motion: MotionKind<'a>,
+    /// Place of its first number among those that the master sets; value and rate of each coordinate
+    /// lie side by side.
+    pub first: usize,
+    /// Stiffness, N/m or N m/rad.
+    pub stiffness: f64,
+    /// Damping, N s/m or N m s/rad.
+    pub damping: f64,
+}
+
+/// What holds something in the system.
+#[derive(Clone, Debug)]
+pub struct Holder<'a> {
+    /// Where it stands in the scene, e.g. `joints[0]`.
+    pub path: String,
+    /// Its name.
+    pub name: &'a str,
+}
+
+/// A valid scene with its references resolved.
+#[derive(Clone, Debug)]
+pub struct Resolved<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Bodies.
+    pub bodies: Vec<BodyReference<'a>>,
+    /// Markers of all bodies, by [`MarkerId`].
+    pub markers: Vec<Marker<'a>>,
+    /// Lumped masses.
+    pub masses: Vec<Mass<'a>>,
+    /// Joints.
+    pub joints: Vec<Joint<'a>>,
+    /// Motions, without those of ports.
+    pub motions: Vec<Motion<'a>>,
+    /// Loads.
+    pub loads: Vec<Load<'a>>,
+    /// Inputs, without those of ports.
+    pub inputs: Vec<Input<'a>>,
+    /// Outputs, without those of ports.
+    pub outputs: Vec<Output<'a>>,
+    /// Ports.
+    pub ports: Vec<Port<'a>>,
+    /// What holds something, by [`HolderId`].
+    pub holders: Vec<Holder<'a>>,
+    /// Angles that are counted, by [`AngleId`].
+    pub angles: Vec<Turning<'a>>,
+    /// Number of couplings.
+    pub couplings: usize,
+    /// How many numbers the master sets: those of inputs, then those of motions, then those of ports. The
+    /// value of a driven coordinate and as many derivatives as are inputs follow each other.
+    pub numbers: usize,
+    pub(super) bodies_by_name: BTreeMap<&'a str, BodyReference<'a>>,
+    pub(super) markers_by_name: BTreeMap<(&'a str, &'a str), MarkerId>,
+}
