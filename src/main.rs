@@ -1,8 +1,8 @@
 //! Floor 8. The headless runner: describes a scene for packaging, simulates it without FMI, and
 //! prints the schema of scenes.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -11,8 +11,12 @@ use clap::{Parser, Subcommand};
 use cpu_time::ThreadTime;
 use flexbody::fmi2::{self, Causality};
 use flexbody::scene::Scene;
-use flexbody::simulation::{Report, Simulation};
+use flexbody::simulation::{Report, SignalError, Signals, Simulation};
 use indicatif::{ProgressBar, ProgressStyle};
+
+use files::{Shapes, Sink, Table};
+
+mod files;
 
 #[derive(Parser)]
 #[command(version, about = "Flexible bodies: describe, simulate, schema")]
@@ -41,15 +45,19 @@ enum Command {
 struct Simulate {
     /// Scene file.
     scene: PathBuf,
-    /// Time at which the simulation ends, s.
+    /// Time at which the simulation ends, s; that of the scene's experiment if it is not given.
     #[arg(long, allow_negative_numbers = true)]
-    stop_time: f64,
-    /// Time between communication points, s.
+    stop_time: Option<f64>,
+    /// Time between communication points, s; that of the scene's experiment if it is not given.
     #[arg(long, allow_negative_numbers = true)]
-    step: f64,
+    step: Option<f64>,
     /// Value of a parameter or input, e.g. `rod.density=7800`; may be repeated.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// CSV file of inputs that vary in time: a column `time` and one for every input, named like it; straight
+    /// lines between the rows, two rows of one time are a jump.
+    #[arg(long)]
+    input: Option<PathBuf>,
     /// CSV file; standard output if it is not given.
     #[arg(long)]
     output: Option<PathBuf>,
@@ -57,7 +65,18 @@ struct Simulate {
     /// iterations, CPU time in s) and for joints that hold what others hold already.
     #[arg(long)]
     report: Option<PathBuf>,
+    /// File for pictures: a line of JSON that names every body and its markers, then one for every
+    /// communication point with the places of markers and, at some, of points along the bodies.
+    #[arg(long)]
+    shapes: Option<PathBuf>,
 }
+
+/// Names that are offered in place of one that is not there.
+const OFFERED: usize = 3;
+/// How alike (Jaro-Winkler, 0 to 1) an offered name is at least.
+const ALIKE: f64 = 0.75;
+/// Communication points, about, that bodies are drawn at.
+const SNAPSHOTS: u64 = 11;
 
 /// What all communication steps of a run took together; set-up and output do not count.
 #[derive(Default)]
@@ -141,36 +160,98 @@ fn describe(scene: &Path, output: &Path) -> Outcome<()> {
 }
 
 fn simulate(arguments: &Simulate) -> Outcome<()> {
-    let points = communication_points(arguments.stop_time, arguments.step)?;
-    let mut simulation = Simulation::new(read(&arguments.scene)?);
+    let scene = read(&arguments.scene)?;
+    let stop_time = arguments.stop_time.unwrap_or(scene.experiment.stop_time);
+    let step = arguments.step.unwrap_or(scene.experiment.step);
+    let points = communication_points(stop_time, step)?;
+    let mut simulation = Simulation::new(scene);
     for assignment in &arguments.set {
         assign(&mut simulation, assignment)?;
     }
+    let signals = signals(&mut simulation, arguments, stop_time)?;
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
     let redundant = simulation.redundant_joints();
     for joint in &redundant {
         eprintln!("flexbody: {joint} holds what others hold already");
     }
-    let cost = match &arguments.output {
-        Some(path) => {
-            let file = File::create(path).map_err(|error| at(path, error))?;
-            run(&mut simulation, arguments, points, BufWriter::new(file))
-        }
-        None => run(
-            &mut simulation,
-            arguments,
-            points,
-            BufWriter::new(io::stdout().lock()),
-        ),
-    }?;
+    let outputs = Sink::new(arguments.output.as_deref())?;
+    let shapes = arguments.shapes.as_deref();
+    let shapes = shapes.map(|path| Sink::new(Some(path))).transpose()?;
+    let mut run = Run {
+        steps: (points, step, stop_time),
+        signals,
+        csv: Table::new(&simulation, outputs),
+        shapes: shapes.map(|sink| Shapes::new(simulation.scene(), sink)),
+        cost: Cost::default(),
+    };
+    run.all(&mut simulation)?;
     match &arguments.report {
         Some(path) => {
-            let json = cost.json(&calculated(&mut simulation)?, &redundant);
+            let json = run.cost.json(&calculated(&mut simulation)?, &redundant);
             fs::write(path, json).map_err(|error| at(path, error))
         }
         None => Ok(()),
     }
+}
+
+/// The inputs that vary in time, if there are any, set to their values at the start.
+fn signals(
+    simulation: &mut Simulation,
+    arguments: &Simulate,
+    stop_time: f64,
+) -> Outcome<Option<Signals>> {
+    let Some(path) = &arguments.input else {
+        return Ok(None);
+    };
+    let text = fs::read_to_string(path).map_err(|error| at(path, error))?;
+    let found = Signals::from_csv(&text, simulation.variables()).and_then(|signals| {
+        signals.check_covers(0.0, stop_time)?;
+        Ok(signals)
+    });
+    let signals = found.map_err(|error| match &error {
+        SignalError::Unknown(name) => {
+            let inputs = names(simulation, |kind| kind == Causality::Input);
+            at(path, format!("{error}{}", nearest(name, &inputs)))
+        }
+        SignalError::Wrong(_) => at(path, error),
+    })?;
+    for assignment in &arguments.set {
+        let name = assignment.split('=').next().unwrap_or_default().trim();
+        let index = simulation.variables().iter().position(|v| v.name == name);
+        if index.is_some_and(|index| signals.holds(index)) {
+            return Err(format!(
+                "--set {assignment}: {} sets it already",
+                path.display()
+            ));
+        }
+    }
+    let set = simulation.set_inputs(&signals);
+    set.map_err(|error| at(path, error))?;
+    Ok(Some(signals))
+}
+
+/// Names of the variables of some kinds.
+fn names(simulation: &Simulation, is_wanted: impl Fn(Causality) -> bool) -> Vec<&str> {
+    let variables = simulation.variables().iter();
+    let wanted = variables.filter(|variable| is_wanted(Causality::of(variable)));
+    wanted.map(|variable| variable.name.as_str()).collect()
+}
+
+/// The names that are most like one that is not there, as the end of a message.
+fn nearest(name: &str, names: &[&str]) -> String {
+    let mut alike: Vec<(f64, &str)> = names
+        .iter()
+        .map(|known| (strsim::jaro_winkler(name, known), *known))
+        .filter(|(likeness, _)| *likeness >= ALIKE)
+        .collect();
+    alike.sort_by(|a, b| b.0.total_cmp(&a.0));
+    alike.truncate(OFFERED);
+    if alike.is_empty() {
+        return String::new();
+    }
+    let alike: Vec<String> = alike.iter().map(|(_, name)| format!("`{name}`")).collect();
+    format!("; did you mean {}?", alike.join(" or "))
 }
 
 /// Calculated parameters and their values.
@@ -210,7 +291,11 @@ fn assign(simulation: &mut Simulation, assignment: &str) -> Outcome<()> {
         .variables()
         .iter()
         .position(|variable| variable.name == name);
-    let index = index.ok_or_else(|| wrong("no variable of this name"))?;
+    let index = index.ok_or_else(|| {
+        let settable = |kind| matches!(kind, Causality::Parameter | Causality::Input);
+        let alike = nearest(name, &names(simulation, settable));
+        wrong(&format!("no variable of this name{alike}"))
+    })?;
     let outcome = if simulation.variables()[index].is_integer() {
         let value = value.parse().map_err(|_| wrong("expected an integer"))?;
         simulation.set_integer(index, value)
@@ -221,49 +306,62 @@ fn assign(simulation: &mut Simulation, assignment: &str) -> Outcome<()> {
     outcome.map_err(|error| wrong(&error.to_string()))
 }
 
-fn run(
-    simulation: &mut Simulation,
-    arguments: &Simulate,
-    steps: u64,
-    mut csv: impl Write,
-) -> Outcome<Cost> {
-    let is_output =
-        |index: &usize| Causality::of(&simulation.variables()[*index]) == Causality::Output;
-    let outputs: Vec<usize> = (0..simulation.variables().len())
-        .filter(is_output)
-        .collect();
-    let unwritten = |error: io::Error| match &arguments.output {
-        Some(path) => at(path, error),
-        None => format!("standard output: {error}"),
-    };
-    let names = outputs
-        .iter()
-        .map(|index| simulation.variables()[*index].name.as_str());
-    let header: Vec<&str> = std::iter::once("time").chain(names).collect();
-    writeln!(csv, "{}", header.join(",")).map_err(unwritten)?;
-    let bar = progress_bar(steps);
-    let mut cost = Cost::default();
-    for number in 0..=steps {
-        if number > 0 {
-            // A multiple rather than a sum, so that rounding does not add up.
-            let until = (number as f64 * arguments.step).min(arguments.stop_time);
-            let started = ThreadTime::now();
-            let outcome = simulation.step(until);
-            let cpu_time = started.elapsed();
-            outcome.map_err(|failure| failure.to_string())?;
-            cost.add(simulation.report(), cpu_time);
-            bar.inc(1);
+/// A simulation from communication point to communication point.
+struct Run {
+    /// Number of steps, their length and where the last ends, s.
+    steps: (u64, f64, f64),
+    signals: Option<Signals>,
+    csv: Table,
+    shapes: Option<Shapes>,
+    cost: Cost,
+}
+
+impl Run {
+    fn all(&mut self, simulation: &mut Simulation) -> Outcome<()> {
+        let (steps, step, stop_time) = self.steps;
+        self.csv.header(simulation)?;
+        if let Some(shapes) = &mut self.shapes {
+            shapes.sink.line(&shapes.header.clone())?;
         }
-        write!(csv, "{:?}", simulation.time()).map_err(unwritten)?;
-        for index in &outputs {
-            let value = simulation.real(*index).map_err(|error| error.to_string())?;
-            write!(csv, ",{value:?}").map_err(unwritten)?;
+        let bar = progress_bar(steps);
+        for number in 0..=steps {
+            if number > 0 {
+                // A multiple rather than a sum, so that rounding does not add up.
+                self.step(simulation, (number as f64 * step).min(stop_time))?;
+                bar.inc(1);
+            }
+            self.csv.row(simulation)?;
+            if let Some(shapes) = &mut self.shapes {
+                // The first and the last, and others at distances as even as can be.
+                let is_whole =
+                    number == 0 || number * SNAPSHOTS / steps != (number - 1) * SNAPSHOTS / steps;
+                shapes.row(simulation, is_whole)?;
+            }
         }
-        writeln!(csv).map_err(unwritten)?;
+        self.csv.sink.finish()?;
+        if let Some(shapes) = &mut self.shapes {
+            shapes.sink.finish()?;
+        }
+        bar.finish_and_clear();
+        Ok(())
     }
-    csv.flush().map_err(unwritten)?;
-    bar.finish_and_clear();
-    Ok(cost)
+
+    /// One communication step, in as many parts as inputs have rows in it.
+    fn step(&mut self, simulation: &mut Simulation, until: f64) -> Outcome<()> {
+        while simulation.time() < until {
+            let started = ThreadTime::now();
+            let outcome = match &self.signals {
+                Some(signals) => simulation.step_along(signals, until),
+                None => simulation
+                    .step(until)
+                    .map_err(|failure| failure.to_string()),
+            };
+            let cpu_time = started.elapsed();
+            outcome?;
+            self.cost.add(simulation.report(), cpu_time);
+        }
+        Ok(())
+    }
 }
 
 /// A progress bar on standard error; invisible where that is no terminal.

@@ -36,7 +36,8 @@ pub fn documentation(scene: &Scene) -> String {
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}\
-         <footer>Written by Flexbody {}.</footer>\n</main>\n</body>\n</html>\n",
+         <footer>Written by Flexbody {}; \
+         <a href=\"licenses/license.txt\">licenses</a> of what this FMU holds.</footer>\n</main>\n</body>\n</html>\n",
         sections.concat(),
         env!("CARGO_PKG_VERSION")
     )
@@ -61,7 +62,19 @@ fn summary(scene: &Scene) -> String {
          </p>\n",
         escape(&scene.name),
         bodies.join("; ")
-    )
+    ) + &about(scene)
+}
+
+/// Whose model it is, where the scene says so.
+fn about(scene: &Scene) -> String {
+    let rows = scene.about.texts();
+    let rows: Vec<String> = rows
+        .map(|(key, text)| format!("<b>{key}</b> {}", escape(text)))
+        .collect();
+    match rows.is_empty() {
+        true => String::new(),
+        false => format!("<p>{}</p>\n", rows.join("<br>\n")),
+    }
 }
 
 /// Most bodies that are told one by one.

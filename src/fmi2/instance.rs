@@ -1,14 +1,13 @@
 //! An instance of the unit: what the functions of the standard do, in safe code.
 
 use std::any::Any;
-use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::guid::guid;
 use super::lifecycle::{Function, State};
-use super::location::{LocationError, directory};
+use super::location::{LocationError, directory, text};
 use super::logger::{Category, Logger};
 use super::state::SavedState;
 use super::status::{Fault, Status};
@@ -115,7 +114,7 @@ impl Instance {
             return Ok(None);
         };
         let path = directory(location)?.join("scene.json");
-        let text = fs::read_to_string(&path).map_err(|error| Refusal::Unreadable {
+        let text = text(&path).map_err(|error| Refusal::Unreadable {
             path: path.clone(),
             error,
         })?;

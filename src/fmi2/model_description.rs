@@ -15,6 +15,13 @@ use crate::simulation::{Parameter, Source, Unit, Variable, variables};
 
 type Xml = Writer<Vec<u8>>;
 
+/// The terms of the library in every unit, and where it says more.
+const LICENSE: &str = concat!(
+    "library: ",
+    env!("CARGO_PKG_LICENSE"),
+    ", see documentation/licenses"
+);
+
 /// The model description of a scene. No date, no path: the same scene gives the same bytes.
 pub fn model_description(scene: &Scene) -> String {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
@@ -28,10 +35,20 @@ fn write_all(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     let variables = variables(scene);
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let guid = guid(scene, &variables);
+    // What a model says of itself goes before what holds of every one.
+    let own = scene.about.texts().map(|(key, text)| match key {
+        "license" => (key, format!("{text}; {LICENSE}")),
+        _ => (key, text.to_owned()),
+    });
+    let mut about: Vec<(&str, String)> = own.collect();
+    if scene.about.license.is_none() {
+        about.push(("license", LICENSE.into()));
+    }
     xml.create_element("fmiModelDescription")
         .with_attribute(("fmiVersion", "2.0"))
         .with_attribute(("modelName", scene.name.as_str()))
         .with_attribute(("guid", guid.as_str()))
+        .with_attributes(about.iter().map(|(key, text)| (*key, text.as_str())))
         .with_attribute((
             "generationTool",
             concat!("Flexbody ", env!("CARGO_PKG_VERSION")),
@@ -270,6 +287,36 @@ mod tests {
     fn the_same_scene_gives_the_same_bytes() {
         let scene = example();
         assert_eq!(model_description(&scene), model_description(&scene));
+    }
+
+    /// The attributes that FMI 2.0 has for it [2.2.1].
+    #[test]
+    fn a_model_says_whose_it_is() {
+        let attribute = |scene: &Scene, key: &str| {
+            let text = model_description(scene);
+            let (_, rest) = text.split_once(&format!(" {key}=\""))?;
+            Some(rest.split('"').next()?.to_owned())
+        };
+        let mut scene = example();
+        let library = "library: MIT OR Apache-2.0, see documentation/licenses";
+        assert_eq!(attribute(&scene, "license").as_deref(), Some(library));
+        for key in ["author", "version", "copyright"] {
+            let root = model_description(&scene);
+            let root = root.split("<CoSimulation").next().expect("a root");
+            assert!(!root.contains(&format!(" {key}=")), "{key}");
+        }
+        scene.about.author = Some("A & B".into());
+        scene.about.version = Some("1.2".into());
+        scene.about.copyright = Some("(c) 2026 A".into());
+        scene.about.license = Some("CC-BY-4.0".into());
+        for (key, expected) in [
+            ("author", "A &amp; B"),
+            ("copyright", "(c) 2026 A"),
+            ("license", &format!("CC-BY-4.0; {library}")),
+        ] {
+            assert_eq!(attribute(&scene, key).as_deref(), Some(expected), "{key}");
+        }
+        assert!(model_description(&scene).contains(" version=\"1.2\" "));
     }
 
     #[test]

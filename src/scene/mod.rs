@@ -16,7 +16,7 @@ mod validate;
 
 pub use assemble::{Assembled, assemble};
 pub use description::{
-    Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion,
+    About, Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion,
     Integrator, Material, Method, RigidBody, Scene, Section, Shape, Strain, Table, Value,
 };
 pub use resolved::{

@@ -131,6 +131,11 @@ impl System {
         self.elimination.coordinates()
     }
 
+    /// Nodes of every body.
+    pub fn bodies(&self) -> &[Range<usize>] {
+        &self.bodies
+    }
+
     /// Flexible bodies.
     pub fn chains(&self) -> &[PlanarChain] {
         &self.chains

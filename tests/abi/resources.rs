@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::ptr;
+use std::time::{Duration, Instant};
 
 use crate::support::{CO_SIMULATION, Instance, Record, SCENE, State, Status, Unit, call};
 
@@ -41,6 +42,39 @@ fn missing_resources_are_named() {
     assert!(refusal(&unit).contains("scene.json"));
     fs::remove_dir_all(unit.folder()).expect("a folder to remove");
     assert!(refusal(&unit).contains("scene.json"));
+}
+
+/// What never ends, or would fill the memory, is refused at once.
+#[cfg(unix)]
+#[test]
+fn a_scene_is_a_regular_file_of_bounded_size() {
+    let unit = Unit::new();
+    let scene = unit.folder().join("scene.json");
+    let began = Instant::now();
+    let mut refused = |found: &str| {
+        let reason = refusal(&unit);
+        let expected = format!("expected a regular file of at most 67108864 bytes, found {found}");
+        assert!(reason.contains("scene.json"), "{reason}");
+        assert!(reason.ends_with(&expected), "{reason}");
+        fs::remove_file(&scene).expect("a file to remove");
+    };
+    fs::remove_file(&scene).expect("a file to remove");
+    std::os::unix::fs::symlink("/dev/zero", &scene).expect("a writable folder");
+    refused("a device or a pipe");
+    let made = Command::new("mkfifo").arg(&scene).status();
+    assert!(made.expect("mkfifo").success());
+    refused("a device or a pipe");
+    let large = fs::File::create(&scene).expect("a writable folder");
+    large.set_len(10 << 30).expect("a file with a hole");
+    refused("10737418240");
+    let large = fs::File::create(&scene).expect("a writable folder");
+    large.set_len(1 + (1 << 26)).expect("a file with a hole");
+    refused("67108865");
+    assert!(
+        began.elapsed() < Duration::from_secs(5),
+        "{:?}",
+        began.elapsed()
+    );
 }
 
 #[test]

@@ -1,28 +1,33 @@
-"""Draws a run: snapshots of the bodies, the path of their last marker, the energies.
+"""Draws a run: snapshots of the bodies, the paths of all markers, reactions, energies.
 
-usage: plot.py MODEL(.json|.fmu) RUN.csv PICTURE.png [--reference REFERENCE.csv]
+usage: plot.py RUN.csv PICTURE.png [--shapes SHAPES.jsonl] [--title TITLE] [--reference REFERENCE.csv]
 
-Bodies are drawn as cubic Hermite curves through the markers whose position and angle are outputs.
-The reference has columns t, x_tip and y_tip.
+RUN.csv holds outputs at communication points. SHAPES.jsonl is what `flexbody simulate --shapes` writes: where the
+markers are at every communication point, and points along the bodies at some. The reference, an independent solution
+to draw beside the paths, has columns t, x_tip and y_tip.
 """
 
 import argparse
 import csv
 import json
 import math
-import zipfile
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-SNAPSHOTS = 12
 REFERENCE_STEP = 0.1
+# What moves or changes by less than this part of its scale stands still: no roundoff is drawn as motion.
+STILL = 1e-6
 COLOURS = plt.get_cmap("viridis")
 INK = "#2b2b2b"
 # Distinct for every kind of colour vision (Okabe and Ito).
-ENERGIES = {"kinetic": "#0072b2", "strain": "#d55e00", "gravity": "#009e73"}
+CYCLE = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6d31", "#5f5f5f"]
+# Energies that a system holds; their sum is its total.
+HELD = ["kinetic", "strain", "gravity", "spring"]
+GONE = ["input", "dissipated"]
+PANEL = (4.6, 4.4)
 STYLE = {
     "font.size": 9,
     "font.family": "DejaVu Sans",
@@ -43,29 +48,24 @@ STYLE = {
     "xtick.labelcolor": INK,
     "ytick.labelcolor": INK,
     "legend.frameon": False,
+    "legend.fontsize": 8,
 }
 
 
 def main():
     parser = argparse.ArgumentParser(description="Draws a run.")
-    parser.add_argument("model", metavar="MODEL")
     parser.add_argument("run", metavar="RUN.csv")
     parser.add_argument("picture", metavar="PICTURE.png")
+    parser.add_argument("--shapes", metavar="SHAPES.jsonl")
+    parser.add_argument("--title", metavar="TITLE", default="")
     parser.add_argument("--reference", metavar="REFERENCE.csv")
     arguments = parser.parse_args()
     reference = read_table(arguments.reference) if arguments.reference else None
+    shapes = Shapes(arguments.shapes) if arguments.shapes else None
     with plt.rc_context(STYLE):
-        figure = draw(read_scene(arguments.model), read_table(arguments.run), reference)
+        figure = draw(arguments.title, read_table(arguments.run), shapes, reference)
         # Without the program's version in it, equal runs give equal pictures.
         figure.savefig(arguments.picture, dpi=160, metadata={"Software": None})
-
-
-def read_scene(path):
-    if path.endswith(".fmu"):
-        with zipfile.ZipFile(path) as archive:
-            return json.loads(archive.read("resources/scene.json"))
-    with open(path, encoding="utf-8") as file:
-        return json.load(file)
 
 
 def read_table(path):
@@ -76,115 +76,89 @@ def read_table(path):
     return dict(zip(names, columns))
 
 
-def draw(scene, run, reference):
-    """The panels for which the run has columns; all columns against time where there are none."""
-    bodies = [Body(body, run) for body in scene["bodies"]]
+class Shapes:
+    """Where bodies and their markers were."""
+
+    def __init__(self, path):
+        with open(path, encoding="utf-8") as file:
+            header, *rows = map(json.loads, file)
+        self.bodies = header["bodies"]
+        self.time = np.array([row["time"] for row in rows])
+        places = np.array([row["markers"] for row in rows], dtype=float).reshape(len(rows), -1, 2)
+        names = [f"{body['name']}.{marker}" for body in self.bodies for marker in body["markers"]]
+        self.paths = {name: places[:, index] for index, name in enumerate(names)}
+        # Time, and points along every body.
+        self.snapshots = [
+            (row["time"], [np.array(points) for points in row["outlines"]]) for row in rows if "outlines" in row
+        ]
+        everything = np.concatenate([places.reshape(-1, 2), *(o for _, outlines in self.snapshots for o in outlines)])
+        self.size = float(np.linalg.norm(np.ptp(everything, axis=0))) or 1.0
+
+
+def draw(title, run, shapes, reference=None):
+    """The panels for which there is something to draw; all columns against time where there are none."""
     panels = []
-    if any(len(body.places) > 1 for body in bodies):
-        panels.append(lambda figure, axes: snapshots(figure, axes, run, bodies))
-    if any(body.places for body in bodies):
-        panels.append(lambda figure, axes: paths(figure, axes, run, bodies, reference))
-    if all(f"energy.{kind}" in run for kind in ENERGIES):
-        panels.append(lambda _, axes: energies(axes, run))
+    if shapes:
+        panels.append(lambda figure, axes: bodies(figure, axes, shapes))
+        panels.append(lambda _, axes: paths(axes, shapes, reference))
+    forces, moments = reactions(run)
+    held = {kind: run[f"energy.{kind}"] for kind in HELD if f"energy.{kind}" in run}
+    energy = max((float(np.ptp(values)) for values in held.values()), default=0.0)
+    if forces:
+        panels.append(lambda _, axes: curves(axes, run, forces, ("Reactions", "force", "N"), energy))
+    if moments:
+        panels.append(lambda _, axes: curves(axes, run, moments, ("Reaction moments", "moment", "N m"), energy))
+    if held:
+        panels.append(lambda _, axes: energies(axes, run, held))
     panels = panels or [lambda _, axes: everything(axes, run)]
+    columns = {1: 1, 2: 2, 4: 2}.get(len(panels), 3)
+    rows = math.ceil(len(panels) / columns)
     figure, axes = plt.subplots(
-        1, len(panels), figsize=(4.3 * len(panels), 4.0), layout="constrained", squeeze=False
+        rows, columns, figsize=(PANEL[0] * columns, PANEL[1] * rows), layout="constrained", squeeze=False
     )
-    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
-    for panel, place in zip(panels, axes[0]):
+    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12)
+    if title:
+        figure.suptitle(title, fontsize=12, x=0.01, horizontalalignment="left")
+    places = axes.flatten()
+    for panel, place in zip(panels, places):
         panel(figure, place)
+    for place in places[len(panels) :]:
+        place.remove()
     return figure
 
 
-class Body:
-    """A body's markers whose position is an output, in the order of the material."""
-
-    def __init__(self, body, run):
-        name = body["name"]
-        self.length = shape_length(body["shape"])
-        self.last = None
-        self.places = []
-        for marker, place in sorted(body.get("markers", {}).items(), key=lambda item: item[1]):
-            columns = [f"{name}.{marker}.position[{axis}]" for axis in (1, 2)]
-            if all(column in run for column in columns):
-                angle = run.get(f"{name}.{marker}.angle")
-                self.places.append((place, *(run[column] for column in columns), angle))
-                self.last = f"{name}.{marker}"
-
-    def curve(self, row):
-        """Points on the deformed body at a communication point."""
-        points = []
-        for (s0, *start), (s1, *end) in zip(self.places, self.places[1:]):
-            points.append(hermite(start, end, (s1 - s0) * self.length, row))
-        return np.concatenate(points, axis=1)
-
-
-def shape_length(shape):
-    """Length of a body before it deforms."""
-    ((_, form),) = shape.items()
-    return form.get("length", math.dist(form["from"], form["to"]))
-
-
-def hermite(start, end, length, row):
-    """Points from marker to marker; a straight line where an angle is not known."""
-    xi = np.linspace(0.0, 1.0, 24)
-    r0, r1 = (np.array([[x[row]], [y[row]]]) for x, y, _ in (start, end))
-    if start[2] is None or end[2] is None:
-        return r0 + (r1 - r0) * xi
-    t0, t1 = (length * np.array([[np.cos(angle[row])], [np.sin(angle[row])]]) for *_, angle in (start, end))
-    return (
-        r0 * (1 - 3 * xi**2 + 2 * xi**3)
-        + t0 * (xi - 2 * xi**2 + xi**3)
-        + r1 * (3 * xi**2 - 2 * xi**3)
-        + t1 * (xi**3 - xi**2)
-    )
-
-
-def snapshots(figure, axes, run, bodies):
-    time = run["time"]
-    norm = Normalize(time[0], time[-1])
-    rows = np.unique(np.linspace(0, len(time) - 1, SNAPSHOTS).round().astype(int))
-    for row in rows:
-        colour = COLOURS(norm(time[row]))
-        for body in bodies:
-            if len(body.places) < 2:
+def bodies(figure, axes, shapes):
+    """Every body at some times: cables as they bend, rigid bodies from their centre of mass to their markers."""
+    times = [time for time, _ in shapes.snapshots]
+    norm = Normalize(times[0], times[-1])
+    for time, outlines in shapes.snapshots:
+        colour = COLOURS(norm(time))
+        for body, points in zip(shapes.bodies, outlines):
+            if body["kind"] == "cable":
+                axes.plot(*points.T, color=colour, linewidth=2.0, solid_capstyle="round")
                 continue
-            axes.plot(*body.curve(row), color=colour, linewidth=2.4, solid_capstyle="round")
-            x, y = ([place[axis][row] for place in body.places] for axis in (1, 2))
-            axes.plot(
-                x,
-                y,
-                linestyle="none",
-                marker="o",
-                markersize=2.2,
-                color="white",
-                markeredgecolor=colour,
-                markeredgewidth=0.8,
-            )
-    axes.set_title("Deformed body")
-    metres(axes)
+            for end in points[1:]:
+                axes.plot(*np.array([points[0], end]).T, color=colour, linewidth=4.5, alpha=0.55, solid_capstyle="round")
+            axes.plot(*points[0], marker="s", markersize=4.5, color=colour, markeredgecolor="white", markeredgewidth=0.6)
+    axes.set_title("Bodies")
+    metres(axes, shapes.size)
     bar = figure.colorbar(plt.cm.ScalarMappable(norm, COLOURS), ax=axes, shrink=0.75, pad=0.03)
     bar.set_label("t [s]")
     bar.outline.set_visible(False)
 
 
-def paths(_figure, axes, run, bodies, reference):
-    time = run["time"]
-    for body in bodies:
-        if not body.places:
+def paths(axes, shapes, reference):
+    """The way of every marker; a dot where one stands still, one line where markers go together."""
+    for number, (names, points) in enumerate(together(shapes)):
+        style = {"color": CYCLE[number % len(CYCLE)], "label": " = ".join(names)}
+        if np.linalg.norm(np.ptp(points, axis=0)) < STILL * shapes.size:
+            axes.plot(*points[0], linestyle="none", marker="o", markersize=5, **style)
             continue
-        _, x, y, _ = body.places[-1]
-        points = np.stack([x, y], axis=1)
-        line = LineCollection(
-            np.stack([points[:-1], points[1:]], axis=1), cmap=COLOURS, linewidths=2.0, capstyle="round"
-        )
-        line.set_array(time[:-1])
-        axes.add_collection(line)
-        axes.plot(x[0], y[0], marker="o", markersize=4, color=COLOURS(0.0))
-    axes.autoscale_view()
+        dashes = ["-", (0, (4, 1.5)), (0, (1, 1))][number // len(CYCLE) % 3]
+        axes.plot(*points.T, linewidth=1.4, linestyle=dashes, marker="o", markersize=4, markevery=[0], **style)
     if reference is not None:
         tenths = reference["t"] / REFERENCE_STEP
-        shown = (abs(tenths - tenths.round()) < 1e-9) & (reference["t"] <= time[-1] + 1e-9)
+        shown = (abs(tenths - tenths.round()) < 1e-9) & (reference["t"] <= shapes.time[-1] + 1e-9)
         axes.plot(
             reference["x_tip"][shown],
             reference["y_tip"][shown],
@@ -196,39 +170,104 @@ def paths(_figure, axes, run, bodies, reference):
             markeredgewidth=1.1,
             label="independent reference",
         )
-        axes.legend(loc="upper center")
-    axes.set_title("Path of " + ", ".join(body.last for body in bodies if body.last))
-    metres(axes)
+    axes.set_title("Paths of markers, from the dot")
+    metres(axes, shapes.size)
+    legend(axes)
 
 
-def energies(axes, run):
+def together(shapes):
+    """Markers by their paths: names of those that go together, and the points."""
+    found = []
+    for name, points in shapes.paths.items():
+        for names, others in found:
+            if np.abs(points - others).max() < STILL * shapes.size:
+                names.append(name)
+                break
+        else:
+            found.append(([name], points))
+    return found
+
+
+def reactions(run):
+    """Columns of forces and of moments: name, label."""
+    forces = [(name, name.replace(".reaction[1]", " x").replace(".reaction[2]", " y")) for name in run if ".reaction[" in name]
+    moments = [(name, name.removesuffix(".reaction_moment")) for name in run if name.endswith(".reaction_moment")]
+    return forces, moments
+
+
+def curves(axes, run, columns, words, energy):
+    """Columns against time; the components of one vector have one colour."""
+    title, what, unit = words
+    colours = {}
+    for name, label in columns:
+        colour = colours.setdefault(name.split(".")[0], CYCLE[len(colours) % len(CYCLE)])
+        dashes = (0, (4, 1.5)) if name.endswith("[2]") else "-"
+        axes.plot(run["time"], run[name], color=colour, linewidth=1.4, linestyle=dashes, label=label)
+    against_time(axes, (title, what, unit), [run[name] for name, _ in columns], energy * 1e-9)
+    legend(axes)
+
+
+def energies(axes, run, held):
+    """Energies that the system holds, their sum, and what came in or was lost."""
     time = run["time"]
-    parts = {kind: run[f"energy.{kind}"] for kind in ENERGIES}
-    for kind, values in parts.items():
-        axes.plot(time, values, color=ENERGIES[kind], linewidth=1.6, label=kind)
-    axes.plot(time, sum(parts.values()), color=INK, linewidth=1.6, linestyle=(0, (4, 1.5)), label="total")
-    axes.set_title("Energy")
-    axes.set_xlabel("t [s]")
-    axes.set_ylabel("E [J]")
-    axes.margins(x=0)
-    axes.legend(loc="best")
+    gone = {kind: run[f"energy.{kind}"] for kind in GONE if f"energy.{kind}" in run}
+    for number, (kind, values) in enumerate((held | gone).items()):
+        axes.plot(time, values, color=CYCLE[number], linewidth=1.4, label=kind)
+    total = sum(held.values())
+    axes.plot(time, total, color=INK, linewidth=1.6, linestyle=(0, (4, 1.5)), label="total")
+    against_time(axes, ("Energies", "energy", "J"), [*held.values(), *gone.values(), total], 0.0)
+    legend(axes)
 
 
 def everything(axes, run):
-    for name, values in run.items():
-        if name != "time":
-            axes.plot(run["time"], values, linewidth=1.4, label=name)
-    axes.set_title("Outputs")
+    names = [name for name in run if name != "time"]
+    for number, name in enumerate(names):
+        axes.plot(run["time"], run[name], color=CYCLE[number % len(CYCLE)], linewidth=1.4, label=name)
+    against_time(axes, ("Outputs", "", ""), [run[name] for name in names], 0.0)
+    if names:
+        legend(axes)
+
+
+def against_time(axes, words, values, floor):
+    """Axes of curves in time; wide enough that roundoff stays a straight line."""
+    title, what, unit = words
+    axes.set_title(title)
     axes.set_xlabel("t [s]")
     axes.margins(x=0)
-    axes.legend(loc="best")
+    axes.xaxis.set_major_locator(MaxNLocator(6))
+    low, high = (float(f(values)) if values else 0.0 for f in (np.min, np.max))
+    scale = max(abs(low), abs(high), floor)
+    if high - low <= STILL * scale:
+        half = 0.1 * scale or 1.0
+        axes.set_ylim(0.5 * (low + high) - half, 0.5 * (low + high) + half)
+    label = f"{what} [{prefixed(axes.yaxis, scale, unit)}]" if unit else what
+    axes.set_ylabel(label)
 
 
-def metres(axes):
+def prefixed(axis, scale, unit):
+    """The unit with a prefix for numbers of a scale; the axis is labelled in it."""
+    power = math.floor((math.log10(scale) + 0.2) / 3.0) if scale > 0.0 else 0
+    power = min(max(power, -4), 4)
+    if power:
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 1000.0**power:g}"))
+    return f"{['', 'k', 'M', 'G', 'T', 'p', 'n', 'µ', 'm'][power]}{unit}"
+
+
+def metres(axes, size):
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.08)
-    axes.set_xlabel("x [m]")
-    axes.set_ylabel("y [m]")
+    usual = 0.1 <= size < 1e4
+    for axis, what in ((axes.xaxis, "x"), (axes.yaxis, "y")):
+        axis.set_major_locator(MaxNLocator(6))
+        axis.set_label_text(f"{what} [{prefixed(axis, 1.0 if usual else size, 'm')}]")
+
+
+def legend(axes):
+    """Below the axes, where it hides no curve."""
+    labels = axes.get_legend_handles_labels()[1]
+    longest = max(map(len, labels))
+    columns = max(1, min(len(labels), 52 // (longest + 7)))
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=columns, handlelength=2.4, columnspacing=1.2)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,14 @@
 """What is in the archive of an FMU; the rules of the standard for it are in `package_rules.py`."""
 
+import tomllib
 import zipfile
 
 import pytest
 from conftest import SWING
 from fmpy import platform
-from project import package
+from project import ROOT, package
 
+LICENSES = ["license.txt", "LICENSE-MIT", "LICENSE-APACHE", "crates.txt"]
 LIBRARY = {
     "linux64": "binaries/linux64/flexbody.so",
     "win64": "binaries/win64/flexbody.dll",
@@ -30,8 +32,26 @@ def test_holds_what_an_fmu_holds(entries):
         "resources/scene.json",
         "documentation/index.html",
         "documentation/scene.svg",
+        *(f"documentation/licenses/{name}" for name in LICENSES),
+        next(name for name in names if name.startswith("documentation/licenses/rust-")),
         LIBRARY[platform],
     }
+
+
+def test_licenses_of_all_that_is_linked_are_in_it(swing):
+    folder = swing.folder / "documentation" / "licenses"
+    for name in ("LICENSE-MIT", "LICENSE-APACHE"):
+        assert (folder / name).read_text(encoding="utf-8") == (ROOT / name).read_text(encoding="utf-8")
+    crates = (folder / "crates.txt").read_text(encoding="utf-8")
+    lock = tomllib.loads((ROOT / "Cargo.lock").read_text(encoding="utf-8"))
+    versions = {(package["name"], package["version"]) for package in lock["package"]}
+    named = {tuple(line.split(":")[0].split(" ")) for line in crates.split("\n\n")[1].splitlines()}
+    assert named <= versions
+    assert {"faer", "nalgebra", "serde_json", "libc"} <= {name for name, _ in named}
+    (rust,) = folder.glob("rust-*.html")
+    assert "The Rust Standard Library" in rust.read_text(encoding="utf-8")
+    page = (swing.folder / "documentation" / "index.html").read_text(encoding="utf-8")
+    assert 'href="licenses/license.txt"' in page
 
 
 def test_everything_is_deflated(entries):

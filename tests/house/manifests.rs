@@ -85,6 +85,19 @@ fn every_dependency_is_a_recorded_decision() {
 }
 
 #[test]
+fn all_manifests_promise_one_rust_version() {
+    let promised = |path: &str| {
+        let mut lines = lines(path).into_iter().map(|(_, line)| line);
+        lines.find(|line| line.starts_with("rust-version"))
+    };
+    let first = promised("Cargo.toml");
+    assert!(first.is_some());
+    for path in ["xtask", "partners", "lab", "lab/diffsol", "fuzz"] {
+        assert_eq!(promised(&format!("{path}/Cargo.toml")), first, "{path}");
+    }
+}
+
+#[test]
 fn cited_decisions_exist() {
     let decisions: Vec<String> = files("docs/decisions")
         .iter()

@@ -1,18 +1,36 @@
 //! The zip archive of an FMU. Equal content gives equal bytes on every machine and every day.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
-use std::io::{Cursor, Read, Write};
+use std::io::{Cursor, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
-use crate::process::shown;
+use crate::process::{shown, write_whole};
 
 /// Names of files in an archive, with forward slashes, and what is in them.
 pub type Content = BTreeMap<String, Vec<u8>>;
+
+/// What an archive may hold and take, so that one from elsewhere fits into memory whatever it says of itself.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// Files and folders.
+    entries: usize,
+    /// Bytes of all files together, unpacked.
+    bytes: u64,
+    /// Bytes of a name, what most file systems allow for a path.
+    name: usize,
+}
+
+/// Five platforms' libraries take 20 MB.
+const LIMITS: Limits = Limits {
+    entries: 10_000,
+    bytes: 1 << 29,
+    name: 1_000,
+};
 
 /// Packs every file below a folder.
 pub fn pack(folder: &Path, archive: &Path) -> Result<()> {
@@ -27,34 +45,82 @@ pub fn pack(folder: &Path, archive: &Path) -> Result<()> {
 
 /// Writes an archive.
 pub fn write(content: &Content, archive: &Path) -> Result<()> {
-    // Under another name first: a reader never meets half an archive.
-    let partial = archive.with_extension("fmu.partial");
-    let bytes = zipped(content)?;
-    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, archive));
-    if written.is_err() {
-        // A full disk is no place for half an archive; the first error is the one to tell.
-        let _ = std::fs::remove_file(&partial);
-    }
-    written.with_context(|| format!("cannot write {}", shown(archive)))
+    write_whole(archive, zipped(content)?)
 }
 
-/// Reads every file of an archive.
+/// Reads every file of an archive. Names that lead out of a folder or stand twice are refused, and so is
+/// more than fits into memory.
 pub fn read(archive: &Path) -> Result<Content> {
-    read_from(archive).with_context(|| format!("cannot read {}", shown(archive)))
+    let opened = File::open(archive).map_err(anyhow::Error::from);
+    opened
+        .and_then(|file| read_from(file, LIMITS))
+        .with_context(|| format!("cannot read {}", shown(archive)))
 }
 
-fn read_from(archive: &Path) -> Result<Content> {
-    let mut zip = ZipArchive::new(File::open(archive)?)?;
+fn read_from(archive: impl Read + Seek, limits: Limits) -> Result<Content> {
+    let mut zip = ZipArchive::new(archive)?;
+    if zip.len() > limits.entries {
+        bail!(
+            "expected at most {} entries, found {}",
+            limits.entries,
+            zip.len()
+        );
+    }
+    if zip.has_duplicate_names() {
+        bail!("expected every name once, found one twice");
+    }
     let mut content = Content::new();
+    // Names that differ in capitals alone are one file on Windows and macOS.
+    let mut names = BTreeSet::new();
+    let mut left = limits.bytes;
     for index in 0..zip.len() {
-        let mut entry = zip.by_index(index)?;
-        if entry.is_file() {
-            let mut bytes = Vec::new();
-            entry.read_to_end(&mut bytes)?;
-            content.insert(entry.name()?.into_owned(), bytes);
+        let entry = zip.by_index(index)?;
+        let name = entry.name()?.into_owned();
+        check_name(&name, limits.name)?;
+        if !names.insert(name.trim_end_matches('/').to_lowercase()) {
+            bail!("expected every name once, found {name:?} twice");
         }
+        if entry.is_dir() {
+            continue;
+        }
+        if !entry.is_file() {
+            bail!("{name:?}: expected a file or a folder, found a link");
+        }
+        let mut bytes = Vec::new();
+        // What an archive says of its sizes may be wrong: what comes out of it counts.
+        entry.take(left + 1).read_to_end(&mut bytes)?;
+        left = left.checked_sub(bytes.len() as u64).with_context(|| {
+            format!(
+                "expected at most {} MiB unpacked, found more",
+                limits.bytes >> 20
+            )
+        })?;
+        content.insert(name, bytes);
     }
     Ok(content)
+}
+
+/// Refuses a name that is not that of a file below the folder where an archive is unpacked, on any system.
+fn check_name(name: &str, longest: usize) -> Result<()> {
+    let is_plain = |part: &str| !part.is_empty() && part != "." && part != "..";
+    let is_relative = name
+        .strip_suffix('/')
+        .unwrap_or(name)
+        .split('/')
+        .all(is_plain);
+    let is_portable = !name.contains(|c: char| c == '\\' || c == ':' || c.is_control());
+    if name.len() > longest {
+        bail!(
+            "expected names of at most {longest} bytes, found {}",
+            name.len()
+        );
+    }
+    if !is_relative || !is_portable {
+        bail!(
+            "expected names below the archive's own folder, without \\, : or control characters, found {name:?}"
+        );
+    }
+    Ok(())
 }
 
 /// Every file below a folder, in no order.
@@ -114,7 +180,8 @@ mod tests {
         let content = folder.join("content");
         std::fs::create_dir_all(&content)?;
         std::fs::write(content.join("a.txt"), "a".repeat(100_000))?;
-        let (archive, partial) = (folder.join("a.fmu"), folder.join("a.fmu.partial"));
+        let archive = folder.join("a.fmu");
+        let partial = crate::process::partial(&archive);
         std::fs::write(&archive, "the one before")?;
         std::os::unix::fs::symlink("/dev/full", &partial)?;
         let error = pack(&content, &archive).expect_err("there is no room");
@@ -147,6 +214,86 @@ mod tests {
         assert_eq!(names, ["b/a.txt", "b/c/x.txt", "z.txt"]);
         assert_eq!(written["z.txt"], b"z.txt".repeat(1000));
         std::fs::remove_dir_all(&folder)?;
+        Ok(())
+    }
+
+    /// An archive of files with names as given, which the writer of archives does not check.
+    fn archive_of(files: &[(&str, &[u8])]) -> Result<Vec<u8>> {
+        let content = files.iter();
+        zipped(
+            &content
+                .map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec()))
+                .collect(),
+        )
+    }
+
+    fn refusal(archive: Vec<u8>) -> String {
+        let limits = Limits {
+            entries: 4,
+            bytes: 1 << 20,
+            name: 20,
+        };
+        let error = read_from(Cursor::new(archive), limits).expect_err("not to be read");
+        format!("{error:#}")
+    }
+
+    #[test]
+    fn names_that_lead_elsewhere_are_refused() -> Result<()> {
+        for name in [
+            "../a.txt",
+            "b/../../a.txt",
+            "b/./a.txt",
+            "/a.txt",
+            "b//a.txt",
+            "..",
+            "b\\a.txt",
+            "..\\a.txt",
+            "C:/a.txt",
+            "a.txt:stream",
+            "a\n.txt",
+        ] {
+            let found = refusal(archive_of(&[("good.txt", b""), (name, b"")])?);
+            assert!(found.contains(&format!("found {name:?}")), "{found}");
+        }
+        let found = refusal(archive_of(&[(&"a".repeat(21), b"")])?);
+        assert!(found.contains("at most 20 bytes, found 21"), "{found}");
+        for name in ["a..b", ".hidden", "b/...", "ä/ö"] {
+            check_name(name, 20)?;
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn names_that_stand_twice_are_refused() -> Result<()> {
+        let mut archive = archive_of(&[("aa", b"1"), ("ab", b"2")])?;
+        for at in 0..archive.len() - 1 {
+            if archive[at..].starts_with(b"ab") {
+                archive[at + 1] = b'a';
+            }
+        }
+        assert!(refusal(archive).contains("every name once"));
+        let found = refusal(archive_of(&[("aa", b"1"), ("aA", b"2")])?);
+        assert!(found.contains("\"aa\" twice"), "{found}");
+        Ok(())
+    }
+
+    #[test]
+    fn what_would_not_fit_into_memory_is_refused() -> Result<()> {
+        let bomb = archive_of(&[("a", &[0; 1 << 19]), ("b", &[0; 1 + (1 << 19)])])?;
+        assert!(bomb.len() < 10_000, "it is small: {}", bomb.len());
+        let found = refusal(bomb);
+        assert!(found.contains("at most 1 MiB unpacked"), "{found}");
+        let names = ["a", "b", "c", "d", "e"].map(|name| (name, &b""[..]));
+        assert!(refusal(archive_of(&names)?).contains("at most 4 entries, found 5"));
+        read_from(Cursor::new(archive_of(&names[..4])?), LIMITS).map(drop)
+    }
+
+    #[test]
+    fn links_are_refused() -> Result<()> {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        zip.add_symlink("link", "/etc/passwd", SimpleFileOptions::default())?;
+        let found = refusal(zip.finish()?.into_inner());
+        assert!(found.contains("found a link"), "{found}");
         Ok(())
     }
 }

@@ -40,6 +40,12 @@ impl Workspace {
         })
     }
 
+    /// A workspace elsewhere, which cargo knows nothing of.
+    #[cfg(test)]
+    pub fn at(root: PathBuf, target: PathBuf) -> Self {
+        Self { root, target }
+    }
+
     /// A file or folder of the project.
     pub fn path(&self, relative: &str) -> PathBuf {
         self.root.join(relative)
@@ -121,6 +127,13 @@ impl Workspace {
 /// The compiler that cargo uses.
 pub fn rustc() -> Command {
     Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+}
+
+/// The version of that compiler.
+pub fn release() -> Result<String> {
+    let text = process::stdout(rustc().arg("-vV"))?;
+    let release = text.lines().find_map(|line| line.strip_prefix("release: "));
+    release.map(str::to_owned).context("rustc names no release")
 }
 
 fn cargo() -> Command {

@@ -1,5 +1,7 @@
 //! `cargo xtask demo`: from a scene to an FMU, a simulation by fmpy, a comparison and a picture.
 
+use std::process::Stdio;
+
 use anyhow::{Result, bail};
 
 use crate::cargo::Workspace;
@@ -26,9 +28,13 @@ pub fn demo(workspace: &Workspace) -> Result<()> {
         .arg("--output")
         .arg(&results))?;
     compare(&Table::read(&results)?, &Table::read(&reference)?)?;
-    run(simulate::plot(workspace, &python, &fmu, &results, &picture)
-        .arg("--reference")
-        .arg(&reference))?;
+    let shapes = workspace.target("demo/pendulum.shapes.jsonl");
+    run(simulate::native(workspace, &scene, Some(&shapes))?.stdout(Stdio::null()))?;
+    run(
+        simulate::plot(workspace, &python, (&results, Some(&shapes)), &picture)
+            .arg("--reference")
+            .arg(&reference),
+    )?;
     println!("\nFMU      {}", shown(&fmu));
     println!("results  {}", shown(&results));
     println!("picture  {}", shown(&picture));

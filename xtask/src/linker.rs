@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 
 use crate::cargo::{Workspace, rustc};
 use crate::platform::Platform;
-use crate::process::{prepared, shown, stdout};
+use crate::process::{prepared, shown, stdout, write_whole};
 use crate::python::Python;
 
 /// Where scripts and what Zig builds once are kept, among the products.
@@ -137,12 +137,12 @@ fn sdk(workspace: &Workspace, python: &Python) -> Result<PathBuf> {
     Ok(folder)
 }
 
-/// Writes a file, unless it is there already: another process may be using it.
+/// Writes a file, unless it is there already: another run may be using it.
 fn write(file: &Path, text: &str) -> Result<()> {
     if std::fs::read_to_string(file).is_ok_and(|found| found == text) {
         return Ok(());
     }
-    std::fs::write(file, text).with_context(|| format!("cannot write {}", shown(file)))
+    write_whole(file, text)
 }
 
 #[cfg(unix)]

@@ -14,6 +14,7 @@ mod demo;
 mod describe;
 mod fuzz;
 mod icon;
+mod licenses;
 mod linker;
 mod merge;
 mod package;
@@ -26,7 +27,12 @@ mod table;
 mod test;
 
 #[derive(Parser)]
-#[command(name = "cargo xtask", about = "Commands of the Flexbody project")]
+#[command(
+    name = "cargo xtask",
+    bin_name = "cargo xtask",
+    version,
+    about = "Commands of the project"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

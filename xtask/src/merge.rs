@@ -4,10 +4,13 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use clap::ValueEnum;
 
 use crate::archive::{Content, read, write};
 use crate::cargo::Workspace;
+use crate::licenses;
 use crate::package::checked_output;
+use crate::platform::Platform;
 use crate::process::{announced, prepared, shown};
 
 const DESCRIPTION: &str = "modelDescription.xml";
@@ -38,6 +41,14 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
         if platforms(content).is_empty() {
             bail!("{name}: expected a binary, found nothing below {BINARIES}");
         }
+        let known: BTreeSet<&str> = Platform::value_variants()
+            .iter()
+            .map(|platform| platform.folder())
+            .collect();
+        if let Some(unknown) = platforms(content).difference(&known).next() {
+            let known = Vec::from_iter(known.iter().copied()).join(", ");
+            bail!("{name}: expected platforms among {known}, found {BINARIES}{unknown}");
+        }
     }
     let both: BTreeSet<&str> = platforms(&first)
         .intersection(&platforms(&second))
@@ -45,6 +56,10 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
         .collect();
     // A platform of one alone is what is to be joined; all else must be the same.
     let is_shared = |file: &&String| platform(file).is_none_or(|found| both.contains(found));
+    // Notices of two compilers go side by side.
+    let is_shared = |file: &&String| {
+        is_shared(file) && (!file.starts_with(licenses::FOLDER) || in_both(&first, &second, file))
+    };
     let all: BTreeSet<&String> = first.keys().chain(second.keys()).collect();
     let differ = |file: &&String| first.get(*file) != second.get(*file);
     let mut different: Vec<String> = all
@@ -76,6 +91,10 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
     }
     first.extend(second);
     Ok(first)
+}
+
+fn in_both(first: &Content, second: &Content, file: &str) -> bool {
+    first.contains_key(file) && second.contains_key(file)
 }
 
 /// The platforms that an FMU has binaries for.
@@ -134,6 +153,24 @@ mod tests {
     }
 
     #[test]
+    fn notices_of_two_compilers_go_side_by_side() -> Result<()> {
+        let [first, second] =
+            ["rust-1.html", "rust-2.html"].map(|name| format!("{}{name}", licenses::FOLDER));
+        let joined = join(
+            fmu("linux64", &[(&first, "one")]),
+            fmu("win64", &[(&second, "two")]),
+            ["a.fmu", "b.fmu"],
+        )?;
+        assert!(joined.contains_key(&first) && joined.contains_key(&second));
+        let found = refused(
+            fmu("linux64", &[(&first, "one")]),
+            fmu("win64", &[(&first, "two")]),
+        );
+        assert!(found.ends_with(&first), "{found}");
+        Ok(())
+    }
+
+    #[test]
     fn what_differs_is_named() {
         for (file, text) in [
             (DESCRIPTION, "other xml"),
@@ -178,5 +215,8 @@ mod tests {
         empty.retain(|file, _| platform(file).is_none());
         let found = refused(empty, fmu("linux64", &[]));
         assert!(found.starts_with("a.fmu: expected a binary"), "{found}");
+        let found = refused(fmu("linux64", &[]), fmu("riscv", &[]));
+        assert!(found.starts_with("b.fmu: expected platforms"), "{found}");
+        assert!(found.ends_with("found binaries/riscv"), "{found}");
     }
 }

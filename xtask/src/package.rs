@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::cargo::Workspace;
 use crate::platform::Platform;
 use crate::process::{announced, prepared, shown};
-use crate::{archive, describe};
+use crate::{archive, describe, licenses};
 
 /// The package that is every scene's library, and thereby its `modelIdentifier`.
 const PACKAGE: &str = "flexbody";
@@ -35,6 +35,7 @@ pub fn package(
     let binary = workspace.binary()?;
     let stage = Stage::new(workspace)?;
     describe::describe(&binary, scene, &stage.0)?;
+    licenses::put(workspace, PACKAGE, &stage.0)?;
     for (platform, library) in libraries {
         put_library(&library, &stage.0, PACKAGE, platform)?;
     }

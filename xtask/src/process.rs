@@ -86,6 +86,24 @@ pub fn prepared(path: &Path) -> Result<PathBuf> {
     Ok(path)
 }
 
+/// Writes a file under another name first, of this process alone: nobody ever meets half of it.
+pub fn write_whole(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
+    let partial = partial(path);
+    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
+    if written.is_err() {
+        // A full disk is no place for half a file; the first error is the one to tell.
+        let _ = std::fs::remove_file(&partial);
+    }
+    written.with_context(|| format!("cannot write {}", shown(path)))
+}
+
+/// The name that a file has while it is written.
+pub fn partial(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".partial-{}", std::process::id()));
+    path.with_file_name(name)
+}
+
 fn name(command: &Command) -> String {
     let program = Path::new(command.get_program());
     let program = program.file_stem().unwrap_or(program.as_os_str());

@@ -1,6 +1,7 @@
 //! The Python environments of the project: virtual environments among the products, with every
 //! version pinned. Nothing outside the products is read or written.
 
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -17,6 +18,10 @@ const PEERS: (&str, &str) = ("lab/exudyn/requirements.txt", "python-peers");
 const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
 /// The linker of libraries; apart, so that what needs no library does not need it.
 const LINKER: (&str, &str) = ("xtask/linker.txt", "python-linker");
+/// The checker of dependencies: built, because to compile it takes as long as everything else.
+const DENY: (&str, &str) = ("xtask/deny.txt", "python-deny");
+/// The file in an environment that says what it was made from; the last one written.
+const STAMP: &str = "installed.txt";
 /// Oldest Python that the pinned packages run on.
 const OLDEST: (u32, u32) = (3, 11);
 /// Where to look, best first: the version that the pins were made with, then any other.
@@ -59,15 +64,15 @@ impl Python {
         Self::prepare_one(workspace, LINKER)
     }
 
+    /// The environment of the checker of dependencies.
+    pub fn prepare_deny(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, DENY)
+    }
+
     fn prepare_one(workspace: &Workspace, (requirements, folder): (&str, &str)) -> Result<Self> {
         let folder = workspace.target(folder);
-        let interpreter = if cfg!(windows) {
-            folder.join("Scripts").join("python.exe")
-        } else {
-            folder.join("bin").join("python")
-        };
         let python = Self {
-            interpreter,
+            interpreter: interpreter(&folder),
             temporary: workspace.target("tmp"),
             settings: folder.join("matplotlib"),
         };
@@ -76,12 +81,12 @@ impl Python {
         let requirements = workspace.path(requirements);
         let wanted = std::fs::read_to_string(&requirements)
             .with_context(|| format!("cannot read {}", shown(&requirements)))?;
-        let stamp = folder.join("installed.txt");
+        // One run at a time looks and makes; the operating system lets go of the lock of one that ends, however it ends.
+        let _lock = locked(&folder.with_extension("lock"))?;
+        let stamp = folder.join(STAMP);
         let is_current = std::fs::read_to_string(&stamp).is_ok_and(|found| found == wanted);
         if !is_current || !python.runs() {
-            python.install(&folder, &requirements)?;
-            std::fs::write(&stamp, wanted)
-                .with_context(|| format!("cannot write {}", shown(&stamp)))?;
+            install(&folder, &requirements, &wanted)?;
         }
         Ok(python)
     }
@@ -123,24 +128,77 @@ impl Python {
         let probe = self.command().args(["-c", ""]).output();
         probe.is_ok_and(|output| output.status.success())
     }
+}
 
-    fn install(&self, folder: &Path, requirements: &Path) -> Result<()> {
-        let base = find()?;
-        let done = format!("made the Python environment {}", shown(folder));
-        announced("making the Python environment", &done, || {
-            run_quietly(
-                isolated(Path::new(base))
-                    .args(["-m", "venv", "--clear"])
-                    .arg(folder),
-            )?;
-            run_quietly(
-                self.module("pip")
-                    .args(["install", "--no-input", "--no-cache-dir"])
-                    .args(["--disable-pip-version-check", "--requirement"])
-                    .arg(requirements),
-            )
-            .with_context(|| format!("cannot install {}", shown(requirements)))
-        })
+/// Makes an environment. It is made elsewhere and moved when it is whole, so that a run that ends half-way, or programs
+/// of one that was killed and still write, leave no half environment in its place.
+fn install(folder: &Path, requirements: &Path, wanted: &str) -> Result<()> {
+    let base = find()?;
+    let beside = |what: &str| folder.with_extension(format!("{what}-{}", std::process::id()));
+    let (partial, old) = (beside("partial"), beside("old"));
+    let done = format!("made the Python environment {}", shown(folder));
+    announced("making the Python environment", &done, || {
+        clear_leftovers(folder);
+        run_quietly(
+            isolated(Path::new(base))
+                .args(["-m", "venv", "--clear"])
+                .arg(&partial),
+        )?;
+        run_quietly(
+            isolated(&interpreter(&partial))
+                .args(["-m", "pip", "install", "--no-input", "--no-cache-dir"])
+                .args(["--disable-pip-version-check", "--requirement"])
+                .arg(requirements),
+        )
+        .with_context(|| format!("cannot install {}", shown(requirements)))?;
+        std::fs::write(partial.join(STAMP), wanted)
+            .with_context(|| format!("cannot write {}", shown(&partial)))?;
+        if folder.exists() {
+            std::fs::rename(folder, &old)
+                .with_context(|| format!("cannot move {}", shown(folder)))?;
+        }
+        std::fs::rename(&partial, folder)
+            .with_context(|| format!("cannot move {}", shown(&partial)))?;
+        clear_leftovers(folder);
+        Ok(())
+    })
+}
+
+/// Removes what runs have left beside an environment. What cannot be removed does no harm: the next run
+/// makes its own.
+fn clear_leftovers(folder: &Path) {
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    let is_left = |entry: &std::fs::DirEntry| {
+        let found = entry.file_name();
+        let found = found.to_string_lossy();
+        let rest = found.strip_prefix(&*name).unwrap_or_default();
+        rest.starts_with(".partial-") || rest.starts_with(".old-")
+    };
+    let beside = folder.parent().map(std::fs::read_dir);
+    for entry in beside.into_iter().flatten().flatten().flatten() {
+        if is_left(&entry) {
+            let _ = std::fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+/// Holds a lock for as long as the file lives.
+fn locked(path: &Path) -> Result<File> {
+    let cannot = || format!("cannot lock {}", shown(path));
+    let file = File::create(path).with_context(cannot)?;
+    if let Err(TryLockError::WouldBlock) = file.try_lock() {
+        eprintln!("waiting for another run that prepares a Python environment");
+    }
+    file.lock().with_context(cannot)?;
+    Ok(file)
+}
+
+/// The interpreter of an environment.
+fn interpreter(folder: &Path) -> PathBuf {
+    if cfg!(windows) {
+        folder.join("Scripts").join("python.exe")
+    } else {
+        folder.join("bin").join("python")
     }
 }
 
@@ -200,7 +258,83 @@ fn parse_version(text: &str) -> Option<(u32, u32)> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Barrier;
+
     use super::*;
+
+    /// A project whose environment holds nothing but Python itself.
+    struct Project(PathBuf);
+
+    impl Project {
+        fn new(name: &str) -> Result<Self> {
+            let root = std::env::temp_dir().join(format!("xtask-{name}-{}", std::process::id()));
+            std::fs::create_dir_all(root.join("target"))?;
+            std::fs::write(root.join("nothing.txt"), "# No packages.\n")?;
+            Ok(Self(root))
+        }
+
+        fn prepare(&self) -> Result<Python> {
+            let workspace = Workspace::at(self.0.clone(), self.0.join("target"));
+            Python::prepare_one(&workspace, ("nothing.txt", "python"))
+        }
+
+        /// What is among the products, the lock aside.
+        fn products(&self) -> Result<Vec<String>> {
+            let listing = std::fs::read_dir(self.0.join("target"))?;
+            let names = listing.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
+            let mut names: Vec<String> = names.collect::<Result<_>>()?;
+            names.retain(|name| name != "python.lock");
+            names.sort();
+            Ok(names)
+        }
+    }
+
+    impl Drop for Project {
+        fn drop(&mut self) {
+            let _ = std::fs::remove_dir_all(&self.0);
+        }
+    }
+
+    #[test]
+    fn two_runs_at_once_make_one_environment_that_works() -> Result<()> {
+        let project = Project::new("two-runs")?;
+        let start = Barrier::new(2);
+        let run = || {
+            start.wait();
+            let python = project.prepare()?;
+            let stamp = std::fs::metadata(project.0.join("target/python").join(STAMP))?;
+            run_quietly(&mut python.module("pip").arg("--version"))?;
+            Ok(stamp.modified()?)
+        };
+        let made: Vec<Result<_>> = std::thread::scope(|scope| {
+            let threads = [scope.spawn(run), scope.spawn(run)];
+            threads
+                .map(|thread| thread.join().expect("no panic"))
+                .into()
+        });
+        let made = made.into_iter().collect::<Result<Vec<_>>>()?;
+        assert_eq!(made[0], made[1], "made twice");
+        assert_eq!(project.products()?, ["python", "tmp"]);
+        Ok(())
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_made_anew() -> Result<()> {
+        let project = Project::new("killed-run")?;
+        let half = project.0.join("target/python");
+        // Half an environment in its place, as of old, and one beside it.
+        for folder in [&half, &half.with_extension("partial-1")] {
+            std::fs::create_dir_all(folder.join("bin"))?;
+            std::fs::write(folder.join("bin/python"), "half")?;
+        }
+        let python = project.prepare()?;
+        assert!(python.runs());
+        assert_eq!(project.products()?, ["python", "tmp"]);
+        let made = std::fs::metadata(half.join(STAMP))?.modified()?;
+        assert!(project.prepare()?.runs());
+        assert_eq!(std::fs::metadata(half.join(STAMP))?.modified()?, made);
+        Ok(())
+    }
 
     #[test]
     fn versions_compare_by_number() {

@@ -1,12 +1,13 @@
 //! `cargo xtask simulate`: one command for scenes and FMUs, one CSV format, one picture.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 
+use crate::archive;
 use crate::cargo::Workspace;
-use crate::package::check_readable;
+use crate::package::{Stage, check_readable};
 use crate::process::{prepared, run, shown};
 use crate::python::Python;
 
@@ -16,66 +17,135 @@ pub struct Arguments {
     /// A scene (runs natively) or an FMU (runs under fmpy)
     #[arg(value_name = "FILE.json|FILE.fmu")]
     file: PathBuf,
-    /// Simulated time, s
+    /// Simulated time, s [default: that of the scene's experiment]
     #[arg(long, value_name = "T", value_parser = duration)]
-    stop_time: f64,
-    /// Communication step, s
+    stop_time: Option<f64>,
+    /// Communication step, s [default: that of the scene's experiment]
     #[arg(long, value_name = "H", value_parser = duration)]
-    step: f64,
+    step: Option<f64>,
     /// Start value of a parameter or an input
     #[arg(long, value_name = "name=value", num_args = 1.., value_parser = assignment)]
     set: Vec<String>,
+    /// Inputs that vary in time: a column `time`, then one for every input, named like it. Inputs follow
+    /// straight lines from row to row; two rows of one time are a jump
+    #[arg(long, value_name = "FILE.csv")]
+    input: Option<PathBuf>,
     /// Where to write the outputs [default: target/simulate/<name>.csv]
     #[arg(long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
-    /// Draws the run
+    /// Draws the run: bodies, paths of markers, reactions, energies
     #[arg(long, value_name = "FILE.png")]
     plot: Option<PathBuf>,
 }
+
+/// The scene in an FMU.
+const SCENE: &str = "resources/scene.json";
 
 /// Simulates to a CSV file and says where it is.
 pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {
     let file = &arguments.file;
     check_readable(file)?;
-    let mut command = match file.extension().and_then(|extension| extension.to_str()) {
-        Some("json") => {
-            let mut command = Command::new(workspace.binary()?);
-            command.arg("simulate").arg(file);
-            command
-        }
-        Some("fmu") => fmpy(workspace, &Python::prepare(workspace)?, file),
-        _ => bail!(
-            "expected a file ending in .json or .fmu, found {}",
-            file.display()
-        ),
-    };
+    if let Some(input) = &arguments.input {
+        check_readable(input)?;
+    }
     let name = file.file_stem().unwrap_or_default().display();
     let output = match &arguments.output {
         Some(output) => prepared(output)?,
         None => prepared(&workspace.target(&format!("simulate/{name}.csv")))?,
     };
-    command
-        .arg("--stop-time")
-        .arg(arguments.stop_time.to_string());
-    command.arg("--step").arg(arguments.step.to_string());
-    for assignment in &arguments.set {
-        command.arg("--set").arg(assignment);
-    }
-    run(command.arg("--output").arg(&output))
-        .with_context(|| format!("{} was not simulated", file.display()))?;
+    let shapes = output.with_extension("shapes.jsonl");
+    let is_drawn = arguments.plot.is_some();
+    let extension = file.extension().and_then(|extension| extension.to_str());
+    let has_shapes = match extension {
+        Some("json") => {
+            let mut command = native(workspace, file, is_drawn.then_some(&shapes))?;
+            simulated(
+                arguments
+                    .settings(&mut command)
+                    .arg("--output")
+                    .arg(&output),
+                file,
+            )?;
+            is_drawn
+        }
+        Some("fmu") => {
+            let mut command = fmpy(workspace, &Python::prepare(workspace)?, file);
+            simulated(
+                arguments
+                    .settings(&mut command)
+                    .arg("--output")
+                    .arg(&output),
+                file,
+            )?;
+            is_drawn && draws_scene(workspace, arguments, &shapes)?
+        }
+        _ => bail!(
+            "expected a file ending in .json or .fmu, found {}",
+            file.display()
+        ),
+    };
     println!("wrote {}", shown(&output));
     if let Some(picture) = &arguments.plot {
         let picture = prepared(picture)?;
-        run(&mut plot(
-            workspace,
-            &Python::prepare(workspace)?,
-            file,
-            &output,
-            &picture,
-        ))?;
+        let python = Python::prepare(workspace)?;
+        let shapes = has_shapes.then_some(&*shapes);
+        run(plot(workspace, &python, (&output, shapes), &picture)
+            .arg("--title")
+            .arg(name.to_string()))?;
         println!("wrote {}", shown(&picture));
     }
     Ok(())
+}
+
+impl Arguments {
+    /// Passes on what both ways of simulating understand.
+    fn settings<'a>(&self, command: &'a mut Command) -> &'a mut Command {
+        for (name, value) in [("--stop-time", self.stop_time), ("--step", self.step)] {
+            command.args(value.map(|value| format!("{name}={value}")));
+        }
+        for assignment in &self.set {
+            command.arg("--set").arg(assignment);
+        }
+        if let Some(input) = &self.input {
+            command.arg("--input").arg(input);
+        }
+        command
+    }
+}
+
+fn simulated(command: &mut Command, file: &Path) -> Result<()> {
+    run(command).with_context(|| format!("{} was not simulated", file.display()))
+}
+
+/// Finds the shapes of bodies for the picture of an FMU's run, which outputs alone do not tell: by the same run of the
+/// scene that it holds. False where it holds none.
+fn draws_scene(workspace: &Workspace, arguments: &Arguments, shapes: &Path) -> Result<bool> {
+    let Some(text) = archive::read(&arguments.file)?.remove(SCENE) else {
+        return Ok(false);
+    };
+    let stage = Stage::new(workspace)?;
+    let scene = &stage.0.join("scene.json");
+    std::fs::write(scene, text).with_context(|| format!("cannot write {}", shown(scene)))?;
+    let mut command = native(workspace, scene, Some(shapes))?;
+    simulated(
+        arguments.settings(&mut command).stdout(Stdio::null()),
+        scene,
+    )?;
+    Ok(true)
+}
+
+/// A command that simulates a scene natively, and writes shapes for a picture where that is wanted.
+pub fn native(
+    workspace: &Workspace,
+    scene: &Path,
+    shapes: Option<impl AsRef<Path>>,
+) -> Result<Command> {
+    let mut command = Command::new(workspace.binary()?);
+    command.arg("simulate").arg(scene);
+    if let Some(shapes) = shapes {
+        command.arg("--shapes").arg(shapes.as_ref());
+    }
+    Ok(command)
 }
 
 /// A command that simulates an FMU with fmpy.
@@ -85,16 +155,18 @@ pub fn fmpy(workspace: &Workspace, python: &Python, fmu: &Path) -> Command {
     command
 }
 
-/// A command that draws a run of a scene or an FMU.
+/// A command that draws a run: its outputs, and its shapes where there are any.
 pub fn plot(
     workspace: &Workspace,
     python: &Python,
-    model: &Path,
-    run: &Path,
+    (run, shapes): (&Path, Option<&Path>),
     picture: &Path,
 ) -> Command {
     let mut command = python.script(&workspace.path("tests/fmpy/plot.py"));
-    command.arg(model).arg(run).arg(picture);
+    command.arg(run).arg(picture);
+    if let Some(shapes) = shapes {
+        command.arg("--shapes").arg(shapes);
+    }
     command
 }
 

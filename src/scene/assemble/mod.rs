@@ -36,6 +36,11 @@ pub struct Assembled {
 }
 
 impl Assembled {
+    /// All markers, body by body, in the order of their names.
+    pub fn markers(&self) -> &[Marker] {
+        &self.markers
+    }
+
     /// The marker of the system that a marker of the scene is.
     pub fn marker(&self, id: MarkerId) -> &Marker {
         &self.markers[id.index()]

@@ -23,7 +23,7 @@ pub enum Body {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CableBody {
-    /// Name: a letter or `_`, then letters, digits and `_`.
+    /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// Number of elements.
     pub elements: u32,
@@ -48,7 +48,7 @@ pub struct CableBody {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidBody {
-    /// Name: a letter or `_`, then letters, digits and `_`.
+    /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// Mass, kg.
     pub mass: f64,

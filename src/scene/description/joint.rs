@@ -9,7 +9,7 @@ use super::MotionValue;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
-    /// Name: a letter or `_`, then letters, digits and `_`.
+    /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// What the joint holds.
     pub kind: JointKind,
@@ -61,7 +61,7 @@ pub enum JointKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// Name: a letter or `_`, then letters, digits and `_`.
+    /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// What is driven.
     pub kind: MotionKind,

@@ -9,7 +9,7 @@ use super::{LoadValue, Value};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Name: a letter or `_`, then letters, digits and `_`.
+    /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// What acts.
     pub kind: LoadKind,

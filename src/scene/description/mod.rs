@@ -1,5 +1,6 @@
 //! What a scene may say. Field names are the JSON keys; units are SI, angles in rad.
 
+mod about;
 mod body;
 mod joint;
 mod load;
@@ -11,6 +12,7 @@ mod value;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use about::About;
 pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Section, Shape, Strain};
 pub use joint::{Joint, JointKind, Motion, MotionKind};
 pub use load::{Input, InputKind, Load, LoadKind};
@@ -23,8 +25,11 @@ pub use value::{LoadValue, MotionValue, Table, Value};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// Name of the scene and of the FMU: letters, digits, `_` and `-`.
+    /// Name of the scene and of the FMU: letters, digits, `_` and `-`; at most 100.
     pub name: String,
+    /// Whose model it is.
+    #[serde(default, skip_serializing_if = "About::is_empty")]
+    pub about: About,
     /// Dimension of space; 2 (planar).
     pub dimension: usize,
     /// Gravitational acceleration, m/s^2.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Port {
-    /// Name, with which those of its variables begin: a letter or `_`, then letters, digits and `_`.
+    /// Name, with which those of its variables begin: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// Where it is, `body.marker`.
     pub marker: String,

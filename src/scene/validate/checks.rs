@@ -23,14 +23,22 @@ const RESERVED: [&str; 11] = [
     "relative_tolerance",
 ];
 
+/// Longest text about a scene.
+const MOST_IN_SENTENCE: usize = 1000;
+/// Longest name of a scene or a part.
+const MOST_LETTERS: usize = 100;
+
 /// An error about the value at `path`.
 pub fn expected(path: &str, wanted: &str, found: impl Display) -> Error {
     Error::new(path, format!("expected {wanted}, found {found}"))
 }
 
-/// A text between quotation marks.
+/// A text between quotation marks, cut off where it is longer than two names.
 pub fn quoted(text: &str) -> String {
-    format!("\"{text}\"")
+    let mut letters = text.chars();
+    let shown: String = letters.by_ref().take(2 * MOST_LETTERS + 1).collect();
+    let more = if letters.next().is_some() { "..." } else { "" };
+    format!("\"{shown}{more}\"")
 }
 
 /// An optional key: its name, whether it is there, and what would stand there.
@@ -119,17 +127,45 @@ pub fn value(path: &str, value: &Value, of_motion: bool) -> Result<Function, Err
     built.map_err(|message| Error::new(place, message))
 }
 
+/// Refuses a name that no table, page or file name has room for.
+fn bounded(path: &str, name: &str) -> Result<(), Error> {
+    if name.len() <= MOST_LETTERS {
+        return Ok(());
+    }
+    let wanted = format!("at most {MOST_LETTERS} characters");
+    let found = format!("{} bytes", name.len());
+    // Where a place is a name itself, its beginning tells it.
+    let place: String = path.chars().take(2 * MOST_LETTERS).collect();
+    Err(expected(&place, &wanted, found))
+}
+
 /// Checks the name of a scene, which is that of the FMU too.
 pub fn scene_name(name: &str) -> Result<(), Error> {
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if !name.is_empty() && name.len() <= 100 && name.chars().all(allowed) {
+    bounded("name", name)?;
+    if !name.is_empty() && name.chars().all(allowed) {
         return Ok(());
     }
     Err(expected("name", "letters, digits, _ and -", quoted(name)))
 }
 
+/// Checks a text that goes into the model description, where XML has no room for control characters.
+pub fn sentence(path: &str, text: &str) -> Result<(), Error> {
+    let is_written = |c: char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
+    let length = text.chars().count();
+    if text.trim().is_empty() || length > MOST_IN_SENTENCE {
+        let wanted = format!("a text of 1 to {MOST_IN_SENTENCE} characters");
+        return Err(expected(path, &wanted, length));
+    }
+    match text.chars().find(|c| !is_written(*c)) {
+        Some(c) => Err(expected(path, "a text in one line", format!("{c:?}"))),
+        None => Ok(()),
+    }
+}
+
 /// Checks the name of a part, and that it is new among `names`.
 pub fn name<'a>(path: &str, name: &'a str, names: &mut BTreeSet<&'a str>) -> Result<(), Error> {
+    bounded(path, name)?;
     let starts = name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
     if !starts || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
         let wanted = "a letter or _, then letters, digits and _";

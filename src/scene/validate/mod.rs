@@ -18,7 +18,7 @@ use std::ops::RangeInclusive;
 
 use super::resolved::{Holder, HolderId, Resolved};
 use super::{Error, Initial, InitialMotion, Scene};
-use checks::{expected, finite, name, positive, scene_name, vector};
+use checks::{expected, finite, name, positive, scene_name, sentence, vector};
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
 pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
@@ -32,6 +32,9 @@ impl Scene {
     /// The first value that is out of range or refers to nothing.
     pub fn resolve(&self) -> Result<Resolved<'_>, Error> {
         scene_name(&self.name)?;
+        for (key, text) in self.about.texts() {
+            sentence(&format!("about.{key}"), text)?;
+        }
         if self.dimension != 2 {
             return Err(expected("dimension", "2 (planar)", self.dimension));
         }

@@ -479,3 +479,78 @@ fn the_schema_tells_bodies_apart_by_their_element() {
         );
     }
 }
+
+#[test]
+fn names_have_a_greatest_length() {
+    let long = "n".repeat(100);
+    let too_long = "n".repeat(100_000);
+    let mut value = scene();
+    value["name"] = json!(long);
+    value["bodies"][0]["markers"][&long] = json!(0.75);
+    value["joints"][0]["name"] = json!(format!("{}j", &long[1..]));
+    Scene::from_json(&value.to_string()).expect("names of 100 letters");
+    for place in ["/name", "/bodies/0/name", "/joints/0/name", "/loads/0/name"] {
+        let mut value = scene();
+        *value.pointer_mut(place).expect(place) = json!(too_long);
+        let error = Scene::from_json(&value.to_string())
+            .expect_err(place)
+            .to_string();
+        assert!(
+            error.ends_with("expected at most 100 characters, found 100000 bytes"),
+            "{error}"
+        );
+    }
+    let mut value = scene();
+    value["bodies"][0]["markers"][&too_long] = json!(0.75);
+    let error = Scene::from_json(&value.to_string())
+        .expect_err("a marker")
+        .to_string();
+    assert!(
+        error.ends_with("at most 100 characters, found 100000 bytes"),
+        "{error}"
+    );
+    assert!(error.len() < 1000, "{} bytes of message", error.len());
+    // What names nothing is told by its beginning.
+    let mut value = scene();
+    value["outputs"][0]["marker"] = json!(too_long);
+    let error = Scene::from_json(&value.to_string())
+        .expect_err("no marker")
+        .to_string();
+    assert!(error.len() < 1000, "{} bytes of message", error.len());
+}
+
+#[test]
+fn what_a_model_says_of_itself_is_one_line_of_text() {
+    let mut value = scene();
+    value["about"] =
+        json!({"author": "Ada <ada@example.org> & Söhne", "license": "x".repeat(1000)});
+    let read = Scene::from_json(&value.to_string()).expect("texts");
+    assert_eq!(Scene::from_json(&read.to_json()).as_ref(), Ok(&read));
+    for (key, text, found) in [
+        (
+            "author",
+            "",
+            "about.author: expected a text of 1 to 1000 characters, found 0",
+        ),
+        (
+            "license",
+            &"x".repeat(1001),
+            "about.license: expected a text of 1 to 1000 characters, found 1001",
+        ),
+        (
+            "version",
+            "1\n2",
+            "about.version: expected a text in one line, found '\\n'",
+        ),
+        (
+            "copyright",
+            "a\u{1}",
+            "about.copyright: expected a text in one line, found '\\u{1}'",
+        ),
+    ] {
+        let mut value = scene();
+        value["about"] = json!({ key: text });
+        let error = Scene::from_json(&value.to_string()).expect_err(key);
+        assert_eq!(error.to_string(), found);
+    }
+}

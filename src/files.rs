@@ -1,0 +1,160 @@
+//! Floor 8. What a run of the headless program writes: outputs, and what pictures are drawn from.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use flexbody::fmi2::Causality;
+use flexbody::scene::{Body, Scene};
+use flexbody::simulation::Simulation;
+
+use crate::{Outcome, at};
+
+/// Parts of a cable that a picture shows: as many an element, at least, at most.
+const PARTS: (u32, u32, u32) = (6, 48, 480);
+
+/// A file that is written, or standard output.
+pub struct Sink {
+    name: String,
+    writer: Box<dyn Write>,
+}
+
+impl Sink {
+    /// Opens the file at `path`, or standard output where there is none.
+    pub fn new(path: Option<&Path>) -> Outcome<Self> {
+        Ok(match path {
+            Some(path) => {
+                let file = File::create(path).map_err(|error| at(path, error))?;
+                Self {
+                    name: path.display().to_string(),
+                    writer: Box::new(BufWriter::new(file)),
+                }
+            }
+            None => Self {
+                name: "standard output".into(),
+                writer: Box::new(BufWriter::new(io::stdout().lock())),
+            },
+        })
+    }
+
+    /// Writes a line.
+    pub fn line(&mut self, text: &str) -> Outcome<()> {
+        let written = writeln!(self.writer, "{text}");
+        written.map_err(|error| format!("{}: {error}", self.name))
+    }
+
+    /// Writes what is still held back.
+    pub fn finish(&mut self) -> Outcome<()> {
+        let flushed = self.writer.flush();
+        flushed.map_err(|error| format!("{}: {error}", self.name))
+    }
+}
+
+/// Outputs at communication points.
+pub struct Table {
+    outputs: Vec<usize>,
+    /// Where they go.
+    pub sink: Sink,
+}
+
+impl Table {
+    /// The outputs of a simulation, to be written to `sink`.
+    pub fn new(simulation: &Simulation, sink: Sink) -> Self {
+        let is_output =
+            |index: &usize| Causality::of(&simulation.variables()[*index]) == Causality::Output;
+        let outputs = (0..simulation.variables().len())
+            .filter(is_output)
+            .collect();
+        Self { outputs, sink }
+    }
+
+    /// Writes the names.
+    pub fn header(&mut self, simulation: &Simulation) -> Outcome<()> {
+        let names = self.outputs.iter();
+        let names = names.map(|index| simulation.variables()[*index].name.as_str());
+        let names: Vec<&str> = std::iter::once("time").chain(names).collect();
+        self.sink.line(&names.join(","))
+    }
+
+    /// Writes the values now.
+    pub fn row(&mut self, simulation: &mut Simulation) -> Outcome<()> {
+        let mut fields = vec![format!("{:?}", simulation.time())];
+        for index in &self.outputs {
+            let value = simulation.real(*index).map_err(|error| error.to_string())?;
+            fields.push(format!("{value:?}"));
+        }
+        self.sink.line(&fields.join(","))
+    }
+}
+
+/// What pictures are drawn from: where markers and points along bodies are.
+pub struct Shapes {
+    /// The first line: bodies and their markers.
+    pub header: String,
+    /// Of every body, whether it is rigid.
+    is_rigid: Vec<bool>,
+    /// Number of markers of every body.
+    markers: Vec<usize>,
+    /// Where they go.
+    pub sink: Sink,
+}
+
+impl Shapes {
+    /// The bodies of a scene, to be written to `sink`.
+    pub fn new(scene: &Scene, sink: Sink) -> Self {
+        let (mut header, mut is_rigid, mut markers) = (Vec::new(), Vec::new(), Vec::new());
+        for body in &scene.bodies {
+            let names = body.marker_names();
+            // Names are letters, digits and _: they need no escapes.
+            let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+            let kind = match body {
+                Body::Cable(_) => "cable",
+                Body::Rigid(_) => "rigid",
+            };
+            header.push(format!(
+                "{{\"name\": \"{}\", \"kind\": \"{kind}\", \"markers\": [{}]}}",
+                body.name(),
+                quoted.join(", ")
+            ));
+            is_rigid.push(kind == "rigid");
+            markers.push(names.len());
+        }
+        Self {
+            header: format!("{{\"bodies\": [{}]}}", header.join(", ")),
+            is_rigid,
+            markers,
+            sink,
+        }
+    }
+
+    /// Writes a line; with points along bodies where it is `whole`: a cable's, or a rigid body's centre of mass and markers.
+    pub fn row(&mut self, simulation: &mut Simulation, is_whole: bool) -> Outcome<()> {
+        let list = |points: &[[f64; 2]]| {
+            let points: Vec<String> = points.iter().map(|point| format!("{point:?}")).collect();
+            format!("[{}]", points.join(", "))
+        };
+        let markers = simulation.markers().map_err(|error| error.to_string())?;
+        let mut text = format!("\"markers\": {}", list(&markers));
+        if is_whole {
+            let (each, least, most) = PARTS;
+            let parts = |elements: usize| {
+                let elements = u32::try_from(elements).unwrap_or(most);
+                elements.saturating_mul(each).clamp(least, most)
+            };
+            let found = simulation.outlines(parts);
+            let mut outlines = found.map_err(|error| error.to_string())?;
+            let mut rest = &markers[..];
+            for (body, outline) in outlines.iter_mut().enumerate() {
+                let (own, others) = rest.split_at(self.markers[body]);
+                rest = others;
+                if self.is_rigid[body] {
+                    outline.extend(own);
+                }
+            }
+            let outlines: Vec<String> = outlines.iter().map(|points| list(points)).collect();
+            text += &format!(", \"outlines\": [{}]", outlines.join(", "));
+        }
+        let time = simulation.time();
+        self.sink.line(&format!("{{\"time\": {time:?}, {text}}}"))
+    }
+}
