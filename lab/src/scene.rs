@@ -87,7 +87,7 @@ impl Start {
         let state = system.initial_state(0.0, &inputs, described, &mut work);
         let mut state = state.map_err(|error| format!("joints do not fit: {:?}", error.gaps))?;
         if scene.initial == Initial::StaticEquilibrium {
-            let found = equilibrium::find(system, &inputs, &mut work, &mut state);
+            let found = equilibrium::find(system, &inputs, &mut work, &mut state, None);
             found.map_err(|error| error.to_string())?;
         }
         Ok(Self {

@@ -59,6 +59,32 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
         }
     }
 
+    /// Tells the first and the last element whether something is joined to the ends of the chain, or acts there;
+    /// `shape` are nodal coordinates of the unstressed shape.
+    pub fn set_free_ends(&mut self, free: [bool; 2], shape: &[Node<B>]) {
+        let last = self.elements.len() - 1;
+        for j in [0, last] {
+            let own = [j == 0 && free[0], j == last && free[1]];
+            self.elements[j] = self.elements[j].with_free_ends(&self.element(j, shape), own);
+        }
+        self.packs = packs(&self.elements);
+    }
+
+    /// Gives elements without bending stiffness one (N m^2), from the shape with these nodal
+    /// coordinates on.
+    pub fn stiffen(&mut self, stiffness: f64, shape: &[Node<B>]) {
+        for j in 0..self.elements.len() {
+            self.elements[j] = self.elements[j].with_bending(&self.element(j, shape), stiffness);
+        }
+        self.packs = packs(&self.elements);
+    }
+
+    /// Mean axial stiffness, N.
+    pub fn axial_stiffness(&self) -> f64 {
+        let sum: f64 = self.elements.iter().map(|e| e.length() * e.axial_stiffness()).sum();
+        sum / self.length()
+    }
+
     /// The elements, in order from the first end.
     pub fn elements(&self) -> &[E] {
         &self.elements

@@ -83,6 +83,12 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     /// Factors `s^2 M + s R + K` for a real `s`. False when it is not positive definite where the
     /// constraints leave freedom.
     pub fn factor(&mut self, elimination: &Elimination<B>, s: f64) -> bool {
+        self.inertia(elimination, s) == Some(0)
+    }
+
+    /// Factors `s^2 M + s R + K` for a real `s`. The number of negative eigenvalues where the constraints leave
+    /// freedom, by Sylvester's law of inertia; nothing at a vanishing pivot.
+    pub fn inertia(&mut self, elimination: &Elimination<B>, s: f64) -> Option<usize> {
         self.s.0 = s;
         let damping = self.is_damped.then_some(&self.damping);
         combine(
@@ -93,9 +99,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             &mut self.real,
         );
         let pattern = elimination.assembly.pattern();
-        let Some(negative) = self.real.factor(pattern) else {
-            return false;
-        };
+        let negative = self.real.factor(pattern)?;
         let mut found = 0;
         for border in &mut self.borders {
             let (n, used) = (border.range.len(), border.rank * border.range.len());
@@ -104,12 +108,9 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             for row in schur.solutions[..used].chunks_exact_mut(n) {
                 self.real.solve_component(pattern, border.component, row);
             }
-            match schur.factor(&border.forces, border.rank, n) {
-                Some(negative) => found += negative,
-                None => return false,
-            }
+            found += schur.factor(&border.forces, border.rank, n)?;
         }
-        found == negative
+        negative.checked_sub(found)
     }
 
     /// Factors `s^2 M + s R + K` for a complex `s`. False at a vanishing pivot.

@@ -40,6 +40,23 @@ pub const LOBATTO_3: [Point; 3] = [
     point(1.0, 1.0 / 6.0),
 ];
 
+/// sqrt(6) / 10.
+const SQRT_6_10: f64 = 0.244_948_974_278_317_8;
+
+/// Gauss-Radau, exact to degree 4, with the first end.
+pub const RADAU_3: [Point; 3] = [
+    point(0.0, 1.0 / 9.0),
+    point(0.6 - SQRT_6_10, (16.0 + 10.0 * SQRT_6_10) / 36.0),
+    point(0.6 + SQRT_6_10, (16.0 - 10.0 * SQRT_6_10) / 36.0),
+];
+
+/// The same with the last end.
+pub const RADAU_3_LAST: [Point; 3] = [
+    point(0.4 - SQRT_6_10, (16.0 - 10.0 * SQRT_6_10) / 36.0),
+    point(0.4 + SQRT_6_10, (16.0 + 10.0 * SQRT_6_10) / 36.0),
+    point(1.0, 1.0 / 9.0),
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -50,7 +67,13 @@ mod tests {
 
     #[test]
     fn rules_are_exact_to_their_degree_and_no_further() {
-        for (rule, degree) in [(&GAUSS_3[..], 5), (&BETWEEN_3, 3), (&LOBATTO_3, 3)] {
+        for (rule, degree) in [
+            (&GAUSS_3[..], 5),
+            (&BETWEEN_3, 3),
+            (&LOBATTO_3, 3),
+            (&RADAU_3, 4),
+            (&RADAU_3_LAST, 4),
+        ] {
             for power in 0..=degree {
                 let exact = 1.0 / f64::from(power + 1);
                 assert!((integrate(rule, power) - exact).abs() < 1e-15);

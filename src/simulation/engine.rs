@@ -8,7 +8,7 @@ use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
 use crate::math::jet::{Jet, part};
 use crate::scene::{Assembled, Initial, Resolved};
 use crate::system::{
-    Derivatives, Evaluation, Model, NotAssembled, State, System, Work, equilibrium, moved,
+    Derivatives, Evaluation, Gap, Model, NotAssembled, State, System, Work, equilibrium, moved,
     natural_frequencies,
 };
 
@@ -141,7 +141,7 @@ impl Engine {
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
         if self.initial == Initial::StaticEquilibrium {
-            equilibrium::find(system, inputs, &mut self.work, &mut state)?;
+            equilibrium::find(system, inputs, &mut self.work, &mut state, None)?;
         }
         let count = self.frequencies;
         let frequencies = match count {
@@ -159,15 +159,22 @@ impl Engine {
             return "expected joints and motions that agree, found some that contradict each other"
                 .into();
         }
-        let gaps = error.gaps.iter();
-        let words = gaps.map(|(joint, gap)| match *gap < 1e-3 {
-            true => format!("{} {gap:.1e} m", self.name(*joint)),
-            false => format!("{} {gap:.3} m", self.name(*joint)),
-        });
-        format!(
-            "expected bodies that fit together, found gaps: {}",
-            words.collect::<Vec<_>>().join(", ")
-        )
+        let gaps = self.gaps(&error.gaps);
+        format!("expected bodies that fit together, found gaps: {gaps}")
+    }
+
+    /// Gaps of joints, in words.
+    fn gaps(&self, gaps: &[Gap]) -> String {
+        let word = |gap: &Gap| {
+            let (list, _, name) = self.scene.holder(gap.joint);
+            let kind = list.trim_end_matches('s');
+            let unit = if gap.is_angle { "rad" } else { "m" };
+            match gap.size < 1e-3 {
+                true => format!("{kind} `{name}` {:.1e} {unit}", gap.size),
+                false => format!("{kind} `{name}` {:.3} {unit}", gap.size),
+            }
+        };
+        gaps.iter().map(word).collect::<Vec<_>>().join(", ")
     }
 
     /// Name of a joint, motion or port that holds something in the system.

@@ -47,6 +47,8 @@ pub struct Parts {
     pub drives: Vec<Drive>,
     /// Loads.
     pub loads: Vec<Load>,
+    /// Loads that act only where the initial state is looked for.
+    pub initial_loads: Vec<Load>,
     /// Angles to count.
     pub angles: Vec<Angle>,
     /// Gravitational acceleration, m/s^2.
@@ -75,7 +77,8 @@ impl System {
     ///
     /// # Errors
     /// Motions that contradict other constraints; bodies without mass.
-    pub fn new(parts: Parts) -> Result<Self, BuildError> {
+    pub fn new(mut parts: Parts) -> Result<Self, BuildError> {
+        free_ends(&mut parts);
         let (linear, nonlinear) = constraints(&parts);
         let rows: Vec<Row<4>> = linear.iter().map(|linear| linear.row.clone()).collect();
         let links = links(&parts, &nonlinear);
@@ -113,6 +116,7 @@ impl System {
             redundant,
             drives: parts.drives,
             loads: parts.loads,
+            initial_loads: parts.initial_loads,
             angles: parts.angles,
             slides: Vec::new(),
             gravity: parts.gravity,
@@ -246,6 +250,22 @@ impl System {
     }
 }
 
+/// Tells cables which of their ends are free.
+fn free_ends(parts: &mut Parts) {
+    let mut used = vec![false; parts.nodes.len()];
+    let joints = parts.joints.iter().flat_map(|joint| joint.ends);
+    let ends = joints.chain(parts.loads.iter().flat_map(Load::ends));
+    let lumps = parts.lumps.iter().flat_map(|lump| lump.marker.nodes);
+    for node in ends.flat_map(|end| end.nodes()).chain(lumps) {
+        used[node] = true;
+    }
+    for chain in &mut parts.chains {
+        let first = chain.nodes(0)[0];
+        let last = first + chain.node_count() - 1;
+        chain.set_free_ends([!used[first], !used[last]], &parts.nodes);
+    }
+}
+
 fn constraints(parts: &Parts) -> (Vec<Linear>, Vec<Constraint>) {
     let (mut linear, mut nonlinear) = (Vec::new(), Vec::new());
     for (node, turns) in &parts.rigid {
@@ -253,6 +273,7 @@ fn constraints(parts: &Parts) -> (Vec<Linear>, Vec<Constraint>) {
             nonlinear.push(Constraint {
                 joint: None,
                 kind: ConstraintKind::Unit(Unit { node: *node }),
+                offset: 0.0,
             });
             continue;
         }
@@ -291,7 +312,7 @@ fn links(parts: &Parts, nonlinear: &[Constraint]) -> Vec<(usize, usize)> {
     for constraint in nonlinear {
         tie(constraint.nodes(&parts.chains));
     }
-    for load in &parts.loads {
+    for load in parts.loads.iter().chain(&parts.initial_loads) {
         tie(load.ends().iter().flat_map(End::nodes).collect());
     }
     for lump in &parts.lumps {

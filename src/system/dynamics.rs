@@ -73,11 +73,9 @@ pub struct Model<'a> {
     /// Their first and second derivatives; empty where they are held.
     slopes: &'a [[f64; 2]],
     start: f64,
-    /// Fraction of gravity and of loads that are not inputs: 1 but for load steps.
-    pub fraction: f64,
     /// Scratch of the system.
     pub work: &'a mut Work,
-    time: f64,
+    pub(super) time: f64,
 }
 
 impl<'a> Model<'a> {
@@ -110,7 +108,6 @@ impl<'a> Model<'a> {
             inputs,
             slopes: &[],
             start: state.time,
-            fraction: 1.0,
             work,
             time: state.time,
         }
@@ -176,7 +173,7 @@ impl<'a> Model<'a> {
         }
         for (weight, (a, b)) in system.weight.iter().zip(after.iter().zip(before)) {
             let fall: f64 = (0..4).map(|k| weight[k] * (a[k] - b[k])).sum();
-            add(-self.fraction * fall, (self.fraction * fall).abs());
+            add(-fall, fall.abs());
         }
         let (start, end) = (self.instant(before), self.instant(after));
         for load in &system.loads {
@@ -188,6 +185,21 @@ impl<'a> Model<'a> {
             add(-difference, difference.abs());
         }
         (sum, size)
+    }
+
+    /// Number of negative eigenvalues of `s^2 I + s R + K` where constraints leave freedom, and its factors for
+    /// [`Dynamics::solve`]; nothing where it is singular.
+    pub fn inertia(&mut self, s: f64) -> Option<usize> {
+        self.work.tangent.inertia(&self.system.elimination, s)
+    }
+
+    /// `K x`, in place, inside the tangent plane of the constraints.
+    pub fn apply_stiffness(&mut self, x: &mut [f64]) {
+        self.work.into_tangent_plane(x);
+        self.work
+            .tangent
+            .apply_stiffness(&self.system.elimination, x);
+        self.work.into_tangent_plane(x);
     }
 
     fn instant<'b>(&'b self, x: &'b [Node<4>]) -> Instant<'b> {
@@ -262,7 +274,7 @@ impl Dynamics for Model<'_> {
         } else {
             self.place(time, q, v);
         }
-        system.forces(time, self.fraction, self.work);
+        system.forces(time, self.work);
         system.reduce(self.work, a);
         if !system.constraints.is_empty() {
             system.constrain(self.work, a);

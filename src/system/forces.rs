@@ -73,11 +73,9 @@ impl System {
     }
 
     /// Total force on the nodes in `work`, but for constraints.
-    pub(super) fn forces(&self, time: f64, fraction: f64, work: &mut Work) {
+    pub(super) fn forces(&self, time: f64, work: &mut Work) {
         let mut force = std::mem::take(&mut work.f);
-        for (f, weight) in force.iter_mut().zip(&self.weight) {
-            *f = weight.map(|w| w * fraction);
-        }
+        force.copy_from_slice(&self.weight);
         for chain in &self.chains {
             chain.add_force(&work.x, &work.v, &mut force);
         }

@@ -8,6 +8,7 @@ mod end;
 pub mod equilibrium;
 mod forces;
 mod frequencies;
+mod held;
 pub mod joints;
 pub mod loads;
 mod multipliers;
@@ -23,7 +24,7 @@ pub use dynamics::{Accepted, Dynamics, Model};
 pub use end::{Angle, End};
 pub use frequencies::{fastest, natural_frequencies};
 pub use outputs::Evaluation;
-pub use placement::NotAssembled;
+pub use placement::{Gap, NotAssembled};
 pub use signal::{Course, Drive, Signal, moved};
 pub use state::State;
 pub use work::Work;
@@ -35,7 +36,7 @@ use nalgebra::Vector2;
 use crate::body::{Chain, Elimination, Node};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
-use loads::Load;
+use loads::{Instant, Load};
 
 /// Flexible bodies of a planar system.
 pub type PlanarChain = Chain<Cable<2, 1>, 2, 4>;
@@ -76,6 +77,8 @@ pub struct System {
     redundant: Vec<usize>,
     drives: Vec<Drive>,
     loads: Vec<Load>,
+    /// Loads that act only where the initial state is looked for.
+    initial_loads: Vec<Load>,
     angles: Vec<Angle>,
     /// For every slide, its constraint.
     slides: Vec<usize>,

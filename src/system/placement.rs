@@ -1,12 +1,15 @@
-//! Initial configurations: bodies are moved, each as a whole, until all joints fit; then rates are found
-//! that come closest to those given.
+//! Initial configurations: bodies are moved, each as a whole, until all joints fit. Where that is not enough,
+//! joints are closed little by little while flexible bodies deform with the least strain energy. Then rates are
+//! found that come closest to those given.
 //!
 //! The way is a Gauss-Newton iteration with the smallest steps (E. J. Haug, Computer Aided Kinematics and
 //! Dynamics of Mechanical Systems (1989)), started from the bodies as described.
 
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
 
-use super::joints::{Constraint, ConstraintKind, View};
+use super::equilibrium;
+use super::held::Open;
+use super::joints::{Constraint, ConstraintKind, JointKind, View};
 use super::loads::{Instant, Load};
 use super::{Dynamics, Model, State, System, Work};
 use crate::body::Node;
@@ -19,11 +22,25 @@ const CLOSE: f64 = 1e-9;
 /// Gap that is roundoff.
 const EXACT: f64 = 1e-15;
 
+/// Gap, in sizes of the largest body, from which on joints as described cannot be meant.
+const ABSURD: f64 = 100.0;
+
+/// What is missing for a joint to fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// The joint, by index.
+    pub joint: usize,
+    /// How much: m, or rad.
+    pub size: f64,
+    /// Whether it is an angle.
+    pub is_angle: bool,
+}
+
 /// Joints that do not fit together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotAssembled {
-    /// Joints, by index, with the gap that is left (m, or rad).
-    pub gaps: Vec<(usize, f64)>,
+    /// The gaps that are left, or those as described where they are absurd.
+    pub gaps: Vec<Gap>,
 }
 
 impl System {
@@ -45,16 +62,20 @@ impl System {
         work.follow(&state);
         // Drives first: targets of the rows depend on them.
         self.place(time, &state.coordinates, None, work);
+        self.find_slides(nodes, &mut work.travel);
+        let drawn = self.gaps_by_joint(nodes, work, 0.0);
+        let bound = ABSURD * self.body_size();
+        if (drawn.iter()).any(|gap| !gap.is_angle && bound > 0.0 && gap.size > bound) {
+            return Err(NotAssembled { gaps: drawn });
+        }
         let mut x = nodes.to_vec();
-        self.fit(&mut x, work)?;
+        let left = self.fit(&mut x, work);
         self.start_hints(&mut state, &x, inputs);
         work.follow(&state);
         self.place(time, &state.coordinates, None, work);
-        let missing = difference(&x, &work.x);
-        if missing.iter().flatten().any(|m| *m != 0.0) {
-            let mut q = std::mem::take(&mut state.coordinates);
-            self.coordinates_of(&missing, work, &mut q);
-            state.coordinates = q;
+        match left {
+            Ok(()) => self.approach(&x, work, &mut state),
+            Err(error) => self.close((nodes, &x), inputs, work, &mut state).ok_or(error)?,
         }
         let mut start = work.other.clone();
         start.fill([0.0; 4]);
@@ -69,6 +90,99 @@ impl System {
         }
         model.accepted(&mut state);
         Ok(state)
+    }
+
+    /// Coordinates that come closest to nodal ones in the mass norm.
+    fn approach(&self, x: &[Node<4>], work: &mut Work, state: &mut State) {
+        let missing = difference(x, &work.x);
+        if missing.iter().flatten().any(|m| *m != 0.0) {
+            let mut q = std::mem::take(&mut state.coordinates);
+            self.coordinates_of(&missing, work, &mut q);
+            state.coordinates = q;
+        }
+    }
+
+    /// From bodies at `x`, whose joints are apart, to deformed ones that fit; nothing where flexible bodies cannot
+    /// close the joints.
+    fn close(
+        &self,
+        (nodes, x): (&[Node<4>], &[Node<4>]),
+        inputs: &[f64],
+        work: &mut Work,
+        state: &mut State,
+    ) -> Option<()> {
+        if self.chains.is_empty() {
+            return None;
+        }
+        let mut open = Open {
+            reference: vec![[0.0; 4]; x.len()],
+            offsets: Vec::new(),
+        };
+        for (linear, holds) in self.linear.iter().zip(&self.holds) {
+            let Some((cluster, row)) = holds else {
+                continue;
+            };
+            let gap = missing(linear, x, work);
+            let cluster = &self.elimination.assembly.clusters()[*cluster];
+            let follow = cluster.multipliers.row(*row);
+            for (i, node) in cluster.nodes.iter().enumerate() {
+                for k in 0..4 {
+                    open.reference[*node][k] += follow[4 * i + k] * gap;
+                }
+            }
+        }
+        let view = View { x, ..self.view(work) };
+        open.offsets = self.constraints.iter().map(|c| c.value(&view)).collect();
+        for (place, change) in work.x.iter_mut().zip(&open.reference) {
+            place.iter_mut().zip(change).for_each(|(x, c)| *x += c);
+        }
+        self.approach(x, work, state);
+        equilibrium::close(self, inputs, (&open, nodes), work, state).ok()?;
+        work.follow(state);
+        self.place(state.time, &state.coordinates, None, work);
+        let gaps = self.gaps(&work.x, work, extent(&work.x));
+        gaps.iter().all(|gap| gap.abs() <= CLOSE).then_some(())
+    }
+
+    /// Size of the largest body, with what joins it: length of a cable, reach of the ends of joints from the centre
+    /// of mass of a rigid body, length of a distance, m. 0 where there are only particles.
+    pub fn body_size(&self) -> f64 {
+        let cables = self.chains.iter().map(super::PlanarChain::length);
+        let joints = self.joints.iter().flat_map(|joint| {
+            let reach = joint.ends.each_ref().map(|end| match end.marker() {
+                Some(marker) if marker.element.is_none() => {
+                    let [x, y, ..] = self.reference[marker.nodes[0]];
+                    (marker.position(&self.reference) - Vector2::new(x, y)).norm()
+                }
+                _ => 0.0,
+            });
+            let length = match joint.kind {
+                JointKind::Distance(length) => length,
+                _ => 0.0,
+            };
+            [reach[0], reach[1], length]
+        });
+        cables.chain(joints).fold(0.0, f64::max)
+    }
+
+    /// Gaps of joints in a described configuration that are larger than a part of the largest body, or than this
+    /// angle in rad.
+    pub fn misfits(
+        &self,
+        (time, inputs): (f64, &[f64]),
+        nodes: &[Node<4>],
+        part: f64,
+        work: &mut Work,
+    ) -> Vec<Gap> {
+        let mut state = self.blank_state(time);
+        self.start_courses(&mut state, inputs);
+        work.follow(&state);
+        self.place(time, &state.coordinates, None, work);
+        self.find_slides(nodes, &mut work.travel);
+        let size = self.body_size();
+        let gaps = self.gaps_by_joint(nodes, work, 0.0).into_iter();
+        gaps.filter(|gap| gap.size > part * if gap.is_angle { 1.0 } else { size })
+            .collect()
     }
 
     /// `q = T^T M dx`: coordinates that come closest to a nodal displacement in the mass norm.
@@ -140,25 +254,54 @@ impl System {
             }
         }
         self.find_slides(x, &mut work.travel);
+        let gaps = self.gaps_by_joint(x, work, CLOSE);
+        Err(NotAssembled { gaps })
+    }
+
+    /// What is missing of every joint, by positions and by angles, beyond `least` relative to the size of the system.
+    fn gaps_by_joint(&self, x: &[Node<4>], work: &Work, least: f64) -> Vec<Gap> {
+        let size = extent(x);
         let gaps = self.gaps(x, work, size);
-        let owners = self.owners();
-        let mut open: Vec<(usize, f64)> = Vec::new();
-        for (gap, owner) in gaps.iter().zip(owners) {
-            if let (Some(joint), true) = (owner, gap.is_nan() || gap.abs() > CLOSE) {
-                let gap = self.length_of(joint, gap * size) / size;
-                match open.iter_mut().find(|(other, _)| *other == joint) {
-                    Some((_, most)) => *most = most.hypot(gap * size),
-                    None => open.push((joint, gap.abs() * size)),
-                }
+        // Squares of the sines of angles, or of lengths, and how many.
+        let mut sums: Vec<(Gap, usize)> = Vec::new();
+        for (gap, (owner, is_angle)) in gaps.iter().zip(self.owners()) {
+            let (Some(joint), true) = (owner, gap.is_nan() || gap.abs() > least) else {
+                continue;
+            };
+            let gap = match is_angle {
+                true => gap.abs(),
+                false => self.length_of(joint, gap * size).abs(),
+            };
+            match (sums.iter_mut()).find(|(g, _)| (g.joint, g.is_angle) == (joint, is_angle)) {
+                Some((sum, count)) => (sum.size, *count) = (sum.size.hypot(gap), *count + 1),
+                None => sums.push((
+                    Gap {
+                        joint,
+                        size: gap,
+                        is_angle,
+                    },
+                    1,
+                )),
             }
         }
-        Err(NotAssembled { gaps: open })
+        let angle = |(gap, count): (Gap, usize)| match (gap.is_angle, count) {
+            (false, _) => gap,
+            (true, 1) => Gap {
+                size: gap.size.min(1.0).asin(),
+                ..gap
+            },
+            (true, _) => Gap {
+                size: 2.0 * (0.5 * gap.size).min(1.0).asin(),
+                ..gap
+            },
+        };
+        sums.into_iter().map(angle).collect()
     }
 
     /// A gap in m: that of a distance is measured by squares.
     fn length_of(&self, joint: usize, gap: f64) -> f64 {
         match self.joints[joint].kind {
-            super::joints::JointKind::Distance(length) => {
+            JointKind::Distance(length) => {
                 (length * (length + 2.0 * gap)).max(0.0).sqrt() - length
             }
             _ => gap,
@@ -169,12 +312,13 @@ impl System {
         self.constraints.iter().chain(&self.settled)
     }
 
-    /// Joints of the entries of [`System::gaps`].
-    fn owners(&self) -> Vec<Option<usize>> {
-        let linear = self.linear.iter().map(|linear| linear.joint);
-        linear
-            .chain(self.all_constraints().map(|c| c.joint))
-            .collect()
+    /// Joints of the entries of [`System::gaps`], and whether those are of angles.
+    fn owners(&self) -> Vec<(Option<usize>, bool)> {
+        let linear = self.linear.iter();
+        let linear = linear.map(|linear| (linear.joint, linear.on_second[0].norm() == 0.0));
+        let constraints = self.all_constraints();
+        let constraints = constraints.map(|c| (c.joint, constraint_size(c, 2.0) == 1.0));
+        linear.chain(constraints).collect()
     }
 
     /// Where slides are on their chains, wherever they were before.
@@ -190,11 +334,7 @@ impl System {
     fn gaps(&self, x: &[Node<4>], work: &Work, size: f64) -> Vec<f64> {
         let mut gaps = Vec::new();
         for linear in &self.linear {
-            let value: f64 = (linear.row.terms.iter())
-                .map(|(node, c)| dot(c, &x[*node]))
-                .sum();
-            let missing = value - linear.target.derivatives(&work.drives)[0];
-            gaps.push(missing / linear_size(linear, size));
+            gaps.push(missing(linear, x, work) / linear_size(linear, size));
         }
         let view = View {
             x,
@@ -241,6 +381,14 @@ impl System {
         }
         jacobian
     }
+}
+
+/// What a row is more than it is to equal.
+fn missing(linear: &super::Linear, x: &[Node<4>], work: &Work) -> f64 {
+    let value: f64 = (linear.row.terms.iter())
+        .map(|(node, c)| dot(c, &x[*node]))
+        .sum();
+    value - linear.target.derivatives(&work.drives)[0]
 }
 
 fn linear_size(linear: &super::Linear, size: f64) -> f64 {

@@ -38,6 +38,11 @@ impl Signal {
         }
     }
 
+    /// A fraction of what it is at an instant, from then on.
+    pub fn held(&self, at: Instant<'_>, fraction: f64) -> Self {
+        Self::Function(Function::constant(fraction * self.value(at)))
+    }
+
     /// Times at which it has a kink or jumps, s.
     pub fn breaks(&self) -> &[f64] {
         match self {

@@ -78,6 +78,13 @@ impl Work {
         }
     }
 
+    /// Takes the part of `q` out that constraints do not allow, with the Jacobians of the last acceleration.
+    pub(super) fn into_tangent_plane(&mut self, q: &mut [f64]) {
+        for group in &mut self.groups {
+            group.rows.take_out(&mut q[group.coordinates.clone()]);
+        }
+    }
+
     /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.
     pub fn follow(&mut self, state: &State) {
         self.angles.copy_from_slice(&state.angles);

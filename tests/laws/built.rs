@@ -165,6 +165,7 @@ impl Mechanism {
             joints,
             drives,
             loads,
+            initial_loads: Vec::new(),
             angles,
             gravity: self.gravity,
             rotation: self.rotation,

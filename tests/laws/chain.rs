@@ -179,6 +179,7 @@ impl Chain {
             joints: joints.map(|held| self.joint(formulation, held)).collect(),
             drives: Vec::new(),
             loads: Vec::new(),
+            initial_loads: Vec::new(),
             angles: Vec::new(),
             gravity: Vector2::zeros(),
             rotation: 0.0,

@@ -63,6 +63,7 @@ fn product(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
         joints: vec![pin],
         drives: Vec::new(),
         loads: Vec::new(),
+        initial_loads: Vec::new(),
         angles: Vec::new(),
         gravity: Vector2::new(0.0, -1.0),
         rotation: 0.0,

@@ -8,7 +8,8 @@
 //!
 //! Quadrature decides accuracy: axial strain at three points, of Gauss where the element is short and
 //! of Lobatto where it is slender and would lock otherwise; bending at two Gauss points
-//! (docs/decisions/0003-quadrature.md).
+//! (docs/decisions/0003-quadrature.md); at the free end of a cable without bending stiffness at three points of
+//! Radau (docs/decisions/0021-stable-equilibria.md).
 
 mod kernel;
 
@@ -17,7 +18,7 @@ use nalgebra::{SMatrix, SVector};
 use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, Strain, shape};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use kernel::{Kernel, Line, transposed};
+use kernel::{Kernel, Line, Sampling, transposed};
 
 /// Slenderness EA l^2 / EI up to which axial strain is sampled at Gauss points: they halve the error
 /// of stretching waves and cost bending less than they gain; beyond it they lock.
@@ -112,6 +113,11 @@ impl<const D: usize, const C: usize> Cable<D, C> {
     /// curve through them.
     pub fn new(parameters: Parameters, shape: Option<&Nodal<D>>) -> Self {
         let p = &parameters;
+        let stretching = p.axial_stiffness * p.length * p.length;
+        let sampling = match stretching > SLENDER * p.bending_stiffness {
+            true => Sampling::Lobatto,
+            false => Sampling::Between,
+        };
         let mut kernel = Kernel {
             length: p.length,
             inverse_length: 1.0 / p.length,
@@ -120,7 +126,7 @@ impl<const D: usize, const C: usize> Cable<D, C> {
             damping_time: p.damping_time,
             natural_strain: [0.0; 3],
             natural_curvature: [[0.0; C]; 3],
-            is_slender: p.axial_stiffness * p.length * p.length > SLENDER * p.bending_stiffness,
+            sampling,
             strain: p.strain,
             is_damped: p.damping_time > 0.0,
             bends: p.bending_stiffness > 0.0,
@@ -153,6 +159,41 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
 
     fn length(&self) -> f64 {
         self.parameters.length
+    }
+
+    /// Tension vanishes at a free end, and with it all that holds the direction of a cable without bending
+    /// stiffness there if strain is sampled at that point; so it is not (docs/decisions/0021-stable-equilibria.md).
+    fn with_free_ends(&self, shape: &Nodal<D>, free: [bool; 2]) -> Self {
+        let mut element = self.clone();
+        if self.kernel.bends || self.kernel.sampling != Sampling::Lobatto {
+            return element;
+        }
+        element.kernel.sampling = match free {
+            [false, false] => Sampling::Lobatto,
+            [false, true] => Sampling::FreeLast,
+            [true, false] => Sampling::FreeFirst,
+            [true, true] => Sampling::Between,
+        };
+        if self.kernel.natural_strain != [0.0; 3] {
+            element.kernel.natural_strain = element.kernel.strains(&shape.data.0).0;
+        }
+        element
+    }
+
+    fn axial_stiffness(&self) -> f64 {
+        self.parameters.axial_stiffness
+    }
+
+    fn with_bending(&self, shape: &Nodal<D>, stiffness: f64) -> Self {
+        if self.kernel.bends {
+            return self.clone();
+        }
+        let mut element = self.clone();
+        (element.kernel.bends, element.kernel.bending_stiffness) = (true, stiffness);
+        if self.kernel.natural_strain != [0.0; 3] {
+            element.kernel.natural_curvature = element.kernel.strains(&shape.data.0).1;
+        }
+        element
     }
 
     fn mass(&self) -> SMatrix<f64, 4, 4> {
@@ -238,7 +279,7 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
 
     fn goes_with(&self, other: &Self) -> bool {
         let (a, b) = (&self.kernel, &other.kernel);
-        let kind = |k: &Kernel<f64, C>| (k.strain, k.is_slender, k.is_damped, k.bends);
+        let kind = |k: &Kernel<f64, C>| (k.strain, k.sampling, k.is_damped, k.bends);
         kind(a) == kind(b)
     }
 
@@ -258,7 +299,7 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
             natural_curvature: std::array::from_fn(|i| {
                 std::array::from_fn(|c| lanes(&|k| k.natural_curvature[i][c]))
             }),
-            is_slender: first.is_slender,
+            sampling: first.sampling,
             strain: first.strain,
             is_damped: first.is_damped,
             bends: first.bends,

@@ -109,6 +109,7 @@ impl Resolved<'_> {
             joints: Vec::new(),
             drives: Vec::new(),
             loads: Vec::new(),
+            initial_loads: Vec::new(),
             angles: Vec::new(),
             gravity: scene.gravity.into(),
             rotation: scene.rotation,

@@ -132,6 +132,8 @@ pub struct Constraint {
     pub joint: Option<usize>,
     /// What is held.
     pub kind: ConstraintKind,
+    /// What `g` is to equal: 0, but where joints that do not fit yet are closed little by little.
+    pub offset: f64,
 }
 
 /// Kinds of non-linear constraints.
@@ -161,7 +163,8 @@ macro_rules! each {
 impl Constraint {
     /// `g`.
     pub fn value<N: Number>(&self, view: &View<'_, N>) -> N {
-        each!(self, c => c.value(view))
+        let value = each!(self, c => c.value(view));
+        value - N::of(self.offset)
     }
 
     /// Forces that a unit multiplier takes from position and direction of both ends.
@@ -292,6 +295,7 @@ impl Joint {
         nonlinear.extend(kind.map(|kind| Constraint {
             joint: Some(index),
             kind,
+            offset: 0.0,
         }));
     }
 }

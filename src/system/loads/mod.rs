@@ -128,6 +128,37 @@ impl Load {
         }
     }
 
+    /// The same load held as it is at an instant; dead and follower loads at a fraction of their size.
+    pub fn held(&self, at: Instant<'_>, fraction: f64) -> Self {
+        let mut held = self.clone();
+        let hold = |signals: &mut [Signal], fraction: f64| {
+            for signal in signals {
+                *signal = signal.held(at, fraction);
+            }
+        };
+        match &mut held {
+            Self::Force(load) => hold(&mut load.components, fraction),
+            Self::Moment(load) => hold(std::slice::from_mut(&mut load.size), fraction),
+            Self::Distributed(load) => hold(&mut load.components, fraction),
+            Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
+            Self::Rotational(_) => {}
+            Self::Coupling(load) => {
+                hold(&mut load.position, 1.0);
+                hold(&mut load.velocity, 1.0);
+            }
+            Self::Turning(load) => {
+                hold(std::slice::from_mut(&mut load.angle), 1.0);
+                hold(std::slice::from_mut(&mut load.velocity), 1.0);
+            }
+        }
+        held
+    }
+
+    /// Whether it has a potential, so that its tangent is symmetric: a force that turns with a body has none.
+    pub fn is_conservative(&self) -> bool {
+        !matches!(self, Self::Force(load) if load.follower)
+    }
+
     /// Whether it dissipates.
     pub fn is_damped(&self) -> bool {
         match self {

@@ -8,7 +8,9 @@
 use crate::elements::Strain;
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point};
+use crate::math::quadrature::{
+    BETWEEN_3, GAUSS_3, LOBATTO_3, Point, RADAU_3, RADAU_3_LAST,
+};
 
 /// Weights of the three vectors in `r'` and `l r''`.
 type Combination = [f64; 3];
@@ -50,6 +52,16 @@ const LOBATTO: [Sample; 3] = [
     sample(LOBATTO_3[1]),
     sample(LOBATTO_3[2]),
 ];
+const RADAU: [Sample; 3] = [
+    sample(RADAU_3[0]),
+    sample(RADAU_3[1]),
+    sample(RADAU_3[2]),
+];
+const RADAU_LAST: [Sample; 3] = [
+    sample(RADAU_3_LAST[0]),
+    sample(RADAU_3_LAST[1]),
+    sample(RADAU_3_LAST[2]),
+];
 const BENDING: [Sample; 3] = [sample(GAUSS_3[0]), sample(GAUSS_3[1]), sample(GAUSS_3[2])];
 
 /// Changes numbers one by one. No closures: they are not inlined everywhere, and then not compiled for
@@ -61,6 +73,24 @@ macro_rules! each {
             out[$k] = $of;
         }
         out
+    }};
+}
+
+/// Calls a method once for each axial point. Written out: with points known when compiling.
+macro_rules! at_axial_points {
+    ($self:ident, $method:ident($($argument:expr),*)) => {
+        match $self.sampling {
+            Sampling::Between => at_axial_points!($self, $method($($argument),*), BETWEEN),
+            Sampling::Lobatto => at_axial_points!($self, $method($($argument),*), LOBATTO),
+            Sampling::FreeLast => at_axial_points!($self, $method($($argument),*), RADAU),
+            Sampling::FreeFirst => at_axial_points!($self, $method($($argument),*), RADAU_LAST),
+        }
+    };
+    ($self:ident, $method:ident($($argument:expr),*), $points:ident) => {{
+        let [p, q, r] = &$points;
+        $self.$method(0, p, $($argument),*);
+        $self.$method(1, q, $($argument),*);
+        $self.$method(2, r, $($argument),*);
     }};
 }
 
@@ -146,6 +176,30 @@ pub(super) struct Curvature<N, const C: usize> {
     inverse: N,
 }
 
+/// Points that axial strain is sampled at (docs/decisions/0003-quadrature.md, 0021-stable-equilibria.md).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sampling {
+    /// Between Gauss and Lobatto: short elements.
+    Between,
+    /// Lobatto: slender elements.
+    Lobatto,
+    /// Radau without the last end: slender elements without bending stiffness whose last end is free.
+    FreeLast,
+    /// Radau without the first end.
+    FreeFirst,
+}
+
+impl Sampling {
+    fn points(self) -> &'static [Sample; 3] {
+        match self {
+            Self::Between => &BETWEEN,
+            Self::Lobatto => &LOBATTO,
+            Self::FreeLast => &RADAU,
+            Self::FreeFirst => &RADAU_LAST,
+        }
+    }
+}
+
 /// Parameters of one element or, in lanes, of several.
 #[derive(Clone, Debug)]
 pub(super) struct Kernel<N, const C: usize> {
@@ -158,8 +212,7 @@ pub(super) struct Kernel<N, const C: usize> {
     pub natural_strain: [N; 3],
     /// Curvature of the unstressed shape at the bending points, 1/m.
     pub natural_curvature: [[N; C]; 3],
-    /// Whether axial strain is sampled at Lobatto points, not at those of Gauss.
-    pub is_slender: bool,
+    pub sampling: Sampling,
     pub strain: Strain,
     pub is_damped: bool,
     pub bends: bool,
@@ -177,7 +230,7 @@ impl<const C: usize> Kernel<f64, C> {
             damping_time: N::of(self.damping_time),
             natural_strain: self.natural_strain.map(N::of),
             natural_curvature: self.natural_curvature.map(|c| c.map(N::of)),
-            is_slender: self.is_slender,
+            sampling: self.sampling,
             strain: self.strain,
             is_damped: self.is_damped,
             bends: self.bends,
@@ -208,7 +261,7 @@ impl<const C: usize> Kernel<[f64; PACK], C> {
             damping_time: read(&self.damping_time),
             natural_strain,
             natural_curvature,
-            is_slender: self.is_slender,
+            sampling: self.sampling,
             strain: self.strain,
             is_damped: self.is_damped,
             bends: self.bends,
@@ -303,16 +356,30 @@ impl<N: Real, const C: usize> Kernel<N, C> {
     /// points make of it (5/2 and 2): a load in proportion to that part is balanced by it.
     #[inline(always)]
     pub fn recover(&self, [a, b, c]: [N; 3], xi: f64) -> N {
-        let (far, weight) = if self.is_slender {
-            (1.0, 2.5)
-        } else {
-            (2.0 * BETWEEN_3[2].at - 1.0, 2.0)
-        };
         let x = 2.0 * xi - 1.0;
+        let (far, weight) = match self.sampling {
+            Sampling::Lobatto => (1.0, 2.5),
+            Sampling::Between => (2.0 * BETWEEN_3[2].at - 1.0, 2.0),
+            Sampling::FreeLast => return self.parabola([a, b, c], &RADAU_3, x),
+            Sampling::FreeFirst => return self.parabola([a, b, c], &RADAU_3_LAST, x),
+        };
         let second = self.number(1.0 / (1.5 * far * far)) * (self.number(0.5) * (a + c) - b);
         let mean = b + self.number(0.5) * second;
         mean + (c - a) * self.number(0.5 * x / far)
             + second * self.number(weight * (1.5 * x * x - 0.5))
+    }
+
+    /// The parabola through three points of a rule that integrates its square, at `x` in [-1, 1], by its products
+    /// with Legendre polynomials.
+    #[inline(always)]
+    fn parabola(&self, values: [N; 3], rule: &[Point; 3], x: f64) -> N {
+        let mut sum = self.number(0.0);
+        for (value, point) in values.into_iter().zip(rule) {
+            let y = 2.0 * point.at - 1.0;
+            let second = 5.0 * (1.5 * x * x - 0.5) * (1.5 * y * y - 0.5);
+            sum += value * self.number(point.weight * (1.0 + 3.0 * x * y + second));
+        }
+        sum
     }
 
     /// Total axial strain, with what damping adds, at the axial points, not less its natural value.
@@ -324,7 +391,7 @@ impl<N: Real, const C: usize> Kernel<N, C> {
     ) -> [N; 3] {
         let v = self.vectors(e);
         let dv = rate.map(|rate| self.vectors(rate));
-        let points = if self.is_slender { &LOBATTO } else { &BETWEEN };
+        let points = self.sampling.points();
         let mut samples = self.natural_strain;
         for (sample, point) in samples.iter_mut().zip(points) {
             let u = combine(&point.slope, &v);
@@ -378,7 +445,7 @@ impl<N: Real, const C: usize> Kernel<N, C> {
     pub fn energy<const D: usize>(&self, e: &[Vector<N, D>; 4]) -> N {
         let (axial, bending) = self.strains(e);
         let mut sum = self.number(0.0);
-        let points = if self.is_slender { &LOBATTO } else { &BETWEEN };
+        let points = self.sampling.points();
         for ((point, strain), natural) in points.iter().zip(axial).zip(self.natural_strain) {
             let strain = strain - natural;
             sum += self.number(point.weight) * self.axial_stiffness * strain * strain;
@@ -400,18 +467,7 @@ impl<N: Real, const C: usize> Kernel<N, C> {
         let v = self.vectors(e);
         let dv = rate.map(|rate| self.vectors(rate));
         let mut sum = [[self.number(0.0); D]; 3];
-        // Written out: with points known when compiling.
-        if self.is_slender {
-            let [p, q, r] = &LOBATTO;
-            self.add_axial_force(0, p, (&v, &dv), &mut sum);
-            self.add_axial_force(1, q, (&v, &dv), &mut sum);
-            self.add_axial_force(2, r, (&v, &dv), &mut sum);
-        } else {
-            let [p, q, r] = &BETWEEN;
-            self.add_axial_force(0, p, (&v, &dv), &mut sum);
-            self.add_axial_force(1, q, (&v, &dv), &mut sum);
-            self.add_axial_force(2, r, (&v, &dv), &mut sum);
-        }
+        at_axial_points!(self, add_axial_force((&v, &dv), &mut sum));
         if self.bends {
             let [p, q, r] = &BENDING;
             self.add_bending_force(0, p, (&v, &dv), &mut sum);

@@ -3,7 +3,7 @@
 //! Source: second derivatives of the energy of `cable/mod.rs`.
 
 use super::{
-    BENDING, BETWEEN, Kernel, LOBATTO, Motion, Sample, Square, Vector, act, combine, dot, times,
+    BENDING, BETWEEN, Kernel, LOBATTO, Motion, RADAU, RADAU_LAST, Sample, Sampling, Square, Vector, act, combine, dot, times,
 };
 use crate::elements::EndBlocks;
 use crate::math::lanes::Real;
@@ -85,17 +85,7 @@ impl<N: Real, const C: usize> Kernel<N, C> {
             products: [[[[zero; D]; D]; 3]; 3],
             multiples: [[zero; 3]; 3],
         };
-        if self.is_slender {
-            let [p, q, r] = &LOBATTO;
-            self.add_axial_tangent(0, p, (&v, &dv), factors, &mut sum);
-            self.add_axial_tangent(1, q, (&v, &dv), factors, &mut sum);
-            self.add_axial_tangent(2, r, (&v, &dv), factors, &mut sum);
-        } else {
-            let [p, q, r] = &BETWEEN;
-            self.add_axial_tangent(0, p, (&v, &dv), factors, &mut sum);
-            self.add_axial_tangent(1, q, (&v, &dv), factors, &mut sum);
-            self.add_axial_tangent(2, r, (&v, &dv), factors, &mut sum);
-        }
+        at_axial_points!(self, add_axial_tangent((&v, &dv), factors, &mut sum));
         if self.bends {
             let [p, q, r] = &BENDING;
             self.add_bending_tangent(0, p, (&v, &dv), factors, &mut sum);

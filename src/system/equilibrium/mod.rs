@@ -1,0 +1,244 @@
+//! Static equilibrium: where all forces balance and, where the loads have a potential, it has a minimum.
+//!
+//! A path of systems leads there, from little load to all of it, or from joints that do not fit yet to ones that
+//! do; the whole way is tried first, then it is halved where that fails. Each system on it is solved by Newton's
+//! method (`newton.rs`). An equilibrium that is found is tested by the inertia of its tangent and left along
+//! its lowest mode where it is not stable, as a straight column beyond its buckling load.
+//!
+//! Source: J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed., sections 3.4 and 10.3 (descent);
+//! E. Riks, An incremental approach to the solution of snapping and buckling problems, Int. J. Solids Struct. 15
+//! (1979) (branches).
+
+mod newton;
+mod unsymmetric;
+
+use nalgebra::Vector2;
+
+use super::held::Open;
+use super::{Dynamics, Model, State, System, Work};
+use crate::body::Node;
+use crate::math::vector::norm;
+use newton::{Guard, Newton, stiffest};
+
+/// Smallest step of the way.
+const SMALLEST: f64 = 1.0 / 256.0;
+/// Most steps, those that fail included.
+const STEPS: usize = 2000;
+/// Largest turn of a slope in one step, where smaller ones are left to try, rad.
+const BRANCH: f64 = 1.5;
+/// First step of a way that closes joints.
+const CLOSING: f64 = 1.0 / 8.0;
+/// Bending stiffness, relative to `EA L^2`, of ropes while joints are closed: they bend rather than fold.
+const BENT: f64 = 1e-4;
+
+/// Why no equilibrium was found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "no static equilibrium found beyond {:.4} of the load: the last Newton correction is \
+     {correction:.1e} of the system's size; expected bodies that are held against their loads",
+    reached
+)]
+pub struct NotFound {
+    /// Fraction of the way that was reached.
+    pub reached: f64,
+    /// Last Newton correction relative to the size of the system.
+    pub correction: f64,
+}
+
+/// What is known of an equilibrium that was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// Whether no motion lowers the potential, as far as roundoff lets see; true where the loads have none.
+    pub is_stable: bool,
+}
+
+/// A steady turn of all bodies about one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turning {
+    /// Rate, counter-clockwise, rad/s.
+    pub rate: f64,
+    /// The point, m.
+    pub center: Vector2<f64>,
+}
+
+/// Finds the equilibrium under gravity, inputs, loads and those of the initial state, all held as they are at the
+/// time of `state`, from its configuration; in a steady turn where one is given. Counts angles on the way and
+/// leaves the rates at zero.
+///
+/// # Errors
+/// When the smallest step of the loads does not converge; `state` is then that of the last one that did.
+pub fn find(
+    system: &System,
+    inputs: &[f64],
+    work: &mut Work,
+    state: &mut State,
+    turning: Option<Turning>,
+) -> Result<Found, NotFound> {
+    let mut held = system.held_at(inputs, work, state);
+    if let Some(Turning { rate, center }) = turning {
+        held.turn(rate, center);
+    }
+    let way = |fraction: f64, work: &Work| {
+        let mut part = held.clone();
+        part.scale_loads(fraction, work);
+        part
+    };
+    Path {
+        inputs,
+        first: 1.0,
+        predicts: false,
+    }
+    .follow(way, work, state)
+}
+
+/// Closes joints that are apart at `state` little by little, bodies unloaded: to the configuration of least strain
+/// energy near the one described.
+pub(super) fn close(
+    system: &System,
+    inputs: &[f64],
+    (open, described): (&Open, &[Node<4>]),
+    work: &mut Work,
+    state: &mut State,
+) -> Result<Found, NotFound> {
+    let mut held = system.held_at(inputs, work, state);
+    held.unload();
+    let ropes = held.clone();
+    // A rope without bending stiffness would fold from element to element.
+    for chain in &mut held.chains {
+        let stiffness = BENT * chain.axial_stiffness() * chain.length().powi(2);
+        chain.stiffen(stiffness, described);
+    }
+    let way = |fraction: f64, _: &Work| {
+        let mut part = held.clone();
+        part.open(open, 1.0 - fraction);
+        part
+    };
+    let closing = Path {
+        inputs,
+        first: CLOSING,
+        predicts: true,
+    };
+    closing.follow(way, work, state)?;
+    let last = Path {
+        first: 1.0,
+        predicts: false,
+        ..closing
+    };
+    last.follow(|_, _| ropes.clone(), work, state)
+}
+
+impl System {
+    fn held_at(&self, inputs: &[f64], work: &mut Work, state: &State) -> Self {
+        let model = Model::new(self, inputs, work, state);
+        self.place(state.time, &state.coordinates, None, model.work);
+        self.held(state.time, model.work, true)
+    }
+}
+
+/// A way through systems.
+struct Path<'a> {
+    inputs: &'a [f64],
+    first: f64,
+    /// Whether what changes along it moves nodes, so that a step starts from where that takes all others.
+    predicts: bool,
+}
+
+impl Path<'_> {
+    /// Follows systems from 0 to 1.
+    fn follow(
+        &self,
+        way: impl Fn(f64, &Work) -> System,
+        work: &mut Work,
+        state: &mut State,
+    ) -> Result<Found, NotFound> {
+        let (mut reached, mut step, mut correction) = (0.0, self.first, f64::INFINITY);
+        let (mut from, mut before) = (state.clone(), way(0.0, work));
+        let mut found = Found { is_stable: true };
+        for _ in 0..STEPS {
+            if reached >= 1.0 {
+                return Ok(found);
+            }
+            let target = f64::min(1.0, reached + step);
+            let next = way(target, work);
+            let guards = match next.is_conservative() {
+                true => [Guard::Turns, Guard::Potential],
+                false => [Guard::Turns, Guard::Transient],
+            };
+            let mut outcome = Err(correction);
+            for guard in guards {
+                if outcome.is_err() {
+                    state.copy_from(&from);
+                    if self.predicts {
+                        self.predict((&before, &next), work, state);
+                    }
+                    outcome = self.settle(&next, work, state, guard);
+                }
+            }
+            // Far from the last equilibrium there may be another one, with a turn more.
+            let mut model = Model::new(&next, self.inputs, work, &from);
+            let turn = model.largest_turn(&from.coordinates, &state.coordinates);
+            if turn > BRANCH && step > SMALLEST.sqrt() {
+                outcome = Err(correction);
+            }
+            match outcome {
+                Ok(now) => {
+                    (reached, found) = (target, now);
+                    step *= 2.0;
+                    from.copy_from(state);
+                    before = next;
+                }
+                Err(left) => {
+                    state.copy_from(&from);
+                    correction = left;
+                    step /= 2.0;
+                    if step < SMALLEST {
+                        break;
+                    }
+                }
+            }
+        }
+        Err(NotFound {
+            reached,
+            correction,
+        })
+    }
+
+    /// Newton's method, and again from beside every equilibrium that is not stable.
+    fn settle(
+        &self,
+        system: &System,
+        work: &mut Work,
+        state: &mut State,
+        guard: Guard,
+    ) -> Result<Found, f64> {
+        let least = smallest_shift(system, self.inputs, work, state);
+        let mut model = Model::new(system, self.inputs, work, state);
+        Newton::new(&mut model, least).settle(state, guard)
+    }
+
+    /// Moves all nodes as the tangent asks for when those that joints hold move on to the next system.
+    fn predict(&self, (before, next): (&System, &System), work: &mut Work, state: &mut State) {
+        let least = smallest_shift(before, self.inputs, work, state);
+        let mut model = Model::new(before, self.inputs, work, state);
+        Newton::new(&mut model, least).predict(state, next);
+    }
+}
+
+/// Root of the smallest multiple of the mass that regularizes the tangent: a part of the stiffest mode that is at
+/// the edge of roundoff; without stiffness, what lets the forces there are move the system by a part of its size.
+fn smallest_shift(system: &System, inputs: &[f64], work: &mut Work, state: &State) -> f64 {
+    let mut model = Model::new(system, inputs, work, state);
+    let stiffest = stiffest(&mut model, state);
+    if stiffest > 0.0 {
+        return 1e-8 * stiffest.sqrt();
+    }
+    let n = state.coordinates.len();
+    let (rest, mut force) = (vec![0.0; n], vec![0.0; n]);
+    model.acceleration(
+        state.time,
+        &state.coordinates,
+        &rest,
+        &mut force,
+    );
+    (norm(&force) / system.scale()).sqrt()
+}

@@ -1,0 +1,321 @@
+//! Newton's method for an equilibrium, with a tangent that is shifted by a multiple of the mass
+//! (Levenberg-Marquardt in the mass norm), so that it looks for a minimum of the potential.
+
+use super::super::{Accepted, Dynamics, Model, State, System};
+use super::unsymmetric;
+use super::Found;
+use crate::math::vector::{dot, norm};
+
+/// Iterations for one system, and where time is what regularizes.
+const ITERATIONS: usize = 100;
+const TRANSIENT: usize = 500;
+/// Shifts that are tried in one iteration, each three times the one before.
+const SHIFTS: usize = 60;
+/// Unstable equilibria that are left before the last one is answered.
+const ESCAPES: usize = 8;
+/// Largest turn of a slope in one iteration, rad.
+const LARGEST_TURN: f64 = 0.5;
+/// Turn, or way relative to the size, with which an unstable equilibrium is left.
+const AWAY: f64 = 0.05;
+/// Eigenvalue, relative to the largest, that roundoff hides.
+const HIDDEN: f64 = 1e-15;
+/// Steps of the power iteration for the largest and of the inverse iteration for the lowest mode.
+const POWERS: usize = 20;
+/// Correction, relative to the size of the system, below which Newton converges quadratically.
+const CLOSE: f64 = 1e-7;
+/// Correction at which it cannot get better.
+const EXACT: f64 = 1e-14;
+/// Change of the potential, relative to its terms, that roundoff hides.
+const NOISE: f64 = 1e-10;
+
+/// What a Newton iteration must respect.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Guard {
+    /// No slope turns too far: fast, and right for most loads.
+    Turns,
+    /// The potential decreases as well: slow in the narrow valleys of stiff bodies, but it gets there
+    /// from configurations without stiffness, such as a slack cable.
+    Potential,
+    /// For loads without a potential: steps of an implicit Euler method for a motion without inertia, which
+    /// become longer as the forces fall (pseudo-transient continuation; C. T. Kelley, D. E. Keyes, SIAM J. Numer.
+    /// Anal. 35 (1998)).
+    Transient,
+}
+
+/// An iteration on one system.
+pub(super) struct Newton<'a, 'b> {
+    model: &'a mut Model<'b>,
+    /// Smallest shift.
+    least: f64,
+    is_conservative: bool,
+    rest: Vec<f64>,
+    force: Vec<f64>,
+    x: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl<'a, 'b> Newton<'a, 'b> {
+    pub(super) fn new(model: &'a mut Model<'b>, least: f64) -> Self {
+        let rest = vec![0.0; model.system.coordinates()];
+        Self {
+            is_conservative: model.system.is_conservative(),
+            least,
+            force: rest.clone(),
+            x: rest.clone(),
+            trial: rest.clone(),
+            rest,
+            model,
+        }
+    }
+
+    /// An equilibrium, stable where that can be had; on failure the last correction.
+    pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, f64> {
+        for _ in 0..ESCAPES {
+            self.relax(state, guard)?;
+            if !self.is_conservative || !self.leave(state) {
+                return Ok(Found { is_stable: true });
+            }
+        }
+        self.relax(state, guard)?;
+        Ok(Found { is_stable: false })
+    }
+
+    /// An equilibrium; on failure the last correction.
+    fn relax(&mut self, state: &mut State, guard: Guard) -> Result<(), f64> {
+        let (time, size) = (state.time, self.model.system.scale());
+        let is_transient = guard == Guard::Transient;
+        let (mut shift, mut before, mut correction) = (0.0_f64, f64::INFINITY, f64::INFINITY);
+        let mut strength = 0.0;
+        for iteration in 0..if is_transient { TRANSIENT } else { ITERATIONS } {
+            (self.model).acceleration(time, &state.coordinates, &self.rest, &mut self.force);
+            if self.force.iter().all(|f| *f == 0.0) {
+                return Ok(());
+            }
+            if is_transient {
+                let now = norm(&self.force);
+                shift *= match iteration {
+                    0 => 0.0,
+                    _ => (now / strength).sqrt().clamp(0.1, 2.0),
+                };
+                if iteration == 0 {
+                    shift = (now / (0.1 * size)).sqrt().max(self.least);
+                }
+                strength = now;
+            }
+            self.model
+                .linearize(time, &state.coordinates, &self.rest);
+            if !self.correct(&mut shift) {
+                return Err(correction);
+            }
+            correction = norm(&self.x) / size;
+            if !correction.is_finite() {
+                return Err(correction);
+            }
+            if shift == 0.0 && correction < CLOSE {
+                self.trial.clone_from(&state.coordinates);
+                self.trial.iter_mut().zip(&self.x).for_each(|(q, x)| *q += x);
+                if !self.accept(state) {
+                    return Err(correction);
+                }
+                if correction < EXACT || correction > 0.1 * before {
+                    return Ok(());
+                }
+                before = correction;
+                continue;
+            }
+            before = f64::INFINITY;
+            if correction < EXACT {
+                return Ok(());
+            }
+            let accepted = self.is_better(state, guard) && self.accept(state);
+            shift = match (accepted, is_transient) {
+                (true, true) if correction < CLOSE => 0.0,
+                (true, true) => shift,
+                (true, false) if shift > self.least => shift / 5.0,
+                (true, false) => 0.0,
+                (false, _) => (5.0 * shift).max(self.least),
+            };
+        }
+        Err(correction)
+    }
+
+    /// Solves for the correction, with the smallest shift from `shift` on that lets it descend; false where no
+    /// shift does.
+    fn correct(&mut self, shift: &mut f64) -> bool {
+        self.x.copy_from_slice(&self.force);
+        if !self.is_conservative {
+            return unsymmetric::solve(self.model, *shift, self.least, &mut self.x);
+        }
+        for _ in 0..SHIFTS {
+            if self.model.factor(*shift) {
+                self.model.solve(&mut self.x);
+                return true;
+            }
+            *shift = (3.0 * *shift).max(self.least);
+        }
+        false
+    }
+
+    /// Puts as much of the correction as turns no slope too far into `trial`; whether that is a better place.
+    fn is_better(&mut self, state: &State, guard: Guard) -> bool {
+        let q = &state.coordinates;
+        let fraction = self.step_fraction(q);
+        if guard != Guard::Potential {
+            return true;
+        }
+        let predicted = fraction * dot(&self.force, &self.x);
+        let (change, size) = self.model.potential_difference(q, &self.trial);
+        change <= -1e-4 * predicted || predicted <= NOISE * size
+    }
+
+    /// Goes to `trial`; false, and back where it was, where constraints cannot be kept there.
+    fn accept(&mut self, state: &mut State) -> bool {
+        let before = state.clone();
+        state.coordinates.copy_from_slice(&self.trial);
+        let accepted = self.model.accepted(state);
+        state.rates.fill(0.0);
+        let holds = matches!(accepted, Accepted::AsIs | Accepted::Moved);
+        if !holds {
+            state.copy_from(&before);
+        }
+        holds
+    }
+
+    /// Fraction of the step that turns no slope too far; leaves `q` plus that part in `trial`.
+    fn step_fraction(&mut self, q: &[f64]) -> f64 {
+        let mut fraction = 1.0;
+        // Halved at most to where it moves nothing.
+        for _ in 0..50 {
+            let pairs = self.trial.iter_mut().zip(q.iter().zip(&self.x));
+            pairs.for_each(|(trial, (q, x))| *trial = q + fraction * x);
+            if self.model.largest_turn(q, &self.trial) <= LARGEST_TURN {
+                break;
+            }
+            fraction *= 0.5;
+        }
+        fraction
+    }
+
+    /// Leaves an equilibrium that is not stable along its lowest mode, towards where gravity pulls, else up or to
+    /// the right; false, and nothing has changed, where it is stable.
+    fn leave(&mut self, state: &mut State) -> bool {
+        let (time, q) = (state.time, state.coordinates.clone());
+        self.model.linearize(time, &q, &self.rest);
+        if self.model.factor(self.least) {
+            return false;
+        }
+        let mut shift = self.least;
+        for _ in 0..SHIFTS {
+            shift *= 2.0;
+            if self.model.factor(shift) {
+                break;
+            }
+        }
+        let largest = (self.least * 1e8).powi(2);
+        let mut mode = seed(q.len());
+        for _ in 0..POWERS {
+            self.model.solve(&mut mode);
+            let size = norm(&mode);
+            if !(size.is_finite() && size > 0.0) {
+                return false;
+            }
+            mode.iter_mut().for_each(|m| *m /= size);
+        }
+        let mut product = mode.clone();
+        self.model.apply_stiffness(&mut product);
+        if dot(&mode, &product) >= -HIDDEN * largest {
+            return false;
+        }
+        let sign = self.side(state, &mode);
+        self.x = mode;
+        self.x.iter_mut().for_each(|m| *m *= sign);
+        self.displace(state)
+    }
+
+    /// 1 where a mode goes to where gravity pulls, else up, else to the right; else -1.
+    fn side(&mut self, state: &State, mode: &[f64]) -> f64 {
+        let (system, work) = (self.model.system, &mut *self.model.work);
+        system.place(state.time, &state.coordinates, None, work);
+        system.elimination.expand(mode, &mut work.y, &mut work.other);
+        let nodes = || work.other.iter();
+        let size = nodes().flatten().map(|m| m.abs()).fold(0.0, f64::max);
+        let axis = |k: usize| nodes().map(|m| m[k]).sum::<f64>();
+        let gravity = system.gravity / system.gravity.norm().max(f64::MIN_POSITIVE);
+        let pulled = gravity.x * axis(0) + gravity.y * axis(1);
+        let ways = [pulled, axis(1), axis(0)];
+        let way = ways.into_iter().find(|way| way.abs() > 1e-6 * size);
+        way.unwrap_or(1.0).signum()
+    }
+
+    /// Moves along the unit vector in `x` as far as turns a slope, or takes the system, [`AWAY`].
+    fn displace(&mut self, state: &mut State) -> bool {
+        let (q, size) = (state.coordinates.clone(), self.model.system.scale());
+        self.trial.clone_from(&q);
+        let probe = 1e-3 * size;
+        (self.trial.iter_mut().zip(&self.x)).for_each(|(q, m)| *q += probe * m);
+        let turn = self.model.largest_turn(&q, &self.trial).max(1e-3);
+        let way = probe * AWAY / turn;
+        for (trial, (q, m)) in self.trial.iter_mut().zip(q.iter().zip(&self.x)) {
+            *trial = q + way * m;
+        }
+        self.accept(state)
+    }
+
+    /// Moves to where the tangent says that the nodes go when held ones move on to those of the next system.
+    pub(super) fn predict(&mut self, state: &mut State, next: &System) {
+        const PART: f64 = 1e-6;
+        let (time, q) = (state.time, state.coordinates.clone());
+        (self.model).acceleration(time, &q, &self.rest, &mut self.force);
+        let mut part = self.model.system.clone();
+        for (x, to) in part.reference.iter_mut().zip(&next.reference) {
+            x.iter_mut().zip(to).for_each(|(x, to)| *x += PART * (to - *x));
+        }
+        let mut moved = self.force.clone();
+        Model::new(&part, &[], self.model.work, state).acceleration(
+            time,
+            &q,
+            &self.rest,
+            &mut moved,
+        );
+        self.model.linearize(time, &q, &self.rest);
+        for (x, (moved, force)) in self.x.iter_mut().zip(moved.iter().zip(&self.force)) {
+            *x = (moved - force) / PART;
+        }
+        let mut shift = self.least;
+        for _ in 0..SHIFTS {
+            if self.model.factor(shift) {
+                self.model.solve(&mut self.x);
+                (state.coordinates.iter_mut().zip(&self.x)).for_each(|(q, x)| *q += x);
+                return;
+            }
+            shift *= 3.0;
+        }
+    }
+}
+
+/// Largest eigenvalue of the stiffness by size, nearly, 1/s^2.
+pub(super) fn stiffest(model: &mut Model<'_>, state: &State) -> f64 {
+    let n = state.coordinates.len();
+    model.linearize(state.time, &state.coordinates, &vec![0.0; n]);
+    let (mut x, mut size) = (seed(n), 0.0);
+    for _ in 0..POWERS {
+        let before = norm(&x);
+        if !(before.is_finite() && before > 0.0) {
+            break;
+        }
+        x.iter_mut().for_each(|x| *x /= before);
+        model.apply_stiffness(&mut x);
+        size = norm(&x);
+    }
+    size
+}
+
+/// A vector with a part along every mode: always the same numbers.
+fn seed(n: usize) -> Vec<f64> {
+    let mut seed = 1_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 33) as f64 / (1_u64 << 31) as f64 - 0.5
+    };
+    (0..n).map(|_| random()).collect()
+}

@@ -1,0 +1,153 @@
+//! Solves with the whole tangent where loads make it unsymmetric: a follower force turns with one node or two,
+//! so that its tangent differs from a symmetric one by a few columns, and GMRES with the symmetric factors
+//! needs a step or two for each of them.
+//!
+//! Source: Y. Saad, M. H. Schultz, GMRES, SIAM J. Sci. Stat. Comput. 7 (1986).
+
+use super::super::loads::Instant;
+use super::super::{Dynamics, Model};
+use crate::body::Node;
+use crate::math::jet::{Jet, part};
+use crate::math::vector::{dot, norm};
+
+/// Most steps, and the residual at which the iteration ends, relative to that at its start.
+const STEPS: usize = 80;
+const ENOUGH: f64 = 1e-13;
+
+/// Solves `(s^2 I + K) x = f` in place, where the model is linearized; `least` is the shift of the symmetric
+/// factors that stand in where those without are singular. False where no factors are found.
+pub(super) fn solve(model: &mut Model<'_>, s: f64, least: f64, x: &mut [f64]) -> bool {
+    let mut shift = s;
+    for _ in 0..STEPS {
+        if model.inertia(shift).is_some() {
+            break;
+        }
+        shift = (3.0 * shift).max(least);
+    }
+    let right = preconditioned(model, x);
+    let scale = norm(&right);
+    x.fill(0.0);
+    if !(scale.is_finite() && scale > 0.0) {
+        return scale == 0.0;
+    }
+    let mut basis = vec![right.iter().map(|r| r / scale).collect::<Vec<f64>>()];
+    // Columns of the Hessenberg matrix, turned to triangular by rotations, and the right-hand side.
+    let (mut columns, mut rotations) = (Vec::new(), Vec::<[f64; 2]>::new());
+    let mut target = vec![scale];
+    for k in 0..STEPS.min(x.len()) {
+        let product = apply(model, s, &basis[k]);
+        let mut w = preconditioned(model, &product);
+        let mut column: Vec<f64> = Vec::with_capacity(k + 2);
+        for v in &basis {
+            let h = dot(v, &w);
+            w.iter_mut().zip(v).for_each(|(w, v)| *w -= h * v);
+            column.push(h);
+        }
+        // Twice is enough.
+        for (v, h) in basis.iter().zip(&mut column) {
+            let more = dot(v, &w);
+            w.iter_mut().zip(v).for_each(|(w, v)| *w -= more * v);
+            *h += more;
+        }
+        let rest = norm(&w);
+        for (i, [c, s]) in rotations.iter().enumerate() {
+            let [a, b]: [f64; 2] = [column[i], column[i + 1]];
+            (column[i], column[i + 1]) = (c * a + s * b, c * b - s * a);
+        }
+        let size = column[k].hypot(rest);
+        if !(size.is_finite() && size > 0.0) {
+            break;
+        }
+        let [c, sine] = [column[k] / size, rest / size];
+        column[k] = size;
+        rotations.push([c, sine]);
+        let last = target[k];
+        target[k] = c * last;
+        target.push(-sine * last);
+        columns.push(column);
+        if (sine * last).abs() <= ENOUGH * scale || rest <= ENOUGH * size {
+            break;
+        }
+        basis.push(w.iter().map(|w| w / rest).collect());
+    }
+    for i in (0..columns.len()).rev() {
+        let later: f64 = (i + 1..columns.len()).map(|j| columns[j][i] * target[j]).sum();
+        target[i] = (target[i] - later) / columns[i][i];
+    }
+    for (v, factor) in basis.iter().zip(&target[..columns.len()]) {
+        x.iter_mut().zip(v).for_each(|(x, v)| *x += factor * v);
+    }
+    x.iter().all(|x| x.is_finite())
+}
+
+/// Solves with the symmetric factors, inside the tangent plane of the constraints.
+fn preconditioned(model: &mut Model<'_>, f: &[f64]) -> Vec<f64> {
+    let mut x = f.to_vec();
+    model.work.into_tangent_plane(&mut x);
+    model.solve(&mut x);
+    x
+}
+
+/// `(s^2 I + K) q` with the whole tangent `K` at the configuration that the model is linearized at.
+fn apply(model: &mut Model<'_>, s: f64, q: &[f64]) -> Vec<f64> {
+    let mut sum = q.to_vec();
+    model.apply_stiffness(&mut sum);
+    sum.iter_mut().zip(q).for_each(|(sum, q)| *sum += s * s * q);
+    let skew = skew(model, q);
+    sum.iter_mut().zip(skew).for_each(|(sum, k)| *sum += k);
+    sum
+}
+
+/// What the symmetric tangent leaves out: minus the derivative of the loads without a potential along `q`, less
+/// their part in the symmetric tangent.
+fn skew(model: &mut Model<'_>, q: &[f64]) -> Vec<f64> {
+    let (system, time) = (model.system, Jet::from_re(model.time));
+    let work = &mut *model.work;
+    system.elimination.expand(q, &mut work.y, &mut work.other);
+    let jets = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
+    let (inputs, rates) = (jets(&work.inputs), jets(&work.input_rates));
+    let angles = jets(&work.angles);
+    let zero = Jet::from_re(0.0);
+    let pairs = work.x.iter().zip(&work.other);
+    let x: Vec<Node<4, Jet>> = pairs
+        .map(|(x, dx)| std::array::from_fn(|k| Jet::new(x[k], dx[k], 0.0)))
+        .collect();
+    let v = vec![[zero; 4]; x.len()];
+    let mut f = v.clone();
+    let at = Instant {
+        time,
+        inputs: &inputs,
+        input_rates: &rates,
+        x: &x,
+        v: &v,
+        chains: &system.chains,
+        angles: (&system.angles, &angles),
+    };
+    let loads = || (system.loads.iter()).filter(|load| !load.is_conservative());
+    loads().for_each(|load| load.add_force(at, &mut f));
+    for (out, f) in work.f.iter_mut().zip(&f) {
+        *out = f.map(|f| -part(f, 1));
+    }
+    let mut force = std::mem::take(&mut work.f);
+    let dx = &work.other;
+    for load in loads() {
+        load.add_tangent(
+            system.instant(model.time, work),
+            &mut |a, b, block| {
+                for r in 0..4 {
+                    for c in 0..4 {
+                        force[a][r] -= block[r][c] * dx[b][c];
+                        if a != b {
+                            force[b][c] -= block[r][c] * dx[a][r];
+                        }
+                    }
+                }
+            },
+            &mut |_, _, _| {},
+        );
+    }
+    work.f = force;
+    let mut out = vec![0.0; q.len()];
+    system.elimination.reduce(&work.f, &mut work.y, &mut out);
+    out
+}

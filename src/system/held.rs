@@ -1,0 +1,92 @@
+//! Systems in which nothing changes: loads and motions held as they are at an instant, loads at a fraction of
+//! their size, joints still apart by a fraction of their gaps. What equilibria are sought in.
+
+use nalgebra::Vector2;
+
+use super::signal::Drive;
+use super::{Instant, System, Work};
+use crate::body::Node;
+use crate::math::function::Function;
+
+/// How far joints are apart: what has to be added to the reference, and values of the constraints.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Open {
+    /// Change of the reference that holds the linear rows where they are, m.
+    pub reference: Vec<Node<4>>,
+    /// Values of the non-linear constraints.
+    pub offsets: Vec<f64>,
+}
+
+impl System {
+    /// The same system with loads and motions held as they are at the time and under the inputs in
+    /// `work`, and with the loads of the initial state where asked for.
+    pub(super) fn held(&self, time: f64, work: &Work, with_initial: bool) -> Self {
+        let at = self.instant(time, work);
+        let mut held = self.clone();
+        if with_initial {
+            held.loads.extend(self.initial_loads.iter().cloned());
+        }
+        held.initial_loads.clear();
+        for load in &mut held.loads {
+            *load = load.held(at, 1.0);
+        }
+        for (drive, [value, ..]) in held.drives.iter_mut().zip(&work.drives) {
+            *drive = Drive::Function(Function::constant(*value));
+        }
+        held.tracks_work = false;
+        held
+    }
+
+    /// Scales gravity, the speed of rotation squared, and all loads but springs.
+    pub(super) fn scale_loads(&mut self, fraction: f64, work: &Work) {
+        for load in &mut self.loads {
+            let at = Instant {
+                time: 0.0,
+                inputs: &work.inputs,
+                input_rates: &work.input_rates,
+                x: &work.x,
+                v: &work.v,
+                chains: &self.chains,
+                angles: (&self.angles, &work.angles),
+            };
+            *load = load.held(at, fraction);
+        }
+        for weight in self.weight.iter_mut().flatten() {
+            *weight *= fraction;
+        }
+        self.rotation *= fraction.sqrt();
+    }
+
+    /// Takes all loads, springs, gravity and rotation away.
+    pub(super) fn unload(&mut self) {
+        self.loads.clear();
+        self.weight.fill([0.0; 4]);
+        self.rotation = 0.0;
+    }
+
+    /// Turns about a point at a rate, rad/s, beside what the frame does: loads get the centrifugal force.
+    pub(super) fn turn(&mut self, rate: f64, center: Vector2<f64>) {
+        let arm = vec![[center.x, center.y, 0.0, 0.0]; self.reference.len()];
+        let mut weight = std::mem::take(&mut self.weight);
+        self.add_inertia(-rate * rate, &arm, &mut weight);
+        self.weight = weight;
+        self.rotation = rate;
+    }
+
+    /// Holds joints apart by a fraction of their gaps.
+    pub(super) fn open(&mut self, open: &Open, fraction: f64) {
+        for (x, change) in self.reference.iter_mut().zip(&open.reference) {
+            x.iter_mut()
+                .zip(change)
+                .for_each(|(x, c)| *x += fraction * c);
+        }
+        for (constraint, offset) in self.constraints.iter_mut().zip(&open.offsets) {
+            constraint.offset = fraction * offset;
+        }
+    }
+
+    /// Whether the loads have a potential, so that the tangent is symmetric: follower forces do not.
+    pub fn is_conservative(&self) -> bool {
+        self.loads.iter().all(|load| load.is_conservative())
+    }
+}
