@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use flexbody::scene::{Body, Initial, Scene};
+use flexbody::scene::{Body, Initial, InitialState, Scene};
 use flexbody::simulation::{Simulation, Source};
 
 /// Steps before derivatives are taken, and their length, s.
@@ -45,7 +45,7 @@ impl Moving {
         let mut scene = Scene::from_json(&text).expect("a valid scene");
         scene.accuracy.relative_tolerance = 1e-10;
         // Soft enough for differences over a time that rounding does not notice.
-        scene.initial = Initial::AsShaped;
+        scene.initial = Initial::State(InitialState::AsShaped);
         for body in &mut scene.bodies {
             if let Body::Cable(cable) = body {
                 cable.material.youngs_modulus *= 1e-4;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use flexbody::scene::{Assembled, Initial, MarkerId, Scene};
+use flexbody::scene::{Assembled, InitialState, MarkerId, Scene};
 use flexbody::system::{Drive, State, Work, equilibrium};
 use serde_json::Value;
 
@@ -86,7 +86,7 @@ impl Start {
         let described = (&assembled.nodes[..], &assembled.rates[..]);
         let state = system.initial_state(0.0, &inputs, described, &mut work);
         let mut state = state.map_err(|error| format!("joints do not fit: {:?}", error.gaps))?;
-        if scene.initial == Initial::StaticEquilibrium {
+        if scene.initial.state() == InitialState::StaticEquilibrium {
             let found = equilibrium::find(system, &inputs, &mut work, &mut state, None);
             found.map_err(|error| error.to_string())?;
         }

@@ -81,7 +81,11 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 
     /// Mean axial stiffness, N.
     pub fn axial_stiffness(&self) -> f64 {
-        let sum: f64 = self.elements.iter().map(|e| e.length() * e.axial_stiffness()).sum();
+        let sum: f64 = self
+            .elements
+            .iter()
+            .map(|e| e.length() * e.axial_stiffness())
+            .sum();
         sum / self.length()
     }
 

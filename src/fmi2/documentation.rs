@@ -7,7 +7,7 @@ use super::logger::Category;
 use super::model_description::limits;
 use super::number::number;
 use super::parts::parts;
-use crate::scene::{Body, Constraints, Formulation, Initial, Integrator, Scene, Strain};
+use crate::scene::{Body, Constraints, Formulation, InitialState, Integrator, Scene, Strain};
 use crate::simulation::{Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
@@ -125,11 +125,14 @@ fn model(scene: &Scene) -> String {
         Integrator::Verlet => "velocity Verlet of order 2, explicit",
         Integrator::Rkn43 => "Runge-Kutta-Nystrom of order 4, explicit",
     };
-    let initial = match scene.initial {
-        Initial::AsShaped => "the bodies as described, moved as far as their joints ask for",
-        Initial::StaticEquilibrium => {
-            "the equilibrium under gravity, loads and the inputs of initialization, at rest"
+    let initial = match scene.initial.state() {
+        InitialState::AsShaped => {
+            "the bodies as described, moved and deformed as far as their joints ask for"
         }
+        InitialState::StaticEquilibrium => {
+            "the equilibrium under gravity, loads and the inputs of initialization"
+        }
+        InitialState::Steady => "the equilibrium in the steady motion that all bodies start with",
     };
     let constraints = match scene.method.constraints {
         Constraints::Projection => {

@@ -233,7 +233,18 @@ impl Instance {
             let message = format_args!("joints that hold what others hold already: {names}");
             self.logger.log(Status::Ok, Category::Warning, message);
         }
-        Ok(())
+        if let Some(gaps) = self.simulation.misfits() {
+            let message = format_args!(
+                "bodies were moved to close joints that are far apart as described: {gaps}"
+            );
+            self.logger.log(Status::Ok, Category::Warning, message);
+        }
+        match self.simulation.is_unstable() {
+            true => Err(Fault::Remark(
+                "the simulation starts from an equilibrium that is not stable, and no stable one was found beside it",
+            )),
+            false => Ok(()),
+        }
     }
 
     /// Moves to the next state after a computation, or to the error state if it failed.

@@ -114,7 +114,7 @@ impl Logger {
     /// Logs why a call is not answered with OK.
     pub fn fault(&self, function: &str, fault: &Fault) {
         let category = match fault.status() {
-            Status::Discard => Category::Warning,
+            Status::Discard | Status::Warning => Category::Warning,
             _ => Category::Error,
         };
         self.log(

@@ -119,6 +119,9 @@ pub enum Fault {
     /// A step that could be done only in part.
     #[error(transparent)]
     Step(#[from] StepFailure),
+    /// Done, but there is something to know.
+    #[error("{0}")]
+    Remark(&'static str),
     /// A computation that failed.
     #[error(transparent)]
     Computation(#[from] simulation::Error),
@@ -128,6 +131,7 @@ impl Fault {
     /// The status that the master gets.
     pub fn status(&self) -> Status {
         match self {
+            Self::Remark(_) => Status::Warning,
             Self::Step(_) | Self::NoSuchStatus => Status::Discard,
             _ => Status::Error,
         }

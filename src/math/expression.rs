@@ -58,7 +58,15 @@ impl Expression {
     /// # Errors
     /// What was expected in the text, and what was found.
     pub fn new(text: &str) -> Result<Self, String> {
-        let program = grammar::program(text)?;
+        Self::of(text, "t")
+    }
+
+    /// Reads an expression in another variable; the calls below take its value for the time.
+    ///
+    /// # Errors
+    /// What was expected in the text, and what was found.
+    pub fn of(text: &str, variable: &'static str) -> Result<Self, String> {
+        let program = grammar::program(text, variable)?;
         Ok(Self { program })
     }
 

@@ -28,7 +28,7 @@ const LENGTH: usize = 10_000;
 ///
 /// # Errors
 /// What was expected in the text, and what was found.
-pub(super) fn program(text: &str) -> Result<Vec<Operation>, String> {
+pub(super) fn program(text: &str, variable: &'static str) -> Result<Vec<Operation>, String> {
     if text.len() > LENGTH {
         let found = text.len();
         return Err(format!(
@@ -36,6 +36,7 @@ pub(super) fn program(text: &str) -> Result<Vec<Operation>, String> {
         ));
     }
     let mut reader = Reader {
+        variable,
         program: Vec::new(),
         waiting: Vec::new(),
         place: Place::Start,
@@ -107,6 +108,8 @@ const POWER: u8 = 4;
 const FUNCTION: u8 = 5;
 
 struct Reader {
+    /// Name of the variable.
+    variable: &'static str,
     program: Vec<Operation>,
     waiting: Vec<Waiting>,
     place: Place,
@@ -144,7 +147,7 @@ impl Reader {
     }
 
     fn name(&mut self, name: &str) -> Result<(), String> {
-        if name == "t" {
+        if name == self.variable {
             return self.operand(Operation::Time, name);
         }
         if let Some((_, number)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
@@ -153,7 +156,9 @@ impl Reader {
         let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
             let constants = CONSTANTS.map(|(known, _)| known);
             let functions = FUNCTIONS.map(|(known, _)| known);
-            let known = [&["t"], &constants[..], &functions[..]].concat().join(", ");
+            let known = [&[self.variable], &constants[..], &functions[..]]
+                .concat()
+                .join(", ");
             return Err(format!(
                 "expected one of the names {known}, found \"{name}\""
             ));
@@ -306,11 +311,11 @@ mod tests {
             ("1e999*t", "expected a finite number, found \"1e999\""),
             ("\u{3c0}*t", "found \"\u{3c0}\""),
         ] {
-            let told = program(text).expect_err(text);
+            let told = program(text, "t").expect_err(text);
             assert!(told.contains(wanted), "{text}: {told}");
         }
-        assert!(program(&"1".repeat(20_000)).is_err());
-        assert!(program(&"(".repeat(9_000)).is_err());
-        assert!(program(&format!("{}t", "-".repeat(9_000))).is_ok());
+        assert!(program(&"1".repeat(20_000), "t").is_err());
+        assert!(program(&"(".repeat(9_000), "t").is_err());
+        assert!(program(&format!("{}t", "-".repeat(9_000)), "t").is_ok());
     }
 }

@@ -21,6 +21,7 @@ impl<'a> Resolved<'a> {
             joints: Vec::new(),
             motions: Vec::new(),
             loads: Vec::new(),
+            initial_loads: Vec::new(),
             inputs: Vec::new(),
             outputs: Vec::new(),
             ports: Vec::new(),

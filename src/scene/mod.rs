@@ -17,7 +17,8 @@ mod validate;
 pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion,
-    Integrator, Material, Method, RigidBody, Scene, Section, Shape, Strain, Table, Value,
+    InitialState, Integrator, Material, Method, RigidBody, Scene, Section, Shape, Strain, Table,
+    Value,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Holder,

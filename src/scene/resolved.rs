@@ -444,6 +444,8 @@ pub struct Resolved<'a> {
     pub motions: Vec<Motion<'a>>,
     /// Loads.
     pub loads: Vec<Load<'a>>,
+    /// Loads that act only while the initial state is looked for.
+    pub initial_loads: Vec<Load<'a>>,
     /// Inputs, without those of ports.
     pub inputs: Vec<Input<'a>>,
     /// Outputs, without those of ports.

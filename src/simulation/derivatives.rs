@@ -1,7 +1,7 @@
 //! Derivatives: of inputs, which the master knows; of outputs in time; of outputs by inputs.
 
 use super::{Error, Simulation, Source};
-use crate::scene::Initial;
+use crate::scene::InitialState;
 
 impl Simulation {
     /// Sets the derivative of order 1 or 2 of an input at the present time. It moves the input in the
@@ -84,7 +84,7 @@ impl Simulation {
     /// Whether the initial state depends on one of these inputs: by static equilibrium, or by motions that
     /// inputs drive.
     pub fn start_follows(&self, mut inputs: impl Iterator<Item = usize>) -> bool {
-        let equilibrium = self.scene.initial == Initial::StaticEquilibrium;
+        let equilibrium = self.scene.initial.state() != InitialState::AsShaped;
         inputs.any(|index| {
             let variable = self.variables.get(index);
             variable.is_some_and(|input| equilibrium || !input.acts_at_once())

@@ -6,7 +6,7 @@ use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
 use crate::body::Marker;
 use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
 use crate::math::jet::{Jet, part};
-use crate::scene::{Assembled, Initial, Resolved};
+use crate::scene::{Assembled, Holder, InitialState, Resolved};
 use crate::system::{
     Derivatives, Evaluation, Gap, Model, NotAssembled, State, System, Work, equilibrium, moved,
     natural_frequencies,
@@ -31,9 +31,11 @@ pub(super) struct Inputs {
 }
 
 pub(super) struct Engine {
-    initial: Initial,
-    /// Names of what holds something in the system, and of bodies.
-    holders: Vec<String>,
+    initial: InitialState,
+    /// What holds something in the system, by its list and name, and names of bodies.
+    holders: Vec<(&'static str, String)>,
+    /// What the initial state was found with that a person should know.
+    remarks: Remarks,
     bodies: Vec<String>,
     assembled: Assembled,
     work: Work,
@@ -77,6 +79,24 @@ fn names<'a>(names: &mut dyn Iterator<Item = &'a str>) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
+/// Gap, in sizes of the largest body (or in rad), from which on it is told that bodies were moved to close it.
+const MISFIT: f64 = 0.5;
+
+/// What a person should know about an initial state.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Remarks {
+    /// Gaps of joints as described.
+    pub misfits: Option<String>,
+    /// The equilibrium is not stable, and could not be left.
+    pub is_unstable: bool,
+}
+
+fn kind_and_name(holder: &Holder<'_>) -> (&'static str, String) {
+    let kinds = ["joint", "motion", "port"];
+    let kind = kinds.into_iter().find(|kind| holder.path.starts_with(kind));
+    (kind.unwrap_or("joint"), holder.name.to_owned())
+}
+
 impl Engine {
     /// Builds the system of a scene.
     pub(super) fn new(resolved: &Resolved<'_>, variables: &[Variable]) -> Result<Self, Error> {
@@ -105,8 +125,9 @@ impl Engine {
         };
         let (tolerance, method) = method::choose(resolved, &start, &mut work)?;
         Ok(Self {
-            initial: resolved.scene.initial,
-            holders: names(&mut resolved.holders.iter().map(|holder| holder.name)),
+            initial: resolved.scene.initial.state(),
+            holders: resolved.holders.iter().map(kind_and_name).collect(),
+            remarks: Remarks::default(),
             bodies: names(&mut resolved.bodies.iter().map(|body| body.name())),
             evaluated: Evaluated::Nothing,
             derivatives: None,
@@ -132,16 +153,38 @@ impl Engine {
             system,
             nodes,
             rates,
+            motions,
             ..
         } = &self.assembled;
+        let misfits = system.misfits((time, inputs), nodes, MISFIT, &mut self.work);
+        self.remarks = Remarks::default();
         let described = (&nodes[..], &rates[..]);
         let state = match self.start.take() {
             Some((start, state)) if time == 0.0 && start == inputs => Ok(state),
             _ => system.initial_state(time, inputs, described, &mut self.work),
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
-        if self.initial == Initial::StaticEquilibrium {
-            equilibrium::find(system, inputs, &mut self.work, &mut state, None)?;
+        let steady = match self.initial {
+            InitialState::Steady => Some(system.steady(&state, rates, &mut self.work)?),
+            _ => None,
+        };
+        if self.initial != InitialState::AsShaped {
+            let turning = steady.and_then(|steady| steady.turning());
+            let found = equilibrium::find(system, inputs, &mut self.work, &mut state, turning)?;
+            self.remarks.is_unstable = !found.is_stable;
+            if steady.is_some() || !motions.is_none() {
+                let x = system.nodes_of(&state, &mut self.work);
+                let rates = steady.map_or_else(|| motions.rates(&x), |steady| steady.rates(&x));
+                if !system.start_moving(&rates, inputs, &mut self.work, &mut state) {
+                    let gaps = Vec::new();
+                    return Err(Error::NotAssembled(
+                        self.open_joints(&NotAssembled { gaps }),
+                    ));
+                }
+            }
+        }
+        if !misfits.is_empty() {
+            self.remarks.misfits = Some(self.gaps(&misfits));
         }
         let count = self.frequencies;
         let frequencies = match count {
@@ -152,6 +195,11 @@ impl Engine {
         state.work[0] -= self.set_energy(&state, inputs);
         self.forget();
         Ok((state, frequencies))
+    }
+
+    /// What a person should know about the initial state.
+    pub(super) fn remarks(&self) -> &Remarks {
+        &self.remarks
     }
 
     fn open_joints(&self, error: &NotAssembled) -> String {
@@ -166,8 +214,7 @@ impl Engine {
     /// Gaps of joints, in words.
     fn gaps(&self, gaps: &[Gap]) -> String {
         let word = |gap: &Gap| {
-            let (list, _, name) = self.scene.holder(gap.joint);
-            let kind = list.trim_end_matches('s');
+            let (kind, name) = &self.holders[gap.joint];
             let unit = if gap.is_angle { "rad" } else { "m" };
             match gap.size < 1e-3 {
                 true => format!("{kind} `{name}` {:.1e} {unit}", gap.size),
@@ -179,7 +226,7 @@ impl Engine {
 
     /// Name of a joint, motion or port that holds something in the system.
     fn name(&self, index: usize) -> &str {
-        &self.holders[index]
+        &self.holders[index].1
     }
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of

@@ -32,6 +32,9 @@ pub enum Error {
     /// No static equilibrium.
     #[error("initial: {0}")]
     Equilibrium(#[from] crate::system::equilibrium::NotFound),
+    /// No steady motion.
+    #[error("initial: {0}")]
+    Steady(#[from] crate::system::NotSteady),
     /// A variable was asked for something that it is not, or set to something it cannot be.
     #[error("{name}: {message}")]
     Variable {
@@ -154,6 +157,20 @@ impl Simulation {
     /// What the last step did.
     pub fn report(&self) -> Report {
         self.report
+    }
+
+    /// Gaps, in words, of joints that bodies as described do not fit by far: bodies were moved, or cables deformed, to
+    /// close them.
+    pub fn misfits(&self) -> Option<&str> {
+        let engine = self.engine.as_ref()?;
+        engine.remarks().misfits.as_deref()
+    }
+
+    /// Whether the simulation starts from an equilibrium that is not stable and that could not be left.
+    pub fn is_unstable(&self) -> bool {
+        self.engine
+            .as_ref()
+            .is_some_and(|engine| engine.remarks().is_unstable)
     }
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of

@@ -51,8 +51,91 @@ fn bodies_that_do_not_fit_are_refused_with_the_names_of_their_joints() {
     let begins = "joints: expected bodies that fit together, found gaps: ";
     assert!(text.starts_with(begins), "{text}");
     assert!(
-        text.contains("left 0.") && text.contains("right 0."),
+        text.contains("joint `left` 0.100 m") && text.contains("joint `right` 0.100 m"),
         "{text}"
+    );
+}
+
+#[test]
+fn gaps_of_angles_are_told_in_rad_and_absurd_ones_are_refused() {
+    let told = |joints: &str| {
+        let bar = r#""bodies": [ { "name": "bar", "element": "rigid", "mass": 1.0, "inertia": 1.0,
+            "position": [0.5, 0.0], "markers": { "a": [-0.5, 0.0], "b": [0.5, 0.0] } } ], "joints": "#;
+        let mut apart = simulation(&format!("{bar}[{joints}]"));
+        let error = apart
+            .initialize(0.0)
+            .expect_err("joints that cannot be closed");
+        error.to_string()
+    };
+    let twisted = told(
+        r#"{ "name": "clamp", "kind": "weld", "markers": ["ground", "bar.a"] },
+           { "name": "turn", "kind": "orientation", "markers": ["ground", "bar.b"], "angle": 0.5 }"#,
+    );
+    assert!(twisted.contains("joint `turn` 0.250 rad"), "{twisted}");
+    let far = told(
+        r#"{ "name": "pin", "kind": "revolute", "markers": ["ground", "bar.a"],
+             "point": [1000.0, 0.0] }"#,
+    );
+    assert!(far.contains("joint `pin` 1000.000 m"), "{far}");
+}
+
+#[test]
+fn bodies_that_were_moved_far_are_told() {
+    let bar = |x: f64| {
+        let mut bar = simulation(&format!(
+            r#""bodies": [ {{ "name": "bar", "element": "rigid", "mass": 1.0, "inertia": 1.0,
+               "position": [0.5, 0.0], "markers": {{ "a": [-0.5, 0.0] }} }} ],
+             "joints": [ {{ "name": "pin", "kind": "revolute", "markers": ["ground", "bar.a"],
+               "point": [{x}, 0.0] }} ]"#
+        ));
+        bar.initialize(0.0).expect("a bar that can be moved");
+        bar.misfits().map(str::to_owned)
+    };
+    assert_eq!(bar(0.1), None);
+    assert_eq!(bar(2.0).as_deref(), Some("joint `pin` 2.000 m"));
+}
+
+#[test]
+fn what_nothing_holds_has_no_equilibrium() {
+    for body in [
+        r#""element": "rigid", "mass": 1.0, "inertia": 0.0, "position": [0.0, 0.0]"#,
+        r#""element": "cable", "elements": 4, "material": { "youngs_modulus": 1e6, "density": 1e3 },
+           "section": { "area": 1e-4, "second_moment": 1e-9 }, "shape": { "line": { "from": [0.0, 0.0], "to": [1.0, 0.0] } }"#,
+    ] {
+        let mut free = simulation(&format!(
+            r#""gravity": [0.0, -9.81], "bodies": [ {{ "name": "it", {body} }} ], "initial": "static_equilibrium""#
+        ));
+        let error = free.initialize(0.0).expect_err("nothing holds it");
+        assert!(
+            error.to_string().contains("no static equilibrium"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn steady_motion_needs_bodies_that_move_as_one_at_a_constant_rate() {
+    let started = |motion: &str, spin: f64| {
+        let mut rod = simulation(&format!(
+            r#""bodies": [ {{ "name": "rod", "element": "rigid", "mass": 1.0, "inertia": 1.0,
+                 "position": [0.5, 0.0], "motion": {{ "spin": {spin} }}, "markers": {{ "a": [-0.5, 0.0], "b": [0.5, 0.0] }} }} ],
+               "joints": [ {{ "name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"] }}{motion} ],
+               "initial": "steady", "outputs": [ {{ "kind": "angular_velocity", "marker": "rod.b" }} ]"#
+        ));
+        rod.initialize(0.0)
+            .map(|()| get(&mut rod, "rod.b.angular_velocity"))
+    };
+    assert!((started("", 3.0).expect("it turns") - 3.0).abs() < 1e-12);
+    let drive = |value: &str| {
+        format!(
+            r#" ], "motions": [ {{ "name": "m", "kind": "angle", "joint": "pin", "value": "{value}" }}"#
+        )
+    };
+    assert!((started(&drive("2*t"), 0.0).expect("it turns") - 2.0).abs() < 1e-12);
+    let error = started(&drive("2*t+t^2"), 0.0).expect_err("it accelerates");
+    assert!(
+        error.to_string().contains("one that accelerates"),
+        "{error}"
     );
 }
 

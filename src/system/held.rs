@@ -71,6 +71,8 @@ impl System {
         self.add_inertia(-rate * rate, &arm, &mut weight);
         self.weight = weight;
         self.rotation = rate;
+        // The Coriolis force is that of the rates at rest, not of those that the scratch still holds.
+        self.needs_rates = true;
     }
 
     /// Holds joints apart by a fraction of their gaps.

@@ -16,6 +16,7 @@ mod outputs;
 mod placement;
 mod signal;
 mod state;
+mod steady;
 mod work;
 
 pub use build::{BuildError, Lump, Parts};
@@ -27,6 +28,7 @@ pub use outputs::Evaluation;
 pub use placement::{Gap, NotAssembled};
 pub use signal::{Course, Drive, Signal, moved};
 pub use state::State;
+pub use steady::{NotSteady, Steady};
 pub use work::Work;
 
 use std::ops::Range;

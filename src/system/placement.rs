@@ -75,8 +75,27 @@ impl System {
         self.place(time, &state.coordinates, None, work);
         match left {
             Ok(()) => self.approach(&x, work, &mut state),
-            Err(error) => self.close((nodes, &x), inputs, work, &mut state).ok_or(error)?,
+            Err(error) => self
+                .close((nodes, &x), inputs, work, &mut state)
+                .ok_or(error)?,
         }
+        match self.start_moving(rates, inputs, work, &mut state) {
+            true => Ok(state),
+            false => Err(NotAssembled { gaps: Vec::new() }),
+        }
+    }
+
+    /// Gives a state rates as near to those given over the nodes, in the mass norm, as joints and motions allow.
+    /// False where they allow none.
+    pub fn start_moving(
+        &self,
+        rates: &[Node<4>],
+        inputs: &[f64],
+        work: &mut Work,
+        state: &mut State,
+    ) -> bool {
+        work.follow(state);
+        self.place(state.time, &state.coordinates, None, work);
         let mut start = work.other.clone();
         start.fill([0.0; 4]);
         self.follow(&work.drives, 1, &mut start);
@@ -84,12 +103,19 @@ impl System {
         let mut v = std::mem::take(&mut state.rates);
         self.coordinates_of(&missing, work, &mut v);
         state.rates = v;
-        let mut model = Model::new(self, inputs, work, &state);
-        if !model.project(&mut state) {
-            return Err(NotAssembled { gaps: Vec::new() });
+        let mut model = Model::new(self, inputs, work, state);
+        let holds = model.project(state);
+        if holds {
+            model.accepted(state);
         }
-        model.accepted(&mut state);
-        Ok(state)
+        holds
+    }
+
+    /// Nodal coordinates of a state.
+    pub fn nodes_of(&self, state: &State, work: &mut Work) -> Vec<Node<4>> {
+        work.follow(state);
+        self.place(state.time, &state.coordinates, None, work);
+        work.x.clone()
     }
 
     /// Coordinates that come closest to nodal ones in the mass norm.
@@ -131,7 +157,10 @@ impl System {
                 }
             }
         }
-        let view = View { x, ..self.view(work) };
+        let view = View {
+            x,
+            ..self.view(work)
+        };
         open.offsets = self.constraints.iter().map(|c| c.value(&view)).collect();
         for (place, change) in work.x.iter_mut().zip(&open.reference) {
             place.iter_mut().zip(change).for_each(|(x, c)| *x += c);
@@ -301,9 +330,7 @@ impl System {
     /// A gap in m: that of a distance is measured by squares.
     fn length_of(&self, joint: usize, gap: f64) -> f64 {
         match self.joints[joint].kind {
-            JointKind::Distance(length) => {
-                (length * (length + 2.0 * gap)).max(0.0).sqrt() - length
-            }
+            JointKind::Distance(length) => (length * (length + 2.0 * gap)).max(0.0).sqrt() - length,
             _ => gap,
         }
     }

@@ -12,7 +12,7 @@ use super::run::SAME_TIME;
 /// Below this relative error the order of convergence drowns in roundoff.
 const ROUNDOFF: f64 = 1e-10;
 /// Steps that a root search may take.
-const MOST_HALVINGS: u32 = 200;
+const MOST_SECANTS: usize = 40;
 
 /// Checks one claim of the case in a folder, off the run that it asks for if it asks for one.
 /// `Err` is a claim that could not be measured.
@@ -184,7 +184,7 @@ fn check_critical(critical: &Critical, scene: &Path, given: &Given) -> Result<Me
         Ok(frequency * frequency.abs())
     };
     let scale = critical.value.abs();
-    let found = root(
+    let found = vanishing(
         indicator,
         critical.between,
         0.01 * critical.relative * scale,
@@ -250,48 +250,32 @@ fn value_at(
     last.ok_or_else(|| format!("{name}: expected a value, found none"))
 }
 
-/// The root of a function between two arguments (Illinois variant of false position).
-fn root(
+/// Where a function that is positive from the first place on falls to zero, seen from there only: beyond, what is
+/// found in equilibrium is another branch. Secants through points that stay short of where the last one ends.
+fn vanishing(
     function: impl Fn(f64) -> Result<f64, String>,
-    [mut low, mut high]: [f64; 2],
+    [from, to]: [f64; 2],
     tolerance: f64,
 ) -> Result<f64, String> {
-    let (mut at_low, mut at_high) = (function(low)?, function(high)?);
-    let bracket = at_low * at_high;
-    if bracket.is_nan() || bracket > 0.0 {
-        return Err(format!(
-            "expected a change of sign, found {at_low:e} at {low} and {at_high:e} at {high}"
-        ));
+    let (mut a, mut b) = (from, from + 0.1 * (to - from));
+    let (mut at_a, mut at_b) = (function(a)?, function(b)?);
+    let mut before = f64::INFINITY;
+    for _ in 0..MOST_SECANTS {
+        let end = b - at_b * (b - a) / (at_b - at_a);
+        if !(at_b > 0.0 && (end - from) * (to - end) >= 0.0) {
+            return Err(format!(
+                "expected a fall to zero between {from} and {to}, found {at_a:e} at {a} and {at_b:e} at {b}"
+            ));
+        }
+        if (end - before).abs() <= tolerance {
+            return Ok(end);
+        }
+        before = end;
+        (a, at_a) = (b, at_b);
+        b += 0.9 * (end - b);
+        at_b = function(b)?;
     }
-    let mut side = 0;
-    for _ in 0..MOST_HALVINGS {
-        if at_low == at_high {
-            return Ok(low);
-        }
-        let middle = (low * at_high - high * at_low) / (at_high - at_low);
-        let value = function(middle)?;
-        if value == 0.0 {
-            return Ok(middle);
-        }
-        let moved;
-        if (value > 0.0) == (at_high > 0.0) {
-            moved = (high - middle).abs();
-            (high, at_high) = (middle, value);
-            at_low *= if side > 0 { 0.5 } else { 1.0 };
-            side = 1;
-        } else {
-            moved = (middle - low).abs();
-            (low, at_low) = (middle, value);
-            at_high *= if side < 0 { 0.5 } else { 1.0 };
-            side = -1;
-        }
-        if moved.min((high - low).abs()) <= tolerance {
-            return Ok(middle);
-        }
-    }
-    Err(format!(
-        "no root to {tolerance:e} after {MOST_HALVINGS} steps; it lies from {low} to {high}"
-    ))
+    Err(format!("expected a fall to zero, found {at_b:e} at {b}"))
 }
 
 /// Times and the wanted columns of a CSV file.

@@ -190,8 +190,8 @@ fn what_cannot_fit_is_named_with_its_gap() {
         panic!("it fits together");
     };
     // What is missing of 3 = 1 + 0.5 + 1 is spread over the joints, most of it over the link.
-    let worst = gaps.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-    assert_eq!(worst.map(|(joint, _)| *joint), Some(2), "{gaps:?}");
-    let missing: f64 = gaps.iter().map(|(_, gap)| gap).sum();
+    let worst = gaps.iter().max_by(|a, b| a.size.total_cmp(&b.size));
+    assert_eq!(worst.map(|gap| gap.joint), Some(2), "{gaps:?}");
+    let missing: f64 = gaps.iter().map(|gap| gap.size).sum();
     assert!((missing - 0.5).abs() < 0.05, "{gaps:?}");
 }

@@ -1,9 +1,12 @@
 //! From a validated scene to a system.
 
+mod initial;
 mod motions;
 mod ports;
 
 use nalgebra::Vector2;
+
+pub use initial::Motions;
 
 use super::resolved::{
     self, Action, BodyReference, CouplingId, Ends, First, InputKind, JointKind, LoadKind, MarkerId,
@@ -29,6 +32,8 @@ pub struct Assembled {
     pub nodes: Vec<Node<4>>,
     /// Their rates as described.
     pub rates: Vec<Node<4>>,
+    /// Motions of the bodies at the start.
+    pub motions: Motions,
     /// For every marker, itself in the system.
     markers: Vec<Marker>,
     /// For every coupling, its place among the loads of the system.
@@ -70,7 +75,7 @@ impl Resolved<'_> {
     pub fn assemble(&self) -> Result<Assembled, Error> {
         let mut builder = Builder {
             resolved: self,
-            rates: Vec::new(),
+            motions: Motions::default(),
             markers: Vec::new(),
             couplings: Vec::new(),
             parts: self.parts(),
@@ -90,8 +95,9 @@ impl Resolved<'_> {
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
         Ok(Assembled {
             system,
+            rates: builder.motions.rates(&nodes),
+            motions: builder.motions,
             nodes,
-            rates: builder.rates,
             markers: builder.markers,
             couplings: builder.couplings,
         })
@@ -140,7 +146,7 @@ impl Resolved<'_> {
 
 struct Builder<'a> {
     resolved: &'a Resolved<'a>,
-    rates: Vec<Node<4>>,
+    motions: Motions,
     markers: Vec<Marker>,
     couplings: Vec<usize>,
     parts: Parts,
@@ -186,16 +192,16 @@ impl<'a> Builder<'a> {
                 });
             }
         }
-        let origin = self.parts.nodes[first];
-        for x in &self.parts.nodes[first..] {
-            let (spin, [vx, vy]) = (motion.spin, motion.velocity);
-            let way = [x[0] - origin[0], x[1] - origin[1]];
-            let velocity = [vx - spin * way[1], vy + spin * way[0]];
-            let turning = [-spin * x[3], spin * x[2]];
-            self.rates
-                .push([velocity[0], velocity[1], turning[0], turning[1]]);
+        let nodes = first..self.parts.nodes.len();
+        self.motions.push(nodes.clone(), motion);
+        if let (BodyReference::Cable(cable), Some(field)) =
+            (self.resolved.bodies[index], &motion.deformation)
+        {
+            let mesh = self.resolved.nodes(cable)?;
+            self.motions
+                .deform(field, &mesh, cable.body.shape.length())?;
         }
-        self.parts.bodies.push(first..self.parts.nodes.len());
+        self.parts.bodies.push(nodes);
         Ok(())
     }
 
@@ -346,6 +352,12 @@ impl<'a> Builder<'a> {
                 LoadKind::Spring(spring) => self.spring(spring),
             };
             self.parts.loads.push(built);
+        }
+        for load in &self.resolved.initial_loads {
+            if let LoadKind::Action { action, .. } = &load.kind {
+                let built = self.action(action);
+                self.parts.initial_loads.push(built);
+            }
         }
     }
 

@@ -138,6 +138,10 @@ pub struct InitialMotion {
     /// Angular velocity, counter-clockwise, rad/s.
     #[serde(default)]
     pub spin: f64,
+    /// Velocity of deformation, m/s, beside both: its two components as expressions in the material coordinate `s`,
+    /// 0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; cables only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deformation: Option<[String; 2]>,
 }
 
 /// A mass lumped at a marker.

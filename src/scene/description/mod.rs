@@ -2,6 +2,7 @@
 
 mod about;
 mod body;
+mod initial;
 mod joint;
 mod load;
 mod output;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 pub use about::About;
 pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Section, Shape, Strain};
+pub use initial::{Initial, InitialState};
 pub use joint::{Joint, JointKind, Motion, MotionKind};
 pub use load::{Input, InputKind, Load, LoadKind};
 pub use output::{Output, OutputKind};
@@ -73,17 +75,6 @@ pub struct Scene {
     /// Default experiment of the FMU.
     #[serde(default)]
     pub experiment: Experiment,
-}
-
-/// Where the simulation starts from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Initial {
-    /// The unstressed shapes with their rigid motion.
-    #[default]
-    AsShaped,
-    /// The stable equilibrium under gravity, loads and the start values of the inputs, at rest.
-    StaticEquilibrium,
 }
 
 /// What accuracy is asked for.

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::ELEMENTS;
 use super::checks::{expected, finite, name, not_negative, positive, quoted, vector};
+use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
 use crate::scene::{Body, CableBody, Error, InitialMotion, RigidBody, Shape};
 
@@ -25,7 +26,19 @@ impl Body {
 impl InitialMotion {
     fn validate(&self, path: &str) -> Result<(), Error> {
         vector(&format!("{path}.velocity"), self.velocity)?;
-        finite(&format!("{path}.spin"), self.spin)
+        finite(&format!("{path}.spin"), self.spin)?;
+        for (k, text) in self.deformation.iter().flatten().enumerate() {
+            let place = format!("{path}.deformation[{k}]");
+            let field = Expression::of(text, "s").map_err(|error| Error::new(&place, error))?;
+            for s in [0.0, 0.5, 1.0] {
+                let values = field.derivatives(s);
+                if let Some(found) = values[..2].iter().find(|value| !value.is_finite()) {
+                    let wanted = format!("a finite velocity and slope at s = {s}");
+                    return Err(expected(&place, &wanted, found));
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -71,6 +84,13 @@ impl RigidBody {
                 let wanted = "[0, 0] in a body without inertia, which does not turn";
                 return Err(expected(&place, wanted, format!("{point:?}")));
             }
+        }
+        if self.motion.deformation.is_some() {
+            return Err(expected(
+                &at("motion.deformation"),
+                "none of a rigid body",
+                "one",
+            ));
         }
         if self.inertia == 0.0 && self.motion.spin != 0.0 {
             let wanted = "0 in a body without inertia, which does not turn";

@@ -43,6 +43,25 @@ impl<'a> Resolved<'a> {
         Ok(())
     }
 
+    pub(super) fn resolve_initial_loads(&mut self) -> Result<(), Error> {
+        for (index, load) in self.scene.initial.loads().iter().enumerate() {
+            let path = format!("initial.loads[{index}]");
+            load.validate_keys(&path)?;
+            if load.kind == LoadKind::SpringDamper {
+                let wanted = "a force, a moment, a torque or a distributed load";
+                return Err(expected(
+                    &format!("{path}.kind"),
+                    wanted,
+                    "a spring and damper",
+                ));
+            }
+            let kind = self.resolve_load(&path, load)?;
+            let name = &load.name;
+            self.initial_loads.push(resolved::Load { name, kind });
+        }
+        Ok(())
+    }
+
     fn resolve_load(&self, path: &str, load: &'a Load) -> Result<resolved::LoadKind<'a>, Error> {
         let named = |key: &str, name: &'a Option<String>| {
             let name = needed(path, key, "a name", name.as_deref())?;

@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use super::resolved::{Holder, HolderId, Resolved};
-use super::{Error, Initial, InitialMotion, Scene};
+use super::{Error, InitialState, Scene};
 use checks::{expected, finite, name, positive, scene_name, sentence, vector};
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
@@ -50,6 +50,7 @@ impl Scene {
         resolved.resolve_inputs()?;
         resolved.resolve_outputs()?;
         resolved.resolve_ports()?;
+        resolved.resolve_initial()?;
         let tolerance = self.accuracy.relative_tolerance;
         if !TOLERANCE.contains(&tolerance) {
             let (least, most) = (TOLERANCE.start(), TOLERANCE.end());
@@ -79,11 +80,13 @@ impl Scene {
         let motions = self.motions.iter().map(|motion| motion.name.as_str());
         let loads = self.loads.iter().map(|load| load.name.as_str());
         let ports = self.ports.iter().map(|port| port.name.as_str());
+        let initial = self.initial.loads().iter().map(|load| load.name.as_str());
         let named = |list: &'static str| move |(i, name)| (format!("{list}[{i}].name"), name);
         let all = bodies.enumerate().map(named("bodies"));
         let all = all.chain(joints.enumerate().map(named("joints")));
         let all = all.chain(motions.enumerate().map(named("motions")));
         let all = all.chain(loads.enumerate().map(named("loads")));
+        let all = all.chain(initial.enumerate().map(named("initial.loads")));
         for (path, text) in all.chain(ports.enumerate().map(named("ports"))) {
             name(&path, text, &mut names)?;
         }
@@ -97,18 +100,26 @@ impl Scene {
         for (index, body) in self.bodies.iter().enumerate() {
             let path = format!("bodies[{index}]");
             body.validate(&path)?;
-            let moves = *body.motion() != InitialMotion::default();
-            if moves && self.initial == Initial::StaticEquilibrium {
-                let place = format!("{path}.motion");
-                let wanted = "no motion at static equilibrium";
-                return Err(expected(&place, wanted, "a motion"));
-            }
         }
         Ok(())
     }
 }
 
 impl<'a> Resolved<'a> {
+    fn resolve_initial(&mut self) -> Result<(), Error> {
+        let scene = self.scene;
+        let state = scene.initial.state();
+        if state == InitialState::AsShaped && !scene.initial.loads().is_empty() {
+            let wanted = "a state that loads act on, static_equilibrium or steady";
+            return Err(expected("initial.state", wanted, "as_shaped"));
+        }
+        if state == InitialState::Steady && scene.rotation != 0.0 {
+            let wanted = "0 where the initial state is steady";
+            return Err(expected("rotation", wanted, scene.rotation));
+        }
+        self.resolve_initial_loads()
+    }
+
     /// Numbers what holds something in the system.
     fn hold(&mut self, path: &str, name: &'a str) -> HolderId {
         self.holders.push(Holder {

@@ -187,7 +187,10 @@ fn values_out_of_range_are_refused() {
         /bodies/3/markers/eye | [0, 1] | bodies[3].markers.eye: expected [0, 0] in a body without inertia
         /bodies/3/motion | {"spin": 1} | bodies[3].motion.spin: expected 0 in a body without inertia
         /bodies/2/markers/2x | [0, 0] | bodies[2].markers.2x: expected a letter or _
-        /initial | "static_equilibrium" | bodies[4].motion: expected no motion at static equilibrium
+        /initial | 3 | initial: expected a state or {"state": ..., "loads": [...]}, found 3
+        /initial | "resting" | initial: unknown variant
+        /initial | {"state": "as_shaped", "loads": [{"name": "f", "kind": "force", "marker": "rod.tip", "value": [0, 1]}]} | initial.state: expected a state that loads act on
+        /bodies/2/motion | {"deformation": ["0", "s"]} | bodies[2].motion.deformation: expected none of a rigid body
         /masses/0/mass | -1 | masses[0].mass: expected zero or a positive number (kg)
         /masses/1/mass | 0 | masses[1].mass: expected a positive number (kg)
         /masses/1/inertia | 1 | masses[1].inertia: expected 0 at a marker of a rigid body

@@ -234,11 +234,6 @@ fn smallest_shift(system: &System, inputs: &[f64], work: &mut Work, state: &Stat
     }
     let n = state.coordinates.len();
     let (rest, mut force) = (vec![0.0; n], vec![0.0; n]);
-    model.acceleration(
-        state.time,
-        &state.coordinates,
-        &rest,
-        &mut force,
-    );
+    model.acceleration(state.time, &state.coordinates, &rest, &mut force);
     (norm(&force) / system.scale()).sqrt()
 }

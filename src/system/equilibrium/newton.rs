@@ -2,8 +2,8 @@
 //! (Levenberg-Marquardt in the mass norm), so that it looks for a minimum of the potential.
 
 use super::super::{Accepted, Dynamics, Model, State, System};
-use super::unsymmetric;
 use super::Found;
+use super::unsymmetric;
 use crate::math::vector::{dot, norm};
 
 /// Iterations for one system, and where time is what regularizes.
@@ -17,6 +17,8 @@ const ESCAPES: usize = 8;
 const LARGEST_TURN: f64 = 0.5;
 /// Turn, or way relative to the size, with which an unstable equilibrium is left.
 const AWAY: f64 = 0.05;
+/// Way along the lowest mode, relative to the size, that forces have to ask for to show a side.
+const EVEN: f64 = 1e-6;
 /// Eigenvalue, relative to the largest, that roundoff hides.
 const HIDDEN: f64 = 1e-15;
 /// Steps of the power iteration for the largest and of the inverse iteration for the lowest mode.
@@ -52,6 +54,8 @@ pub(super) struct Newton<'a, 'b> {
     force: Vec<f64>,
     x: Vec<f64>,
     trial: Vec<f64>,
+    /// The lowest mode.
+    mode: Vec<f64>,
 }
 
 impl<'a, 'b> Newton<'a, 'b> {
@@ -63,6 +67,7 @@ impl<'a, 'b> Newton<'a, 'b> {
             force: rest.clone(),
             x: rest.clone(),
             trial: rest.clone(),
+            mode: rest.clone(),
             rest,
             model,
         }
@@ -85,7 +90,7 @@ impl<'a, 'b> Newton<'a, 'b> {
         let (time, size) = (state.time, self.model.system.scale());
         let is_transient = guard == Guard::Transient;
         let (mut shift, mut before, mut correction) = (0.0_f64, f64::INFINITY, f64::INFINITY);
-        let mut strength = 0.0;
+        let (mut strength, mut is_nudged) = (0.0, false);
         for iteration in 0..if is_transient { TRANSIENT } else { ITERATIONS } {
             (self.model).acceleration(time, &state.coordinates, &self.rest, &mut self.force);
             if self.force.iter().all(|f| *f == 0.0) {
@@ -102,10 +107,15 @@ impl<'a, 'b> Newton<'a, 'b> {
                 }
                 strength = now;
             }
-            self.model
-                .linearize(time, &state.coordinates, &self.rest);
+            self.model.linearize(time, &state.coordinates, &self.rest);
             if !self.correct(&mut shift) {
                 return Err(correction);
+            }
+            if shift > 0.0 && self.is_conservative && !is_nudged {
+                is_nudged = true;
+                if self.nudge(state) {
+                    continue;
+                }
             }
             correction = norm(&self.x) / size;
             if !correction.is_finite() {
@@ -113,7 +123,10 @@ impl<'a, 'b> Newton<'a, 'b> {
             }
             if shift == 0.0 && correction < CLOSE {
                 self.trial.clone_from(&state.coordinates);
-                self.trial.iter_mut().zip(&self.x).for_each(|(q, x)| *q += x);
+                self.trial
+                    .iter_mut()
+                    .zip(&self.x)
+                    .for_each(|(q, x)| *q += x);
                 if !self.accept(state) {
                     return Err(correction);
                 }
@@ -199,10 +212,29 @@ impl<'a, 'b> Newton<'a, 'b> {
     /// Leaves an equilibrium that is not stable along its lowest mode, towards where gravity pulls, else up or to
     /// the right; false, and nothing has changed, where it is stable.
     fn leave(&mut self, state: &mut State) -> bool {
-        let (time, q) = (state.time, state.coordinates.clone());
-        self.model.linearize(time, &q, &self.rest);
+        (self.model).linearize(state.time, &state.coordinates, &self.rest);
+        self.lowest(state).is_some() && self.displace(state)
+    }
+
+    /// Leaves a place that symmetry keeps unstable before roundoff does, to a side that does not depend on it; false
+    /// where something points away from it, or nothing is unstable.
+    fn nudge(&mut self, state: &mut State) -> bool {
+        let (x, size) = (self.x.clone(), self.model.system.scale());
+        let lowest = self.lowest(state);
+        let is_even = |value: f64, mode: &[f64], force: &[f64]| {
+            dot(mode, force).abs() < EVEN * value.abs() * size
+        };
+        if lowest.is_some_and(|value| is_even(value, &self.mode, &self.force)) {
+            return self.displace(state);
+        }
+        self.x = x;
+        false
+    }
+
+    /// The lowest mode where the model is linearized, and its eigenvalue if that is negative.
+    fn lowest(&mut self, state: &State) -> Option<f64> {
         if self.model.factor(self.least) {
-            return false;
+            return None;
         }
         let mut shift = self.least;
         for _ in 0..SHIFTS {
@@ -212,31 +244,34 @@ impl<'a, 'b> Newton<'a, 'b> {
             }
         }
         let largest = (self.least * 1e8).powi(2);
-        let mut mode = seed(q.len());
+        let mut mode = seed(state.coordinates.len());
         for _ in 0..POWERS {
             self.model.solve(&mut mode);
             let size = norm(&mode);
             if !(size.is_finite() && size > 0.0) {
-                return false;
+                return None;
             }
             mode.iter_mut().for_each(|m| *m /= size);
         }
         let mut product = mode.clone();
         self.model.apply_stiffness(&mut product);
-        if dot(&mode, &product) >= -HIDDEN * largest {
-            return false;
+        let value = dot(&mode, &product);
+        if value >= -HIDDEN * largest {
+            return None;
         }
         let sign = self.side(state, &mode);
-        self.x = mode;
-        self.x.iter_mut().for_each(|m| *m *= sign);
-        self.displace(state)
+        self.mode = mode;
+        self.mode.iter_mut().for_each(|m| *m *= sign);
+        Some(value)
     }
 
     /// 1 where a mode goes to where gravity pulls, else up, else to the right; else -1.
     fn side(&mut self, state: &State, mode: &[f64]) -> f64 {
         let (system, work) = (self.model.system, &mut *self.model.work);
         system.place(state.time, &state.coordinates, None, work);
-        system.elimination.expand(mode, &mut work.y, &mut work.other);
+        system
+            .elimination
+            .expand(mode, &mut work.y, &mut work.other);
         let nodes = || work.other.iter();
         let size = nodes().flatten().map(|m| m.abs()).fold(0.0, f64::max);
         let axis = |k: usize| nodes().map(|m| m[k]).sum::<f64>();
@@ -247,15 +282,15 @@ impl<'a, 'b> Newton<'a, 'b> {
         way.unwrap_or(1.0).signum()
     }
 
-    /// Moves along the unit vector in `x` as far as turns a slope, or takes the system, [`AWAY`].
+    /// Moves along the lowest mode as far as turns a slope, or takes the system, [`AWAY`].
     fn displace(&mut self, state: &mut State) -> bool {
         let (q, size) = (state.coordinates.clone(), self.model.system.scale());
         self.trial.clone_from(&q);
         let probe = 1e-3 * size;
-        (self.trial.iter_mut().zip(&self.x)).for_each(|(q, m)| *q += probe * m);
+        (self.trial.iter_mut().zip(&self.mode)).for_each(|(q, m)| *q += probe * m);
         let turn = self.model.largest_turn(&q, &self.trial).max(1e-3);
         let way = probe * AWAY / turn;
-        for (trial, (q, m)) in self.trial.iter_mut().zip(q.iter().zip(&self.x)) {
+        for (trial, (q, m)) in self.trial.iter_mut().zip(q.iter().zip(&self.mode)) {
             *trial = q + way * m;
         }
         self.accept(state)
@@ -268,15 +303,13 @@ impl<'a, 'b> Newton<'a, 'b> {
         (self.model).acceleration(time, &q, &self.rest, &mut self.force);
         let mut part = self.model.system.clone();
         for (x, to) in part.reference.iter_mut().zip(&next.reference) {
-            x.iter_mut().zip(to).for_each(|(x, to)| *x += PART * (to - *x));
+            x.iter_mut()
+                .zip(to)
+                .for_each(|(x, to)| *x += PART * (to - *x));
         }
         let mut moved = self.force.clone();
-        Model::new(&part, &[], self.model.work, state).acceleration(
-            time,
-            &q,
-            &self.rest,
-            &mut moved,
-        );
+        Model::new(&part, &[], self.model.work, state)
+            .acceleration(time, &q, &self.rest, &mut moved);
         self.model.linearize(time, &q, &self.rest);
         for (x, (moved, force)) in self.x.iter_mut().zip(moved.iter().zip(&self.force)) {
             *x = (moved - force) / PART;

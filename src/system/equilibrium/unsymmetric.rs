@@ -71,7 +71,9 @@ pub(super) fn solve(model: &mut Model<'_>, s: f64, least: f64, x: &mut [f64]) ->
         basis.push(w.iter().map(|w| w / rest).collect());
     }
     for i in (0..columns.len()).rev() {
-        let later: f64 = (i + 1..columns.len()).map(|j| columns[j][i] * target[j]).sum();
+        let later: f64 = (i + 1..columns.len())
+            .map(|j| columns[j][i] * target[j])
+            .sum();
         target[i] = (target[i] - later) / columns[i][i];
     }
     for (v, factor) in basis.iter().zip(&target[..columns.len()]) {

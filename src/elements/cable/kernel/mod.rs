@@ -8,9 +8,7 @@
 use crate::elements::Strain;
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{
-    BETWEEN_3, GAUSS_3, LOBATTO_3, Point, RADAU_3, RADAU_3_LAST,
-};
+use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point, RADAU_3, RADAU_3_LAST};
 
 /// Weights of the three vectors in `r'` and `l r''`.
 type Combination = [f64; 3];
@@ -52,11 +50,7 @@ const LOBATTO: [Sample; 3] = [
     sample(LOBATTO_3[1]),
     sample(LOBATTO_3[2]),
 ];
-const RADAU: [Sample; 3] = [
-    sample(RADAU_3[0]),
-    sample(RADAU_3[1]),
-    sample(RADAU_3[2]),
-];
+const RADAU: [Sample; 3] = [sample(RADAU_3[0]), sample(RADAU_3[1]), sample(RADAU_3[2])];
 const RADAU_LAST: [Sample; 3] = [
     sample(RADAU_3_LAST[0]),
     sample(RADAU_3_LAST[1]),

@@ -3,7 +3,8 @@
 //! Source: second derivatives of the energy of `cable/mod.rs`.
 
 use super::{
-    BENDING, BETWEEN, Kernel, LOBATTO, Motion, RADAU, RADAU_LAST, Sample, Sampling, Square, Vector, act, combine, dot, times,
+    BENDING, BETWEEN, Kernel, LOBATTO, Motion, RADAU, RADAU_LAST, Sample, Sampling, Square, Vector,
+    act, combine, dot, times,
 };
 use crate::elements::EndBlocks;
 use crate::math::lanes::Real;
