@@ -172,7 +172,7 @@ fn bodies_too_far_apart_are_named_with_the_gap() {
         told.contains("expected bodies that fit together, found gaps: "),
         "{told}"
     );
-    assert!(told.contains("rocker_pivot 0."), "{told}");
+    assert!(told.contains("joint `rocker_pivot` 0."), "{told}");
 }
 
 #[test]

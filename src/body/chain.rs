@@ -79,6 +79,13 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
         self.packs = packs(&self.elements);
     }
 
+    /// Mean of the axial strain in the middle of the elements.
+    pub fn mean_strain(&self, x: &[Node<B>]) -> f64 {
+        let elements = self.elements.iter().enumerate();
+        let of = |(j, e): (usize, &E)| e.length() * e.strain(&self.element(j, x), 0.5).0;
+        elements.map(of).sum::<f64>() / self.length()
+    }
+
     /// Mean axial stiffness, N.
     pub fn axial_stiffness(&self) -> f64 {
         let sum: f64 = self

@@ -25,6 +25,9 @@ const EXACT: f64 = 1e-15;
 /// Gap, in sizes of the largest body, from which on joints as described cannot be meant.
 const ABSURD: f64 = 100.0;
 
+/// Mean strain of a cable from which on joints that it would have to close cannot be meant.
+const STRETCHED: f64 = 0.5;
+
 /// What is missing for a joint to fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
@@ -170,7 +173,12 @@ impl System {
         work.follow(state);
         self.place(state.time, &state.coordinates, None, work);
         let gaps = self.gaps(&work.x, work, extent(&work.x));
-        gaps.iter().all(|gap| gap.abs() <= CLOSE).then_some(())
+        let fits = gaps.iter().all(|gap| gap.abs() <= CLOSE);
+        let stretched = self
+            .chains
+            .iter()
+            .any(|c| c.mean_strain(&work.x) > STRETCHED);
+        (fits && !stretched).then_some(())
     }
 
     /// Size of the largest body, with what joins it: length of a cable, reach of the ends of joints from the centre
