@@ -41,6 +41,11 @@ impl Table {
         Ok(Self { place, names, rows })
     }
 
+    /// Names of the columns.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().map(String::as_str)
+    }
+
     /// A column by name.
     pub fn column(&self, name: &str) -> Result<Vec<f64>> {
         let Some(index) = self.names.iter().position(|known| known == name) else {

@@ -99,6 +99,8 @@ pub struct Cost {
     pub calculated: Vec<(String, f64)>,
     /// CPU time, s; the median where the run was repeated.
     pub cpu_time: f64,
+    /// Outputs that the tolerance does not reach.
+    pub doubtful: Vec<String>,
 }
 
 impl Cost {
@@ -166,10 +168,18 @@ impl<'a> Bench<'a> {
 
     /// A JSON file of the cases.
     pub fn case_json(&self, name: &str) -> Result<Value> {
-        let path = self.case_file(name);
-        let place = shown(&path);
-        let text =
-            std::fs::read_to_string(&path).with_context(|| format!("cannot read {place}"))?;
+        self.json(&self.case_file(name))
+    }
+
+    /// A ready scene.
+    pub fn scene_json(&self, name: &str) -> Result<Value> {
+        let file = self.workspace.path("scenes").join(name);
+        self.json(&file.with_extension("json"))
+    }
+
+    fn json(&self, path: &std::path::Path) -> Result<Value> {
+        let place = shown(path);
+        let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {place}"))?;
         serde_json::from_str(&text).with_context(|| format!("{place} is no JSON"))
     }
 
@@ -284,6 +294,12 @@ fn read_cost(path: &std::path::Path) -> Result<Cost> {
         rejected: number("rejected")?,
         newton_iterations: number("newton_iterations")?,
         cpu_time: number("cpu_time")?,
+        doubtful: report["doubtful"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter_map(|name| Some(name.as_str()?.to_owned()))
+            .collect(),
     })
 }
 

@@ -24,6 +24,7 @@ mod page;
 mod peers;
 mod plot;
 mod space;
+mod tolerances;
 
 use bench::Bench;
 
@@ -37,6 +38,8 @@ pub enum Chart {
     Space,
     /// Integrators: error in time against CPU time
     Methods,
+    /// Errors of all outputs over the tolerance
+    Tolerances,
     /// Energy drift over a hundred swings
     Drift,
     /// CPU time of a step against the number of elements
@@ -67,6 +70,7 @@ impl Chart {
             Self::Mesh => "mesh",
             Self::Space => "space",
             Self::Methods => "methods",
+            Self::Tolerances => "tolerances",
             Self::Drift => "drift",
             Self::Cost => "cost",
             Self::Bodies => "bodies",
@@ -87,6 +91,7 @@ impl Chart {
             Self::Mesh => mesh::chart(bench),
             Self::Space => space::chart(bench),
             Self::Methods => methods::chart(bench),
+            Self::Tolerances => tolerances::chart(bench),
             Self::Drift => drift::chart(bench),
             Self::Cost => cost::chart(bench),
             Self::Bodies => bodies::chart(bench),
