@@ -62,7 +62,8 @@ struct Simulate {
     #[arg(long)]
     output: Option<PathBuf>,
     /// JSON file for the natural frequencies, for what the steps took (integrator, sub-steps, Newton
-    /// iterations, CPU time in s) and for joints that hold what others hold already.
+    /// iterations, CPU time in s), for joints that hold what others hold already and for outputs that the
+    /// tolerance does not reach.
     #[arg(long)]
     report: Option<PathBuf>,
     /// File for pictures: a line of JSON that names every body and its markers, then one for every
@@ -86,6 +87,8 @@ struct Cost {
     rejected: u64,
     newton_iterations: u64,
     cpu_time: Duration,
+    /// Outputs that the tolerance does not reach.
+    doubtful: Vec<String>,
 }
 
 impl Cost {
@@ -103,16 +106,18 @@ impl Cost {
         let calculated: Vec<String> = calculated.iter().map(pair).collect();
         let quoted = |name: &String| format!("\"{name}\"");
         let redundant: Vec<String> = redundant.iter().map(quoted).collect();
+        let doubtful: Vec<String> = self.doubtful.iter().map(quoted).collect();
         format!(
             "{{\"method\": \"{}\", \"steps\": {}, \"rejected\": {}, \"newton_iterations\": {}, \
-             \"cpu_time\": {:?}, \"calculated\": {{{}}}, \"redundant\": [{}]}}\n",
+             \"cpu_time\": {:?}, \"calculated\": {{{}}}, \"redundant\": [{}], \"doubtful\": [{}]}}\n",
             self.method,
             self.steps,
             self.rejected,
             self.newton_iterations,
             self.cpu_time.as_secs_f64(),
             calculated.join(", "),
-            redundant.join(", ")
+            redundant.join(", "),
+            doubtful.join(", ")
         )
     }
 }
@@ -343,6 +348,11 @@ impl Run {
             shapes.sink.finish()?;
         }
         bar.finish_and_clear();
+        for name in &self.cost.doubtful {
+            eprintln!(
+                "flexbody: {name}: errors of the steps may have left more than 10 times the relative tolerance"
+            );
+        }
         Ok(())
     }
 
@@ -359,6 +369,9 @@ impl Run {
             let cpu_time = started.elapsed();
             outcome?;
             self.cost.add(simulation.report(), cpu_time);
+            while let Some(name) = simulation.next_doubtful() {
+                self.cost.doubtful.push(name.to_owned());
+            }
         }
         Ok(())
     }

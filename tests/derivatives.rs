@@ -43,7 +43,7 @@ impl Moving {
     fn new(path: &Path) -> Self {
         let text = std::fs::read_to_string(path).expect("a readable scene");
         let mut scene = Scene::from_json(&text).expect("a valid scene");
-        scene.accuracy.relative_tolerance = 1e-10;
+        scene.accuracy.relative_tolerance = Some(1e-10);
         // Soft enough for differences over a time that rounding does not notice.
         scene.initial = Initial::State(InitialState::AsShaped);
         for body in &mut scene.bodies {

@@ -71,14 +71,13 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn damping(&self, e: &Nodal<D>) -> Blocks<D>;
     /// Whether the element dissipates.
     fn is_damped(&self) -> bool;
+    /// Whether the element has bending stiffness.
+    fn bends(&self) -> bool;
     /// Axial strain and curvature (1/m) of the position field at `xi` in [0, 1], in the strain measure of the element.
     fn strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> (N, N);
     /// Axial strain at `xi` in [0, 1] as it balances loads: of a higher order than that of the position
     /// field.
     fn recovered_strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> N;
-    /// Axial force (N) and bending moment (N m) at `xi` in [0, 1], conjugate to the strain measure, with
-    /// damping; those of a curved shape are measured from its mean strain and curvature.
-    fn section<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>, xi: f64) -> (N, N);
     /// Whether this element and another can be in one pack.
     fn goes_with(&self, other: &Self) -> bool;
     /// Up to [`PACK`] elements, for the calls below; entries beyond the number of elements do not count.

@@ -36,6 +36,16 @@ pub fn curvatures<N: Number>(xi: N, l: f64) -> SVector<N, 4> {
     [-bend, first, bend, second].into()
 }
 
+/// Integrals of the shape functions over the reference length up to `xi`, m.
+pub fn integrals<N: Number>(xi: N, l: f64) -> SVector<N, 4> {
+    let [x2, x3, x4] = [xi * xi, xi * xi * xi, xi * xi * xi * xi];
+    let (l, over) = (N::of(l), |x: N, divisor: f64| x / N::of(divisor));
+    let rise = x3 - over(x4, 2.0);
+    let first = over(x2, 2.0) - over(x3 + x3, 3.0) + over(x4, 4.0);
+    let second = over(x4, 4.0) - over(x3, 3.0);
+    [l * (xi - rise), l * l * first, l * rise, l * l * second].into()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -55,6 +65,8 @@ mod tests {
         for xi in [0.2, 0.5, 0.9] {
             let slope = (values(xi + h, l) - values(xi - h, l)) / (2.0 * h * l);
             let bend = (slopes(xi + h, l) - slopes(xi - h, l)) / (2.0 * h * l);
+            let value = (integrals(xi + h, l) - integrals(xi - h, l)) / (2.0 * h * l);
+            assert!((value - values(xi, l)).norm() < 1e-9);
             assert!((slope - slopes(xi, l)).norm() < 1e-9);
             assert!((bend - curvatures(xi, l)).norm() < 1e-8);
         }

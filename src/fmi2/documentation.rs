@@ -255,7 +255,7 @@ fn outputs(variables: &[Variable]) -> String {
 }
 
 fn usage(scene: &Scene) -> String {
-    let tolerance = number(scene.accuracy.relative_tolerance);
+    let tolerance = number(scene.relative_tolerance());
     let (stop, step) = (
         number(scene.experiment.stop_time),
         number(scene.experiment.step),

@@ -289,6 +289,13 @@ impl Instance {
             report.newton_iterations
         );
         self.logger.log(Status::Ok, Category::Solver, message);
+        while let Some(name) = self.simulation.next_doubtful() {
+            let message = format_args!(
+                "{name}: errors of the steps may have left more than 10 times the relative tolerance; \
+                 tighten it where this output counts"
+            );
+            self.logger.log(Status::Warning, Category::Warning, message);
+        }
         outcome.map_err(|failure| {
             self.state = State::StepFailed;
             failure.into()

@@ -40,7 +40,10 @@ impl Category {
     pub fn description(self) -> &'static str {
         match self {
             Self::Error => "Calls that were refused and computations that failed, with the reason",
-            Self::Warning => "Steps that were done only in part, and statuses that do not exist",
+            Self::Warning => {
+                "Steps that were done only in part, outputs that the tolerance does not reach, and statuses that do \
+                 not exist"
+            }
             Self::Events => "Course of the simulation: initialization, reset, restored states, end",
             Self::Solver => {
                 "Each communication step: method, steps, rejected steps, Newton iterations"

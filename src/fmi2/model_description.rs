@@ -136,7 +136,7 @@ fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     let values = [
         ("startTime", 0.0),
         ("stopTime", scene.experiment.stop_time),
-        ("tolerance", scene.accuracy.relative_tolerance),
+        ("tolerance", scene.relative_tolerance()),
         ("stepSize", scene.experiment.step),
     ];
     let texts = values.map(|(name, value)| (name, number(value)));

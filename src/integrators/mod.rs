@@ -69,6 +69,26 @@ pub trait Method: Send {
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]);
     /// The state accepted last was brought back to constraints: computes its acceleration again.
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]);
+    /// The state accepted last is read: lets accelerations that were not solved to the tolerance come to rest,
+    /// since forces are read from them. Whether the state has moved.
+    fn relax(
+        &mut self,
+        _dynamics: &mut dyn Dynamics,
+        _state: (f64, &mut [f64], &mut [f64]),
+        _tolerance: &Tolerance,
+    ) -> bool {
+        false
+    }
+    /// Errors of position and velocity that the last step to a state is estimated to have left in it, as far
+    /// as the method can tell.
+    fn error(
+        &mut self,
+        _dynamics: &mut dyn Dynamics,
+        _state: (f64, &[f64], &[f64]),
+        error: [&mut [f64]; 2],
+    ) {
+        error.into_iter().for_each(|error| error.fill(0.0));
+    }
     /// Work that came in and that was dissipated over the last attempt, J.
     fn work(&self) -> [f64; 2];
     /// Acceleration at the state last begun with or accepted, for the first step's length.
@@ -115,6 +135,8 @@ pub fn rescaled(error: f64, power: f64) -> f64 {
 
 /// Growth of the longest step after one whose stage equations were not solved.
 const RELAX: f64 = 1.1;
+/// Most corrections of a state that is read.
+const RELAXATIONS: usize = 3;
 
 /// The smallest and largest change of step length from one step to the next, and the safety factor.
 const SHRINK: f64 = 0.2;
@@ -197,6 +219,9 @@ fn advance_smoothly(
                     *sum += part;
                 }
                 settle(method, dynamics, state)?;
+                if state.time >= until {
+                    relax(method, dynamics, state, tolerance)?;
+                }
             }
             outcome => {
                 counts.rejected += 1;
@@ -238,6 +263,23 @@ fn settle(
         }
         Accepted::RanOff(joint) => return Err(Stop::RanOff(joint)),
         Accepted::Broken => return Err(Stop::Broken),
+    }
+    Ok(())
+}
+
+/// Lets forces come to rest in a state that is read, once or twice.
+fn relax(
+    method: &mut dyn Method,
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+    tolerance: &Tolerance,
+) -> Result<(), Stop> {
+    for _ in 0..RELAXATIONS {
+        let read = (state.time, &mut state.coordinates[..], &mut state.rates[..]);
+        if !method.relax(dynamics, read, tolerance) {
+            break;
+        }
+        settle(method, dynamics, state)?;
     }
     Ok(())
 }

@@ -132,6 +132,16 @@ impl Method for Nystrom {
         dynamics.acceleration(time, q, v, &mut self.a[0]);
     }
 
+    fn error(
+        &mut self,
+        _: &mut dyn Dynamics,
+        _: (f64, &[f64], &[f64]),
+        [position, velocity]: [&mut [f64]; 2],
+    ) {
+        position.copy_from_slice(&self.error_q);
+        velocity.copy_from_slice(&self.error_v);
+    }
+
     /// No work: power reads rates, which stages do not have.
     fn work(&self) -> [f64; 2] {
         [0.0; 2]
@@ -160,7 +170,7 @@ impl Method for Nystrom {
         add(&mut self.error_q, h * h, position, &self.a);
         add(&mut self.error_v, h, velocity, &self.a);
         Attempt::Done(rescaled(
-            tolerance.norm(&self.error_q, &self.error_v),
+            tolerance.norm(&self.error_q, &self.error_v) * dynamics.steps_in(tolerance.time, h),
             tableau.power,
         ))
     }

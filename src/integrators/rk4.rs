@@ -82,6 +82,16 @@ impl Method for Rk4 {
         self.power = dynamics.power();
     }
 
+    fn error(
+        &mut self,
+        _: &mut dyn Dynamics,
+        _: (f64, &[f64], &[f64]),
+        [position, velocity]: [&mut [f64]; 2],
+    ) {
+        position.copy_from_slice(&self.stage_v);
+        velocity.copy_from_slice(&self.stage_a);
+    }
+
     fn work(&self) -> [f64; 2] {
         self.work
     }
@@ -117,7 +127,9 @@ impl Method for Rk4 {
             self.stage_v[i] = h / 6.0 * (self.stage_v[i] - self.sum_v[i]);
             self.stage_a[i] = h / 6.0 * (self.stage_a[i] - self.end[i]);
         }
-        Attempt::Done(tolerance.norm(&self.stage_v, &self.stage_a))
+        Attempt::Done(
+            tolerance.norm(&self.stage_v, &self.stage_a) * dynamics.steps_in(tolerance.time, h),
+        )
     }
 
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {

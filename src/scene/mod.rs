@@ -55,7 +55,7 @@ impl Scene {
     /// Broken JSON, unknown keys, values of the wrong type and values out of range, each with its path.
     pub fn from_json(text: &str) -> Result<Self, Error> {
         let mut json = serde_json::Deserializer::from_str(text);
-        let scene: Self = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        let mut scene: Self = serde_path_to_error::deserialize(&mut json).map_err(|error| {
             let (mut path, message) = (error.path().to_string(), error.inner().to_string());
             // Broken JSON has no path.
             if path == "." || path == "?" {
@@ -68,6 +68,7 @@ impl Scene {
         })?;
         json.end()
             .map_err(|error| Error::new("scene", error.to_string()))?;
+        scene.accuracy.relative_tolerance = Some(scene.relative_tolerance());
         scene.resolve()?;
         Ok(scene)
     }

@@ -2,6 +2,7 @@
 
 use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
+use super::watch::Watch;
 use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
 use crate::body::Marker;
 use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
@@ -45,6 +46,7 @@ pub(super) struct Engine {
     evaluated: Evaluated,
     derivatives: Option<Box<Derivatives>>,
     derived: Derived,
+    watch: Watch,
     /// Number of natural frequencies wanted.
     frequencies: usize,
     /// Whether inputs that jump do work on springs.
@@ -124,12 +126,20 @@ impl Engine {
             inputs: &inputs,
         };
         let (tolerance, method) = method::choose(resolved, &start, &mut work)?;
+        let outputs = variables
+            .iter()
+            .filter_map(|variable| match variable.source {
+                Source::Output(quantity) => Some((quantity, &variable.name[..])),
+                _ => None,
+            });
+        let watch = Watch::new(outputs, system, &tolerance);
         Ok(Self {
             initial: resolved.scene.initial.state(),
             holders: resolved.holders.iter().map(kind_and_name).collect(),
             remarks: Remarks::default(),
             bodies: names(&mut resolved.bodies.iter().map(|body| body.name())),
             evaluated: Evaluated::Nothing,
+            watch,
             derivatives: None,
             derived: Derived::Nothing,
             frequencies: frequencies.max().unwrap_or(0),
@@ -256,6 +266,9 @@ impl Engine {
             advance(&mut *self.method, &mut model, state, until, &self.tolerance);
         inputs.advance(state.time - start);
         self.forget();
+        if result.is_ok() {
+            self.watch(state, &inputs.values, counts.steps, state.time - start);
+        }
         state.work[0] -= self.set_energy(state, &inputs.values);
         self.forget();
         let report = Report {
@@ -269,6 +282,43 @@ impl Engine {
             reason: self.explain(stop),
         };
         (report, result.map_err(failure))
+    }
+
+    /// Samples what the errors of the last step do to outputs that magnify them.
+    fn watch(&mut self, state: &State, inputs: &[f64], steps: u64, time: f64) {
+        let mut watch = std::mem::take(&mut self.watch);
+        if watch.is_due(steps, time) {
+            watch.take(|quantity| self.output(quantity, state, inputs));
+            let shifted = &mut watch.shifted;
+            shifted.copy_from(state);
+            let system = &self.assembled.system;
+            let mut model = Model::new(system, inputs, &mut self.work, state);
+            let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
+            let at = (state.time, &state.coordinates[..], &state.rates[..]);
+            self.method.error(&mut model, at, [q, v]);
+            for (moved, now) in q.iter_mut().zip(&state.coordinates) {
+                *moved += now;
+            }
+            for (moved, now) in v.iter_mut().zip(&state.rates) {
+                *moved += now;
+            }
+            if model.project(shifted) {
+                let shifted = std::mem::take(&mut watch.shifted);
+                self.forget();
+                let tolerance = self.tolerance;
+                watch.compare(&tolerance, |quantity| {
+                    self.output(quantity, &shifted, inputs)
+                });
+                watch.shifted = shifted;
+            }
+            self.forget();
+        }
+        self.watch = watch;
+    }
+
+    /// The next output that the tolerance does not reach and that has not been told of.
+    pub(super) fn next_doubtful(&mut self) -> Option<&str> {
+        self.watch.next()
     }
 
     /// Energy in springs whose length or end inputs may set. Between steps the work in a state is short of it,

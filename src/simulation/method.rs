@@ -41,7 +41,7 @@ pub(super) fn choose(
 ) -> Result<(Tolerance, Box<dyn Method>), Error> {
     let (scene, system) = (resolved.scene, start.system);
     let rate = natural_rate(resolved, system, start.kinetic);
-    let relative = scene.accuracy.relative_tolerance;
+    let relative = scene.relative_tolerance();
     let tolerance = Tolerance {
         relative,
         position: system.scale(),

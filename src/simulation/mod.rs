@@ -10,6 +10,7 @@ mod snapshot;
 #[cfg(test)]
 mod tests;
 mod variables;
+mod watch;
 
 pub use signals::{SignalError, Signals};
 pub use snapshot::Snapshot;
@@ -171,6 +172,13 @@ impl Simulation {
         self.engine
             .as_ref()
             .is_some_and(|engine| engine.remarks().is_unstable)
+    }
+
+    /// The next output of which the steps so far may have left an error far beyond the tolerance, and that was not
+    /// told of before: `body.marker.quantity`. Stiffness and fast vibrations magnify errors that the
+    /// tolerance allows in the state.
+    pub fn next_doubtful(&mut self) -> Option<&str> {
+        self.engine.as_mut().and_then(Engine::next_doubtful)
     }
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
@@ -443,6 +451,6 @@ fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
         TurningDamping(i) => scene.ports[i].rotational_damping = Some(value),
         Gravity(axis) => scene.gravity[axis] = value,
         Rotation => scene.rotation = value,
-        RelativeTolerance => scene.accuracy.relative_tolerance = value,
+        RelativeTolerance => scene.accuracy.relative_tolerance = Some(value),
     }
 }

@@ -78,6 +78,8 @@ pub(super) fn needs(quantity: Quantity) -> Evaluated {
         | AngularAcceleration(_)
         | JointAcceleration(_)
         | ConnectivityForce(..)
+        | AxialForce(_)
+        | BendingMoment(_)
         | Reaction(..)
         | ReactionMoment(_)
         | MotionForce(..)

@@ -11,6 +11,7 @@ use super::loads::{Load, coupling};
 use super::signal::{Drive, Signal};
 use super::{Constraints, DrivenRow, PlanarChain, System};
 use crate::body::{Assembly, Dependent, Elimination, Formulation, Marker, Node, Row};
+use crate::math::function::Function;
 use crate::math::sparse::Matrix;
 use crate::math::vector::dot;
 
@@ -98,6 +99,7 @@ impl System {
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let mut system = Self {
             reference: parts.nodes,
+            is_driven_by_time: is_driven_by_time(&parts.drives, &parts.loads),
             breaks: breaks(&parts.drives, &parts.loads),
             grounded: grounded(&parts.loads, &nonlinear, parts.rotation, &parts.bodies),
             is_damped: chains_damped || loads_damped,
@@ -380,6 +382,14 @@ fn printed_rows(parts: &Parts, assembly: &Assembly<4>, joints: &[Row<4>]) -> Vec
         rows.push(row);
     }
     rows
+}
+
+/// Whether an expression of time moves or loads the system; tables are smooth between their points.
+fn is_driven_by_time(drives: &[Drive], loads: &[Load]) -> bool {
+    let is_expression = |function: &Function| matches!(function, Function::Expression(_));
+    let drive = |drive: &Drive| matches!(drive, Drive::Function(f) if is_expression(f));
+    let signal = |signal: &Signal| matches!(signal, Signal::Function(f) if is_expression(f));
+    drives.iter().any(drive) || loads.iter().flat_map(Load::signals).any(signal)
 }
 
 fn breaks(drives: &[Drive], loads: &[Load]) -> Vec<f64> {

@@ -17,6 +17,16 @@ pub trait Dynamics {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]);
     /// Power that came in from outside and that was dissipated at the last acceleration, W.
     fn power(&self) -> [f64; 2];
+    /// How many steps of length `h` (s) add up in a time (s), at least 1, where functions of time drive the
+    /// system; 1 elsewhere. Explicit methods see the error of integrating a function of time in one step, but
+    /// hardly in its acceleration: faster than the rest of the scene, it takes many steps that err alike.
+    fn steps_in(&self, _time: f64, _h: f64) -> f64 {
+        1.0
+    }
+    /// Whether anything reads that power.
+    fn tracks_work(&self) -> bool {
+        true
+    }
     /// Computes `K` and `R` at a state, for the calls below.
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]);
     /// Factors `s^2 I + s R + K` for a real `s`; false when it is not positive definite.
@@ -37,6 +47,8 @@ pub trait Dynamics {
         back: &[[f64; 3]; 3],
         stages: &mut [Vec<f64>; 3],
     );
+    /// Takes out of an acceleration what is against the constraints of the last [`Dynamics::acceleration`].
+    fn take_out_normal(&mut self, _a: &mut [f64]) {}
     /// `R x`, in place.
     fn apply_damping(&mut self, x: &mut [f64]);
     /// Largest rotation of any direction, rad, and change of any stretch between two configurations.
@@ -288,6 +300,18 @@ impl Dynamics for Model<'_> {
         self.work.power
     }
 
+    fn steps_in(&self, time: f64, h: f64) -> f64 {
+        if self.system.is_driven_by_time {
+            (time / h).max(1.0)
+        } else {
+            1.0
+        }
+    }
+
+    fn tracks_work(&self) -> bool {
+        self.system.tracks_work
+    }
+
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
         let system = self.system;
         if !system.constraints.is_empty() {
@@ -330,6 +354,13 @@ impl Dynamics for Model<'_> {
         self.work
             .tangent
             .solve_stages(elimination, (forward, back), stages);
+    }
+
+    fn take_out_normal(&mut self, a: &mut [f64]) {
+        for group in &mut self.work.groups {
+            let range = group.range();
+            group.rows.take_out(&mut a[range]);
+        }
     }
 
     fn apply_damping(&mut self, x: &mut [f64]) {

@@ -14,6 +14,7 @@ pub mod loads;
 mod multipliers;
 mod outputs;
 mod placement;
+mod section;
 mod signal;
 mod state;
 mod steady;
@@ -95,6 +96,8 @@ pub struct System {
     needs_rates: bool,
     /// Whether work is integrated.
     tracks_work: bool,
+    /// Whether functions of time move or load it.
+    is_driven_by_time: bool,
     breaks: Vec<f64>,
     grounded: Vec<usize>,
 }

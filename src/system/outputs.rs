@@ -110,56 +110,6 @@ impl<N: Number> Evaluation<N> {
         })
     }
 
-    /// Axial force (N) and bending moment (N m) at a marker of a cable; zero elsewhere.
-    pub fn section(&self, system: &System, marker: &Marker) -> (N, N) {
-        let at = system.element(marker);
-        at.map_or((N::of(0.0), N::of(0.0)), |(chain, j, xi)| {
-            let (e, rate) = (chain.element(j, &self.x), chain.element(j, &self.v));
-            chain.elements()[j].section(&e, &rate, xi)
-        })
-    }
-
-    /// Force that the element before a node of a cable exerts on the one after it (report Eq. 14), N:
-    /// what the one before lacks for equilibrium. Joints and point loads at the node count with what
-    /// comes after. Zero at the first end.
-    pub fn connectivity_force(&self, system: &System, marker: &Marker) -> Vector2<N> {
-        let Some((chain, j, xi)) = system.element(marker) else {
-            return Vector2::zeros();
-        };
-        let (element, right) = if xi < 0.5 {
-            (j.wrapping_sub(1), 2)
-        } else {
-            (j, 2)
-        };
-        if element >= chain.elements().len() {
-            return Vector2::zeros();
-        }
-        let (e, v) = (
-            chain.element(element, &self.x),
-            chain.element(element, &self.v),
-        );
-        let part = &chain.elements()[element];
-        let mut lack: Nodal<2, N> = part.force(&e, &v);
-        lack += (system.gravity * part.weight().transpose()).map(N::of);
-        let mut inertia = chain.element(element, &self.acceleration);
-        let rate = system.rotation;
-        let turned = nalgebra::Matrix2::new(0.0, -1.0, 1.0, 0.0).map(N::of) * v;
-        inertia += turned * N::of(2.0 * rate) - e * N::of(rate * rate);
-        lack -= inertia * part.mass().map(N::of);
-        let scale = part.length() / (part.weight()[0] + part.weight()[2]);
-        let at = self.instant(system);
-        for load in &system.loads {
-            if let Load::Distributed(load) = load
-                && std::ptr::eq(&system.chains[load.chain], chain)
-            {
-                let [a, b] = load.components.each_ref().map(|c| c.value(at));
-                let weights = (part.weight() * scale).map(N::of);
-                lack += Vector2::new(a, b) * weights.transpose();
-            }
-        }
-        lack.column(right).into()
-    }
-
     /// Force (N) and moment (N m) of a joint or motion on its second end.
     pub fn reaction(&self, system: &System, joint: usize) -> (Vector2<N>, N) {
         let mut force = Vector2::zeros();
@@ -317,7 +267,7 @@ impl<N: Number> Evaluation<N> {
 
 impl System {
     /// Chain, element and place inside it of a marker of a cable.
-    fn element(&self, marker: &Marker) -> Option<(&super::PlanarChain, usize, f64)> {
+    pub(super) fn element(&self, marker: &Marker) -> Option<(&super::PlanarChain, usize, f64)> {
         let (j, xi) = marker.element?;
         let first = self.bodies[marker.body].start;
         let chain = self.chains.iter().find(|c| c.nodes(0)[0] == first)?;

@@ -64,6 +64,18 @@ impl Dynamics for Probe<'_> {
         self.model.power()
     }
 
+    fn steps_in(&self, time: f64, h: f64) -> f64 {
+        self.model.steps_in(time, h)
+    }
+
+    fn tracks_work(&self) -> bool {
+        self.model.tracks_work()
+    }
+
+    fn take_out_normal(&mut self, a: &mut [f64]) {
+        self.model.take_out_normal(a);
+    }
+
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.tally.linearizations += 1;
         self.model.linearize(time, q, v);

@@ -106,7 +106,7 @@ fn step(scene: &Scene) -> Result<Value, String> {
     let (frequency, decay) = fastest(system, &inputs, &mut work, &state);
     let mut method = Rk4::new(system.coordinates(), frequency, decay);
     let tolerance = Tolerance {
-        relative: scene.accuracy.relative_tolerance,
+        relative: scene.relative_tolerance(),
         position: system.scale(),
         time: 1.0,
     };

@@ -246,6 +246,10 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
         self.kernel.is_damped
     }
 
+    fn bends(&self) -> bool {
+        self.kernel.bends
+    }
+
     fn strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> (N, N) {
         let (at, kernel) = (self.line(e, xi), self.kernel.lift::<N>());
         let square = at.u.iter().fold(N::of(0.0), |sum, u| sum + *u * *u);
@@ -255,26 +259,6 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
     fn recovered_strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> N {
         let kernel = self.kernel.lift::<N>();
         kernel.recover(kernel.axial_samples(&e.data.0, None), xi)
-    }
-
-    fn section<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>, xi: f64) -> (N, N) {
-        let (p, kernel) = (&self.parameters, self.kernel.lift::<N>());
-        let [n0, n1, n2] = self.kernel.natural_strain;
-        let rates = self.kernel.is_damped.then_some(&rate.data.0);
-        let samples = kernel.axial_samples(&e.data.0, rates);
-        let stretching = kernel.recover(samples, xi) - N::of((n0 + n1 + n2) / 3.0);
-        let (at, rate) = (self.line(e, xi), self.line(rate, xi));
-        let bending: [N; C] = if self.kernel.bends {
-            let now = kernel.curvature(&at);
-            let speed = kernel.curvature_rate(&at, &rate, &now);
-            let [a, b, c] = &self.kernel.natural_curvature;
-            let natural = |i: usize| N::of((a[i] + b[i] + c[i]) / 3.0);
-            std::array::from_fn(|i| now.value[i] - natural(i) + kernel.damping_time * speed[i])
-        } else {
-            [N::of(0.0); C]
-        };
-        let moment = N::of(p.bending_stiffness) * signed(&bending);
-        (N::of(p.axial_stiffness) * stretching, moment)
     }
 
     fn goes_with(&self, other: &Self) -> bool {

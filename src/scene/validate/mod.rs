@@ -51,7 +51,7 @@ impl Scene {
         resolved.resolve_outputs()?;
         resolved.resolve_ports()?;
         resolved.resolve_initial()?;
-        let tolerance = self.accuracy.relative_tolerance;
+        let tolerance = self.relative_tolerance();
         if !TOLERANCE.contains(&tolerance) {
             let (least, most) = (TOLERANCE.start(), TOLERANCE.end());
             let wanted = format!("a number from {least:e} to {most}");

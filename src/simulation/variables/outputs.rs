@@ -54,10 +54,12 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         Output::AxialForce(m) => {
             let words = ("axial_force", "Axial force at", Some(NEWTON));
             list.scalar_at(m, words, Quantity::AxialForce);
+            list.mark_direct(first);
         }
         Output::BendingMoment(m) => {
             let words = ("bending_moment", "Bending moment at", Some(NEWTON_METRE));
             list.scalar_at(m, words, Quantity::BendingMoment);
+            list.mark_direct(first);
         }
         Output::Angle(turning, angle) => {
             add_angle(list, (turning, port), Quantity::Angle(*angle));

@@ -35,10 +35,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         list.parameter("rotation", what, unit, parameter, scene.rotation);
     }
     let what = "Error in time that a step may make, relative to the size of the scene";
-    let (parameter, start) = (
-        Parameter::RelativeTolerance,
-        scene.accuracy.relative_tolerance,
-    );
+    let (parameter, start) = (Parameter::RelativeTolerance, scene.relative_tolerance());
     list.parameter("relative_tolerance", what, None, parameter, start);
 }
 

@@ -19,7 +19,7 @@ pub struct Distributed {
 }
 
 impl Distributed {
-    fn value<N: Number>(&self, at: Instant<'_, N>) -> Vector2<N> {
+    pub(in crate::system) fn value<N: Number>(&self, at: Instant<'_, N>) -> Vector2<N> {
         let components = self.components.each_ref();
         components.map(|c| c.value(at)).into()
     }

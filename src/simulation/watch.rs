@@ -1,0 +1,155 @@
+//! Outputs that the tolerance does not reach.
+//!
+//! The error of a step is held in positions and velocities of the whole scene. Forces, accelerations and
+//! velocities of a part magnify it: by stiffness over mass, by the frequency of a vibration. What the errors of
+//! steps do to these outputs is sampled at communication points: the state is moved by the error that its last
+//! step is estimated to have made, and outputs are read there as well. Errors of steps add up as independent
+//! ones do, by their squares.
+
+use super::Quantity;
+use crate::integrators::Tolerance;
+use crate::system::{State, System};
+
+/// Errors beyond this many tolerances of an output's largest size are told of: the estimate is within a factor
+/// of three of the error on most scenes, and what is off by 30 tolerances must not stay unsaid.
+const LIMIT: f64 = 10.0;
+/// Communication points at the beginning that are all sampled, then every one of as many as [`EVERY`].
+const FIRST: u64 = 8;
+const EVERY: u64 = 16;
+/// Part of its natural size that an output must reach for its errors to be compared with it.
+const SMALLEST: f64 = 1e-3;
+
+/// An output, with both its components where it is a vector.
+struct Group {
+    name: String,
+    members: Vec<Quantity>,
+    /// What it is where the scene moves at its natural rate.
+    natural: f64,
+    /// Values at the sampled state.
+    values: [f64; 2],
+    largest: f64,
+    /// Sum of the squares of the changes that steps made.
+    squares: f64,
+    is_doubtful: bool,
+    is_told: bool,
+}
+
+/// What has been seen of the outputs so far.
+#[derive(Default)]
+pub(super) struct Watch {
+    groups: Vec<Group>,
+    /// The state moved by its error.
+    pub shifted: State,
+    points: u64,
+    /// Sub-steps since the last sample, and time since the start, s.
+    steps: u64,
+    elapsed: f64,
+}
+
+impl Watch {
+    /// For these outputs.
+    pub(super) fn new<'a>(
+        outputs: impl Iterator<Item = (Quantity, &'a str)>,
+        system: &System,
+        tolerance: &Tolerance,
+    ) -> Self {
+        let mut groups: Vec<Group> = Vec::new();
+        for (quantity, name) in outputs {
+            let Some(natural) = natural(quantity, system, tolerance) else {
+                continue;
+            };
+            let name = name.split('[').next().unwrap_or(name);
+            match groups.iter_mut().find(|group| group.name == name) {
+                Some(group) if group.members.len() < 2 => group.members.push(quantity),
+                _ => groups.push(Group {
+                    name: name.to_owned(),
+                    members: vec![quantity],
+                    natural,
+                    values: [0.0; 2],
+                    largest: 0.0,
+                    squares: 0.0,
+                    is_doubtful: false,
+                    is_told: false,
+                }),
+            }
+        }
+        Self {
+            groups,
+            shifted: system.blank_state(0.0),
+            ..Self::default()
+        }
+    }
+
+    /// Counts a communication step in; whether the state at its end is to be sampled.
+    pub(super) fn is_due(&mut self, steps: u64, time: f64) -> bool {
+        self.points += 1;
+        self.steps += steps;
+        self.elapsed += time;
+        let is_due = self.points <= FIRST || self.points.is_multiple_of(EVERY);
+        is_due && self.groups.iter().any(|group| !group.is_doubtful)
+    }
+
+    /// Takes the outputs at the state.
+    pub(super) fn take(&mut self, mut value: impl FnMut(Quantity) -> f64) {
+        for group in &mut self.groups {
+            for (value_of, quantity) in group.values.iter_mut().zip(&group.members) {
+                *value_of = value(*quantity);
+            }
+            let [a, b] = group.values;
+            group.largest = group.largest.max(a.hypot(b));
+        }
+    }
+
+    /// Compares them with the outputs at the shifted state.
+    pub(super) fn compare(
+        &mut self,
+        tolerance: &Tolerance,
+        mut value: impl FnMut(Quantity) -> f64,
+    ) {
+        let steps = std::mem::take(&mut self.steps) as f64;
+        for group in &mut self.groups {
+            for (now, quantity) in group.values.iter().zip(&group.members) {
+                group.squares += steps * (value(*quantity) - now).powi(2);
+            }
+            let size = group.largest.max(SMALLEST * group.natural);
+            let is_beyond = group.squares.sqrt() > LIMIT * tolerance.relative * size;
+            // What starts from rest has no size yet.
+            group.is_doubtful |= is_beyond && self.elapsed >= tolerance.time;
+        }
+    }
+
+    /// The next output that has become doubtful and has not been told of.
+    pub(super) fn next(&mut self) -> Option<&str> {
+        let mut groups = self.groups.iter_mut();
+        let group = groups.find(|group| group.is_doubtful && !group.is_told)?;
+        group.is_told = true;
+        Some(&group.name)
+    }
+}
+
+/// What an output is where the scene moves at its natural rate; nothing for sums over the whole run and for
+/// what is conserved or held.
+fn natural(quantity: Quantity, system: &System, tolerance: &Tolerance) -> Option<f64> {
+    use Quantity::*;
+    let (size, rate) = (system.size(), 1.0 / tolerance.time);
+    let force = system.mass() * size * rate * rate;
+    match quantity {
+        Velocity(..) => Some(size * rate),
+        Acceleration(..) => Some(size * rate * rate),
+        AngularVelocity(_) | JointVelocity(_) => Some(rate),
+        AngularAcceleration(_) | JointAcceleration(_) => Some(rate * rate),
+        AxialForce(_)
+        | ConnectivityForce(..)
+        | Reaction(..)
+        | MotionForce(..)
+        | CouplingForce(..) => Some(force),
+        BendingMoment(_) | ReactionMoment(_) | MotionMoment(_) | CouplingMoment(_) => {
+            Some(force * size)
+        }
+        KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => Some(force * size),
+        Position(..) | CenterOfMass(_) | Travel(_) => Some(size),
+        Angle(_) => Some(1.0),
+        Strain(_) | Curvature(_) => Some(0.0),
+        Input | Dissipated | Momentum(_) | AngularMomentum | Residual(_) => None,
+    }
+}
