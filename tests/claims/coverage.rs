@@ -1,0 +1,227 @@
+//! Every key of the schema, changed, left out and put where it was not.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use serde_json::Value;
+
+use crate::mutate::{changes, clash, plants, without};
+use crate::scenes;
+use crate::schema::{Place, Schema, Sort};
+use crate::specimen::{Outcome, Specimen, units};
+
+/// Keys of which one value only is accepted: the others are refused, and say so.
+const SINGLE: [&str; 3] = [
+    "dimension",
+    "joints{slider}.markers[0]",
+    "outputs{natural_frequency}.body",
+];
+/// Keys that change how results are found, not what they are; their claims are in `own.rs`.
+const OWN: [&str; 2] = ["method.constraints", "method.formulation=as_printed"];
+
+/// What was done at a key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Deed {
+    /// Another value.
+    Changed,
+    /// Left out.
+    Removed,
+    /// A value where there was none.
+    Planted,
+    /// The name of another part.
+    Clashed,
+}
+
+type Records = BTreeMap<(String, Deed), Vec<(&'static str, Outcome)>>;
+
+/// All specimens in turn, on all cores.
+pub fn for_each_specimen(work: impl Fn(&Specimen) + Sync) {
+    let specimens = scenes::all();
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                while let Some(specimen) = specimens.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    work(specimen);
+                }
+            });
+        }
+    });
+}
+
+/// Changes one place of a specimen, in one way after the other until a claim notices.
+fn examine(specimen: &Specimen, known: &[String], place: &Place, records: &Mutex<Records>) {
+    // Whether it is done: a claim has noticed, of this specimen or another.
+    let is_done = |key: &str, deed| {
+        let records = records.lock().expect("no panic while locked");
+        let list = records.get(&(key.to_owned(), deed));
+        list.is_some_and(|list| list.iter().any(|(_, outcome)| outcome.is_noticed()))
+    };
+    let record = |key: &str, deed, scene: &Value, known: &[String]| {
+        if is_done(key, deed) {
+            return true;
+        }
+        let outcome = specimen.judge(scene, known);
+        let is_refused = matches!(outcome, Outcome::Refused(_));
+        let mut records = records.lock().expect("no panic while locked");
+        let list = records.entry((key.to_owned(), deed)).or_default();
+        list.push((specimen.name, outcome));
+        !is_refused
+    };
+    let scene = &specimen.scene;
+    if place.samples.is_some() {
+        for planted in plants(scene, place) {
+            record(&place.key, Deed::Planted, &planted, known);
+        }
+        return;
+    }
+    let key = match &place.sort {
+        Sort::Choice(_) if !place.key.ends_with('}') => {
+            let variant = scene
+                .pointer(&place.pointer)
+                .and_then(|value| value.as_str());
+            format!("{}={}", place.key, variant.unwrap_or_default())
+        }
+        _ => place.key.clone(),
+    };
+    let first_decides = matches!(place.sort, Sort::Number | Sort::Integer);
+    for mutant in changes(scene, place) {
+        let known = if mutant.is_renamed { &[] } else { known };
+        if record(&key, Deed::Changed, &mutant.scene, known) && first_decides {
+            break;
+        }
+    }
+    if place.key.ends_with(".name") {
+        record(&place.key, Deed::Clashed, &clash(scene, place), known);
+    }
+    if let Some(removal) = &place.removal {
+        record(&place.key, Deed::Removed, &without(scene, removal), &[]);
+    }
+}
+
+/// What is missing at a key.
+fn complaints(key: &str, records: &Records) -> Vec<String> {
+    let of = |deed| {
+        records
+            .get(&(key.to_owned(), deed))
+            .map_or(&[][..], Vec::as_slice)
+    };
+    let refused = |list: &[(&str, Outcome)]| {
+        list.iter()
+            .all(|(_, outcome)| matches!(outcome, Outcome::Refused(_)))
+    };
+    let noticed = |list: &[(&str, Outcome)]| list.iter().any(|(_, outcome)| outcome.is_noticed());
+    let told = |what: &str, list: &[(&str, Outcome)]| {
+        let seen = list
+            .iter()
+            .filter(|(_, outcome)| !matches!(outcome, Outcome::Refused(_)));
+        let seen: Vec<String> = seen.map(|(name, o)| format!("{name}: {o:?}")).collect();
+        format!("{key}: {what}; {}", seen.join(", "))
+    };
+    let (changed, removed, planted) = (of(Deed::Changed), of(Deed::Removed), of(Deed::Planted));
+    let taken = |(_, outcome): &(&str, Outcome)| matches!(outcome, Outcome::Refused(told) if told.contains("a name not used yet"));
+    let stuck = |(_, outcome): &(&str, Outcome)| matches!(outcome, Outcome::Stuck(_));
+    let mut found = Vec::new();
+    let choice = key.ends_with('}') || SINGLE.contains(&key);
+    let holds = match changed.is_empty() {
+        true => !planted.is_empty() && refused(planted),
+        // What goes in and what goes out may change places with the kind.
+        false if key.ends_with('}') && changed.iter().any(stuck) => true,
+        false => noticed(changed) || (choice && refused(changed)),
+    };
+    if !holds && !of(Deed::Clashed).iter().any(taken) {
+        let what = match changed.is_empty() {
+            true => "no specimen has it",
+            false => "no claim notices a change",
+        };
+        found.push(told(what, changed));
+    }
+    // Without it there may be no start.
+    if !refused(removed) && !noticed(removed) && !removed.iter().any(stuck) {
+        found.push(told("no claim notices that it is left out", removed));
+    }
+    if !refused(planted) && !noticed(planted) {
+        found.push(told("no claim notices it where it was left out", planted));
+    }
+    found
+}
+
+#[test]
+fn every_claim_holds_with_its_unit() {
+    let failed = Mutex::new(Vec::new());
+    for_each_specimen(|specimen| {
+        let outcome = specimen.judge(&specimen.scene, &[]);
+        let mut failed = failed.lock().expect("no panic while locked");
+        if outcome != Outcome::Holds {
+            failed.push(format!("{}: {outcome:?}", specimen.name));
+            return;
+        }
+        let units = units(&specimen.scene);
+        for claim in specimen
+            .claims
+            .iter()
+            .filter(|claim| !claim.of.starts_with('@'))
+        {
+            let found = units.get(&claim.of).map_or("none", String::as_str);
+            if found != claim.unit {
+                let (name, of, unit) = (specimen.name, &claim.of, claim.unit);
+                failed.push(format!(
+                    "{name}: {of}: expected the unit {unit}, found {found}"
+                ));
+            }
+        }
+    });
+    let failed = failed.into_inner().expect("no panic while locked");
+    assert!(
+        failed.is_empty(),
+        "{} claims fail:\n{}",
+        failed.len(),
+        failed.join("\n")
+    );
+}
+
+#[test]
+fn every_key_has_a_claim_that_moves_with_it() {
+    let schema = Schema::published();
+    let records = Mutex::new(Records::new());
+    for_each_specimen(|specimen| {
+        let known = specimen.variables();
+        for place in schema.places(&specimen.scene) {
+            examine(specimen, &known, &place, &records);
+        }
+    });
+    let records = records.into_inner().expect("no panic while locked");
+    let mut keys = schema.keys();
+    let count = keys.len();
+    // The key itself beside its variants: what happens where it is left out.
+    let plain = keys
+        .iter()
+        .filter_map(|key| Some(key.split_once('=')?.0.to_owned()));
+    let plain: BTreeSet<String> = plain.collect();
+    let complaints: Vec<String> = keys
+        .iter()
+        .flat_map(|key| complaints(key, &records))
+        .chain(plain.iter().flat_map(|key| of_default(key, &records)))
+        .filter(|text| !OWN.iter().any(|key| text.starts_with(key)))
+        .collect();
+    keys.retain(|key| records.contains_key(&(key.clone(), Deed::Changed)));
+    let runs: usize = records.values().map(Vec::len).sum();
+    println!(
+        "{count} keys and variants, {} of them in specimens, {runs} changes",
+        keys.len()
+    );
+    assert!(
+        complaints.is_empty(),
+        "{} of {count} keys:\n{}",
+        complaints.len(),
+        complaints.join("\n")
+    );
+}
+
+/// Complaints about a choice that is left out or put where it was not.
+fn of_default(key: &str, records: &Records) -> Vec<String> {
+    let mut found = complaints(key, records);
+    found.retain(|text| text.contains("left out"));
+    found
+}

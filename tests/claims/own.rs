@@ -1,0 +1,190 @@
+//! Keys that by their nature do not change results, and faults of method: claims of their own.
+
+use flexbody::scene::Scene;
+use flexbody::simulation::Simulation;
+use serde_json::{Value, json};
+
+/// A simulation at its start.
+fn started(scene: &Value) -> Simulation {
+    let scene = Scene::from_json(&scene.to_string()).unwrap_or_else(|error| panic!("{error}"));
+    let mut simulation = Simulation::new(scene);
+    simulation
+        .initialize(0.0)
+        .unwrap_or_else(|error| panic!("{error}"));
+    simulation.start().unwrap_or_else(|error| panic!("{error}"));
+    simulation
+}
+
+fn read(simulation: &mut Simulation, name: &str) -> f64 {
+    let place = simulation.variables().iter().position(|v| v.name == name);
+    simulation
+        .real(place.expect("a variable"))
+        .expect("a number")
+}
+
+/// A bead that a spring pulls and pushes along its line: `x'' = -(k/m) x`, `k/m` = 16 1/s^2.
+fn oscillator(tolerance: f64) -> Value {
+    json!({
+        "name": "oscillator", "dimension": 2, "accuracy": {"relative_tolerance": tolerance},
+        "bodies": [{"element": "rigid", "name": "bead", "mass": 0.5, "inertia": 0.0, "position": [0.3, 0.0],
+                    "markers": {"c": [0.0, 0.0]}}],
+        "loads": [{"name": "spring", "kind": "spring_damper", "markers": ["ground", "bead.c"], "point": [-1.0, 0.0],
+                   "stiffness": 8.0, "length": 1.0}],
+        "outputs": [{"kind": "position", "marker": "bead.c"}]})
+}
+
+/// Error after ten radians (rad of the oscillation) and how many steps it took.
+fn error_and_steps(tolerance: f64) -> (f64, u64) {
+    let mut simulation = started(&oscillator(tolerance));
+    let time = 2.5;
+    simulation.step(time).expect("a step");
+    let found = read(&mut simulation, "bead.c.position[1]");
+    (
+        (found - 0.3 * (4.0 * time).cos()).abs(),
+        simulation.report().steps,
+    )
+}
+
+/// `accuracy.relative_tolerance`: the error shrinks with it and the work grows.
+#[test]
+fn errors_shrink_with_the_tolerance() {
+    let mut before = error_and_steps(1e-2);
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let now = error_and_steps(tolerance);
+        assert!(
+            10.0 * now.0 < before.0,
+            "{tolerance}: {now:?} after {before:?}"
+        );
+        assert!(now.1 > before.1, "{tolerance}: {now:?} after {before:?}");
+        // Ten radians of steps, each off by a tolerance of the length at most.
+        assert!(now.0 < 30.0 * tolerance, "{tolerance}: {now:?}");
+        before = now;
+    }
+}
+
+/// `method.constraints`: both ways keep a bead on its link, which goes round at constant speed; they are
+/// not the same.
+#[test]
+fn both_ways_to_keep_constraints_go_round() {
+    let scene = |constraints: Value| {
+        let mut scene = json!({
+            "name": "sling", "dimension": 2, "accuracy": {"relative_tolerance": 1e-9},
+            "bodies": [{"element": "rigid", "name": "bead", "mass": 0.5, "inertia": 0.0, "position": [0.8, 0.0],
+                        "motion": {"velocity": [0.0, 1.2]}, "markers": {"c": [0.0, 0.0]}}],
+            "joints": [{"name": "link", "kind": "distance", "markers": ["ground", "bead.c"], "point": [0.0, 0.0]}],
+            "outputs": [{"kind": "position", "marker": "bead.c"}],
+            "method": {"integrator": "rk4", "constraints": constraints}});
+        if constraints.is_null() {
+            scene["method"] = json!({"integrator": "rk4"});
+        }
+        scene
+    };
+    let ends = [json!("projection"), json!("partitioning"), Value::Null].map(|constraints| {
+        let mut simulation = started(&scene(constraints));
+        simulation.step(2.0).expect("a step");
+        [1, 2].map(|axis| read(&mut simulation, &format!("bead.c.position[{axis}]")))
+    });
+    let turn: f64 = 1.2 / 0.8 * 2.0;
+    for end in ends {
+        let off = (end[0] - 0.8 * turn.cos()).hypot(end[1] - 0.8 * turn.sin());
+        assert!(off < 1e-7, "{end:?} is {off:e} m off");
+    }
+    assert_ne!(ends[0], ends[1]);
+    // The first is what a scene takes that does not say.
+    assert_eq!(ends[0], ends[2]);
+}
+
+/// `method.formulation`: a beam falls about its pin, which stays; as printed it falls off (the law tests say
+/// by how much and why).
+#[test]
+fn as_printed_a_beam_falls_off_its_pin() {
+    let at_the_pin = |formulation: &str| {
+        let mut simulation = started(&json!({
+            "name": "falling", "dimension": 2, "gravity": [0.0, -9.0],
+            "bodies": [{"element": "cable", "name": "beam", "elements": 2,
+                        "material": {"youngs_modulus": 1e6, "density": 1000.0},
+                        "section": {"area": 1e-3, "second_moment": 1e-7},
+                        "shape": {"line": {"from": [0.0, 0.0], "to": [1.2, 0.0]}}, "markers": {"root": 0.0}}],
+            "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "beam.root"]}],
+            "outputs": [{"kind": "acceleration", "marker": "beam.root"}],
+            "method": {"integrator": "rk4", "formulation": formulation}}));
+        read(&mut simulation, "beam.root.acceleration[2]").abs()
+    };
+    assert!(at_the_pin("mass_weighted") < 1e-12);
+    assert!(at_the_pin("as_printed") > 1.0);
+}
+
+/// A cantilever of 1 m under a dead force across it at its tip, `F L^2 / EI = share`, `EA L^2 / EI = 100`.
+fn pulled_down(share: f64, elements: u32) -> Value {
+    json!({
+        "name": "pulled_down", "dimension": 2, "initial": "static_equilibrium",
+        "bodies": [{"element": "cable", "name": "beam", "elements": elements,
+                    "material": {"youngs_modulus": 1e4, "density": 1000.0},
+                    "section": {"area": 1e-2, "second_moment": 1e-4},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}}, "markers": {"root": 0.0, "tip": 1.0}}],
+        "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "beam.root"]}],
+        "loads": [{"name": "pull", "kind": "force", "marker": "beam.tip", "value": [0.0, -share]}],
+        "outputs": [{"kind": "angle", "marker": "beam.tip"}, {"kind": "position", "marker": "beam.tip"}]})
+}
+
+/// Direction and place of the tip of the exact beam (E. Reissner, On one-dimensional finite-strain beam
+/// theory, 1972, without shear), EI = 1 N m^2, EA = 100 N: `theta' = M`, `M' = (1 + N/EA) F cos theta` under
+/// a force F down, `N = -F sin theta`, by shooting for the direction of the tip.
+fn exact_tip(force: f64) -> [f64; 3] {
+    let slopes = |[theta, moment, ..]: [f64; 4]| {
+        let stretch = 1.0 - force * theta.sin() / 100.0;
+        [
+            moment,
+            force * stretch * theta.cos(),
+            stretch * theta.cos(),
+            stretch * theta.sin(),
+        ]
+    };
+    // From the tip, without moment, back to the clamp; Runge-Kutta of order 4.
+    let clamp = |tip: f64| {
+        let (n, mut y) = (2000, [tip, 0.0, 0.0, 0.0]);
+        let h = -1.0 / f64::from(n);
+        for _ in 0..n {
+            let add = |k: [f64; 4], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
+            let a = slopes(y);
+            let b = slopes(add(a, 0.5 * h));
+            let c = slopes(add(b, 0.5 * h));
+            let d = slopes(add(c, h));
+            y = std::array::from_fn(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]));
+        }
+        y
+    };
+    let (mut low, mut high) = (-std::f64::consts::FRAC_PI_2, 0.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if clamp(middle)[0] > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    let [_, _, x, y] = clamp(low);
+    [low, -x, -y]
+}
+
+/// A dead force has equilibria with a turn more; the one that the beam bends into has none
+/// (docs/decisions/0007-static-equilibrium.md).
+#[test]
+fn equilibrium_is_on_the_branch_of_growing_loads() {
+    for share in [2.0, 10.0, 25.0] {
+        let mut simulation = started(&pulled_down(share, 16));
+        let names = [
+            "beam.tip.angle",
+            "beam.tip.position[1]",
+            "beam.tip.position[2]",
+        ];
+        let found = names.map(|name| read(&mut simulation, name));
+        let exact = exact_tip(share);
+        for ((name, found), exact) in names.iter().zip(found).zip(exact) {
+            assert!(
+                (found - exact).abs() < 2e-3,
+                "{share}: {name} is {found}, exactly {exact}"
+            );
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Initial states, integrators and natural frequencies.
+
+use serde_json::{Value, json};
+
+use super::times;
+use crate::specimen::Specimen;
+
+pub fn all() -> Vec<Specimen> {
+    let mut all: Vec<Specimen> = ["radau", "rk4", "verlet", "rkn43"].map(thrown).into();
+    all.extend([element("mass_weighted"), element("")]);
+    all.extend([
+        automatic(),
+        settled(),
+        unsettled(),
+        frequencies(),
+        frequencies_of_a_body(),
+    ]);
+    all
+}
+
+fn stone(gravity: [f64; 2]) -> Value {
+    json!({
+        "name": "thrown", "dimension": 2, "gravity": gravity,
+        "bodies": [{"element": "rigid", "name": "stone", "mass": 0.4, "inertia": 0.0, "position": [0.1, 0.2],
+                    "motion": {"velocity": [2.0, 5.0]}, "markers": {"c": [0.0, 0.0]}}],
+        "outputs": [{"kind": "position", "marker": "stone.c"}]})
+}
+
+/// Every method throws a stone exactly, and says its name.
+fn thrown(integrator: &'static str) -> Specimen {
+    let g = [0.3, -9.0];
+    let mut scene = stone(g);
+    scene["method"] = json!({"integrator": integrator});
+    let t = 0.5;
+    let place = super::sum([0.1 + 2.0 * t, 0.2 + 5.0 * t], times(0.5 * t * t, g));
+    Specimen::new(integrator, scene)
+        .at(t)
+        .vector("stone.c.position", "m", place)
+        .fact("method", integrator)
+}
+
+/// A stone is soft: of the methods that may be chosen it takes the one of order 4 without rates.
+fn automatic() -> Specimen {
+    let mut scene = stone([0.0, -9.0]);
+    scene["method"] = json!({"integrator": "auto"});
+    Specimen::new("automatic", scene)
+        .at(0.5)
+        .claim("stone.c.position[2]", "m", 0.2 + 2.5 - 9.0 * 0.125)
+        .fact("method", "rkn43")
+}
+
+/// The slowest bending of one free element, in which the curvature is uniform and the velocity a Legendre
+/// polynomial of degree 2: `w^2 = 720 EI / (rho A L^4)` with the consistent mass, half of it with the
+/// corrected one, in which this part counts twice (docs/decisions/0012-mass-against-dispersion.md).
+fn element(formulation: &'static str) -> Specimen {
+    let mut scene = json!({
+        "name": "element", "dimension": 2,
+        "bodies": [{"element": "cable", "name": "rod", "elements": 1,
+                    "material": {"youngs_modulus": 1e6, "density": 500.0},
+                    "section": {"area": 4e-3, "second_moment": 1e-6},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}}}],
+        "outputs": [{"kind": "natural_frequency", "count": 4}],
+        "method": {"integrator": "rk4"}});
+    if !formulation.is_empty() {
+        scene["method"]["formulation"] = json!(formulation);
+    }
+    let name = if formulation.is_empty() {
+        "element"
+    } else {
+        formulation
+    };
+    // After three rigid motions.
+    let exact: f64 = 360.0 * 1.0 / 2.0;
+    Specimen::new(name, scene).claim("natural_frequency[4]", "rad/s", exact.sqrt())
+}
+
+fn lever(initial: &str) -> Value {
+    json!({
+        "name": "lever", "dimension": 2, "initial": initial,
+        "bodies": [{"element": "rigid", "name": "arm", "mass": 2.0, "inertia": 0.5, "position": [0.0, 0.0],
+                    "angle": 0.2, "markers": {"c": [0.0, 0.0]}}],
+        "joints": [{"name": "hinge", "kind": "hinge", "markers": ["ground", "arm.c"], "stiffness": 4.0, "angle": 0.1}],
+        "loads": [{"name": "twist", "kind": "moment", "marker": "arm.c", "value": 3.2}],
+        "outputs": [{"kind": "angle", "marker": "arm.c"}]})
+}
+
+/// A lever on a spring comes to rest where the spring holds the moment; or starts where it is.
+fn settled() -> Specimen {
+    Specimen::new("settled", lever("static_equilibrium")).claim(
+        "arm.c.angle",
+        "rad",
+        0.1 + 3.2 / 4.0,
+    )
+}
+
+fn unsettled() -> Specimen {
+    Specimen::new("unsettled", lever("as_shaped")).claim("arm.c.angle", "rad", 0.2)
+}
+
+/// Two levers on springs of their own.
+fn frequencies() -> Specimen {
+    let arm = |name: &str, y: f64, inertia: f64| {
+        json!({"element": "rigid", "name": name, "mass": 2.0, "inertia": inertia, "position": [0.0, y],
+               "markers": {"c": [0.0, 0.0]}})
+    };
+    let hinge = |name: &str, of: &str, stiffness: f64| json!({"name": name, "kind": "hinge", "markers": ["ground", of], "stiffness": stiffness});
+    let scene = json!({
+        "name": "frequencies", "dimension": 2, "bodies": [arm("a", 0.0, 0.5), arm("b", 1.0, 0.2)],
+        "joints": [hinge("stiff", "b.c", 20.0), hinge("soft", "a.c", 4.5)],
+        "outputs": [{"kind": "natural_frequency", "count": 2}]});
+    Specimen::new("frequencies", scene)
+        .fact("variables", 14)
+        .claim("natural_frequency[1]", "rad/s", 3.0)
+        .claim("natural_frequency[2]", "rad/s", 10.0)
+}
+
+/// Of a scene with one body, by its name: a pendulum that hangs.
+fn frequencies_of_a_body() -> Specimen {
+    let (m, j, l, g) = (2.0, 0.5, 0.6, 9.0);
+    let scene = json!({
+        "name": "hanging", "dimension": 2, "gravity": [0.0, -g],
+        "bodies": [{"element": "rigid", "name": "bob", "mass": m, "inertia": j, "position": [0.0, -l],
+                    "markers": {"pin": [0.0, l]}}],
+        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "bob.pin"]}],
+        "outputs": [{"kind": "natural_frequency", "count": 1, "body": "bob"}]});
+    let square: f64 = m * g * l / (j + m * l * l);
+    Specimen::new("hanging", scene).claim("bob.natural_frequency[1]", "rad/s", square.sqrt())
+}

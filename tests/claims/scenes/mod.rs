@@ -1,0 +1,77 @@
+//! The specimens: scenes of a body or a few, and what must come of them in closed form. Numbers of the
+//! closed forms are those of the scene, written once more where a test must not compute them.
+
+mod cables;
+mod frames;
+mod inputs;
+mod joints;
+mod loads;
+mod methods;
+mod motions;
+mod ports;
+mod rigid;
+mod slides;
+
+use serde_json::{Value, json};
+
+use crate::specimen::Specimen;
+
+/// All of them.
+pub fn all() -> Vec<Specimen> {
+    let parts = [
+        rigid::all(),
+        frames::all(),
+        cables::all(),
+        joints::all(),
+        slides::all(),
+        motions::all(),
+        loads::all(),
+        inputs::all(),
+        ports::all(),
+        methods::all(),
+    ];
+    parts.into_iter().flatten().collect()
+}
+
+/// A free rigid body that takes no part: what refers to something else by mistake finds it.
+pub fn extra() -> Value {
+    json!({"element": "rigid", "name": "extra", "mass": 0.7, "inertia": 0.2,
+           "position": [3.1, -2.3], "angle": 1.1,
+           "motion": {"velocity": [0.4, 0.9], "spin": -0.6},
+           "markers": {"a": [0.1, 0.05], "b": [-0.2, 0.1]}})
+}
+
+/// The same at rest, for scenes that start at rest.
+pub fn resting() -> Value {
+    let mut body = extra();
+    body["motion"] = json!({});
+    body
+}
+
+/// A vector turned counter-clockwise.
+pub fn turned(angle: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [cos * x - sin * y, sin * x + cos * y]
+}
+
+pub fn sum(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+pub fn times(factor: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+    [factor * x, factor * y]
+}
+
+/// A quarter turn to the left: what an angular velocity of 1 makes of a way.
+pub fn left([x, y]: [f64; 2]) -> [f64; 2] {
+    [-y, x]
+}
+
+pub fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// Component of a moment of force: `a x b`.
+pub fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}

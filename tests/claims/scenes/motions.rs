@@ -1,0 +1,322 @@
+//! Driven motions: constant, as expressions and as tables, or set by the master with 0, 1 and 2 derivatives.
+
+use serde_json::{Value, json};
+
+use super::{sum, times, turned};
+use crate::specimen::Specimen;
+
+/// Time of the start, s.
+const T: f64 = 0.3;
+/// A smooth function of time and what it is with two derivatives.
+const WAVE: &str = "0.4+0.5*t+0.9*t^2";
+
+fn wave(t: f64) -> [f64; 3] {
+    [0.4 + 0.5 * t + 0.9 * t * t, 0.5 + 1.8 * t, 1.8]
+}
+
+/// A table of two points, and the spline that is at rest at both: `y0 + (y1 - y0) (3 s^2 - 2 s^3)`.
+fn table() -> Value {
+    json!({"table": [[0.1, 0.2], [0.9, 1.0]]})
+}
+
+fn spline(t: f64) -> [f64; 3] {
+    let (s, rate) = ((t - 0.1) / 0.8, 1.0 / 0.8);
+    [
+        0.2 + 0.8 * (3.0 * s * s - 2.0 * s.powi(3)),
+        0.8 * rate * (6.0 * s - 6.0 * s * s),
+        0.8 * rate * rate * (6.0 - 12.0 * s),
+    ]
+}
+
+pub fn all() -> Vec<Specimen> {
+    vec![
+        angles(),
+        positions(),
+        displacements(),
+        mastered(),
+        described(),
+        steps(),
+    ]
+}
+
+fn wheel(name: &str, place: [f64; 2], angle: f64) -> Value {
+    json!({"element": "rigid", "name": name, "mass": 1.6, "inertia": 0.4, "position": place, "angle": angle,
+           "markers": {"c": [0.0, 0.0], "p": [0.5, -0.2]}})
+}
+
+fn outputs(kinds: &[&str], of: &str) -> Vec<Value> {
+    let output = |kind: &&str| json!({"kind": kind, "marker": of});
+    kinds.iter().map(output).collect()
+}
+
+const TURNS: [&str; 3] = ["angle", "angular_velocity", "angular_acceleration"];
+const MOVES: [&str; 3] = ["position", "velocity", "acceleration"];
+const RAD: [&str; 3] = ["rad", "rad/s", "rad/s2"];
+const METRES: [&str; 3] = ["m", "m/s", "m/s2"];
+
+/// Directions of markers, and of pins between two wheels at their centres of mass.
+fn angles() -> Specimen {
+    let values = [json!(0.45), json!(WAVE), table()];
+    let (mut bodies, mut joints, mut motions) = (Vec::new(), Vec::new(), Vec::new());
+    let mut read = Vec::new();
+    for (n, value) in values.iter().enumerate() {
+        let y = n as f64;
+        bodies.push(wheel(&format!("m{n}"), [0.0, y], 0.4));
+        bodies.push(wheel(&format!("u{n}"), [3.0, y], 0.1));
+        bodies.push(wheel(&format!("v{n}"), [3.0, y], 0.6));
+        joints.push(json!({"name": format!("axle{n}"), "kind": "revolute", "markers": ["ground", format!("m{n}.c")]}));
+        joints.push(json!({"name": format!("pin{n}"), "kind": "revolute",
+                           "markers": [format!("u{n}.c"), format!("v{n}.c")]}));
+        motions.push(json!({"name": format!("turn{n}"), "kind": "angle", "marker": format!("m{n}.c"), "value": value}));
+        motions.push(json!({"name": format!("bend{n}"), "kind": "angle", "joint": format!("pin{n}"), "value": value}));
+        read.extend(outputs(&TURNS, &format!("m{n}.c")));
+        read.extend(TURNS.map(|kind| json!({"kind": kind, "joint": format!("pin{n}")})));
+        // One is left that nobody reads.
+        for name in ["turn", "bend"]
+            .into_iter()
+            .take(if n == 2 { 1 } else { 2 })
+        {
+            read.push(json!({"kind": "reaction_moment", "motion": format!("{name}{n}")}));
+        }
+    }
+    // A pin that nothing drives.
+    bodies.extend([
+        wheel("free", [5.0, 0.0], 0.1),
+        wheel("other", [5.0, 0.0], 0.7),
+    ]);
+    joints.push(json!({"name": "loose", "kind": "revolute", "markers": ["free.c", "other.c"]}));
+    let scene = json!({"name": "angles", "dimension": 2, "bodies": bodies, "joints": joints, "motions": motions,
+                       "outputs": read});
+    let mut specimen = Specimen::new("angles", scene).from(T);
+    for (n, course) in [[0.45, 0.0, 0.0], wave(T), spline(T)]
+        .into_iter()
+        .enumerate()
+    {
+        for k in 0..3 {
+            specimen = specimen
+                .claim(&format!("m{n}.c.{}", TURNS[k]), RAD[k], course[k])
+                .claim(&format!("pin{n}.{}", TURNS[k]), RAD[k], course[k]);
+        }
+        specimen = specimen.claim(&format!("turn{n}.reaction_moment"), "N.m", 0.4 * course[2]);
+        if n < 2 {
+            // Both wheels turn against each other.
+            let moment = 0.2 * course[2];
+            specimen = specimen.claim(&format!("bend{n}.reaction_moment"), "N.m", moment);
+        }
+    }
+    specimen
+}
+
+/// Centres of mass, driven against gravity.
+fn positions() -> Specimen {
+    let g = [0.6, -9.0];
+    let motion = |n: usize, value: Value| json!({"name": format!("drive{n}"), "kind": "position", "marker": format!("m{n}.c"), "value": value});
+    let courses = [
+        (json!([0.45, -0.2]), [[0.45, -0.2], [0.0; 2], [0.0; 2]]),
+        (
+            json!([WAVE, "0.1-t^2"]),
+            pair(wave(T), [0.1 - T * T, -2.0 * T, -2.0]),
+        ),
+        (
+            json!([table(), {"table": [[-0.3, 0.5], [0.9, 0.5], [2.0, 0.5]]}]),
+            pair(spline(T), [0.5, 0.0, 0.0]),
+        ),
+        (json!([0.3, table()]), pair([0.3, 0.0, 0.0], spline(T))),
+    ];
+    let mut read = Vec::new();
+    let (mut bodies, mut motions) = (Vec::new(), Vec::new());
+    for (n, (value, _)) in courses.iter().enumerate() {
+        bodies.push(wheel(&format!("m{n}"), [0.4, 0.1], 0.0));
+        motions.push(motion(n, value.clone()));
+        read.extend(outputs(&MOVES, &format!("m{n}.c")));
+        // One is left that nobody reads.
+        if n < 3 {
+            read.push(json!({"kind": "reaction", "motion": format!("drive{n}")}));
+        }
+    }
+    bodies.push(super::resting());
+    let scene = json!({"name": "positions", "dimension": 2, "gravity": g, "bodies": bodies, "motions": motions,
+                       "outputs": read});
+    let mut specimen = Specimen::new("positions", scene).from(T);
+    for (n, (_, course)) in courses.into_iter().enumerate() {
+        for k in 0..3 {
+            specimen = specimen.vector(&format!("m{n}.c.{}", MOVES[k]), METRES[k], course[k]);
+        }
+        let force = times(1.6, sum(course[2], times(-1.0, g)));
+        if n < 3 {
+            specimen = specimen.vector(&format!("drive{n}.reaction"), "N", force);
+        }
+    }
+    specimen
+}
+
+fn pair(x: [f64; 3], y: [f64; 3]) -> [[f64; 2]; 3] {
+    [0, 1, 2].map(|k| [x[k], y[k]])
+}
+
+/// Ways along inclined sliders.
+fn displacements() -> Specimen {
+    let (along, point, g) = ([0.6, 0.8], [0.2, -0.1], [0.6, -9.0]);
+    let values = [
+        (json!(0.45), [0.45, 0.0, 0.0]),
+        (json!(WAVE), wave(T)),
+        (table(), spline(T)),
+    ];
+    let (mut bodies, mut joints, mut motions) = (Vec::new(), Vec::new(), Vec::new());
+    let mut read = Vec::new();
+    for (n, (value, _)) in values.iter().enumerate() {
+        bodies.push(wheel(&format!("m{n}"), sum(point, times(0.4, along)), 0.0));
+        joints.push(json!({"name": format!("guide{n}"), "kind": "slider", "markers": ["ground", format!("m{n}.c")],
+                           "point": point, "direction": [3.0, 4.0]}));
+        motions.push(json!({"name": format!("drive{n}"), "kind": "displacement", "joint": format!("guide{n}"),
+                            "value": value}));
+        read.extend(outputs(&MOVES, &format!("m{n}.c")));
+        read.push(json!({"kind": "reaction", "motion": format!("drive{n}")}));
+    }
+    // A slider that nothing drives.
+    bodies.push(wheel("free", [6.0, 0.0], 0.0));
+    joints.push(json!({"name": "loose", "kind": "slider", "markers": ["ground", "free.c"], "direction": [1.0, 0.0]}));
+    let scene = json!({"name": "displacements", "dimension": 2, "gravity": g, "bodies": bodies, "joints": joints,
+                       "motions": motions, "outputs": read});
+    let mut specimen = Specimen::new("displacements", scene).from(T);
+    for (n, (_, course)) in values.into_iter().enumerate() {
+        let ways = [
+            sum(point, times(course[0], along)),
+            times(course[1], along),
+            times(course[2], along),
+        ];
+        for k in 0..3 {
+            specimen = specimen.vector(&format!("m{n}.c.{}", MOVES[k]), METRES[k], ways[k]);
+        }
+        let force = 1.6 * (course[2] - super::dot(g, along));
+        specimen = specimen.vector(&format!("drive{n}.reaction"), "N", times(force, along));
+    }
+    specimen
+}
+
+/// Wheels whose motions the master sets, with 0, 1 and 2 derivatives: a point, a direction, the angle of a
+/// pin, a way.
+fn mastered_scene(name: &str) -> Value {
+    let (mut bodies, mut joints, mut motions) = (Vec::new(), Vec::new(), Vec::new());
+    let mut read = Vec::new();
+    for n in 0..3 {
+        let y = f64::from(n);
+        bodies.push(wheel(&format!("p{n}"), [0.4, y], 0.0));
+        bodies.push(wheel(&format!("m{n}"), [2.0, y], 0.4));
+        bodies.push(wheel(&format!("u{n}"), [3.0, y], 0.1));
+        bodies.push(wheel(&format!("v{n}"), [3.0, y], 0.6));
+        bodies.push(wheel(&format!("s{n}"), [4.6, y + 0.8], 0.0));
+        joints.push(json!({"name": format!("pin{n}"), "kind": "revolute", "markers": [format!("u{n}.c"), format!("v{n}.c")]}));
+        joints.push(json!({"name": format!("guide{n}"), "kind": "slider", "markers": ["ground", format!("s{n}.c")],
+                           "point": [4.0, y], "direction": [0.6, 0.8]}));
+        let value = json!({"input": n});
+        motions.push(json!({"name": format!("place{n}"), "kind": "position", "marker": format!("p{n}.c"), "value": value}));
+        motions.push(json!({"name": format!("turn{n}"), "kind": "angle", "marker": format!("m{n}.c"), "value": value}));
+        motions.push(json!({"name": format!("bend{n}"), "kind": "angle", "joint": format!("pin{n}"), "value": value}));
+        motions.push(json!({"name": format!("shift{n}"), "kind": "displacement", "joint": format!("guide{n}"), "value": value}));
+        read.extend(outputs(&MOVES, &format!("p{n}.c")));
+        read.extend(outputs(&TURNS, &format!("m{n}.c")));
+        read.extend(TURNS.map(|kind| json!({"kind": kind, "joint": format!("pin{n}")})));
+        read.extend(outputs(&MOVES, &format!("s{n}.c")));
+    }
+    json!({"name": name, "dimension": 2, "bodies": bodies, "joints": joints, "motions": motions, "outputs": read})
+}
+
+/// What the master sets: value, rate and acceleration of each motion, as far as they are inputs.
+fn set(mut specimen: Specimen, course: [f64; 3]) -> Specimen {
+    for n in 0..3_usize {
+        for (k, value) in course.into_iter().enumerate().take(n + 1) {
+            let (moves, turns) = (MOVES[k], TURNS[k]);
+            let shift = if k == 0 { "displacement" } else { moves };
+            specimen = specimen
+                .set(&format!("place{n}.{moves}[1]"), value)
+                .set(&format!("place{n}.{moves}[2]"), -2.0 * value)
+                .set(&format!("turn{n}.{turns}"), value)
+                .set(&format!("bend{n}.{turns}"), value)
+                .set(&format!("shift{n}.{shift}"), value);
+        }
+    }
+    specimen
+}
+
+/// Claims that all motions with `n` derivatives are where the course says, up to derivative `to`.
+fn claimed(mut specimen: Specimen, n: usize, course: [f64; 3], to: usize) -> Specimen {
+    let along = [0.6, 0.8];
+    for (k, value) in course.into_iter().enumerate().take(to + 1) {
+        let origin = if k == 0 { [4.0, n as f64] } else { [0.0; 2] };
+        specimen = specimen
+            .vector(
+                &format!("p{n}.c.{}", MOVES[k]),
+                METRES[k],
+                [value, -2.0 * value],
+            )
+            .claim(&format!("m{n}.c.{}", TURNS[k]), RAD[k], value)
+            .claim(&format!("pin{n}.{}", TURNS[k]), RAD[k], value)
+            .vector(
+                &format!("s{n}.c.{}", MOVES[k]),
+                METRES[k],
+                sum(origin, times(value, along)),
+            );
+    }
+    specimen
+}
+
+/// Set before the start: everything that is set holds at once.
+fn mastered() -> Specimen {
+    let course = [0.7, -0.3, 0.9];
+    let mut specimen = set(
+        Specimen::new("mastered", mastered_scene("mastered")),
+        course,
+    );
+    for n in 0..3 {
+        let known = [0, 1, 2].map(|k| if k <= n { course[k] } else { 0.0 });
+        specimen = claimed(specimen, n, known, n);
+    }
+    specimen
+}
+
+/// Before the master sets them, motions are where their bodies are as described.
+fn described() -> Specimen {
+    let mut specimen = Specimen::new("described", mastered_scene("described"));
+    for n in 0..3 {
+        let y = f64::from(n);
+        specimen = specimen
+            .vector(&format!("place{n}.position"), "m", [0.4, y])
+            .claim(&format!("turn{n}.angle"), "rad", 0.4)
+            .claim(&format!("bend{n}.angle"), "rad", 0.5)
+            .claim(&format!("shift{n}.displacement"), "m", 1.0)
+            .vector(&format!("p{n}.c.position"), "m", [0.4, y])
+            .claim(&format!("pin{n}.angle"), "rad", 0.5)
+            .vector(&format!("s{n}.c.velocity"), "m/s", [0.0, 0.0]);
+    }
+    specimen
+}
+
+/// Set at communication points: a value alone is reached at the end of the step, with derivatives their
+/// Taylor polynomial is.
+fn steps() -> Specimen {
+    let (first, h, second) = ([0.6, 0.2, 0.5], 0.1, [0.65, 0.4, -0.8]);
+    let specimen = set(Specimen::new("steps", mastered_scene("steps")), first).at(h);
+    let specimen = set(specimen, second).at(2.0 * h);
+    // What is wanted at the end of the step, as far as it is given.
+    let ends = [
+        [second[0], 0.0, 0.0],
+        [second[0] + h * second[1], second[1], 0.0],
+        [
+            second[0] + h * second[1] + 0.5 * h * h * second[2],
+            second[1] + h * second[2],
+            second[2],
+        ],
+    ];
+    let mut specimen = specimen;
+    for (n, end) in ends.into_iter().enumerate() {
+        specimen = claimed(specimen, n, end, n);
+    }
+    specimen
+}
+
+#[test]
+fn the_spline_is_at_rest_at_both_ends() {
+    assert_eq!([spline(0.1)[1], spline(0.9)[0]], [0.0, 1.0]);
+    assert_eq!(turned(0.0, [1.0, 0.0]), [1.0, 0.0]);
+}

@@ -1,0 +1,122 @@
+//! Sliders on lines and on cables, and links that hold a distance.
+
+use serde_json::{Value, json};
+
+use super::{dot, extra, left, sum, times};
+use crate::specimen::Specimen;
+
+pub fn all() -> Vec<Specimen> {
+    vec![line(), links(), along(), bead()]
+}
+
+fn bead_at(name: &str, mass: f64, place: [f64; 2], speed: [f64; 2]) -> Value {
+    json!({"element": "rigid", "name": name, "mass": mass, "inertia": 0.0, "position": place,
+           "motion": {"velocity": speed}, "markers": {"c": [0.0, 0.0]}})
+}
+
+/// Beads on inclined lines: one is moved to its line, one is where it is.
+fn line() -> Specimen {
+    let (m, g, point) = (1.4, [0.5, -9.0], [0.2, 0.3]);
+    let along = [0.8, -0.6];
+    let scene = json!({
+        "name": "line_slider", "dimension": 2, "gravity": g,
+        "bodies": [bead_at("bead", m, [1.0, -0.28], [0.0, 0.0]), bead_at("other", 0.9, [0.0, 1.0], [0.0, 0.0]), extra()],
+        "joints": [{"name": "guide", "kind": "slider", "markers": ["ground", "bead.c"], "point": point,
+                    "direction": [1.6, -1.2]},
+                   {"name": "as_is", "kind": "slider", "markers": ["ground", "other.c"], "direction": [0.0, 2.0]}],
+        "outputs": [{"kind": "position", "marker": "bead.c"}, {"kind": "acceleration", "marker": "bead.c"},
+                    {"kind": "reaction", "joint": "guide"}, {"kind": "position", "marker": "other.c"},
+                    {"kind": "acceleration", "marker": "other.c"}]});
+    // The shortest way to the line.
+    let from = sum([1.0, -0.28], times(-1.0, point));
+    let foot = sum(point, times(dot(from, along), along));
+    let normal = left(along);
+    Specimen::new("line_slider", scene)
+        .vector("bead.c.position", "m", foot)
+        .vector("bead.c.acceleration", "m/s2", times(dot(g, along), along))
+        .vector("guide.reaction", "N", times(-m * dot(g, normal), normal))
+        .vector("other.c.position", "m", [0.0, 1.0])
+        .vector("other.c.acceleration", "m/s2", [0.0, -9.0])
+}
+
+/// Beads on massless links: one longer than it starts, one as long as it starts; two free beads on a link.
+fn links() -> Specimen {
+    let (m, g, point, length, speed) = (1.4, [0.0, -9.0], [0.3, 1.1], 1.05, 2.0);
+    let scene = json!({
+        "name": "links", "dimension": 2, "gravity": g,
+        "bodies": [bead_at("bead", m, [0.3, 0.1], [speed, 0.0]), bead_at("other", m, [2.0, 0.1], [speed, 0.0]),
+                   bead_at("a", 0.6, [-1.0, 0.0], [0.0, 0.0]), bead_at("b", 0.9, [-1.0, 0.5], [0.0, 0.0]), extra()],
+        "joints": [{"name": "link", "kind": "distance", "markers": ["ground", "bead.c"], "point": point,
+                    "length": length},
+                   {"name": "as_is", "kind": "distance", "markers": ["ground", "other.c"], "point": [2.0, 1.1]},
+                   {"name": "pair", "kind": "distance", "markers": ["a.c", "b.c"]}],
+        "loads": [{"name": "pull", "kind": "force", "marker": "b.c", "value": [0.0, 4.0]}],
+        "outputs": [{"kind": "position", "marker": "bead.c"}, {"kind": "reaction", "joint": "link"},
+                    {"kind": "reaction", "joint": "as_is"}, {"kind": "acceleration", "marker": "bead.c"},
+                    {"kind": "reaction", "joint": "pair"}]});
+    let tension = |l: f64| m * (9.0 + speed * speed / l);
+    Specimen::new("links", scene)
+        .vector("bead.c.position", "m", [0.3, 1.1 - length])
+        .vector("bead.c.acceleration", "m/s2", [0.0, speed * speed / length])
+        .vector("link.reaction", "N", [0.0, tension(length)])
+        .vector("as_is.reaction", "N", [0.0, tension(1.0)])
+        .vector("pair.reaction", "N", [0.0, -4.0 * 0.6 / 1.5])
+}
+
+/// A bead hangs in the middle of a beam that is clamped at both ends: the beam carries its weight. A
+/// spring along the beam, at rest, keeps it there.
+fn along() -> Specimen {
+    let (m, g) = (1.4, 9.0);
+    let beam = |name: &str, x: f64| {
+        json!({"element": "cable", "name": name, "elements": 4,
+               "material": {"youngs_modulus": 1e7, "density": 1.0},
+               "section": {"area": 1e-3, "second_moment": 1e-5},
+               "shape": {"line": {"from": [x, 0.0], "to": [x + 1.0, 0.0]}}, "markers": {"root": 0.0, "tip": 1.0}})
+    };
+    let keep = |name: &str, of: &str, x: f64| json!({"name": name, "kind": "spring_damper", "markers": ["ground", of], "point": [x, 0.0], "stiffness": 100.0});
+    let clamp = |name: &str, marker: &str| json!({"name": name, "kind": "weld", "markers": ["ground", marker]});
+    let scene = json!({
+        "name": "along", "dimension": 2, "gravity": [0.0, -g], "initial": "static_equilibrium",
+        "bodies": [beam("beam", 0.0), beam("other", 2.0), bead_at("bead", m, [0.5, 0.0], [0.0, 0.0]),
+                   bead_at("second", 0.9, [2.5, 0.0], [0.0, 0.0])],
+        "joints": [clamp("a", "beam.root"), clamp("b", "beam.tip"), clamp("c", "other.root"),
+                   clamp("d", "other.tip"),
+                   {"name": "ring", "kind": "along", "markers": ["beam", "bead.c"]},
+                   {"name": "ring2", "kind": "along", "markers": ["other", "second.c"]}],
+        "loads": [keep("keep", "bead.c", -0.5), keep("keep2", "second.c", 1.5)],
+        "outputs": [{"kind": "travel", "joint": "ring"}, {"kind": "travel", "joint": "ring2"},
+                    {"kind": "reaction", "joint": "ring"}, {"kind": "reaction", "joint": "ring2"}]});
+    Specimen::new("along", scene)
+        .claim_within("ring.travel", "m", 0.5, 1e-6)
+        .claim_within("ring2.travel", "m", 0.5, 1e-6)
+        .vector_within("ring.reaction", "N", [0.0, m * g], 1e-6)
+        .vector_within("ring2.reaction", "N", [0.0, 0.9 * g], 1e-6)
+}
+
+/// Beads that coast along straight cables: the second slide is where the second bead is.
+fn bead() -> Specimen {
+    let rod = |name: &str, y: f64| {
+        json!({"element": "cable", "name": name, "elements": 3,
+               "material": {"youngs_modulus": 1e5, "density": 1000.0},
+               "section": {"area": 1e-3, "second_moment": 1e-7},
+               "shape": {"line": {"from": [0.0, y], "to": [0.6, y + 0.8]}}, "markers": {"root": 0.0}})
+    };
+    let start = |s: f64, y: f64| [0.6 * s, y + 0.8 * s];
+    // Its second marker is a way of 0.1 along the cable from its first.
+    let mut long = bead_at("long", 0.7, start(0.6, 2.0), [-0.12, -0.16]);
+    long["inertia"] = json!(0.1);
+    long["markers"]["end"] = json!([0.06, 0.08]);
+    let scene = json!({
+        "name": "bead", "dimension": 2,
+        "bodies": [rod("first", 0.0), rod("second", 2.0), bead_at("a", 0.5, start(0.35, 0.0), [0.3, 0.4]), long],
+        "joints": [{"name": "pin", "kind": "weld", "markers": ["ground", "first.root"]},
+                   {"name": "pin2", "kind": "weld", "markers": ["ground", "second.root"]},
+                   {"name": "ring", "kind": "along", "markers": ["first", "a.c"]},
+                   {"name": "ring2", "kind": "along", "markers": ["second", "long.c"]}],
+        "outputs": [{"kind": "travel", "joint": "ring2"}, {"kind": "velocity", "marker": "a.c"}]});
+    Specimen::new("bead", scene)
+        .claim("ring2.travel", "m", 0.6)
+        .vector("a.c.velocity", "m/s", [0.3, 0.4])
+        .at(0.4)
+        .claim_within("ring2.travel", "m", 0.52, 1e-9)
+}

@@ -1,0 +1,242 @@
+//! Every parameter is the key of the scene that it is named after, and every input acts: on what, and in
+//! which unit, the claims say that hold with it and fail with another value.
+
+use std::collections::BTreeSet;
+use std::sync::Mutex;
+
+use flexbody::scene::Scene;
+use flexbody::simulation::{Parameter, Simulation, Source};
+use serde_json::{Value, json};
+
+use crate::coverage::for_each_specimen;
+use crate::mutate::with;
+use crate::specimen::{Outcome, Specimen, units};
+
+/// Names all parameters, with the list and the key of the scene that they stand for and their units.
+macro_rules! keys {
+    ($($variant:ident => $list:literal, $key:literal, $unit:literal;)*) => {
+        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Rotation", "RelativeTolerance"];
+        fn key(parameter: Parameter) -> (&'static str, String, &'static str) {
+            match parameter {
+                $(Parameter::$variant(i) => (stringify!($variant), format!("/{}/{i}{}", $list, $key), $unit),)*
+                Parameter::Rotation => ("Rotation", "/rotation".into(), "rad/s"),
+                Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
+            }
+        }
+    };
+}
+
+keys! {
+    YoungsModulus => "bodies", "/material/youngs_modulus", "Pa";
+    Density => "bodies", "/material/density", "kg/m3";
+    DampingTime => "bodies", "/material/damping_time", "s";
+    Area => "bodies", "/section/area", "m2";
+    SecondMoment => "bodies", "/section/second_moment", "m4";
+    Elements => "bodies", "/elements", "";
+    Mass => "bodies", "/mass", "kg";
+    Inertia => "bodies", "/inertia", "kg.m2";
+    LumpedMass => "masses", "/mass", "kg";
+    HingeStiffness => "joints", "/stiffness", "N.m/rad";
+    HingeDamping => "joints", "/damping", "N.m.s/rad";
+    SpringStiffness => "loads", "/stiffness", "N/m";
+    SpringDamping => "loads", "/damping", "N.s/m";
+    CouplingStiffness => "ports", "/stiffness", "N/m";
+    CouplingDamping => "ports", "/damping", "N.s/m";
+    TurningStiffness => "ports", "/rotational_stiffness", "N.m/rad";
+    TurningDamping => "ports", "/rotational_damping", "N.m.s/rad";
+    Gravity => "gravity", "", "m/s2";
+}
+
+/// What the master sets, by list of the scene, and its unit.
+const INPUTS: [(&str, &str); 39] = [
+    ("inputs.force[1]", "N"),
+    ("inputs.force[2]", "N"),
+    ("inputs.follower_force[1]", "N"),
+    ("inputs.follower_force[2]", "N"),
+    ("inputs.moment", "N.m"),
+    ("inputs.torque", "N.m"),
+    ("inputs.distributed_force[1]", "N/m"),
+    ("inputs.distributed_force[2]", "N/m"),
+    ("inputs.rest_length", "m"),
+    ("motions.position[1]", "m"),
+    ("motions.position[2]", "m"),
+    ("motions.velocity[1]", "m/s"),
+    ("motions.velocity[2]", "m/s"),
+    ("motions.acceleration[1]", "m/s2"),
+    ("motions.acceleration[2]", "m/s2"),
+    ("motions.angle", "rad"),
+    ("motions.angular_velocity", "rad/s"),
+    ("motions.angular_acceleration", "rad/s2"),
+    ("motions.displacement", "m"),
+    ("motions.velocity", "m/s"),
+    ("motions.acceleration", "m/s2"),
+    ("ports.force[1]", "N"),
+    ("ports.force[2]", "N"),
+    ("ports.moment", "N.m"),
+    ("ports.position[1]", "m"),
+    ("ports.position[2]", "m"),
+    ("ports.velocity[1]", "m/s"),
+    ("ports.velocity[2]", "m/s"),
+    ("ports.acceleration[1]", "m/s2"),
+    ("ports.acceleration[2]", "m/s2"),
+    ("ports.angle", "rad"),
+    ("ports.angular_velocity", "rad/s"),
+    ("ports.angular_acceleration", "rad/s2"),
+    // Through a spring and a damper.
+    ("couplings.position[1]", "m"),
+    ("couplings.position[2]", "m"),
+    ("couplings.velocity[1]", "m/s"),
+    ("couplings.velocity[2]", "m/s"),
+    ("couplings.angle", "rad"),
+    ("couplings.angular_velocity", "rad/s"),
+];
+
+/// Names that are still to be seen, and what is wrong.
+type Findings = Mutex<(BTreeSet<String>, Vec<String>)>;
+
+fn findings(names: impl IntoIterator<Item = &'static str>) -> Findings {
+    Mutex::new((names.into_iter().map(String::from).collect(), Vec::new()))
+}
+
+fn conclude(findings: Findings) {
+    let (missing, wrong) = findings.into_inner().expect("no panic while locked");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let missing: Vec<String> = missing.into_iter().collect();
+    assert!(
+        missing.is_empty(),
+        "expected specimens of {}",
+        missing.join(", ")
+    );
+}
+
+fn simulation(scene: &Value) -> Simulation {
+    Simulation::new(Scene::from_json(&scene.to_string()).expect("a scene"))
+}
+
+/// A key with another value, where there is one and it is accepted.
+fn changed(scene: &Value, pointer: &str) -> Option<(Value, f64)> {
+    let found = scene.pointer(pointer)?;
+    let value = found.as_f64()?;
+    let tried = match found.as_u64() {
+        Some(n) if pointer.ends_with("elements") => [json!(n + 1), json!(n - 1)],
+        _ if value == 0.0 => [json!(0.05), json!(-0.05)],
+        _ => [json!(1.05 * value), json!(0.95 * value)],
+    };
+    let scenes = tried.map(|value| with(scene, pointer, value));
+    let valid = |scene: &Value| Scene::from_json(&scene.to_string()).is_ok();
+    scenes.into_iter().find(valid).map(|scene| (scene, value))
+}
+
+/// The change of a key is noticed, and the parameter undoes it.
+#[test]
+fn every_parameter_is_its_key() {
+    let findings = findings(PARAMETERS.iter().copied());
+    for_each_specimen(|specimen| {
+        let known = specimen.variables();
+        let units = units(&specimen.scene);
+        for (index, variable) in simulation(&specimen.scene).variables().iter().enumerate() {
+            let Source::Parameter(parameter) = variable.source else {
+                continue;
+            };
+            let (label, pointer, unit) = key(parameter);
+            let Some((scene, value)) = changed(&specimen.scene, &pointer) else {
+                continue;
+            };
+            let mut wrong = Vec::new();
+            let place = format!("{}: {}", specimen.name, variable.name);
+            if variable.start != Some(value) {
+                wrong.push(format!(
+                    "{place}: expected the start {value}, found {:?}",
+                    variable.start
+                ));
+            }
+            if units.get(&variable.name).is_some_and(|found| found != unit) {
+                wrong.push(format!("{place}: expected the unit {unit}"));
+            }
+            // That of the model description stays as packaged; see the tests of tolerances.
+            let is_told = specimen
+                .claims
+                .iter()
+                .any(|claim| claim.of == "@DefaultExperiment/tolerance");
+            if label == "RelativeTolerance" && is_told {
+                continue;
+            }
+            let noticed = specimen.judge(&scene, &known).is_noticed();
+            let undone = specimen.judge_set(&scene, &known, &[(index, value)]);
+            if undone != Outcome::Holds {
+                wrong.push(format!(
+                    "{place} does not undo a change of {pointer}: {undone:?}"
+                ));
+            }
+            let mut findings = findings.lock().expect("no panic while locked");
+            findings.1.extend(wrong);
+            if noticed || label == "RelativeTolerance" {
+                findings.0.remove(label);
+            }
+        }
+    });
+    conclude(findings);
+}
+
+/// The list of a scene that an input comes from.
+fn list(scene: &Scene, place: usize) -> &'static str {
+    let layout = scene.input_layout();
+    let first = |of: &[usize]| of.first().copied().unwrap_or(layout.total);
+    let ports = first(&layout.of_ports);
+    let port = layout.of_ports.iter().rposition(|first| *first <= place);
+    match port.map(|port| &scene.ports[port]) {
+        Some(port) if port.is_coupling() => "couplings",
+        Some(_) => "ports",
+        None if place >= first(&layout.of_motions).min(ports) => "motions",
+        None => "inputs",
+    }
+}
+
+/// The specimen with another value of an input, set by the master or there at the start.
+fn disturbed(specimen: &Specimen, known: &[String], (index, start): (usize, f64)) -> Outcome {
+    let name = &known[index];
+    let mut other = specimen.clone();
+    let mut is_set = false;
+    for (_, set, value) in &mut other.settings {
+        if set == name {
+            *value += 0.05 * (1.0 + value.abs());
+            is_set = true;
+        }
+    }
+    other.claims.retain(|claim| claim.of != *name);
+    let extra = [(index, start + 0.05 * (1.0 + start.abs()))];
+    other.judge_set(&specimen.scene, known, if is_set { &[] } else { &extra })
+}
+
+#[test]
+fn every_input_acts_in_its_unit() {
+    let findings = findings(INPUTS.iter().map(|(name, _)| *name));
+    for_each_specimen(|specimen| {
+        let known = specimen.variables();
+        let units = units(&specimen.scene);
+        let simulation = simulation(&specimen.scene);
+        for (index, variable) in simulation.variables().iter().enumerate() {
+            let Source::Input(place) = variable.source else {
+                continue;
+            };
+            let list = list(simulation.scene(), place);
+            let word = variable.name.rsplit('.').next().unwrap_or_default();
+            let label = format!("{list}.{word}");
+            let noticed = disturbed(specimen, &known, (index, variable.start.unwrap_or(0.0)));
+            let mut findings = findings.lock().expect("no panic while locked");
+            let same = |(name, _): &&(&str, &str)| *name == label;
+            let unit = INPUTS.iter().find(same).map(|(_, unit)| *unit);
+            let found = units.get(&variable.name).map_or("", String::as_str);
+            if unit != Some(found) {
+                findings.1.push(format!(
+                    "{}: {}: no input known in {found}",
+                    specimen.name, label
+                ));
+            }
+            if noticed.is_noticed() {
+                findings.0.remove(&label);
+            }
+        }
+    });
+    conclude(findings);
+}
