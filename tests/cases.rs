@@ -89,6 +89,10 @@ fn a_claim_nobody_checks_is_refused() {
             "missing field `relative`",
         ),
         (
+            r#"{"kind": "values", "values": {}, "relative": 1.0, "note": "1.5 times what was measured"}"#,
+            "no_reference: expected why the limit has no outside reference",
+        ),
+        (
             r#"{"kind": "values", "values": {}, "relative": 1.0, "scene": 3}"#,
             "scene: expected a text",
         ),

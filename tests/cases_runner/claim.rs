@@ -142,9 +142,11 @@ impl Claim {
             Some(Value::String(scene)) => Some(scene),
             Some(other) => return Err(format!("scene: expected a text, found {other}")),
         };
-        match map.remove("note") {
-            None | Some(Value::String(_)) => {}
-            Some(other) => return Err(format!("note: expected a text, found {other}")),
+        let note = text(&mut map, "note")?;
+        // A limit that is our own earlier output says so, and why there is no other.
+        let reason = text(&mut map, "no_reference")?;
+        if reason.is_none() && note.is_some_and(|note| note.contains("was measured")) {
+            return Err("no_reference: expected why the limit has no outside reference".into());
         }
         let set = map.remove("set").map_or(Ok(BTreeMap::new()), |value| {
             serde_json::from_value(value).map_err(|error| format!("set: {error}"))
@@ -172,6 +174,15 @@ impl Claim {
             values,
             kind,
         })
+    }
+}
+
+/// A text that may be there.
+fn text(map: &mut Map<String, Value>, key: &str) -> Result<Option<String>, String> {
+    match map.remove(key) {
+        None => Ok(None),
+        Some(Value::String(text)) => Ok(Some(text)),
+        Some(other) => Err(format!("{key}: expected a text, found {other}")),
     }
 }
 

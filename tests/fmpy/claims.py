@@ -18,7 +18,7 @@ ROUNDOFF = 1e-10
 MOST_HALVINGS = 200
 
 CASE_KEYS = {"purpose", "source", "scene", "claims"}
-COMMON_KEYS = {"kind", "scene", "set", "changes", "note"}
+COMMON_KEYS = {"kind", "scene", "set", "changes", "note", "no_reference"}
 
 
 def check_case(case):
