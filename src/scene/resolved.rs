@@ -300,6 +300,7 @@ pub struct Input<'a> {
 
 /// What an input sets.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there are few")]
 pub enum InputKind<'a> {
     /// A force or a moment.
     Action(Action<'a>),

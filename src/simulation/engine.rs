@@ -77,7 +77,7 @@ impl Inputs {
     }
 }
 
-fn names<'a>(names: &mut dyn Iterator<Item = &'a str>) -> Vec<String> {
+fn names(names: &mut dyn Iterator<Item = &str>) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 

@@ -3,7 +3,8 @@
 use super::unit::*;
 use super::{AXES, HolderId, List, MarkerId, Quantity, Source, Unit, component};
 use crate::scene::{
-    InputKind, JointKind, LoadKind, Marker, Output, Port, PortKind, Reaction, Resolved, Turning,
+    InputKind, JointKind, LoadKind, Marker, Output, Port, PortKind, Reaction, Resolved, SlideId,
+    Turning,
 };
 
 /// Adds the outputs of a scene.
@@ -64,26 +65,9 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         Output::Angle(turning, angle) => {
             add_angle(list, (turning, port), Quantity::Angle(*angle));
         }
-        Output::AngularVelocity(turning) => {
-            let words = ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND);
-            let quantities = (Quantity::AngularVelocity, Quantity::JointVelocity);
-            add_angular_rate(list, (turning, port), words, quantities);
-        }
-        Output::AngularAcceleration(turning) => {
-            let words = (
-                "angular_acceleration",
-                "Angular acceleration",
-                RADIAN_PER_SECOND_2,
-            );
-            let quantities = (Quantity::AngularAcceleration, Quantity::JointAcceleration);
-            add_angular_rate(list, (turning, port), words, quantities);
-            list.mark_direct(first);
-        }
-        Output::Travel(joint, slide) => {
-            let what = format!("Length along the cable at which {joint} stands");
-            let quantity = Quantity::Travel(*slide);
-            list.scalar(&format!("{joint}.travel"), &what, Some(METRE), quantity);
-        }
+        Output::AngularVelocity(turning) => add_angular_velocity(list, (turning, port)),
+        Output::AngularAcceleration(turning) => add_angular_acceleration(list, (turning, port)),
+        Output::Travel(joint, slide) => add_travel(list, joint, *slide),
         Output::Reaction(reaction) => add_reaction(list, reaction, false),
         Output::ReactionMoment(reaction) => add_reaction(list, reaction, true),
         Output::Energy => add_energies(list, resolved),
@@ -110,6 +94,20 @@ fn add_angle(list: &mut List, (turning, port): (&Turning<'_>, Option<&str>), qua
     };
     let name = format!("{}.angle", port.unwrap_or(turning.name()));
     list.scalar(&name, &what, Some(RADIAN), quantity);
+}
+
+fn add_angular_velocity(list: &mut List, of: (&Turning<'_>, Option<&str>)) {
+    let words = ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND);
+    let quantities = (Quantity::AngularVelocity, Quantity::JointVelocity);
+    add_angular_rate(list, of, words, quantities);
+}
+
+fn add_angular_acceleration(list: &mut List, of: (&Turning<'_>, Option<&str>)) {
+    let (key, what) = ("angular_acceleration", "Angular acceleration");
+    let quantities = (Quantity::AngularAcceleration, Quantity::JointAcceleration);
+    let first = list.0.len();
+    add_angular_rate(list, of, (key, what, RADIAN_PER_SECOND_2), quantities);
+    list.mark_direct(first);
 }
 
 /// Angular velocity or acceleration, of a marker or a joint.
@@ -163,6 +161,12 @@ fn add_port_force(list: &mut List, port: &Port<'_>) {
         list.scalar(&name, &what, Some(NEWTON_METRE), quantity);
     }
     list.mark_direct(first);
+}
+
+fn add_travel(list: &mut List, joint: &str, slide: SlideId) {
+    let what = format!("Length along the cable at which {joint} stands");
+    let quantity = Quantity::Travel(slide);
+    list.scalar(&format!("{joint}.travel"), &what, Some(METRE), quantity);
 }
 
 fn add_reaction(list: &mut List, reaction: &Reaction<'_>, is_moment: bool) {
