@@ -8,6 +8,8 @@
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8
 //! (method, transformation, stopping, error estimate Eqs. 8.19-8.20).
 
+mod rest;
+
 use nalgebra::Complex;
 
 use super::{Attempt, Method, Tolerance};
@@ -82,8 +84,6 @@ const END: usize = 2;
 const ITERATIONS: i32 = 10;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
 const LARGEST_TURN: f64 = 1.5;
-/// Part of the acceleration, in tolerances, that may be left unsolved in a state that is read.
-const UNSOLVED: f64 = 10.0;
 /// Rate of convergence below which the tangent is kept for the next step.
 const FAST: f64 = 1e-3;
 
@@ -315,22 +315,6 @@ impl Radau {
         }
     }
 
-    /// Acceleration at the end of the step less that of the stage equations' solution there, but for what
-    /// constraints hold, into `f[0]`: what Newton's iteration and the way back to the constraints left in stiff
-    /// directions. Its size, and that of the solution.
-    fn left(&mut self, dynamics: &mut dyn Dynamics) -> (f64, f64) {
-        let [_, _, last] = A_INVERSE;
-        let mut solved = 0.0;
-        for i in 0..self.a.len() {
-            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
-            let acceleration = product(&last, &z) / self.attempted;
-            self.f[0][i] = self.a[i] - acceleration;
-            solved += acceleration * acceleration;
-        }
-        dynamics.take_out_normal(&mut self.f[0]);
-        (super::size(&self.f[0]), solved.sqrt())
-    }
-
     fn factor(
         &mut self,
         dynamics: &mut dyn Dynamics,
@@ -370,59 +354,19 @@ impl Method for Radau {
     fn relax(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &mut [f64], &mut [f64]),
+        state: (f64, &mut [f64], &mut [f64]),
         tolerance: &Tolerance,
     ) -> bool {
-        let (left, solved) = self.left(dynamics);
-        let natural = tolerance.position / (tolerance.time * tolerance.time);
-        let goal = UNSOLVED * tolerance.relative * (solved + natural);
-        if left.is_nan() || left <= goal {
-            return false;
-        }
-        let s = GAMMA / self.attempted;
-        dynamics.linearize(time, q, v);
-        self.tangent = false;
-        if !dynamics.factor(s) {
-            return false;
-        }
-        dynamics.solve(&mut self.f[0]);
-        for (i, d) in self.f[0].iter().enumerate() {
-            q[i] += d;
-            v[i] += s * d;
-        }
-        dynamics.acceleration(time, q, v, &mut self.a);
-        true
+        self.let_rest(dynamics, state, tolerance)
     }
 
     fn error(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
-        [position, velocity]: [&mut [f64]; 2],
+        state: (f64, &[f64], &[f64]),
+        error: [&mut [f64]; 2],
     ) {
-        let s = GAMMA / self.attempted;
-        dynamics.linearize(time, q, v);
-        if !dynamics.factor(s) {
-            position.fill(0.0);
-            velocity.fill(0.0);
-            return;
-        }
-        dynamics.acceleration(time, q, v, &mut self.a);
-        self.left(dynamics);
-        dynamics.solve(&mut self.f[0]);
-        // Filtered twice more: stiff directions follow the others, whatever was started with.
-        position.copy_from_slice(&self.error_q);
-        velocity.copy_from_slice(&self.error_v);
-        for error in [&mut *position, &mut *velocity] {
-            for _ in 0..2 {
-                dynamics.solve(error);
-                error.iter_mut().for_each(|e| *e *= s * s);
-            }
-        }
-        for (i, d) in self.f[0].iter().enumerate() {
-            position[i] += d;
-            velocity[i] += s * d;
-        }
+        self.error_left(dynamics, state, error);
     }
 
     fn work(&self) -> [f64; 2] {

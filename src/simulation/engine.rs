@@ -266,7 +266,7 @@ impl Engine {
             advance(&mut *self.method, &mut model, state, until, &self.tolerance);
         inputs.advance(state.time - start);
         self.forget();
-        if result.is_ok() {
+        if result.is_ok() && counts.steps > 0 {
             self.watch(state, &inputs.values, counts.steps, state.time - start);
         }
         state.work[0] -= self.set_energy(state, &inputs.values);
