@@ -1,10 +1,10 @@
 //! Newton's method for an equilibrium, with a tangent that is shifted by a multiple of the mass
 //! (Levenberg-Marquardt in the mass norm), so that it looks for a minimum of the potential.
 
-use super::super::{Accepted, Dynamics, Model, State, System};
 use super::Found;
 use super::unsymmetric;
 use crate::math::vector::{dot, norm};
+use crate::system::{Accepted, Dynamics, Model, State, System};
 
 /// Iterations for one system, and where time is what regularizes.
 const ITERATIONS: usize = 100;

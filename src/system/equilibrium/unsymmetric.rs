@@ -4,11 +4,11 @@
 //!
 //! Source: Y. Saad, M. H. Schultz, GMRES, SIAM J. Sci. Stat. Comput. 7 (1986).
 
-use super::super::loads::Instant;
-use super::super::{Dynamics, Model};
 use crate::body::Node;
 use crate::math::jet::{Jet, part};
 use crate::math::vector::{dot, norm};
+use crate::system::loads::Instant;
+use crate::system::{Dynamics, Model};
 
 /// Most steps, and the residual at which the iteration ends, relative to that at its start.
 const STEPS: usize = 80;
