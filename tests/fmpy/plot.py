@@ -246,7 +246,7 @@ def against_time(axes, words, values, floor):
 
 def prefixed(axis, scale, unit):
     """The unit with a prefix for numbers of a scale; the axis is labelled in it."""
-    power = math.floor((math.log10(scale) + 0.2) / 3.0) if scale > 0.0 else 0
+    power = math.floor((math.log10(scale) + 0.1) / 3.0) if scale > 0.0 else 0
     power = min(max(power, -4), 4)
     if power:
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 1000.0**power:g}"))

@@ -13,8 +13,9 @@ SCENES = sorted(path for path in (ROOT / "scenes").glob("*.json") if not path.na
 
 
 @pytest.fixture(autouse=True)
-def closed():
-    yield
+def styled():
+    with plt.rc_context(plot.STYLE):
+        yield
     plt.close("all")
 
 
@@ -58,9 +59,8 @@ def test_ready_scenes_are_drawn(scene, tmp_path):
 
     run, shapes = plot.read_table(table), plot.Shapes(tmp_path / "run.shapes.jsonl")
     text = json.loads(scene.read_text(encoding="utf-8"))
-    with plt.rc_context(plot.STYLE):
-        figure = plot.draw(text["name"], run, shapes)
-        texts_inside(figure)
+    figure = plot.draw(text["name"], run, shapes)
+    texts_inside(figure)
     found, curves = panels(figure), columns(figure)
     assert list(found)[:2] == ["Bodies", "Paths of markers, from the dot"]
     for axes in list(found.values())[:2]:

@@ -18,7 +18,7 @@ const PEERS: (&str, &str) = ("lab/exudyn/requirements.txt", "python-peers");
 const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
 /// The linker of libraries; apart, so that what needs no library does not need it.
 const LINKER: (&str, &str) = ("xtask/linker.txt", "python-linker");
-/// The checker of dependencies: built, because to compile it takes as long as everything else.
+/// The checker of dependencies, built.
 const DENY: (&str, &str) = ("xtask/deny.txt", "python-deny");
 /// The file in an environment that says what it was made from; the last one written.
 const STAMP: &str = "installed.txt";
