@@ -17,8 +17,8 @@ const SINGLE: [&str; 3] = [
     "joints{slider}.markers[0]",
     "outputs{natural_frequency}.body",
 ];
-/// Keys that change how results are found, not what they are; their claims are in `own.rs`.
-const OWN: [&str; 2] = ["method.constraints", "method.formulation"];
+/// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`.
+const OWN: [&str; 3] = ["about.", "method.constraints", "method.formulation"];
 
 /// What was done at a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

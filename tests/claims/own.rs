@@ -33,6 +33,33 @@ fn oscillator(tolerance: f64) -> Value {
         "outputs": [{"kind": "position", "marker": "bead.c"}]})
 }
 
+/// `about`: what a model says of itself stands where FMI 2.0 has a place for it, attributes of the root of the
+/// model description (section 2.2.1); the license names that of the library too.
+#[test]
+fn a_model_description_says_whose_the_model_is() {
+    let attribute = |about: &Value, key: &str| {
+        let mut scene = oscillator(1e-4);
+        scene["about"] = about.clone();
+        let scene = Scene::from_json(&scene.to_string()).unwrap_or_else(|error| panic!("{error}"));
+        let text = flexbody::fmi2::model_description(&scene);
+        let document = roxmltree::Document::parse(&text).expect("XML");
+        document.root_element().attribute(key).map(str::to_owned)
+    };
+    let library = "library: MIT OR Apache-2.0, see documentation/licenses";
+    for key in ["description", "author", "version", "copyright", "license"] {
+        for text in ["1.0", "Ä <b> & \"c\""] {
+            let found = attribute(&json!({ key: text }), key);
+            let expected = match key {
+                "license" => format!("{text}; {library}"),
+                _ => text.to_owned(),
+            };
+            assert_eq!(found.as_deref(), Some(&*expected), "{key}");
+        }
+        let expected = (key == "license").then_some(library);
+        assert_eq!(attribute(&json!({}), key).as_deref(), expected, "{key}");
+    }
+}
+
 /// Error after ten radians (rad of the oscillation) and how many steps it took.
 fn error_and_steps(tolerance: f64) -> (f64, u64) {
     let mut simulation = started(&oscillator(tolerance));
