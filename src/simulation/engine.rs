@@ -4,7 +4,7 @@ use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
 use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
-use crate::body::Marker;
+use crate::body::Node;
 use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
 use crate::math::jet::{Jet, part};
 use crate::scene::{Assembled, Holder, InitialState, Resolved};
@@ -376,37 +376,10 @@ impl Engine {
         value(quantity, &self.evaluation, &self.assembled, work)
     }
 
-    /// Where all markers are, m.
-    pub(super) fn markers(&mut self, state: &State, inputs: &[f64]) -> Vec<[f64; 2]> {
+    /// The system, and its nodes in a state.
+    pub(super) fn nodes(&mut self, state: &State, inputs: &[f64]) -> (&Assembled, &[Node<4>]) {
         self.evaluate(Evaluated::Kinematics, state, inputs);
-        let markers = self.assembled.markers().iter();
-        let position = |marker: &Marker| marker.position(&self.evaluation.x).into();
-        markers.map(position).collect()
-    }
-
-    /// Where points along every body are, m: `parts` says of a number of elements into how many parts they divide a
-    /// cable; of a rigid body it is the centre of mass.
-    pub(super) fn outlines(
-        &mut self,
-        parts: impl Fn(usize) -> u32,
-        state: &State,
-        inputs: &[f64],
-    ) -> Vec<Vec<[f64; 2]>> {
-        self.evaluate(Evaluated::Kinematics, state, inputs);
-        let (system, x) = (&self.assembled.system, &self.evaluation.x);
-        let mut outlines: Vec<Vec<[f64; 2]>> = (system.bodies().iter())
-            .map(|nodes| vec![[x[nodes.start][0], x[nodes.start][1]]])
-            .collect();
-        for chain in system.chains() {
-            let parts = parts(chain.elements().len());
-            let place = |part| chain.length() * f64::from(part) / f64::from(parts);
-            let point = |part| Marker::along(0, chain, place(part)).position(x).into();
-            let body = (system.bodies().iter()).position(|nodes| nodes.start == chain.nodes(0)[0]);
-            if let Some(body) = body {
-                outlines[body] = (0..=parts).map(point).collect();
-            }
-        }
-        outlines
+        (&self.assembled, &self.evaluation.x)
     }
 
     /// Derivative in time, of order 1 or 2, of an output while inputs go on as they do.

@@ -5,6 +5,7 @@ mod derivatives;
 mod engine;
 mod method;
 mod quantities;
+mod shapes;
 mod signals;
 mod snapshot;
 #[cfg(test)]
@@ -250,32 +251,6 @@ impl Simulation {
                 Ok(value.unwrap_or(0.0))
             }
         }
-    }
-
-    /// Where all markers are now, m: body by body, in the order of their names.
-    ///
-    /// # Errors
-    /// The initial state cannot be computed.
-    pub fn markers(&mut self) -> Result<Vec<[f64; 2]>, Error> {
-        self.refresh()?;
-        let (state, inputs) = (&self.state, &self.inputs.values);
-        let found = self
-            .engine
-            .as_mut()
-            .map(|engine| engine.markers(state, inputs));
-        Ok(found.unwrap_or_default())
-    }
-
-    /// Where points along every body are now, m: the ends of `parts` of its number of elements equal lengths of a cable,
-    /// the centre of mass of a rigid body.
-    ///
-    /// # Errors
-    /// The initial state cannot be computed.
-    pub fn outlines(&mut self, parts: impl Fn(usize) -> u32) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-        self.refresh()?;
-        let (state, inputs) = (&self.state, &self.inputs.values);
-        let found = (self.engine.as_mut()).map(|engine| engine.outlines(parts, state, inputs));
-        Ok(found.unwrap_or_default())
     }
 
     /// Value of an integer variable.

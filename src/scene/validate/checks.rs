@@ -176,3 +176,82 @@ pub fn name<'a>(path: &str, name: &'a str, names: &mut BTreeSet<&'a str>) -> Res
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+    use crate::scene::Scene;
+
+    fn bead() -> Value {
+        json!({"name": "scene", "dimension": 2,
+            "bodies": [{"name": "bead", "element": "rigid", "mass": 1, "inertia": 0, "position": [0, 0],
+                "markers": {"eye": [0, 0]}}],
+            "outputs": [{"kind": "position", "marker": "bead.eye"}]})
+    }
+
+    fn refusal(scene: &Value) -> String {
+        let error = Scene::from_json(&scene.to_string()).expect_err("a refusal");
+        error.to_string()
+    }
+
+    #[test]
+    fn names_have_a_greatest_length() {
+        let (long, too_long) = ("n".repeat(100), "n".repeat(100_000));
+        let mut scene = bead();
+        scene["name"] = json!(long);
+        scene["bodies"][0]["markers"][&long] = json!([0, 1]);
+        Scene::from_json(&scene.to_string()).expect("names of 100 letters");
+        let end = "expected at most 100 characters, found 100000 bytes";
+        for place in ["/name", "/bodies/0/name"] {
+            let mut scene = bead();
+            *scene.pointer_mut(place).expect(place) = json!(too_long);
+            assert!(refusal(&scene).ends_with(end), "{place}");
+        }
+        let mut scene = bead();
+        scene["bodies"][0]["markers"][&too_long] = json!([0, 1]);
+        let message = refusal(&scene);
+        assert!(message.ends_with(end) && message.len() < 1000);
+        // What names nothing is told by its beginning.
+        let mut scene = bead();
+        scene["outputs"][0]["marker"] = json!(too_long);
+        assert!(refusal(&scene).len() < 1000);
+    }
+
+    #[test]
+    fn what_a_model_says_of_itself_is_one_line_of_text() {
+        let mut scene = bead();
+        scene["about"] =
+            json!({"author": "Ada <ada@example.org> & Söhne", "license": "x".repeat(1000)});
+        let read = Scene::from_json(&scene.to_string()).expect("texts");
+        assert_eq!(Scene::from_json(&read.to_json()).as_ref(), Ok(&read));
+        let long = "x".repeat(1001);
+        for (key, text, found) in [
+            (
+                "author",
+                "",
+                "expected a text of 1 to 1000 characters, found 0",
+            ),
+            (
+                "license",
+                &*long,
+                "expected a text of 1 to 1000 characters, found 1001",
+            ),
+            (
+                "version",
+                "1\n2",
+                "expected a text in one line, found '\\n'",
+            ),
+            (
+                "copyright",
+                "a\u{1}",
+                "expected a text in one line, found '\\u{1}'",
+            ),
+        ] {
+            let mut scene = bead();
+            scene["about"] = json!({ key: text });
+            assert_eq!(refusal(&scene), format!("about.{key}: {found}"));
+        }
+    }
+}
