@@ -1,14 +1,17 @@
 //! CPU time of every kernel an element costs in a step: `cargo bench -p lab`. Figures are per call; the
-//! throughput is in elements.
+//! throughput is in elements. Eigenvalues of dense matrices are timed beside those of faer.
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use flexbody::math::eigen;
 use flexbody::scene::{Scene, assemble};
 use flexbody::system::{Dynamics, Model, State, System, Work};
 use nalgebra::Complex;
 
 const MESHES: [u32; 4] = [1, 10, 100, 1000];
+/// Rows of the matrices whose eigenvalues are asked for: those of Lanczos' iteration, and of 10 and 50 elements.
+const ROWS: [usize; 3] = [40, 44, 204];
 /// Step of the implicit solves, s.
 const STEP: f64 = 1e-3;
 
@@ -112,12 +115,46 @@ fn kernels(criterion: &mut Criterion) {
     }
 }
 
+/// Bending stiffness of a free beam by differences, symmetric, and with a follower force at its end.
+fn bending(follower: f64, rows: usize) -> impl Fn(usize, usize) -> f64 {
+    move |i, j| {
+        let load = if j + 1 == rows { follower } else { 0.0 };
+        load + [6.0, -4.0, 1.0].get(i.abs_diff(j)).copied().unwrap_or(0.0)
+    }
+}
+
+fn eigenvalues(criterion: &mut Criterion) {
+    for rows in ROWS {
+        let mut group = criterion.benchmark_group(format!("eigenvalues, {rows} rows"));
+        let (symmetric, general) = (bending(0.0, rows), bending(0.1, rows));
+        group.bench_function("symmetric", |b| {
+            b.iter(|| eigen::symmetric_eigenvalues(rows, black_box(&symmetric)));
+        });
+        group.bench_function("symmetric, faer", |b| {
+            b.iter(|| {
+                let matrix = faer::Mat::from_fn(rows, rows, black_box(&symmetric));
+                matrix.self_adjoint_eigenvalues(faer::Side::Lower)
+            });
+        });
+        group.bench_function("general", |b| {
+            b.iter(|| eigen::eigenvalues(rows, black_box(&general)));
+        });
+        group.bench_function("general, faer", |b| {
+            b.iter(|| {
+                let matrix = faer::Mat::from_fn(rows, rows, black_box(&general));
+                matrix.eigenvalues()
+            });
+        });
+        group.finish();
+    }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(20)
         .warm_up_time(std::time::Duration::from_millis(200))
         .measurement_time(std::time::Duration::from_millis(800));
-    targets = kernels
+    targets = kernels, eigenvalues
 }
 criterion_main!(benches);

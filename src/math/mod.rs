@@ -1,10 +1,11 @@
 //! Floor 0. Numerics that know nothing of mechanics: quadrature, structured solves, eigenvalues.
-//! The only users of faer and pulp.
+//! The only user of pulp.
 
 pub mod eigen;
 pub mod expression;
 pub mod function;
 mod grammar;
+mod hessenberg;
 pub mod householder;
 pub mod jet;
 pub mod lanes;
