@@ -12,6 +12,7 @@ mod cargo;
 mod chart;
 mod demo;
 mod describe;
+mod exports;
 mod fuzz;
 mod icon;
 mod licenses;
@@ -51,6 +52,9 @@ enum Command {
         /// What it is to run on [default: platforms like this one]
         #[arg(long, value_name = "PLATFORM,...", value_delimiter = ',')]
         platform: Vec<Platform>,
+        /// Leave out terminalsAndIcons.xml, which FMI Library warns of in every FMU
+        #[arg(long)]
+        no_terminals: bool,
     },
     /// Joins two FMUs of one scene that were built for different platforms
     Merge {
@@ -93,7 +97,15 @@ fn main() -> ExitCode {
             scene,
             output,
             platform,
-        } => package::package(&workspace, &scene, output.as_deref(), &platform).map(drop),
+            no_terminals,
+        } => package::package(
+            &workspace,
+            &scene,
+            output.as_deref(),
+            &platform,
+            !no_terminals,
+        )
+        .map(drop),
         Command::Merge {
             first,
             second,

@@ -10,16 +10,19 @@ use crate::platform::Platform;
 use crate::process::{announced, prepared, shown};
 use crate::{archive, describe, licenses};
 
+/// What says which variables make up a port; only FMUs of scenes with ports have it.
+const TERMINALS: &str = "terminalsAndIcons";
 /// The package that is every scene's library, and thereby its `modelIdentifier`.
 const PACKAGE: &str = "flexbody";
 
-/// Makes an FMU of a scene for some platforms, or for the host where none is named, says where,
-/// and returns its path.
+/// Makes an FMU of a scene for some platforms, or for the host where none is named, with terminals
+/// or without, says where, and returns its path.
 pub fn package(
     workspace: &Workspace,
     scene: &Path,
     output: Option<&Path>,
     platforms: &[Platform],
+    terminals: bool,
 ) -> Result<PathBuf> {
     check_readable(scene)?;
     let output = output.map(checked_output).transpose()?;
@@ -36,6 +39,11 @@ pub fn package(
     let stage = Stage::new(workspace)?;
     describe::describe(&binary, scene, &stage.0)?;
     licenses::put(workspace, PACKAGE, &stage.0)?;
+    let folder = stage.0.join(TERMINALS);
+    if !terminals && folder.exists() {
+        std::fs::remove_dir_all(&folder)
+            .with_context(|| format!("cannot remove {}", shown(&folder)))?;
+    }
     for (platform, library) in libraries {
         put_library(&library, &stage.0, PACKAGE, platform)?;
     }
