@@ -1,8 +1,8 @@
-//! The C interface of FMI 2.0 for co-simulation: the only unsafe code.
+//! The C interface of FMI 2.0 for co-simulation: the only unsafe code beside [`Environment`].
 //!
 //! Every function does three things: it borrows what the master lends for the call, passes one
-//! guard (NULL instance, lifecycle, panic), and leaves the work to safe code in
-//! the rest of this folder.
+//! guard (NULL instance, floating-point environment, lifecycle, panic), and leaves the work to safe
+//! code in the rest of this folder.
 //!
 //! # Safety
 //! All functions rely on what the standard asks of a master: pointers are NULL or valid for the
@@ -25,6 +25,7 @@ use std::sync::atomic::{AtomicPtr, Ordering};
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
+use super::float::Environment;
 use super::instance::{Instance, Request};
 use super::lifecycle::Function;
 use super::logger::{Logger, Sink};
@@ -69,6 +70,7 @@ unsafe fn guard(
     function: Function,
     body: impl FnOnce(&mut Instance) -> Result<(), Fault>,
 ) -> Status {
+    let _environment = Environment::standard();
     // SAFETY: NULL, or an instance that no other call uses (module contract).
     match unsafe { c.cast::<Instance>().as_mut() } {
         Some(instance) => instance.call(function, body),
@@ -164,6 +166,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     _visible: c_int,
     loggingOn: c_int,
 ) -> Component {
+    let _environment = Environment::standard();
     let instantiate = || {
         // SAFETY: all are NULL or valid for the call (module contract); the callbacks are copied,
         // because they may be gone afterwards. Bytes that are not UTF-8 cannot be right anywhere
@@ -194,6 +197,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: Component) {
     if !c.is_null() {
+        let _environment = Environment::standard();
         // SAFETY: made by `Box::into_raw` in `fmi2Instantiate` and freed only here.
         let instance = unsafe { Box::from_raw(c.cast::<Instance>()) };
         // After a defect the instance may be half-changed, and dropping it may panic as well.

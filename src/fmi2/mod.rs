@@ -1,11 +1,12 @@
 //! Floor 7. FMI 2.0 for co-simulation: the model description and documentation that are packaged,
 //! and the C interface that a master calls. Everything in the package derives from the scene and
-//! its variables; the only unsafe code is in [`abi`].
+//! its variables; the only unsafe code is in [`abi`] and `float`.
 
 pub mod abi;
 mod canvas;
 mod documentation;
 mod drawing;
+mod float;
 mod guid;
 mod instance;
 mod lifecycle;

@@ -1,5 +1,6 @@
 //! The C interface, called the way a master calls it.
 
+mod guest;
 mod hostile;
 mod instantiation;
 mod lifecycle;
