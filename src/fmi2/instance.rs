@@ -17,6 +17,14 @@ use crate::simulation::{self, Simulation};
 /// Relative difference up to which two times are the same; masters add up their time in many ways.
 const SAME_TIME: f64 = 1e-5;
 
+/// The library, for who reads a log.
+const LIBRARY: &str = concat!(
+    "flexbody ",
+    env!("CARGO_PKG_VERSION"),
+    " for ",
+    env!("FLEXBODY_PLATFORM")
+);
+
 /// One simulated scene in the hands of a master.
 pub struct Instance {
     pub(super) logger: Logger,
@@ -131,7 +139,8 @@ impl Instance {
     fn new(simulation: Option<Simulation>, request: &Request<'_>, logger: Logger) -> Self {
         let state = match &simulation {
             Some(simulation) => {
-                let message = format_args!("instantiated \"{}\"", simulation.scene().name);
+                let name = &simulation.scene().name;
+                let message = format_args!("instantiated \"{name}\" by {LIBRARY}");
                 logger.log(Status::Ok, Category::Events, message);
                 State::Instantiated
             }

@@ -77,6 +77,11 @@ impl Workspace {
                 format!("-Clink-arg={name}"),
             ]);
         }
+        if platform.is_linux() {
+            // Else a loader that goes by names could take it for a library of another version.
+            let name = format!("{package}-{}.so", env!("CARGO_PKG_VERSION"));
+            last.push(format!("-Clink-arg=-Wl,-soname,{name}"));
+        }
         let mut command = self.cargo("rustc");
         command.args(["--lib", "--crate-type", "cdylib"]);
         command.envs(linker.sdk.map(|folder| ("SDKROOT", folder)));

@@ -7,6 +7,7 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 
 use crate::cargo::{Workspace, rustc};
+use crate::exports;
 use crate::platform::Platform;
 use crate::process::{prepared, shown, stdout, write_whole};
 use crate::python::Python;
@@ -59,6 +60,10 @@ impl Linker {
         if platform == Platform::Win64 {
             let file = script("dlltool", "dlltool --")?;
             linker.flags.push(format!("-Cdlltool={file}"));
+            let list = prepared(&workspace.target(FOLDER).join("fmi2.def"))?;
+            write(&list, &exports::list())?;
+            let list = list.display();
+            linker.arguments.push(format!("-Clink-arg={list}"));
         }
         Ok(linker)
     }
