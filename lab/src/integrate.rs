@@ -200,6 +200,7 @@ fn rate(start: &mut Start) -> f64 {
     }
     let few = system.coordinates().min(12);
     let found = natural_frequencies(system, &start.inputs, &mut start.work, &start.state, few);
+    let found = found.unwrap_or_default();
     let least = 1e-3 * found.last().copied().unwrap_or(1.0);
     found.into_iter().find(|w| *w > least).unwrap_or(1.0)
 }

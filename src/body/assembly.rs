@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::connectivity::{Cluster, Dependent, Node, Row, clusters};
-use crate::math::sparse::{Component, Matrix, Pattern, Slot};
+use crate::math::sparse::{Component, General, Matrix, Pattern, Slot};
 
 /// A matrix over two nodes.
 pub type NodeBlock<const B: usize> = [[f64; B]; B];
@@ -236,17 +236,13 @@ impl<const B: usize> Assembly<B> {
             return;
         };
         let (m, n) = (self.pattern.range(va).len(), self.pattern.range(vb).len());
-        let of = |node: usize, row: usize, column: usize| match self.places[node] {
-            Place::Alone(_) => f64::from(u8::from(row == column)),
-            Place::Tied(index, first) => self.clusters[index].basis[(first + row, column)],
-        };
         for r in 0..m {
             for c in 0..n {
                 let mut value = 0.0;
                 for (i, row) in block.iter().enumerate() {
-                    let left = of(a, i, r);
+                    let left = self.weight(a, i, r);
                     if left != 0.0 {
-                        let sum = row.iter().enumerate().map(|(j, k)| k * of(b, j, c));
+                        let sum = row.iter().enumerate().map(|(j, k)| k * self.weight(b, j, c));
                         value += left * sum.sum::<f64>();
                     }
                 }
@@ -260,6 +256,44 @@ impl<const B: usize> Assembly<B> {
                     matrix.values[slot.at + c * n + r] += value;
                 }
             }
+        }
+    }
+
+    /// Adds a block over the rows of node `a` and the columns of node `b` to a matrix that need not be
+    /// symmetric. What it adds to places that are not stored is told instead: row, column, value.
+    pub fn add_block(
+        &self,
+        (a, b): (usize, usize),
+        block: &NodeBlock<B>,
+        matrix: &mut General<f64>,
+        elsewhere: &mut dyn FnMut(usize, usize, f64),
+    ) {
+        let [of_a, of_b] = [a, b].map(|node| self.pattern.range(self.vertices[node]));
+        let slot = self.pattern.slot(self.vertices[a], self.vertices[b]);
+        for r in 0..of_a.len() {
+            for c in 0..of_b.len() {
+                let mut value = 0.0;
+                for (i, row) in block.iter().enumerate() {
+                    let left = self.weight(a, i, r);
+                    if left != 0.0 {
+                        let sum = row.iter().enumerate().map(|(j, k)| k * self.weight(b, j, c));
+                        value += left * sum.sum::<f64>();
+                    }
+                }
+                match slot {
+                    Some(slot) => matrix.add_entry(slot, r, c, value),
+                    None if value != 0.0 => elsewhere(of_a.start + r, of_b.start + c, value),
+                    None => {}
+                }
+            }
+        }
+    }
+
+    /// How much coordinate `row` of a node moves with the free coordinate `column` of its vertex.
+    fn weight(&self, node: usize, row: usize, column: usize) -> f64 {
+        match self.places[node] {
+            Place::Alone(_) => f64::from(u8::from(row == column)),
+            Place::Tied(index, first) => self.clusters[index].basis[(first + row, column)],
         }
     }
 }

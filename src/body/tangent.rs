@@ -95,12 +95,35 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             &elimination.mass,
             damping,
             &self.stiffness,
-            s,
+            (s * s, s),
             &mut self.real,
         );
+        self.factor_combined(elimination)
+    }
+
+    /// Factors `K - shift M`. Returns how many eigenvalues of `K` are below the shift where the constraints
+    /// leave freedom (Sylvester's law of inertia); nothing at a vanishing pivot.
+    ///
+    /// Source: B. N. Parlett, The Symmetric Eigenvalue Problem (1998), section 3.3; of the border, as
+    /// [`Border`]: theorem 3.1 there.
+    pub fn factor_below(&mut self, elimination: &Elimination<B>, shift: f64) -> Option<usize> {
+        // What is held does not move: inertia has no say.
+        self.s.0 = f64::INFINITY;
+        let factors = (-shift, 0.0);
+        combine(
+            &elimination.mass,
+            None,
+            &self.stiffness,
+            factors,
+            &mut self.real,
+        );
+        self.factor_combined(elimination)
+    }
+
+    /// Factors what was combined; how many of its eigenvalues are negative where the constraints leave freedom.
+    fn factor_combined(&mut self, elimination: &Elimination<B>) -> Option<usize> {
         let pattern = elimination.assembly.pattern();
-        let negative = self.real.factor(pattern)?;
-        let mut found = 0;
+        let mut negative = self.real.factor(pattern)?;
         for border in &mut self.borders {
             let (n, used) = (border.range.len(), border.rank * border.range.len());
             let schur = &mut border.real;
@@ -108,9 +131,10 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             for row in schur.solutions[..used].chunks_exact_mut(n) {
                 self.real.solve_component(pattern, border.component, row);
             }
-            found += schur.factor(&border.forces, border.rank, n)?;
+            let held = schur.factor(&border.forces, border.rank, n)?;
+            negative = negative.checked_sub(held)?;
         }
-        negative.checked_sub(found)
+        Some(negative)
     }
 
     /// Factors `s^2 M + s R + K` for a complex `s`. False at a vanishing pivot.
@@ -121,7 +145,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             &elimination.mass,
             damping,
             &self.stiffness,
-            s,
+            (s * s, s),
             &mut self.complex,
         );
         let pattern = elimination.assembly.pattern();
@@ -176,19 +200,6 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
         }
     }
 
-    /// Dense stiffness `T^T K T`, column by column: for natural frequencies at set-up.
-    pub fn reduced_stiffness(&mut self, elimination: &Elimination<B>) -> Vec<Vec<f64>> {
-        let n = elimination.coordinates();
-        (0..n)
-            .map(|column| {
-                let mut q = vec![0.0; n];
-                q[column] = 1.0;
-                self.apply_stiffness(elimination, &mut q);
-                q
-            })
-            .collect()
-    }
-
     /// `T^T K T q`, in place.
     pub fn apply_stiffness(&mut self, elimination: &Elimination<B>, q: &mut [f64]) {
         apply(
@@ -212,22 +223,21 @@ fn apply<const B: usize>(
     elimination.project(product, q);
 }
 
-/// `out = s^2 M + s R + K`.
+/// `out = m M + r R + K`.
 fn combine<T: Number>(
     mass: &Matrix<f64>,
     damping: Option<&Matrix<f64>>,
     stiffness: &Matrix<f64>,
-    s: T,
+    (m, r): (T, T),
     out: &mut Matrix<T>,
 ) {
-    let square = s * s;
     let terms = mass.values.iter().zip(&stiffness.values);
-    for (out, (m, k)) in out.values.iter_mut().zip(terms) {
-        *out = square * T::from(*m) + T::from(*k);
+    for (out, (mass, k)) in out.values.iter_mut().zip(terms) {
+        *out = m * T::from(*mass) + T::from(*k);
     }
     if let Some(damping) = damping {
-        for (out, r) in out.values.iter_mut().zip(&damping.values) {
-            *out = *out + s * T::from(*r);
+        for (out, damping) in out.values.iter_mut().zip(&damping.values) {
+            *out = *out + r * T::from(*damping);
         }
     }
 }

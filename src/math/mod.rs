@@ -8,6 +8,7 @@ mod grammar;
 mod hessenberg;
 pub mod householder;
 pub mod jet;
+pub mod krylov;
 pub mod lanes;
 pub mod quadrature;
 pub mod row_space;

@@ -155,6 +155,24 @@ impl RowSpace {
         }
     }
 
+    /// Combines other rows, as many and as long as these, as the orthonormal ones were: `R^-T P^T D^-1`
+    /// times them; so many as the rank.
+    pub fn combine(&self, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let count = self.count();
+        let mut combined: Vec<Vec<f64>> = Vec::with_capacity(self.rank);
+        for i in 0..self.rank {
+            let (column, pivot) = (&self.r[i * count..(i + 1) * count], self.pivots[i]);
+            let mut row = rows[pivot].clone();
+            row.iter_mut().for_each(|x| *x /= self.sizes[pivot]);
+            for (factor, before) in column.iter().zip(&combined) {
+                subtract(*factor, before, &mut row);
+            }
+            row.iter_mut().for_each(|x| *x /= column[i]);
+            combined.push(row);
+        }
+        combined
+    }
+
     /// Multipliers `A^T lambda` of all that was taken out less all that was added last; zero for
     /// dependent rows.
     pub fn multipliers(&self, lambda: &mut [f64]) {
@@ -214,6 +232,16 @@ mod tests {
         for i in 0..4 {
             let force: f64 = ROWS.iter().zip(lambda).map(|(row, l)| row[i] * l).sum();
             assert!((start[i] - x[i] - force).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn combines_rows_as_its_own() {
+        let space = filled(&ROWS);
+        let combined = space.combine(&ROWS.map(|row| row.to_vec()));
+        for (i, row) in combined.iter().enumerate() {
+            let off = row.iter().zip(space.unit(i)).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-14);
         }
     }
 

@@ -199,7 +199,8 @@ impl Engine {
         let count = self.frequencies;
         let frequencies = match count {
             0 => Vec::new(),
-            _ => natural_frequencies(system, inputs, &mut self.work, &state, count),
+            _ => natural_frequencies(system, inputs, &mut self.work, &state, count)
+                .map_err(|e| Error::Spectrum(format!("{e:?}")))?,
         };
         self.forget();
         state.work[0] -= self.set_energy(&state, inputs);

@@ -37,6 +37,9 @@ pub enum Error {
     /// No steady motion.
     #[error("initial: {0}")]
     Steady(#[from] crate::system::NotSteady),
+    /// No spectrum, or not as much of it.
+    #[error("outputs: {0}")]
+    Spectrum(String),
     /// A variable was asked for something that it is not, or set to something it cannot be.
     #[error("{name}: {message}")]
     Variable {

@@ -247,11 +247,6 @@ fn constraint_rate<N: Number>(constraint: &super::Constraint, view: &View<'_, N>
 }
 
 impl Group {
-    /// Where its coordinates are.
-    pub(super) fn range(&self) -> Range<usize> {
-        self.coordinates.clone()
-    }
-
     /// Its constraints with their multipliers.
     pub(super) fn multiplied<'a>(
         &'a self,

@@ -78,7 +78,7 @@ fn frequencies(mechanism: &Mechanism, count: usize) -> Vec<f64> {
         mut work,
     } = started(mechanism);
     state.rates.fill(0.0);
-    natural_frequencies(&system, &[], &mut work, &state, count)
+    natural_frequencies(&system, &[], &mut work, &state, count).expect("frequencies")
 }
 
 fn near(found: &[f64], exact: &[f64]) {
@@ -165,6 +165,7 @@ fn the_fastest_oscillation_is_bounded_closely() {
             mut work,
         } = moving;
         let all = natural_frequencies(&system, &[], &mut work, &state, system.coordinates());
+        let all = all.expect("frequencies");
         let largest = all.iter().fold(0.0_f64, |m, w| m.max(*w));
         let (bound, decay) = fastest(&system, &[], &mut work, &state);
         if largest > 0.0 {

@@ -1,10 +1,26 @@
 //! Equations of a mechanism over the coordinates of its unconnected parts, by differences and dense
 //! matrices: `[M C^T; C 0] [x''; lambda] = [F; r]`.
 
+use flexbody::body::{Elimination, Tangent};
 use flexbody::elements::{Element, Nodal};
 use nalgebra::{DMatrix, DVector, Matrix2x4, Rotation2, Vector2};
 
 use crate::mechanism::{Acting, Body, Hold, Kind, Mechanism, Place, Point, left};
+
+/// `T^T K T`, column by column.
+pub fn reduced_stiffness<const D: usize, const B: usize>(
+    tangent: &mut Tangent<D, B>,
+    elimination: &Elimination<B>,
+) -> Vec<Vec<f64>> {
+    let n = elimination.coordinates();
+    let column = |k: usize| {
+        let mut q = vec![0.0; n];
+        q[k] = 1.0;
+        tangent.apply_stiffness(elimination, &mut q);
+        q
+    };
+    (0..n).map(column).collect()
+}
 
 /// Positions and directions of both ends of a hold.
 type Ends = [[Vector2<f64>; 2]; 2];

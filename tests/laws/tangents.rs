@@ -1,10 +1,10 @@
-//! The tangent of random mechanisms with multipliers, where constraints leave freedom, against
-//! differences of their accelerations.
+//! The tangent of random mechanisms with multipliers, where constraints leave freedom, and the equations linearized
+//! exactly, in motion and with whatever is not symmetric, against differences of their accelerations.
 
 use std::cell::Cell;
 
 use flexbody::body::Node;
-use flexbody::system::{Dynamics, Model};
+use flexbody::system::{Dynamics, Evaluation, Model, System, linearized};
 use nalgebra::{Complex, DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -30,9 +30,9 @@ const SYMMETRIC: Scope = Scope {
 };
 
 /// Orthonormal directions in `q` that constraints hold at a configuration.
-fn held(mechanism: &Mechanism, system: &flexbody::system::System, x: &[Node<4>]) -> DMatrix<f64> {
+fn held(mechanism: &Mechanism, system: &System, t: f64, x: &[Node<4>]) -> DMatrix<f64> {
     let n = system.coordinates();
-    let jacobian = mechanism.jacobian(0.0, &mechanism.apart(x));
+    let jacobian = mechanism.jacobian(t, &mechanism.apart(x));
     let mut rows = DMatrix::zeros(n, jacobian.nrows());
     for i in 0..n {
         let mut q = vec![0.0; n];
@@ -52,7 +52,7 @@ fn tangent(mechanism: &Mechanism, seen: &Cell<u32>) -> Outcome {
     moving.state.rates.fill(0.0);
     let values = moving.evaluated();
     let (system, n) = (&moving.system, moving.system.coordinates());
-    let held = held(mechanism, system, &values.x);
+    let held = held(mechanism, system, 0.0, &values.x);
     if held.ncols() == n {
         return Ok(());
     }
@@ -120,4 +120,81 @@ fn tangents_are_derivatives_of_accelerations_where_constraints_leave_freedom() {
         "{} cases with multipliers",
         seen.get()
     );
+}
+
+/// Against the covariant derivative along motions that keep the constraints: accelerations at states that are moved
+/// and brought back, in the tangent plane, less what the plane's own turning makes of them.
+fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
+    let Some(mut moving) = moving(mechanism, 0.03)? else {
+        return Ok(());
+    };
+    let values = moving.evaluated();
+    let [x, v, a] = [&values.x, &values.v, &values.acceleration].map(|x| mechanism.apart(x));
+    let weakest = match mechanism.missing(0.0, &x).is_empty() {
+        true => 1.0,
+        false => mechanism.augmented(0.0, (&x, &v), &a).weakest,
+    };
+    let [basis, stiffness, damping] =
+        linearized(&moving.system, &[], &mut moving.work, &moving.state);
+    let (system, n) = (&moving.system, moving.system.coordinates());
+    if basis.ncols() == 0 || weakest < 1e-2 {
+        return Ok(());
+    }
+    let rates = moving.state.rates.clone();
+    let projector = |t: f64| {
+        let (mut state, mut work) = (moving.state.clone(), moving.work.clone());
+        state.time = t;
+        (state.coordinates.iter_mut().zip(&rates)).for_each(|(q, v)| *q += t * v);
+        let mut values = Evaluation::new(system);
+        values.kinematics(system, &state, &mut work);
+        let held = held(mechanism, system, t, &values.x);
+        DMatrix::identity(n, n) - &held * held.transpose()
+    };
+    let plane = projector(0.0);
+    prop_assert_eq!(plane.trace().round() as usize, basis.ncols());
+    within("basis", (&plane * &basis - &basis).amax(), 1e-6)?;
+    let turning = derivative(2e-3, projector);
+    let turned = (&turning * &basis).transpose() * (&turning * &basis);
+
+    let size = system.scale() / (n as f64).sqrt();
+    let mut work = moving.work.clone();
+    let mut slope = |by_rate: bool, column: usize| {
+        let step = if by_rate { 1e-3 } else { 1e-4 } * size;
+        derivative(step, |t| {
+            let mut state = moving.state.clone();
+            let moved = if by_rate { &mut state.rates } else { &mut state.coordinates };
+            moved.iter_mut().zip(basis.column(column).iter()).for_each(|(x, b)| *x += t * b);
+            let mut model = Model::new(system, &[], &mut work, &moving.state);
+            if !by_rate {
+                assert!(model.project(&mut state));
+            }
+            let mut a = vec![0.0; n];
+            model.acceleration(0.0, &state.coordinates, &state.rates, &mut a);
+            DVector::from_vec(a)
+        })
+    };
+    let mut columns = |by_rate: bool| {
+        let columns: Vec<_> = (0..basis.ncols()).map(|k| slope(by_rate, k)).collect();
+        -(basis.transpose() * DMatrix::from_columns(&columns))
+    };
+    let (by_place, by_rate) = (columns(false) - turned, columns(true));
+    let rate = 1.0 + stiffness.amax().sqrt();
+    within("K", (&by_place - &stiffness).amax(), 1e-5 * rate * rate)?;
+    within("R", (&by_rate - &damping).amax(), 1e-6 * (rate + damping.amax()))?;
+    let skew = |m: &DMatrix<f64>| u32::from((m - m.transpose()).amax() > 1e-4 * rate);
+    let [all, unsymmetric, held] = seen.get();
+    let multiplied = u32::from(system.constraints() > 0);
+    seen.set([all + 1, unsymmetric + skew(&stiffness), held + multiplied]);
+    Ok(())
+}
+
+#[test]
+fn linearized_equations_are_derivatives_of_accelerations_in_motion() {
+    let seen = Cell::new([0; 3]);
+    check(CASES, mechanisms(Scope { bodies: 3, ..ALL }), |mechanism| {
+        exact(&mechanism, &seen)
+    });
+    let [all, unsymmetric, held] = seen.get();
+    println!("{all} of {CASES}, {unsymmetric} not symmetric, {held} with multipliers");
+    assert!(all > CASES / 2 && unsymmetric > all / 4 && held > all / 3);
 }

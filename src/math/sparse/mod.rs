@@ -9,12 +9,14 @@
 
 mod chains;
 mod cholesky;
+mod general;
 mod kernels;
 mod pattern;
 #[cfg(test)]
 mod tests;
 
 pub use cholesky::Cholesky;
+pub use general::{Factors, General};
 pub use pattern::{Component, Pattern, Slot};
 
 use std::ops::{Add, Div, Mul, Sub};

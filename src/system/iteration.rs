@@ -1,0 +1,325 @@
+//! The slowest eigenvalues of many coordinates: Krylov iteration with the inverse near them, and a count that shows
+//! that none is missing. Work and storage are linear in the elements.
+//!
+//! Sources: T. Ericsson, A. Ruhe, The spectral transformation Lanczos method, Math. Comp. 35 (1980) (inverses, counts by
+//! inertia); F. Tisseur, K. Meerbergen, The quadratic eigenvalue problem, SIAM Review 43 (2001), section 6.3; zeros inside a
+//! contour by the argument principle: P. Kravanja, M. Van Barel, Computing the Zeros of Analytic Functions (2000).
+
+use std::f64::consts::PI;
+
+use nalgebra::Complex;
+
+use super::frequencies::largest_eigenvalue;
+use super::linearization::Linearization;
+use super::spectrum::{ROUNDOFF, quadratic, roots, sort};
+use super::{System, Work};
+use crate::math::krylov::{Krylov, Ritz};
+use crate::math::row_space::RowSpace;
+
+/// Residual, relative, at which a value counts as found.
+const CONVERGED: f64 = 1e-10;
+/// Difference, relative, from which on values are apart.
+const APART: f64 = 1e-6;
+/// Vectors that a basis may have beyond so many times the number wanted.
+const BASIS: usize = 160;
+const TIMES: usize = 6;
+/// Part of the largest eigenvalue in a basis below which one may be nothing but roundoff.
+const SLOW: f64 = 1e-6;
+/// Steps from one look at the values to the next.
+const STEPS: usize = 8;
+/// Decades that a search for a scale goes through, and factors of 10 for a shift below all values.
+const DECADES: i32 = 24;
+/// Largest change of an argument from one point of a contour to the next, rad, and most points.
+const TURN: f64 = 1.0;
+const POINTS: usize = 2000;
+
+/// Why eigenvalues were not found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum NotFound {
+    /// Numbers that are not finite.
+    NotFinite,
+    /// So many were wanted, so many are certain.
+    Only(usize, usize),
+}
+
+/// Lowest eigenvalues of the symmetric `K`, which is assembled in `work` as well, ascending; so many or more.
+pub(super) fn lowest(
+    system: &System,
+    work: &mut Work,
+    linear: &Linearization<'_>,
+    count: usize,
+) -> Result<Vec<f64>, NotFound> {
+    let modes = linear.modes();
+    let scale = scale(system, work, count)?;
+    let missing = NotFound::Only(count, 0);
+    let mut shift = -0.1 * scale;
+    let is_below = |shift: f64, work: &mut Work| below(system, work, shift) == Some(0);
+    for _ in 0..2 * DECADES {
+        if is_below(shift, work) {
+            break;
+        }
+        shift *= 4.0;
+    }
+    let elimination = &system.elimination;
+    let mut krylov = Krylov::new(system.coordinates());
+    while krylov.size() <= TIMES * count + BASIS {
+        if !is_below(shift, work) {
+            return Err(missing);
+        }
+        let steps = if krylov.size() == 0 { 2 * count + STEPS } else { STEPS };
+        let more = krylov.extend(steps, |x| work.tangent.solve(elimination, x));
+        let ritz = krylov.symmetric().ok_or(NotFound::NotFinite)?;
+        let found: Vec<f64> = certain(&ritz).map(|ritz| shift + 1.0 / ritz.value.re).collect();
+        if found.len() < count {
+            if !more {
+                krylov.start();
+            }
+            continue;
+        }
+        let distance = |k: f64| k - shift;
+        match split(&found, count, modes, distance) {
+            None => {}
+            Some((at, number)) => match below(system, work, at) {
+                Some(present) if present == number => return refined(linear, &krylov),
+                // A multiple eigenvalue has so far been seen less often than it is there.
+                Some(present) if present > number => krylov.start(),
+                _ => return Err(missing),
+            },
+        }
+    }
+    Err(missing)
+}
+
+/// Eigenvalues of `K` in the whole basis, free of the roundoff of its sparse form; what is roundoff still is zero.
+fn refined(linear: &Linearization<'_>, krylov: &Krylov) -> Result<Vec<f64>, NotFound> {
+    let basis = krylov.basis();
+    let [stiffness, _] = linear.project(basis);
+    let symmetric = (&stiffness + stiffness.transpose()) * 0.5;
+    let eigen = symmetric.try_symmetric_eigen(f64::EPSILON, 100 * basis.len());
+    let eigen = eigen.ok_or(NotFound::NotFinite)?;
+    let largest = eigen.eigenvalues.amax();
+    let value = |i: usize| {
+        let value = eigen.eigenvalues[i];
+        if value.abs() > SLOW * largest {
+            return value;
+        }
+        let mut vector = vec![0.0; basis[0].len()];
+        for (column, factor) in basis.iter().zip(eigen.eigenvectors.column(i).iter()) {
+            vector.iter_mut().zip(column).for_each(|(x, c)| *x += factor * c);
+        }
+        if value.abs() > ROUNDOFF * (linear.size(&vector) + largest) {
+            return value;
+        }
+        0.0
+    };
+    let mut values: Vec<f64> = (0..basis.len()).map(value).collect();
+    values.sort_by(f64::total_cmp);
+    Ok(values)
+}
+
+/// The leading values that have converged.
+fn certain(ritz: &[Ritz]) -> impl Iterator<Item = &Ritz> {
+    (ritz.iter()).take_while(|ritz| ritz.residual <= CONVERGED * ritz.value.norm())
+}
+
+/// A number between the values found so far that the first `count` are not beyond, with how many are below;
+/// where the last of them is one of a cluster without end, a number below that cluster.
+fn split(
+    found: &[f64],
+    count: usize,
+    modes: usize,
+    distance: impl Fn(f64) -> f64,
+) -> Option<(f64, usize)> {
+    let is_apart = |i: usize| distance(found[i]) - distance(found[i - 1]) > APART * distance(found[i]);
+    let between = |i: usize| (0.5 * (found[i] + found[i - 1]), i);
+    if found.len() == modes {
+        let last = found[modes - 1];
+        return Some((last + APART * distance(last), modes));
+    }
+    if let Some(i) = (count..found.len()).find(|i| is_apart(*i)) {
+        return Some(between(i));
+    }
+    // All further copies would be the same: enough of them are there.
+    let enough = found.len() > count + STEPS;
+    (1..count).rev().filter(|_| enough).find(|i| is_apart(*i)).map(between)
+}
+
+/// Number of eigenvalues of `K` below; the shift gives way where it is one of them.
+fn below(system: &System, work: &mut Work, shift: f64) -> Option<usize> {
+    let mut factor = |shift: f64| work.tangent.factor_below(&system.elimination, shift);
+    factor(shift).or_else(|| factor(shift * (1.0 + 1e-9)))
+}
+
+/// Size of the eigenvalue number `count` of the symmetric `K`, to a factor of ten upwards.
+fn scale(system: &System, work: &mut Work, count: usize) -> Result<f64, NotFound> {
+    let n = system.coordinates();
+    let tangent = &mut work.tangent;
+    let largest = largest_eigenvalue(n, |x| tangent.apply_stiffness(&system.elimination, x));
+    if !largest.is_finite() {
+        return Err(NotFound::NotFinite);
+    }
+    let largest = if largest > 0.0 { largest } else { 1.0 };
+    let (mut few, mut enough) = (-DECADES, 1);
+    while enough - few > 1 {
+        let middle = (few + enough) / 2;
+        let size = largest * 10.0_f64.powi(middle);
+        let number = below(system, work, size)
+            .zip(below(system, work, -size))
+            .map(|(above, under)| above.saturating_sub(under));
+        match number {
+            Some(number) if number < count => few = middle,
+            _ => enough = middle,
+        }
+    }
+    Ok(largest * 10.0_f64.powi(enough))
+}
+
+/// Slowest eigenvalues `s` where `K` is symmetric and `R` vanishes, so many or more.
+pub(super) fn slowest_conservative(
+    system: &System,
+    work: &mut Work,
+    linear: &Linearization<'_>,
+    count: usize,
+) -> Result<Vec<Complex<f64>>, NotFound> {
+    // Unstable modes come first, however fast they are.
+    let unstable = below(system, work, 0.0).ok_or(NotFound::Only(count, 0))?;
+    let wanted = linear.modes().min(count + unstable);
+    let mut squares = lowest(system, work, linear, wanted)?;
+    squares.truncate(wanted);
+    squares.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    Ok(roots(squares.into_iter().map(|k| Complex::new(k, 0.0)), 0.0))
+}
+
+/// Slowest eigenvalues `s` of `s^2 I + s R + K`, so many or more, of a pair the one with the positive imaginary part.
+pub(super) fn slowest(
+    system: &System,
+    work: &mut Work,
+    linear: &Linearization<'_>,
+    count: usize,
+) -> Result<Vec<Complex<f64>>, NotFound> {
+    let missing = NotFound::Only(count, 0);
+    let rate = scale(system, work, count.min(linear.modes()))?.sqrt();
+    let shift = 0.3 * rate;
+    let mut shifted = linear.shifted(shift).ok_or(missing)?;
+    let (n, m) = (linear.elimination.coordinates(), linear.elimination.scratch());
+    let (mut y, mut product) = (vec![0.0; m], vec![0.0; m]);
+    let mut damped = vec![0.0; n];
+    // Displacements, then velocities over `rate`: x = -(s^2 I + s R + K)^-1 (b + R a + s a), v = a + s x.
+    let mut apply = |z: &mut [f64]| {
+        let (a, b) = z.split_at_mut(n);
+        b.iter_mut().for_each(|b| *b *= rate);
+        if linear.is_damped {
+            damped.copy_from_slice(a);
+            linear.apply_damping(&mut damped, &mut y, &mut product);
+        }
+        for i in 0..n {
+            damped[i] = -(b[i] + damped[i] + shift * a[i]);
+        }
+        shifted.solve(&mut damped);
+        for i in 0..n {
+            b[i] = (a[i] + shift * damped[i]) / rate;
+            a[i] = damped[i];
+            damped[i] = 0.0;
+        }
+    };
+    let mut krylov = Krylov::new(2 * n);
+    while krylov.size() <= 2 * TIMES * count + BASIS {
+        let steps = if krylov.size() == 0 { 4 * count + 2 * STEPS } else { 2 * STEPS };
+        let more = krylov.extend(steps, &mut apply);
+        let ritz = krylov.general().ok_or(NotFound::NotFinite)?;
+        let mut found: Vec<Complex<f64>> = certain(&ritz)
+            .map(|ritz| shift + ritz.value.inv())
+            .map(|s| Complex::new(s.re, s.im.abs()))
+            .collect();
+        sort(&mut found);
+        // Of these the ones that no unfound one can be slower than.
+        let reach = ritz.get(found.len()).map_or(f64::INFINITY, |ritz| ritz.value.inv().norm());
+        found.retain(|s| s.norm() + shift < reach || reach.is_infinite());
+        if found.len() <= count {
+            if !more {
+                krylov.start();
+            }
+            continue;
+        }
+        let sizes: Vec<f64> = found.iter().map(|s| s.norm()).collect();
+        let Some((radius, number)) = split(&sizes, count, usize::MAX, |size| size) else {
+            continue;
+        };
+        let roots = |s: &Complex<f64>| if s.im > 0.0 { 2 } else { 1 };
+        let number: usize = found[..number].iter().map(roots).sum();
+        match inside(linear, radius, number) {
+            Some(present) if present == number => return Ok(improved(linear, &krylov, found)),
+            Some(present) if present > number => krylov.start(),
+            _ => return Err(missing),
+        }
+    }
+    Err(missing)
+}
+
+/// The values of the equations in the span of all displacements found, nearest to those found so far: free of the
+/// roundoff of the sparse form.
+fn improved(
+    linear: &Linearization<'_>,
+    krylov: &Krylov,
+    mut found: Vec<Complex<f64>>,
+) -> Vec<Complex<f64>> {
+    let n = linear.elimination.coordinates();
+    if krylov.size() > BASIS {
+        return found;
+    }
+    let mut rows = RowSpace::new(krylov.size(), n);
+    for (i, vector) in krylov.basis().iter().enumerate() {
+        rows.row_mut(i).copy_from_slice(&vector[..n]);
+    }
+    rows.factor(1e-9);
+    let basis: Vec<Vec<f64>> = (0..rows.rank()).map(|i| rows.unit(i).to_vec()).collect();
+    let [stiffness, damping] = linear.project(&basis);
+    let Ok(mut better) = quadratic(&stiffness, &damping) else {
+        return found;
+    };
+    for s in &mut found {
+        let away = |i: &usize| (better[*i] - *s).norm();
+        let nearest = (0..better.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+        if let Some(nearest) = nearest {
+            *s = better.swap_remove(nearest);
+        }
+    }
+    found
+}
+
+/// Number of eigenvalues inside a circle about 0, conjugate ones both: how often the determinant goes around while
+/// `s` goes round half of it.
+fn inside(linear: &Linearization<'_>, radius: f64, expected: usize) -> Option<usize> {
+    let phases = |angle: f64| {
+        let s = Complex::from_polar(radius, angle);
+        linear.shifted(s).map(|shifted| shifted.phases())
+    };
+    let parts = expected + 8;
+    let mut points = parts + 1;
+    let mut turn = 0.0;
+    let mut last = (0.0, phases(0.0)?);
+    for part in 1..=parts {
+        let end = PI * part as f64 / parts as f64;
+        let mut ahead = vec![(end, phases(end)?)];
+        while let Some((angle, values)) = ahead.pop() {
+            let changes = values.iter().zip(&last.1).map(|(a, b)| (a * b.conj()).arg());
+            let (sum, largest) = changes.fold((0.0, 0.0_f64), |(sum, largest), change| {
+                (sum + change, largest.max(change.abs()))
+            });
+            if largest <= TURN {
+                turn += sum;
+                last = (angle, values);
+                continue;
+            }
+            points += 1;
+            if points > POINTS {
+                return None;
+            }
+            let middle = 0.5 * (angle + last.0);
+            ahead.push((angle, values));
+            ahead.push((middle, phases(middle)?));
+        }
+    }
+    let roots = turn / PI;
+    ((roots - roots.round()).abs() < 1e-3 && roots >= -0.5).then(|| roots.round() as usize)
+}

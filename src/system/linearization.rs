@@ -1,0 +1,466 @@
+//! The equations of motion linearized at a state, exactly: `x'' + R x' + K x = 0` for small motions that keep
+//! the constraints, with whatever is not symmetric in `R` and `K`: forces that follow, a turning frame, dampers that
+//! move, constraints whose directions turn.
+//!
+//! Loads, constraints and damped elements are differentiated one by one on numbers that carry derivatives; the rest
+//! is assembled as solves use it. While constraints turn, small motions are measured along with their tangent plane
+//! (parallel transport in the mass norm): with `D = Q'` the rates of the orthonormal rows `Q`, velocities follow
+//! displacements `d` by `-Q^T D d`, and `K` becomes `P (K - R Q^T D - D^T D) P`, `P = I - Q^T Q`. So what turns freely and steadily
+//! has the eigenvalue 0 whatever its coordinates are.
+//!
+//! Sources: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), section 3.1; J. M. Lee, Introduction to
+//! Riemannian Manifolds, 2nd ed. (2018), proposition 10.4 (variation of motions on a manifold).
+
+use nalgebra::{DMatrix, SMatrix};
+
+use super::joints::{Constraint, ConstraintKind, View};
+use super::end::End;
+use super::loads::Instant;
+use super::{System, Work};
+use crate::body::{Assembly, Elimination, Node, NodeBlock};
+use crate::elements::{self, Element, Nodal};
+use crate::math::jet::{Jet, Number};
+use crate::math::sparse::General;
+
+/// Part of a block that its transpose must differ by to count as not symmetric.
+const SKEW: f64 = 1e-10;
+
+/// `K` and `R` over the free coordinates, and what constraints make of them.
+#[derive(Clone, Debug)]
+pub(super) struct Linearization<'a> {
+    pub elimination: &'a Elimination<4>,
+    pub stiffness: General<f64>,
+    pub damping: General<f64>,
+    /// What elements of cables add to both, element by element, and both without that.
+    pub elements: Vec<Elastic>,
+    pub others: [General<f64>; 2],
+    pub borders: Vec<Border>,
+    /// Whether `R` is not zero.
+    pub is_damped: bool,
+    /// Whether `K` is symmetric but for loads that follow, and moves no block out of its place.
+    pub is_symmetric: bool,
+    /// The first load whose force has no potential.
+    pub follower: Option<usize>,
+    /// Orthonormal directions in `q` that constraints hold: first coordinate, the others from there on.
+    pub units: Vec<(usize, Vec<f64>)>,
+}
+
+/// Tangents of one element: over the coordinates of its two nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Elastic {
+    pub nodes: [usize; 2],
+    pub stiffness: SMatrix<f64, 8, 8>,
+    pub damping: Option<SMatrix<f64, 8, 8>>,
+}
+
+/// Rows and columns around the matrices, in the coordinates of one group of constraints.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Border {
+    pub start: usize,
+    pub columns: Vec<Vec<f64>>,
+    pub rows: Vec<Vec<f64>>,
+    /// How many come first that add products `column row^T` to `K`; others are constraints.
+    pub products: usize,
+}
+
+/// Nodal vectors that carry derivatives, of which few at a time are not zero.
+struct Probe {
+    x: Vec<Node<4, Jet>>,
+    v: Vec<Node<4, Jet>>,
+    f: Vec<Node<4, Jet>>,
+}
+
+type Nodes = [Node<4, Jet>];
+
+impl Probe {
+    fn new(x: &[Node<4>], v: &[Node<4>]) -> Self {
+        let lift = |x: &[Node<4>]| x.iter().map(|x| x.map(Jet::from_re)).collect();
+        Self {
+            x: lift(x),
+            v: lift(v),
+            f: vec![[Jet::from_re(0.0); 4]; x.len()],
+        }
+    }
+
+    /// Minus the derivatives, by coordinates or rates, of forces on these nodes that depend on no others.
+    fn differentiate(
+        &mut self,
+        nodes: &[usize],
+        by_rates: bool,
+        force: &dyn Fn(&Nodes, &Nodes, &mut Nodes),
+    ) -> Blocks {
+        let mut nodes = nodes.to_vec();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let size = 4 * nodes.len();
+        let mut whole = DMatrix::zeros(size, size);
+        for (j, column) in nodes.iter().enumerate() {
+            for c in 0..4 {
+                let seeded = if by_rates { &mut self.v } else { &mut self.x };
+                seeded[*column][c].v1 = 1.0;
+                force(&self.x, &self.v, &mut self.f);
+                let seeded = if by_rates { &mut self.v } else { &mut self.x };
+                seeded[*column][c].v1 = 0.0;
+                for (i, row) in nodes.iter().enumerate() {
+                    let force = std::mem::replace(&mut self.f[*row], [Jet::from_re(0.0); 4]);
+                    for (r, force) in force.iter().enumerate() {
+                        whole[(4 * i + r, 4 * j + c)] = -force.v1;
+                    }
+                }
+            }
+        }
+        Blocks { nodes, whole }
+    }
+}
+
+/// A matrix over a few nodes.
+struct Blocks {
+    nodes: Vec<usize>,
+    whole: DMatrix<f64>,
+}
+
+impl Blocks {
+    fn is_symmetric(&self) -> bool {
+        (&self.whole - self.whole.transpose()).amax() <= SKEW * self.whole.amax()
+    }
+
+    fn add(
+        &self,
+        assembly: &Assembly<4>,
+        matrix: &mut General<f64>,
+        elsewhere: &mut dyn FnMut(usize, usize, f64),
+    ) {
+        for (i, row) in self.nodes.iter().enumerate() {
+            for (j, column) in self.nodes.iter().enumerate() {
+                let entry = |r: usize, c: usize| self.whole[(4 * i + r, 4 * j + c)];
+                let block: NodeBlock<4> = std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c)));
+                assembly.add_block((*row, *column), &block, matrix, elsewhere);
+            }
+        }
+    }
+}
+
+impl System {
+    /// The equations linearized at the configuration in `work`, at which an acceleration has been computed
+    /// if there are constraints. `at_rest` takes all rates as zero and leaves dampers out.
+    pub(super) fn linearization(&self, time: f64, work: &mut Work, at_rest: bool) -> Linearization<'_> {
+        let pattern = self.elimination.assembly.pattern();
+        if at_rest {
+            work.v.fill([0.0; 4]);
+        }
+        let mut made = Linearization {
+            elimination: &self.elimination,
+            stiffness: General::zeros(pattern),
+            damping: General::zeros(pattern),
+            elements: Vec::new(),
+            others: [General::zeros(pattern), General::zeros(pattern)],
+            borders: work.groups.iter().map(|_| Border::default()).collect(),
+            is_damped: self.rotation != 0.0,
+            is_symmetric: true,
+            follower: None,
+            units: Vec::new(),
+        };
+        let mut probe = Probe::new(&work.x, &work.v);
+        self.linearize_loads(time, work, at_rest, &mut probe, &mut made);
+        self.linearize_frame(&mut made);
+        let mut elsewhere = vec![Vec::new(); work.groups.len()];
+        for (group, elsewhere) in work.groups.iter().zip(&mut elsewhere) {
+            for (constraint, lambda) in group.multiplied(&self.constraints) {
+                let blocks = self.linearize_constraint(work, (constraint, lambda), &mut probe);
+                let assembly = &self.elimination.assembly;
+                blocks.add(assembly, &mut made.stiffness, &mut |r, c, value| {
+                    elsewhere.push((r, c, value));
+                });
+            }
+            made.is_symmetric &= elsewhere.is_empty();
+        }
+        made.others = [made.stiffness.clone(), made.damping.clone()];
+        self.linearize_chains(work, at_rest, &mut probe, &mut made);
+        for (index, elsewhere) in elsewhere.iter().enumerate() {
+            let turning = if at_rest { None } else { self.turning_rows(work, index) };
+            made.borders[index] = self.border(work, index, (elsewhere, turning), &mut made);
+        }
+        made
+    }
+
+    fn linearize_chains(
+        &self,
+        work: &Work,
+        at_rest: bool,
+        probe: &mut Probe,
+        made: &mut Linearization<'_>,
+    ) {
+        let assembly = &self.elimination.assembly;
+        let mut none = |_: usize, _: usize, _: f64| {};
+        for chain in &self.chains {
+            let is_damped = chain.is_damped() && !at_rest;
+            let moves = is_damped && work.v.iter().flatten().any(|v| *v != 0.0);
+            made.is_damped |= is_damped;
+            made.is_symmetric &= !moves;
+            for (j, element) in chain.elements().iter().enumerate() {
+                let (nodes, e) = (chain.nodes(j), chain.element(j, &work.x));
+                let stiffness = if moves {
+                    let force = |x: &Nodes, v: &Nodes, f: &mut Nodes| {
+                        let force: Nodal<2, Jet> =
+                            element.force(&chain.element(j, x), &chain.element(j, v));
+                        let f = f[nodes[0]..=nodes[1]].as_flattened_mut();
+                        f.iter_mut().zip(force.as_slice()).for_each(|(sum, f)| *sum += *f);
+                    };
+                    let whole = probe.differentiate(&nodes, false, &force).whole;
+                    SMatrix::from_fn(|r, c| whole[(r, c)])
+                } else {
+                    whole(&element.stiffness(&e, &Nodal::zeros()))
+                };
+                let damping = is_damped.then(|| whole(&element.damping(&e)));
+                let places = [(Some(stiffness), &mut made.stiffness), (damping, &mut made.damping)];
+                for (matrix, place) in places {
+                    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                        let Some(matrix) = &matrix else { continue };
+                        let entry = |r: usize, c: usize| matrix[(4 * a + r, 4 * b + c)];
+                        let block: NodeBlock<4> =
+                            std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c)));
+                        assembly.add_block((nodes[a], nodes[b]), &block, place, &mut none);
+                    }
+                }
+                made.elements.push(Elastic {
+                    nodes,
+                    stiffness,
+                    damping,
+                });
+            }
+        }
+    }
+
+    fn linearize_loads(
+        &self,
+        time: f64,
+        work: &Work,
+        at_rest: bool,
+        probe: &mut Probe,
+        made: &mut Linearization<'_>,
+    ) {
+        let assembly = &self.elimination.assembly;
+        let lift = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
+        let [inputs, input_rates, angles] =
+            [&work.inputs, &work.input_rates, &work.angles].map(|x| lift(x));
+        let mut none = |_: usize, _: usize, _: f64| {};
+        let mut following: Option<General<f64>> = None;
+        for (index, load) in self.loads.iter().enumerate() {
+            let nodes: Vec<usize> = load.ends().iter().flat_map(End::nodes).collect();
+            let force = |x: &Nodes, v: &Nodes, f: &mut Nodes| {
+                let at = Instant {
+                    time: Jet::from_re(time),
+                    inputs: &inputs,
+                    input_rates: &input_rates,
+                    x,
+                    v,
+                    chains: &self.chains,
+                    angles: (&self.angles, &angles),
+                };
+                load.add_force(at, f);
+            };
+            let blocks = probe.differentiate(&nodes, false, &force);
+            blocks.add(assembly, &mut made.stiffness, &mut none);
+            if !blocks.is_symmetric() {
+                made.follower.get_or_insert(index);
+                let zeros = || General::zeros(assembly.pattern());
+                blocks.add(assembly, following.get_or_insert_with(zeros), &mut none);
+            }
+            if load.is_damped() && !at_rest {
+                made.is_damped = true;
+                let blocks = probe.differentiate(&nodes, true, &force);
+                blocks.add(assembly, &mut made.damping, &mut none);
+            }
+        }
+        // What joints hold does no work.
+        let skew = following.is_some_and(|matrix| {
+            let [whole, skew] = matrix.largest(assembly.pattern());
+            skew > SKEW * whole
+        });
+        made.is_symmetric &= !skew;
+        made.follower = made.follower.filter(|_| skew);
+    }
+
+    /// Forces of a turning frame.
+    fn linearize_frame(&self, made: &mut Linearization<'_>) {
+        let rate = self.rotation;
+        if rate == 0.0 {
+            return;
+        }
+        let assembly = &self.elimination.assembly;
+        let mut none = |_: usize, _: usize, _: f64| {};
+        made.stiffness.add_symmetric(-rate * rate, &self.elimination.mass);
+        let turned = |x: [f64; 4]| [-x[1], x[0], -x[3], x[2]];
+        let mut add = |nodes: &[usize], mass: &dyn Fn([f64; 4], usize, usize) -> [f64; 4]| {
+            for a in nodes {
+                for b in nodes {
+                    let mut block = [[0.0; 4]; 4];
+                    for c in 0..4 {
+                        let unit = std::array::from_fn(|k| f64::from(u8::from(k == c)));
+                        let force = mass(turned(unit), *a, *b);
+                        (0..4).for_each(|r| block[r][c] = 2.0 * rate * force[r]);
+                    }
+                    assembly.add_block((*a, *b), &block, &mut made.damping, &mut none);
+                }
+            }
+        };
+        for chain in &self.chains {
+            for (j, element) in chain.elements().iter().enumerate() {
+                let (nodes, mass) = (chain.nodes(j), element.mass());
+                add(&nodes, &|x, a, b| {
+                    let (row, column) = (2 * (a - nodes[0]), 2 * (b - nodes[0]));
+                    std::array::from_fn(|r| {
+                        let m = |k: usize| mass[(row + r / 2, column + k)];
+                        m(0) * x[r % 2] + m(1) * x[2 + r % 2]
+                    })
+                });
+            }
+        }
+        let mut scratch = vec![[0.0; 4]; self.reference.len()];
+        for lump in &self.lumps {
+            let marker = lump.marker;
+            let nodes = &marker.nodes[..if marker.is_nodal() { 1 } else { 2 }];
+            let scratch = std::cell::RefCell::new(&mut scratch);
+            add(nodes, &|x, a, b| {
+                let mut nodal = scratch.borrow_mut();
+                nodal[b] = x;
+                let at = marker.position(&nodal) * lump.mass;
+                let on = marker.direction(&nodal) * lump.inertia;
+                nodal[b] = [0.0; 4];
+                let forces = marker.forces(at, on);
+                forces[usize::from(a != nodes[0])].1
+            });
+        }
+    }
+
+    /// `d (J^T lambda) / dx` of one constraint.
+    fn linearize_constraint(
+        &self,
+        work: &Work,
+        (constraint, lambda): (&Constraint, f64),
+        probe: &mut Probe,
+    ) -> Blocks {
+        let lift = |x: &f64| Jet::from_re(*x);
+        let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
+        let mut nodes = constraint.nodes(&self.chains);
+        if let ConstraintKind::Along(along) = &constraint.kind {
+            let chain = &self.chains[along.chain];
+            let (element, _) = chain.find(work.travel[along.slide]);
+            nodes = chain.nodes(element).into_iter().chain(along.end.nodes()).collect();
+        }
+        let force = |x: &Nodes, v: &Nodes, f: &mut Nodes| {
+            let mut travel: Vec<Jet> = work.travel.iter().map(lift).collect();
+            if let ConstraintKind::Along(along) = &constraint.kind {
+                let place = &mut travel[along.slide];
+                *place = along.travel(&self.chains[along.chain], x, *place);
+            }
+            let view = View {
+                x,
+                v,
+                drives: &drives,
+                chains: &self.chains,
+                travel: &travel,
+            };
+            constraint.gradient(&view).for_each(|node, term| {
+                for (f, term) in f[node].iter_mut().zip(term) {
+                    *f -= *term * Jet::of(lambda);
+                }
+            });
+        };
+        probe.differentiate(&nodes, false, &force)
+    }
+
+    /// Rates of the rows of a group's Jacobian, in `q`; nothing where they do not turn.
+    fn turning_rows(&self, work: &Work, index: usize) -> Option<Vec<Vec<f64>>> {
+        let group = &work.groups[index];
+        let is_still = work.v.iter().flatten().all(|v| *v == 0.0)
+            && work.drives.iter().all(|drive| drive[1] == 0.0);
+        if is_still {
+            return None;
+        }
+        let pairs = work.x.iter().zip(&work.v);
+        let moving = |(x, v): (&Node<4>, &Node<4>)| std::array::from_fn(|i| Jet::new(x[i], v[i], 0.0));
+        let x: Vec<Node<4, Jet>> = pairs.map(moving).collect();
+        let v: Vec<Node<4, Jet>> = work.v.iter().map(|v| v.map(Jet::from_re)).collect();
+        let lift = |[p, v, a]: &[f64; 3]| [Jet::new(*p, *v, 0.0), Jet::new(*v, *a, 0.0), Jet::from_re(*a)];
+        let drives: Vec<[Jet; 3]> = work.drives.iter().map(lift).collect();
+        let mut travel: Vec<Jet> = work.travel.iter().map(|s| Jet::from_re(*s)).collect();
+        self.find_travel(&x, &mut travel);
+        let view = View {
+            x: &x,
+            v: &v,
+            drives: &drives,
+            chains: &self.chains,
+            travel: &travel,
+        };
+        let constraints = self.constraints[group.constraints.clone()].iter();
+        let rows = constraints.map(|constraint| {
+            let mut row = vec![0.0; group.coordinates.len()];
+            constraint.gradient(&view).for_each(|node, term| {
+                let assembly = &self.elimination.assembly;
+                assembly.gather_node(node, &term.map(|t| t.v1), group.coordinates.start, &mut row);
+            });
+            self.elimination.project_component(group.component, &mut row);
+            row
+        });
+        Some(rows.collect())
+    }
+
+    /// What the constraints of a group, and entries of `K` that are stored nowhere, put around the matrices.
+    fn border(
+        &self,
+        work: &Work,
+        index: usize,
+        (elsewhere, turning): (&[(usize, usize, f64)], Option<Vec<Vec<f64>>>),
+        made: &mut Linearization<'_>,
+    ) -> Border {
+        let (group, elimination) = (&work.groups[index], &self.elimination);
+        let (range, n) = (group.coordinates.clone(), group.coordinates.len());
+        let mut border = Border {
+            start: range.start,
+            ..Border::default()
+        };
+        let mut places: Vec<usize> = elsewhere.iter().map(|(_, c, _)| *c).collect();
+        places.sort_unstable();
+        places.dedup();
+        for place in places {
+            let (mut column, mut row) = (vec![0.0; n], vec![0.0; n]);
+            row[place - range.start] = 1.0;
+            for (r, _, value) in elsewhere.iter().filter(|(_, c, _)| *c == place) {
+                column[r - range.start] += value;
+            }
+            border.columns.push(column);
+            border.rows.push(row);
+        }
+        let units: Vec<Vec<f64>> = (0..group.rows.rank()).map(|i| group.rows.unit(i).to_vec()).collect();
+        let turning = turning.map(|rows| group.rows.combine(&rows)).unwrap_or_default();
+        for (unit, rate) in units.iter().zip(turning) {
+            // - (R Q^T + D^T) D
+            let mut column = rate;
+            elimination.forces_component(group.component, &mut column);
+            border.rows.push(column.clone());
+            let (mut q, mut y) = (vec![0.0; elimination.coordinates()], vec![0.0; elimination.scratch()]);
+            q[range.clone()].copy_from_slice(unit);
+            elimination.displacements(&q, &mut y);
+            made.damping.multiply(elimination.assembly.pattern(), &y, &mut q);
+            let pairs = column.iter_mut().zip(&q[range.clone()]);
+            pairs.for_each(|(c, damped)| *c = -(*c + damped));
+            border.columns.push(column);
+            made.is_symmetric = false;
+        }
+        border.products = border.rows.len();
+        for unit in units {
+            let mut row = unit.clone();
+            elimination.forces_component(group.component, &mut row);
+            border.columns.push(row.clone());
+            border.rows.push(row);
+            made.units.push((range.start, unit));
+        }
+        border
+    }
+}
+
+/// The matrix of its blocks.
+fn whole(blocks: &elements::Blocks<2>) -> SMatrix<f64, 8, 8> {
+    SMatrix::from_fn(|r, c| blocks[r / 2][c / 2][(r % 2, c % 2)])
+}

@@ -1,0 +1,247 @@
+//! Products and solves with the linearized equations: dense for few coordinates, `(s^2 I + s R + K)^-1` by sparse
+//! factors and a border for many.
+//!
+//! Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005),
+//! section 5 (Schur complement).
+
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU, SVector};
+
+use super::linearization::{Border, Elastic, Linearization};
+use crate::body::Node;
+use crate::math::row_space::RowSpace;
+use crate::math::sparse::{self, Factors, General};
+use crate::math::vector::dot;
+
+/// Factors of `s^2 I + s R + K` for one `s`.
+pub(super) struct Shifted<'a, T: ComplexField> {
+    of: &'a Linearization<'a>,
+    factors: Factors<T>,
+    /// For every border its solutions and the factors of what remains.
+    borders: Vec<(Vec<Vec<T>>, LU<T, Dyn, Dyn>)>,
+    y: Vec<T>,
+}
+
+impl<'a> Linearization<'a> {
+    /// Number of free coordinates: of motions that keep the constraints.
+    pub fn modes(&self) -> usize {
+        self.elimination.coordinates() - self.units.len()
+    }
+
+    /// `R q`, in place; `y` and `product` are scratch as long as the free coordinates.
+    pub fn apply_damping(&self, q: &mut [f64], y: &mut [f64], product: &mut [f64]) {
+        self.elimination.displacements(q, y);
+        self.damping.multiply(self.elimination.assembly.pattern(), y, product);
+        self.elimination.project(product, q);
+    }
+
+    /// `K` and `R` in an orthonormal basis of the motions that keep the constraints.
+    pub fn dense(&self) -> [DMatrix<f64>; 2] {
+        let basis = self.basis();
+        let columns: Vec<Vec<f64>> = basis.column_iter().map(|c| c.as_slice().to_vec()).collect();
+        self.project(&columns)
+    }
+
+    /// `K` and `R` in a basis of columns `q` that keep the constraints. Elements are summed up one by one in
+    /// displacements relative to their first ends: those of the whole would cancel, by a part of roundoff that grows with
+    /// the fourth power of the number of elements.
+    pub fn project(&self, columns: &[Vec<f64>]) -> [DMatrix<f64>; 2] {
+        let (n, m) = (self.elimination.coordinates(), self.elimination.scratch());
+        let (assembly, size) = (&self.elimination.assembly, columns.len());
+        let mut nodal = Vec::with_capacity(size);
+        let mut projected = [DMatrix::zeros(size, size), DMatrix::zeros(size, size)];
+        let (mut y, mut product, mut out) = (vec![0.0; m], vec![0.0; m], vec![0.0; n]);
+        for (k, q) in columns.iter().enumerate() {
+            self.elimination.displacements(q, &mut y);
+            let mut x: Vec<Node<4>> = vec![[0.0; 4]; assembly.nodes()];
+            assembly.spread(&y, &mut x);
+            nodal.push(x);
+            for (which, matrix) in self.others.iter().enumerate() {
+                matrix.multiply(assembly.pattern(), &y, &mut product);
+                for border in self.borders.iter().filter(|_| which == 0) {
+                    let pairs = border.columns.iter().zip(&border.rows).take(border.products);
+                    for (column, row) in pairs {
+                        let range = border.start..border.start + row.len();
+                        let factor = dot(row, &y[range.clone()]);
+                        let to = product[range].iter_mut().zip(column);
+                        to.for_each(|(to, c)| *to += factor * c);
+                    }
+                }
+                self.elimination.project(&mut product, &mut out);
+                for (i, left) in columns.iter().enumerate() {
+                    projected[which][(i, k)] = dot(left, &out);
+                }
+            }
+        }
+        for element in &self.elements {
+            let local: Vec<SVector<f64, 8>> = nodal.iter().map(|x| element.relative(x)).collect();
+            let [stiffness, damping] = &mut projected;
+            let matrices = [(Some(&element.stiffness), stiffness), (element.damping.as_ref(), damping)];
+            for (matrix, sum) in matrices {
+                let Some(matrix) = matrix else { continue };
+                for (k, right) in local.iter().enumerate() {
+                    let force = matrix * right;
+                    for (i, left) in local.iter().enumerate() {
+                        sum[(i, k)] += left.dot(&force);
+                    }
+                }
+            }
+        }
+        projected
+    }
+
+    /// Sum of the sizes of all terms that `q^T K q` is summed from.
+    pub fn size(&self, q: &[f64]) -> f64 {
+        let assembly = &self.elimination.assembly;
+        let (mut y, mut x) = (vec![0.0; q.len()], vec![[0.0; 4]; assembly.nodes()]);
+        self.elimination.displacements(q, &mut y);
+        assembly.spread(&y, &mut x);
+        let mut force = vec![0.0; q.len()];
+        self.others[0].multiply(assembly.pattern(), &y, &mut force);
+        let others: f64 = y.iter().zip(force).map(|(y, f)| (y * f).abs()).sum();
+        let elastic = self.elements.iter().map(|element| {
+            let e = element.relative(&x).abs();
+            e.dot(&(element.stiffness.abs() * e))
+        });
+        others + elastic.sum::<f64>()
+    }
+
+    /// Orthonormal columns that the held directions leave.
+    pub fn basis(&self) -> DMatrix<f64> {
+        let n = self.elimination.coordinates();
+        if self.units.is_empty() {
+            return DMatrix::identity(n, n);
+        }
+        let mut rows = RowSpace::new(n, n);
+        for k in 0..n {
+            let row = rows.row_mut(k);
+            row.fill(0.0);
+            row[k] = 1.0;
+            for _ in 0..2 {
+                for (start, unit) in &self.units {
+                    let part = &mut row[*start..start + unit.len()];
+                    let factor = dot(unit, part);
+                    part.iter_mut().zip(unit).for_each(|(x, u)| *x -= factor * u);
+                }
+            }
+            // What is nothing but roundoff is no direction.
+            if dot(row, row) < 1e-20 {
+                row.fill(0.0);
+            }
+        }
+        rows.factor(1e-7);
+        DMatrix::from_fn(n, self.modes().min(rows.rank()), |i, j| rows.unit(j)[i])
+    }
+
+    /// Factors `s^2 I + s R + K`. `None` where that is singular.
+    pub fn shifted<T: ComplexField + sparse::Number>(&'a self, s: T) -> Option<Shifted<'a, T>> {
+        let pattern = self.elimination.assembly.pattern();
+        let mut matrix = General::zeros(pattern);
+        matrix.add_symmetric(s * s, &self.elimination.mass);
+        if self.is_damped {
+            matrix.add(s, &self.damping);
+        }
+        matrix.add(<T as From<f64>>::from(1.0), &self.stiffness);
+        let mut shifted = Shifted {
+            of: self,
+            factors: matrix.factor(pattern)?,
+            borders: Vec::with_capacity(self.borders.len()),
+            y: vec![<T as From<f64>>::from(0.0); pattern.len()],
+        };
+        for border in &self.borders {
+            let factored = shifted.factor_border(border);
+            shifted.borders.push(factored);
+        }
+        Some(shifted)
+    }
+}
+
+impl Elastic {
+    /// Displacements of the nodes relative to the position of the first.
+    fn relative(&self, x: &[Node<4>]) -> SVector<f64, 8> {
+        let [a, b] = self.nodes.map(|node| x[node]);
+        SVector::from([0.0, 0.0, a[2], a[3], b[0] - a[0], b[1] - a[1], b[2], b[3]])
+    }
+}
+
+impl<T: ComplexField + sparse::Number> Shifted<'_, T> {
+    fn factor_border(&mut self, border: &Border) -> (Vec<Vec<T>>, LU<T, Dyn, Dyn>) {
+        let pattern = self.of.elimination.assembly.pattern();
+        let real = <T as From<f64>>::from;
+        let solve = |column: &Vec<f64>| {
+            let range = border.start..border.start + column.len();
+            self.y.fill(real(0.0));
+            let place = self.y[range.clone()].iter_mut().zip(column);
+            place.for_each(|(y, c)| *y = real(*c));
+            self.factors.solve(pattern, &mut self.y);
+            self.y[range].to_vec()
+        };
+        let solutions: Vec<Vec<T>> = border.columns.iter().map(solve).collect();
+        let m = solutions.len();
+        let rest = DMatrix::from_fn(m, m, |i, j| {
+            let corner = f64::from(u8::from(i == j && i < border.products));
+            -(real(corner) + product(&border.rows[i], &solutions[j]))
+        });
+        (solutions, rest.lu())
+    }
+
+    /// Solves in place over the free coordinates, among motions that keep the constraints. False where that is
+    /// singular.
+    fn solve_free(&mut self, y: &mut [T]) -> bool {
+        let pattern = self.of.elimination.assembly.pattern();
+        self.factors.solve(pattern, y);
+        for (border, (solutions, rest)) in self.of.borders.iter().zip(&self.borders) {
+            let Some(n) = border.rows.first().map(Vec::len) else {
+                continue;
+            };
+            let y = &mut y[border.start..border.start + n];
+            let mut nu = DVector::from_iterator(
+                border.rows.len(),
+                border.rows.iter().map(|row| -product(row, y)),
+            );
+            if !rest.solve_mut(&mut nu) {
+                return false;
+            }
+            for (nu, solution) in nu.iter().zip(solutions) {
+                let pairs = y.iter_mut().zip(solution);
+                pairs.for_each(|(y, s)| *y = *y - *nu * *s);
+            }
+        }
+        true
+    }
+}
+
+impl Shifted<'_, f64> {
+    /// Solves in place, in the coordinates `q`. False where that is singular.
+    pub fn solve(&mut self, q: &mut [f64]) -> bool {
+        let elimination = self.of.elimination;
+        elimination.forces(q);
+        let solved = self.solve_free(q);
+        elimination.coordinates_of(q);
+        solved
+    }
+}
+
+impl Shifted<'_, Complex<f64>> {
+    /// Numbers of size 1 whose product is that of the determinant but for a sign that is the same for all shifts.
+    /// Each changes slowly with the shift, which the product of very many need not.
+    pub fn phases(&self) -> Vec<Complex<f64>> {
+        let phase = |is_odd: bool, pivots: &mut dyn Iterator<Item = Complex<f64>>| {
+            let start = Complex::new(if is_odd { -1.0 } else { 1.0 }, 0.0);
+            pivots.fold(start, |phase, pivot| phase * pivot.unscale(pivot.norm()))
+        };
+        let blocks = self.factors.blocks(self.of.elimination.assembly.pattern());
+        let mut phases: Vec<_> = (blocks)
+            .map(|(pivots, is_odd)| phase(is_odd, &mut pivots.iter().copied()))
+            .collect();
+        phases.extend(self.borders.iter().map(|(_, rest)| {
+            let is_odd = rest.p().determinant::<f64>() < 0.0;
+            phase(is_odd, &mut rest.u().diagonal().iter().copied())
+        }));
+        phases
+    }
+}
+
+fn product<T: sparse::Number>(a: &[f64], b: &[T]) -> T {
+    let pairs = a.iter().zip(b);
+    pairs.fold(T::from(0.0), |sum, (a, b)| sum + T::from(*a) * *b)
+}
