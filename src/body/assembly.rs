@@ -242,7 +242,10 @@ impl<const B: usize> Assembly<B> {
                 for (i, row) in block.iter().enumerate() {
                     let left = self.weight(a, i, r);
                     if left != 0.0 {
-                        let sum = row.iter().enumerate().map(|(j, k)| k * self.weight(b, j, c));
+                        let sum = row
+                            .iter()
+                            .enumerate()
+                            .map(|(j, k)| k * self.weight(b, j, c));
                         value += left * sum.sum::<f64>();
                     }
                 }
@@ -276,7 +279,10 @@ impl<const B: usize> Assembly<B> {
                 for (i, row) in block.iter().enumerate() {
                     let left = self.weight(a, i, r);
                     if left != 0.0 {
-                        let sum = row.iter().enumerate().map(|(j, k)| k * self.weight(b, j, c));
+                        let sum = row
+                            .iter()
+                            .enumerate()
+                            .map(|(j, k)| k * self.weight(b, j, c));
                         value += left * sum.sum::<f64>();
                     }
                 }

@@ -163,7 +163,7 @@ impl Causality {
             Source::Parameter(_) => Self::Parameter,
             Source::Input(..) => Self::Input,
             Source::Output(_) => Self::Output,
-            Source::NaturalFrequency(_) => Self::CalculatedParameter,
+            Source::NaturalFrequency(_) | Source::Eigenvalue(..) => Self::CalculatedParameter,
         }
     }
 

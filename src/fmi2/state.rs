@@ -11,14 +11,14 @@ use sha2::{Digest, Sha256};
 
 use super::lifecycle;
 use super::status::Fault;
-use crate::simulation::Snapshot;
+use crate::simulation::{Snapshot, Spectra};
 use crate::system::State;
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
 const VERSION: u32 = 3;
 const GUID_BYTES: usize = 38;
 const HASH_BYTES: usize = 32;
-const ARRAYS: usize = 8;
+const ARRAYS: usize = 9;
 /// Numbers of every motion that inputs drive.
 const DRIVEN: usize = 5;
 /// Magic, version, GUID, two bytes, six numbers, lengths of the arrays and the scene.
@@ -141,6 +141,7 @@ impl SavedState {
         let [
             values,
             frequencies,
+            eigenvalues,
             coordinates,
             rates,
             angles,
@@ -150,8 +151,10 @@ impl SavedState {
         ] = arrays;
         let (driven, rest) = driven.as_chunks::<DRIVEN>();
         let (slopes, none) = slopes.as_chunks();
-        if !rest.is_empty() || !none.is_empty() {
-            return Err(refused("holds a part of a driven motion or of an input"));
+        let (eigenvalues, half) = eigenvalues.as_chunks();
+        if !rest.is_empty() || !none.is_empty() || !half.is_empty() {
+            let parts = "holds a part of a driven motion, of an input or of an eigenvalue";
+            return Err(refused(parts));
         }
         let state = State {
             time,
@@ -175,7 +178,10 @@ impl SavedState {
                 started,
                 moving: flags & MOVING != 0,
                 slopes: slopes.to_vec(),
-                frequencies,
+                spectra: Spectra {
+                    frequencies,
+                    eigenvalues: eigenvalues.to_vec(),
+                },
                 state,
             },
         })
@@ -185,13 +191,14 @@ impl SavedState {
         let Snapshot {
             values,
             slopes,
-            frequencies,
+            spectra,
             state,
             ..
         } = &self.snapshot;
         [
             values,
-            frequencies,
+            &spectra.frequencies,
+            spectra.eigenvalues.as_flattened(),
             &state.coordinates,
             &state.rates,
             &state.angles,
@@ -300,7 +307,10 @@ mod tests {
                 started: true,
                 moving: true,
                 slopes: vec![[0.1, -0.2]],
-                frequencies: vec![],
+                spectra: Spectra {
+                    frequencies: vec![2.0],
+                    eigenvalues: vec![[0.1, 3.0]],
+                },
                 state: State {
                     time: 0.25,
                     step: 1e-3,

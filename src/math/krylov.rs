@@ -153,7 +153,10 @@ impl Krylov {
         }
         let whole = (&matrix + matrix.transpose()) * 0.5;
         let eigen = whole.try_symmetric_eigen(f64::EPSILON, 100 * matrix.nrows())?;
-        let pairs = eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter());
+        let pairs = eigen
+            .eigenvalues
+            .iter()
+            .zip(eigen.eigenvectors.column_iter());
         let ritz = pairs.map(|(value, vector)| Ritz {
             value: Complex::new(*value, 0.0),
             residual: self.residual(|i| vector[i].abs()),
@@ -183,7 +186,9 @@ impl Krylov {
     /// Bound of the residual of a vector with entries of this size.
     fn residual(&self, size: impl Fn(usize) -> f64) -> f64 {
         let parts = self.left.iter();
-        parts.map(|(column, _, left)| norm(left) * size(*column)).sum()
+        parts
+            .map(|(column, _, left)| norm(left) * size(*column))
+            .sum()
     }
 }
 
@@ -196,9 +201,7 @@ fn eigenvector(matrix: &DMatrix<Complex<f64>>, value: Complex<f64>, size: f64) -
         shifted[(k, k)] -= shift;
     }
     let factors = shifted.lu();
-    let mut vector = nalgebra::DVector::from_fn(n, |k, _| {
-        Complex::new(1.0, 0.1 * (k % 7) as f64)
-    });
+    let mut vector = nalgebra::DVector::from_fn(n, |k, _| Complex::new(1.0, 0.1 * (k % 7) as f64));
     for _ in 0..3 {
         if !factors.solve_mut(&mut vector) {
             break;
@@ -225,4 +228,64 @@ fn unit(mut vector: Vec<f64>, least: f64) -> Option<Vec<f64>> {
 
 fn subtract(factor: f64, a: &[f64], b: &mut [f64]) {
     b.iter_mut().zip(a).for_each(|(b, a)| *b -= factor * a);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Eigenvalues `(n - i)^3 / n^3`, each twice if wanted.
+    fn diagonal(twice: bool) -> impl FnMut(&mut [f64]) {
+        move |x: &mut [f64]| {
+            let n = x.len();
+            for (i, x) in x.iter_mut().enumerate() {
+                let i = if twice { i / 2 * 2 } else { i };
+                *x *= ((n - i) as f64 / n as f64).powi(9);
+            }
+        }
+    }
+
+    #[test]
+    fn finds_the_largest_and_their_copies() {
+        let exact = |i: usize| ((200 - i) as f64 / 200.0).powi(9);
+        for twice in [false, true] {
+            let mut krylov = Krylov::new(200);
+            krylov.extend(60, diagonal(twice));
+            if twice {
+                let once = krylov.symmetric().expect("values");
+                assert!((once[1].value.re - exact(2)).abs() < 1e-8);
+                krylov.start();
+                krylov.extend(120, diagonal(twice));
+            }
+            for found in [krylov.symmetric(), krylov.general()] {
+                let found = found.expect("values");
+                for (i, ritz) in found.iter().take(4).enumerate() {
+                    let exact = exact(if twice { i / 2 * 2 } else { i });
+                    assert!(
+                        (ritz.value.re - exact).abs() < 1e-9 + ritz.residual,
+                        "{found:?}"
+                    );
+                    assert!(ritz.residual < 1e-6, "{found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn knows_when_it_has_seen_everything() {
+        // A rotation of a plane, three times its size, in a space of five.
+        let turn = |x: &mut [f64]| {
+            let [a, b] = [x[0], x[1]];
+            x.fill(0.0);
+            (x[0], x[1]) = (-3.0 * b, 3.0 * a);
+        };
+        let mut krylov = Krylov::new(5);
+        assert!(!krylov.extend(10, turn));
+        assert_eq!(krylov.size(), 2);
+        let found = krylov.general().expect("values");
+        assert_eq!(found.len(), 1);
+        assert!((found[0].value - Complex::new(0.0, 3.0)).norm() < 1e-14);
+        krylov.start();
+        assert!(!krylov.extend(10, |x| x.fill(f64::NAN)));
+    }
 }

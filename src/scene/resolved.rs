@@ -362,6 +362,8 @@ pub enum Output<'a> {
     Residual,
     /// Natural frequencies: how many, and the body whose name theirs begin with.
     NaturalFrequency(Option<&'a str>, u32),
+    /// Eigenvalues, likewise.
+    Eigenvalue(Option<&'a str>, u32),
 }
 
 /// A port.

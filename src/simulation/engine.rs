@@ -3,14 +3,14 @@
 use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
-use super::{Error, Quantity, Report, Source, StepFailure, Variable, method};
+use super::{Error, Quantity, Report, Source, Spectra, StepFailure, Variable, method};
 use crate::body::Node;
 use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
 use crate::math::jet::{Jet, part};
 use crate::scene::{Assembled, Holder, InitialState, Resolved};
 use crate::system::{
-    Derivatives, Evaluation, Gap, Model, NotAssembled, State, System, Work, equilibrium, moved,
-    natural_frequencies,
+    Derivatives, Evaluation, Gap, Model, NotAssembled, SpectrumError, State, System, Work,
+    eigenvalues, equilibrium, moved, natural_frequencies,
 };
 
 /// What the derivatives at hand are by.
@@ -47,8 +47,8 @@ pub(super) struct Engine {
     derivatives: Option<Box<Derivatives>>,
     derived: Derived,
     watch: Watch,
-    /// Number of natural frequencies wanted.
-    frequencies: usize,
+    /// Numbers of natural frequencies and of eigenvalues wanted.
+    wanted: [usize; 2],
     /// Whether inputs that jump do work on springs.
     sets_springs: bool,
     /// The state at time 0 under these inputs, until it has been asked for.
@@ -105,12 +105,6 @@ impl Engine {
         let assembled = resolved.assemble()?;
         let system = &assembled.system;
         let (mut work, mut evaluation) = (Work::new(system), Evaluation::new(system));
-        let frequencies = variables
-            .iter()
-            .filter_map(|variable| match variable.source {
-                Source::NaturalFrequency(number) => Some(number + 1),
-                _ => None,
-            });
         // From nothing but the scene, so that a restored state goes on with the same method.
         let inputs = start_inputs(variables);
         let described = (&assembled.nodes[..], &assembled.rates[..]);
@@ -142,7 +136,7 @@ impl Engine {
             watch,
             derivatives: None,
             derived: Derived::Nothing,
-            frequencies: frequencies.max().unwrap_or(0),
+            wanted: Spectra::wanted(variables),
             sets_springs: sets_springs(resolved),
             start: state.ok().map(|state| (inputs, state)),
             evaluation,
@@ -153,12 +147,12 @@ impl Engine {
         })
     }
 
-    /// The state to start from and the natural frequencies about it.
+    /// The state to start from, natural frequencies and eigenvalues about it.
     pub(super) fn initial_state(
         &mut self,
         time: f64,
         inputs: &[f64],
-    ) -> Result<(State, Vec<f64>), Error> {
+    ) -> Result<(State, Spectra), Error> {
         let Assembled {
             system,
             nodes,
@@ -196,16 +190,37 @@ impl Engine {
         if !misfits.is_empty() {
             self.remarks.misfits = Some(self.gaps(&misfits));
         }
-        let count = self.frequencies;
-        let frequencies = match count {
-            0 => Vec::new(),
-            _ => natural_frequencies(system, inputs, &mut self.work, &state, count)
-                .map_err(|e| Error::Spectrum(format!("{e:?}")))?,
-        };
+        let spectra = self.spectra(inputs, &state)?;
         self.forget();
         state.work[0] -= self.set_energy(&state, inputs);
         self.forget();
-        Ok((state, frequencies))
+        Ok((state, spectra))
+    }
+
+    fn spectra(&mut self, inputs: &[f64], state: &State) -> Result<Spectra, Error> {
+        let ([natural, damped], mut spectra) = (self.wanted, Spectra::default());
+        let (system, work) = (&self.assembled.system, &mut self.work);
+        let refused = |kind: &str, error: SpectrumError| {
+            let message = match error {
+                SpectrumError::NotConservative(body) => format!(
+                    "expected forces with a potential, found one that follows {:?}; \"eigenvalue\" takes it",
+                    self.bodies[body]
+                ),
+                other => other.to_string(),
+            };
+            Error::Spectrum(format!("{kind}: {message}"))
+        };
+        if natural > 0 {
+            let found = natural_frequencies(system, inputs, work, state, natural);
+            spectra.frequencies = found.map_err(|error| refused("natural_frequency", error))?;
+        }
+        if damped > 0 {
+            let found = eigenvalues(system, inputs, work, state, damped);
+            let found = found.map_err(|error| refused("eigenvalue", error))?;
+            let parts = found.iter().map(|s| [s.decay_rate, s.frequency]);
+            spectra.eigenvalues = parts.collect();
+        }
+        Ok(spectra)
     }
 
     /// What a person should know about the initial state.

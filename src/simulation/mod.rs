@@ -14,7 +14,7 @@ mod variables;
 mod watch;
 
 pub use signals::{SignalError, Signals};
-pub use snapshot::Snapshot;
+pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Parameter, Quantity, Source, Unit, Variable, variables};
 
 use crate::scene::{Error as SceneError, Scene};
@@ -37,7 +37,7 @@ pub enum Error {
     /// No steady motion.
     #[error("initial: {0}")]
     Steady(#[from] crate::system::NotSteady),
-    /// No spectrum, or not as much of it.
+    /// No natural frequencies or eigenvalues, or not so many.
     #[error("outputs: {0}")]
     Spectrum(String),
     /// A variable was asked for something that it is not, or set to something it cannot be.
@@ -88,7 +88,7 @@ pub struct Simulation {
     direction: Vec<f64>,
     engine: Option<Engine>,
     state: State,
-    frequencies: Vec<f64>,
+    spectra: Spectra,
     /// Initialization has ended: parameters are fixed.
     started: bool,
     /// The initial state belongs to the current parameters and inputs.
@@ -127,7 +127,7 @@ impl Simulation {
             values,
             engine: None,
             state: State::default(),
-            frequencies: Vec::new(),
+            spectra: Spectra::default(),
             started: false,
             current: false,
             report: Report {
@@ -243,7 +243,11 @@ impl Simulation {
             Source::Parameter(_) | Source::Input(..) => Ok(self.values[index]),
             Source::NaturalFrequency(number) => {
                 self.refresh()?;
-                Ok(self.frequencies.get(number).copied().unwrap_or(0.0))
+                Ok(self.spectra.frequencies[number])
+            }
+            Source::Eigenvalue(number, part) => {
+                self.refresh()?;
+                Ok(self.spectra.eigenvalues[number][part])
             }
             Source::Output(quantity) => {
                 self.refresh()?;
@@ -275,8 +279,8 @@ impl Simulation {
     pub fn initialize(&mut self, start_time: f64) -> Result<(), Error> {
         let scene = self.parametrized();
         let mut engine = Engine::new(&scene.resolve()?, &self.variables)?;
-        let (state, frequencies) = engine.initial_state(start_time, &self.inputs.values)?;
-        (self.engine, self.state, self.frequencies) = (Some(engine), state, frequencies);
+        let (state, spectra) = engine.initial_state(start_time, &self.inputs.values)?;
+        (self.engine, self.state, self.spectra) = (Some(engine), state, spectra);
         self.current = true;
         Ok(())
     }

@@ -18,10 +18,34 @@ pub struct Snapshot {
     pub moving: bool,
     /// First and second derivatives of the inputs, in the order of the system.
     pub slopes: Vec<[f64; 2]>,
-    /// Natural frequencies about the initial configuration, rad/s.
-    pub frequencies: Vec<f64>,
+    /// Natural frequencies and eigenvalues about the initial state.
+    pub spectra: Spectra,
     /// State of the system.
     pub state: State,
+}
+
+/// What is computed once, about the initial state; nothing before that.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Spectra {
+    /// Natural frequencies, rad/s.
+    pub frequencies: Vec<f64>,
+    /// Decay rates, 1/s, and frequencies, rad/s, of eigenvalues.
+    pub eigenvalues: Vec<[f64; 2]>,
+}
+
+impl Spectra {
+    /// Numbers of natural frequencies and of eigenvalues among variables.
+    pub(super) fn wanted(variables: &[Variable]) -> [usize; 2] {
+        variables
+            .iter()
+            .fold([0, 0], |[natural, damped], variable| {
+                match variable.source {
+                    Source::NaturalFrequency(number) => [natural.max(number + 1), damped],
+                    Source::Eigenvalue(number, _) => [natural, damped.max(number + 1)],
+                    _ => [natural, damped],
+                }
+            })
+    }
 }
 
 impl Simulation {
@@ -33,7 +57,7 @@ impl Simulation {
             started: self.started,
             moving: self.inputs.moving,
             slopes: self.inputs.slopes.clone(),
-            frequencies: self.frequencies.clone(),
+            spectra: self.spectra.clone(),
             state: self.state.clone(),
         }
     }
@@ -47,7 +71,8 @@ impl Simulation {
         let state = &snapshot.state;
         let numbers = [
             &snapshot.values,
-            &snapshot.frequencies,
+            &snapshot.spectra.frequencies,
+            snapshot.spectra.eigenvalues.as_flattened(),
             &state.coordinates,
             &state.rates,
             &state.angles,
@@ -72,6 +97,14 @@ impl Simulation {
             let message = format!("expected {expected}, found {found}");
             return Err(Error::Snapshot(message));
         }
+        let spectra = &snapshot.spectra;
+        let found = [spectra.frequencies.len(), spectra.eigenvalues.len()];
+        let wanted = Spectra::wanted(&self.variables);
+        if found != wanted && (snapshot.initialized || found != [0, 0]) {
+            let words = |[a, b]: [usize; 2]| format!("{a} natural frequencies, {b} eigenvalues");
+            let message = format!("expected {}, found {}", words(wanted), words(found));
+            return Err(Error::Snapshot(message));
+        }
         let before = std::mem::replace(&mut self.values, snapshot.values.clone());
         match self.engine_for(snapshot, &before) {
             Ok(rebuilt) => {
@@ -88,7 +121,7 @@ impl Simulation {
         self.inputs.slopes.clone_from(&snapshot.slopes);
         self.inputs.moving = snapshot.moving;
         self.state.clone_from(&snapshot.state);
-        self.frequencies.clone_from(&snapshot.frequencies);
+        self.spectra.clone_from(&snapshot.spectra);
         self.started = snapshot.started;
         self.current = snapshot.initialized;
         if let Some(engine) = &mut self.engine {

@@ -207,6 +207,54 @@ fn another_instance_goes_on_bit_for_bit() {
     broken.state.work[1] = f64::NAN;
     let error = second.restore(&broken).expect_err("no finite numbers");
     assert!(error.to_string().contains("finite"));
+    broken.state.work[1] = 0.0;
+    broken.spectra.frequencies.push(1.0);
+    let error = second
+        .restore(&broken)
+        .expect_err("a spectrum of another scene");
+    let words = "expected 0 natural frequencies, 0 eigenvalues, found 1 natural frequencies";
+    assert!(error.to_string().contains(words), "{error}");
+}
+
+/// What cannot be met is an error that says what can be.
+#[test]
+fn spectra_that_there_are_not_are_refused() {
+    let rotor = |outputs: &str, spin: &str| {
+        simulation(&format!(
+            r#""gravity": [0.0, 0.0], "bodies": [
+                 {{ "name": "rope", "element": "cable", "elements": 2,
+                   "material": {{ "youngs_modulus": 1.0e6, "density": 1000.0 }},
+                   "section": {{ "area": 1.0e-3, "second_moment": 1.0e-8 }},
+                   "shape": {{ "line": {{ "from": [0.0, 0.0], "to": [1.0, 0.0] }} }},{spin}
+                   "markers": {{ "a": 0.0, "b": 1.0 }} }} ],
+               "loads": [ {{ "name": "jet", "kind": "force", "marker": "rope.b", "follower": true,
+                            "value": [-1.0, 0.0] }} ],
+               "outputs": [ {outputs} ]"#
+        ))
+    };
+    let refused = |outputs: &str, spin: &str, words: &str| {
+        let error = rotor(outputs, spin).start().expect_err(words).to_string();
+        assert!(error.contains(words), "{error}");
+    };
+    let eigenvalue = |count: usize| format!(r#"{{ "kind": "eigenvalue", "count": {count} }}"#);
+    refused(
+        &eigenvalue(90),
+        "",
+        "outputs: eigenvalue: expected no more than the ",
+    );
+    let natural = r#"{ "kind": "natural_frequency", "count": 2 }"#;
+    refused(
+        natural,
+        "",
+        r#"natural_frequency: expected forces with a potential, found one that follows "rope""#,
+    );
+    let spin = r#" "motion": { "spin": 2.0 },"#;
+    refused(
+        &eigenvalue(3),
+        spin,
+        "that do not turn as a whole, found 2 rad/s",
+    );
+    rotor(&eigenvalue(3), "").start().expect("a spectrum");
 }
 
 #[test]

@@ -38,8 +38,8 @@ const POINTS: usize = 2000;
 pub(super) enum NotFound {
     /// Numbers that are not finite.
     NotFinite,
-    /// So many were wanted, so many are certain.
-    Only(usize, usize),
+    /// Not all of so many.
+    Missing(usize),
 }
 
 /// Lowest eigenvalues of the symmetric `K`, which is assembled in `work` as well, ascending; so many or more.
@@ -51,7 +51,7 @@ pub(super) fn lowest(
 ) -> Result<Vec<f64>, NotFound> {
     let modes = linear.modes();
     let scale = scale(system, work, count)?;
-    let missing = NotFound::Only(count, 0);
+    let missing = NotFound::Missing(count);
     let mut shift = -0.1 * scale;
     let is_below = |shift: f64, work: &mut Work| below(system, work, shift) == Some(0);
     for _ in 0..2 * DECADES {
@@ -62,18 +62,27 @@ pub(super) fn lowest(
     }
     let elimination = &system.elimination;
     let mut krylov = Krylov::new(system.coordinates());
-    while krylov.size() <= TIMES * count + BASIS {
+    for _ in 0..TIMES * count + BASIS {
         if !is_below(shift, work) {
             return Err(missing);
         }
-        let steps = if krylov.size() == 0 { 2 * count + STEPS } else { STEPS };
+        let steps = if krylov.size() == 0 {
+            2 * count + STEPS
+        } else {
+            STEPS
+        };
         let more = krylov.extend(steps, |x| work.tangent.solve(elimination, x));
+        if !more {
+            krylov.start();
+        }
+        if krylov.size() > TIMES * count + BASIS {
+            return Err(missing);
+        }
         let ritz = krylov.symmetric().ok_or(NotFound::NotFinite)?;
-        let found: Vec<f64> = certain(&ritz).map(|ritz| shift + 1.0 / ritz.value.re).collect();
+        let found: Vec<f64> = certain(&ritz)
+            .map(|ritz| shift + 1.0 / ritz.value.re)
+            .collect();
         if found.len() < count {
-            if !more {
-                krylov.start();
-            }
             continue;
         }
         let distance = |k: f64| k - shift;
@@ -105,7 +114,10 @@ fn refined(linear: &Linearization<'_>, krylov: &Krylov) -> Result<Vec<f64>, NotF
         }
         let mut vector = vec![0.0; basis[0].len()];
         for (column, factor) in basis.iter().zip(eigen.eigenvectors.column(i).iter()) {
-            vector.iter_mut().zip(column).for_each(|(x, c)| *x += factor * c);
+            vector
+                .iter_mut()
+                .zip(column)
+                .for_each(|(x, c)| *x += factor * c);
         }
         if value.abs() > ROUNDOFF * (linear.size(&vector) + largest) {
             return value;
@@ -130,7 +142,8 @@ fn split(
     modes: usize,
     distance: impl Fn(f64) -> f64,
 ) -> Option<(f64, usize)> {
-    let is_apart = |i: usize| distance(found[i]) - distance(found[i - 1]) > APART * distance(found[i]);
+    let is_apart =
+        |i: usize| distance(found[i]) - distance(found[i - 1]) > APART * distance(found[i]);
     let between = |i: usize| (0.5 * (found[i] + found[i - 1]), i);
     if found.len() == modes {
         let last = found[modes - 1];
@@ -140,8 +153,16 @@ fn split(
         return Some(between(i));
     }
     // All further copies would be the same: enough of them are there.
-    let enough = found.len() > count + STEPS;
-    (1..count).rev().filter(|_| enough).find(|i| is_apart(*i)).map(between)
+    if found.len() <= count + STEPS {
+        return None;
+    }
+    let none = (found[0] - APART * distance(found[0]), 0);
+    Some(
+        (1..count)
+            .rev()
+            .find(|i| is_apart(*i))
+            .map_or(none, between),
+    )
 }
 
 /// Number of eigenvalues of `K` below; the shift gives way where it is one of them.
@@ -182,12 +203,15 @@ pub(super) fn slowest_conservative(
     count: usize,
 ) -> Result<Vec<Complex<f64>>, NotFound> {
     // Unstable modes come first, however fast they are.
-    let unstable = below(system, work, 0.0).ok_or(NotFound::Only(count, 0))?;
+    let unstable = below(system, work, 0.0).ok_or(NotFound::Missing(count))?;
     let wanted = linear.modes().min(count + unstable);
     let mut squares = lowest(system, work, linear, wanted)?;
     squares.truncate(wanted);
     squares.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    Ok(roots(squares.into_iter().map(|k| Complex::new(k, 0.0)), 0.0))
+    Ok(roots(
+        squares.into_iter().map(|k| Complex::new(k, 0.0)),
+        0.0,
+    ))
 }
 
 /// Slowest eigenvalues `s` of `s^2 I + s R + K`, so many or more, of a pair the one with the positive imaginary part.
@@ -197,11 +221,14 @@ pub(super) fn slowest(
     linear: &Linearization<'_>,
     count: usize,
 ) -> Result<Vec<Complex<f64>>, NotFound> {
-    let missing = NotFound::Only(count, 0);
+    let missing = NotFound::Missing(count);
     let rate = scale(system, work, count.min(linear.modes()))?.sqrt();
     let shift = 0.3 * rate;
     let mut shifted = linear.shifted(shift).ok_or(missing)?;
-    let (n, m) = (linear.elimination.coordinates(), linear.elimination.scratch());
+    let (n, m) = (
+        linear.elimination.coordinates(),
+        linear.elimination.scratch(),
+    );
     let (mut y, mut product) = (vec![0.0; m], vec![0.0; m]);
     let mut damped = vec![0.0; n];
     // Displacements, then velocities over `rate`: x = -(s^2 I + s R + K)^-1 (b + R a + s a), v = a + s x.
@@ -223,9 +250,19 @@ pub(super) fn slowest(
         }
     };
     let mut krylov = Krylov::new(2 * n);
-    while krylov.size() <= 2 * TIMES * count + BASIS {
-        let steps = if krylov.size() == 0 { 4 * count + 2 * STEPS } else { 2 * STEPS };
+    for _ in 0..TIMES * count + BASIS {
+        let steps = if krylov.size() == 0 {
+            4 * count + 2 * STEPS
+        } else {
+            2 * STEPS
+        };
         let more = krylov.extend(steps, &mut apply);
+        if !more {
+            krylov.start();
+        }
+        if krylov.size() > 2 * TIMES * count + BASIS {
+            return Err(missing);
+        }
         let ritz = krylov.general().ok_or(NotFound::NotFinite)?;
         let mut found: Vec<Complex<f64>> = certain(&ritz)
             .map(|ritz| shift + ritz.value.inv())
@@ -233,12 +270,11 @@ pub(super) fn slowest(
             .collect();
         sort(&mut found);
         // Of these the ones that no unfound one can be slower than.
-        let reach = ritz.get(found.len()).map_or(f64::INFINITY, |ritz| ritz.value.inv().norm());
+        let reach = ritz
+            .get(found.len())
+            .map_or(f64::INFINITY, |ritz| ritz.value.inv().norm());
         found.retain(|s| s.norm() + shift < reach || reach.is_infinite());
         if found.len() <= count {
-            if !more {
-                krylov.start();
-            }
             continue;
         }
         let sizes: Vec<f64> = found.iter().map(|s| s.norm()).collect();
@@ -277,13 +313,18 @@ fn improved(
     let Ok(mut better) = quadratic(&stiffness, &damping) else {
         return found;
     };
+    let mut zeros = 0;
     for s in &mut found {
         let away = |i: &usize| (better[*i] - *s).norm();
         let nearest = (0..better.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
         if let Some(nearest) = nearest {
-            *s = better.swap_remove(nearest);
+            let value = better.swap_remove(nearest);
+            // A pair that is nothing but roundoff is 0 twice.
+            zeros += usize::from(s.im > 0.0 && value.norm() == 0.0);
+            *s = value;
         }
     }
+    found.extend(vec![Complex::new(0.0, 0.0); zeros]);
     found
 }
 
@@ -302,7 +343,10 @@ fn inside(linear: &Linearization<'_>, radius: f64, expected: usize) -> Option<us
         let end = PI * part as f64 / parts as f64;
         let mut ahead = vec![(end, phases(end)?)];
         while let Some((angle, values)) = ahead.pop() {
-            let changes = values.iter().zip(&last.1).map(|(a, b)| (a * b.conj()).arg());
+            let changes = values
+                .iter()
+                .zip(&last.1)
+                .map(|(a, b)| (a * b.conj()).arg());
             let (sum, largest) = changes.fold((0.0, 0.0_f64), |(sum, largest), change| {
                 (sum + change, largest.max(change.abs()))
             });

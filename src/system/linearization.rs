@@ -13,8 +13,8 @@
 
 use nalgebra::{DMatrix, SMatrix};
 
-use super::joints::{Constraint, ConstraintKind, View};
 use super::end::End;
+use super::joints::{Constraint, ConstraintKind, View};
 use super::loads::Instant;
 use super::{System, Work};
 use crate::body::{Assembly, Elimination, Node, NodeBlock};
@@ -133,7 +133,8 @@ impl Blocks {
         for (i, row) in self.nodes.iter().enumerate() {
             for (j, column) in self.nodes.iter().enumerate() {
                 let entry = |r: usize, c: usize| self.whole[(4 * i + r, 4 * j + c)];
-                let block: NodeBlock<4> = std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c)));
+                let block: NodeBlock<4> =
+                    std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c)));
                 assembly.add_block((*row, *column), &block, matrix, elsewhere);
             }
         }
@@ -143,7 +144,12 @@ impl Blocks {
 impl System {
     /// The equations linearized at the configuration in `work`, at which an acceleration has been computed
     /// if there are constraints. `at_rest` takes all rates as zero and leaves dampers out.
-    pub(super) fn linearization(&self, time: f64, work: &mut Work, at_rest: bool) -> Linearization<'_> {
+    pub(super) fn linearization(
+        &self,
+        time: f64,
+        work: &mut Work,
+        at_rest: bool,
+    ) -> Linearization<'_> {
         let pattern = self.elimination.assembly.pattern();
         if at_rest {
             work.v.fill([0.0; 4]);
@@ -177,7 +183,11 @@ impl System {
         made.others = [made.stiffness.clone(), made.damping.clone()];
         self.linearize_chains(work, at_rest, &mut probe, &mut made);
         for (index, elsewhere) in elsewhere.iter().enumerate() {
-            let turning = if at_rest { None } else { self.turning_rows(work, index) };
+            let turning = if at_rest {
+                None
+            } else {
+                self.turning_rows(work, index)
+            };
             made.borders[index] = self.border(work, index, (elsewhere, turning), &mut made);
         }
         made
@@ -204,7 +214,9 @@ impl System {
                         let force: Nodal<2, Jet> =
                             element.force(&chain.element(j, x), &chain.element(j, v));
                         let f = f[nodes[0]..=nodes[1]].as_flattened_mut();
-                        f.iter_mut().zip(force.as_slice()).for_each(|(sum, f)| *sum += *f);
+                        f.iter_mut()
+                            .zip(force.as_slice())
+                            .for_each(|(sum, f)| *sum += *f);
                     };
                     let whole = probe.differentiate(&nodes, false, &force).whole;
                     SMatrix::from_fn(|r, c| whole[(r, c)])
@@ -212,7 +224,10 @@ impl System {
                     whole(&element.stiffness(&e, &Nodal::zeros()))
                 };
                 let damping = is_damped.then(|| whole(&element.damping(&e)));
-                let places = [(Some(stiffness), &mut made.stiffness), (damping, &mut made.damping)];
+                let places = [
+                    (Some(stiffness), &mut made.stiffness),
+                    (damping, &mut made.damping),
+                ];
                 for (matrix, place) in places {
                     for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                         let Some(matrix) = &matrix else { continue };
@@ -289,7 +304,8 @@ impl System {
         }
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
-        made.stiffness.add_symmetric(-rate * rate, &self.elimination.mass);
+        made.stiffness
+            .add_symmetric(-rate * rate, &self.elimination.mass);
         let turned = |x: [f64; 4]| [-x[1], x[0], -x[3], x[2]];
         let mut add = |nodes: &[usize], mass: &dyn Fn([f64; 4], usize, usize) -> [f64; 4]| {
             for a in nodes {
@@ -346,7 +362,11 @@ impl System {
         if let ConstraintKind::Along(along) = &constraint.kind {
             let chain = &self.chains[along.chain];
             let (element, _) = chain.find(work.travel[along.slide]);
-            nodes = chain.nodes(element).into_iter().chain(along.end.nodes()).collect();
+            nodes = chain
+                .nodes(element)
+                .into_iter()
+                .chain(along.end.nodes())
+                .collect();
         }
         let force = |x: &Nodes, v: &Nodes, f: &mut Nodes| {
             let mut travel: Vec<Jet> = work.travel.iter().map(lift).collect();
@@ -379,10 +399,17 @@ impl System {
             return None;
         }
         let pairs = work.x.iter().zip(&work.v);
-        let moving = |(x, v): (&Node<4>, &Node<4>)| std::array::from_fn(|i| Jet::new(x[i], v[i], 0.0));
+        let moving =
+            |(x, v): (&Node<4>, &Node<4>)| std::array::from_fn(|i| Jet::new(x[i], v[i], 0.0));
         let x: Vec<Node<4, Jet>> = pairs.map(moving).collect();
         let v: Vec<Node<4, Jet>> = work.v.iter().map(|v| v.map(Jet::from_re)).collect();
-        let lift = |[p, v, a]: &[f64; 3]| [Jet::new(*p, *v, 0.0), Jet::new(*v, *a, 0.0), Jet::from_re(*a)];
+        let lift = |[p, v, a]: &[f64; 3]| {
+            [
+                Jet::new(*p, *v, 0.0),
+                Jet::new(*v, *a, 0.0),
+                Jet::from_re(*a),
+            ]
+        };
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(lift).collect();
         let mut travel: Vec<Jet> = work.travel.iter().map(|s| Jet::from_re(*s)).collect();
         self.find_travel(&x, &mut travel);
@@ -400,7 +427,8 @@ impl System {
                 let assembly = &self.elimination.assembly;
                 assembly.gather_node(node, &term.map(|t| t.v1), group.coordinates.start, &mut row);
             });
-            self.elimination.project_component(group.component, &mut row);
+            self.elimination
+                .project_component(group.component, &mut row);
             row
         });
         Some(rows.collect())
@@ -432,17 +460,25 @@ impl System {
             border.columns.push(column);
             border.rows.push(row);
         }
-        let units: Vec<Vec<f64>> = (0..group.rows.rank()).map(|i| group.rows.unit(i).to_vec()).collect();
-        let turning = turning.map(|rows| group.rows.combine(&rows)).unwrap_or_default();
+        let units: Vec<Vec<f64>> = (0..group.rows.rank())
+            .map(|i| group.rows.unit(i).to_vec())
+            .collect();
+        let turning = turning
+            .map(|rows| group.rows.combine(&rows))
+            .unwrap_or_default();
         for (unit, rate) in units.iter().zip(turning) {
             // - (R Q^T + D^T) D
             let mut column = rate;
             elimination.forces_component(group.component, &mut column);
             border.rows.push(column.clone());
-            let (mut q, mut y) = (vec![0.0; elimination.coordinates()], vec![0.0; elimination.scratch()]);
+            let (mut q, mut y) = (
+                vec![0.0; elimination.coordinates()],
+                vec![0.0; elimination.scratch()],
+            );
             q[range.clone()].copy_from_slice(unit);
             elimination.displacements(&q, &mut y);
-            made.damping.multiply(elimination.assembly.pattern(), &y, &mut q);
+            made.damping
+                .multiply(elimination.assembly.pattern(), &y, &mut q);
             let pairs = column.iter_mut().zip(&q[range.clone()]);
             pairs.for_each(|(c, damped)| *c = -(*c + damped));
             border.columns.push(column);

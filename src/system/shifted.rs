@@ -30,7 +30,8 @@ impl<'a> Linearization<'a> {
     /// `R q`, in place; `y` and `product` are scratch as long as the free coordinates.
     pub fn apply_damping(&self, q: &mut [f64], y: &mut [f64], product: &mut [f64]) {
         self.elimination.displacements(q, y);
-        self.damping.multiply(self.elimination.assembly.pattern(), y, product);
+        self.damping
+            .multiply(self.elimination.assembly.pattern(), y, product);
         self.elimination.project(product, q);
     }
 
@@ -58,7 +59,11 @@ impl<'a> Linearization<'a> {
             for (which, matrix) in self.others.iter().enumerate() {
                 matrix.multiply(assembly.pattern(), &y, &mut product);
                 for border in self.borders.iter().filter(|_| which == 0) {
-                    let pairs = border.columns.iter().zip(&border.rows).take(border.products);
+                    let pairs = border
+                        .columns
+                        .iter()
+                        .zip(&border.rows)
+                        .take(border.products);
                     for (column, row) in pairs {
                         let range = border.start..border.start + row.len();
                         let factor = dot(row, &y[range.clone()]);
@@ -75,7 +80,10 @@ impl<'a> Linearization<'a> {
         for element in &self.elements {
             let local: Vec<SVector<f64, 8>> = nodal.iter().map(|x| element.relative(x)).collect();
             let [stiffness, damping] = &mut projected;
-            let matrices = [(Some(&element.stiffness), stiffness), (element.damping.as_ref(), damping)];
+            let matrices = [
+                (Some(&element.stiffness), stiffness),
+                (element.damping.as_ref(), damping),
+            ];
             for (matrix, sum) in matrices {
                 let Some(matrix) = matrix else { continue };
                 for (k, right) in local.iter().enumerate() {
@@ -120,7 +128,9 @@ impl<'a> Linearization<'a> {
                 for (start, unit) in &self.units {
                     let part = &mut row[*start..start + unit.len()];
                     let factor = dot(unit, part);
-                    part.iter_mut().zip(unit).for_each(|(x, u)| *x -= factor * u);
+                    part.iter_mut()
+                        .zip(unit)
+                        .for_each(|(x, u)| *x -= factor * u);
                 }
             }
             // What is nothing but roundoff is no direction.

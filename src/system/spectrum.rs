@@ -26,30 +26,45 @@ pub struct Eigenvalue {
 }
 
 /// Why there is no spectrum.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
     /// More were wanted than there are: wanted, present.
+    #[error("expected no more than the {1} that there are, found a count of {0}")]
     Count(usize, usize),
-    /// The force of this load has no potential: there are no natural frequencies.
+    /// A force that follows a marker of this body has no potential: there are no natural frequencies.
+    #[error("expected forces with a potential, found one that follows body {0}")]
     NotConservative(usize),
+    /// Cables turn as a whole at this rate, rad/s.
+    #[error(
+        "expected cables that do not turn as a whole, found {0} rad/s: describe the scene in a frame that turns \
+         with them (\"rotation\")"
+    )]
+    Turns(f64),
     /// Numbers that are not finite.
+    #[error("expected a linearization of finite numbers, found others")]
     NotFinite,
-    /// The iteration did not find them all: how many were wanted, found for certain.
-    NotConverged(usize, usize),
+    /// The iteration did not find them all: how many were wanted.
+    #[error("expected the {0} slowest for certain, found that the iteration does not converge")]
+    NotConverged(usize),
 }
 
 impl From<NotFound> for SpectrumError {
     fn from(error: NotFound) -> Self {
         match error {
             NotFound::NotFinite => Self::NotFinite,
-            NotFound::Only(wanted, found) => Self::NotConverged(wanted, found),
+            NotFound::Missing(wanted) => Self::NotConverged(wanted),
         }
     }
 }
 
 /// The equations of motion linearized at a state, `x'' + R x' + K x = 0`: an orthonormal basis, in the coordinates `q`,
 /// of the motions that keep the constraints, then `K` and `R` in that basis.
-pub fn linearized(system: &System, inputs: &[f64], work: &mut Work, state: &State) -> [DMatrix<f64>; 3] {
+pub fn linearized(
+    system: &System,
+    inputs: &[f64],
+    work: &mut Work,
+    state: &State,
+) -> [DMatrix<f64>; 3] {
     let linear = at(system, inputs, work, state);
     let [stiffness, damping] = linear.dense();
     [linear.basis(), stiffness, damping]
@@ -81,8 +96,14 @@ pub fn natural_frequencies(
     Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {
-        return Err(SpectrumError::NotConservative(load));
+        let ends = system.loads[load].ends();
+        let body = ends
+            .iter()
+            .find_map(|end| end.marker())
+            .map_or(0, |marker| marker.body);
+        return Err(SpectrumError::NotConservative(body));
     }
+    refuse_turning(system, &linear, state)?;
     let modes = linear.modes();
     if count > modes {
         return Err(SpectrumError::Count(count, modes));
@@ -133,13 +154,17 @@ pub fn eigenvalues(
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
     let linear = at(system, inputs, work, state);
+    refuse_turning(system, &linear, state)?;
     let mut found = if is_small(&linear, count) {
         let [stiffness, damping] = linear.dense();
         if linear.is_damped {
             quadratic(&stiffness, &damping)?
         } else if linear.is_symmetric {
             let squares = symmetric(&stiffness)?;
-            roots(squares.iter().map(|k| Complex::new(*k, 0.0)), noise(&squares))
+            roots(
+                squares.iter().map(|k| Complex::new(*k, 0.0)),
+                noise(&squares),
+            )
         } else {
             let squares = general(&stiffness)?;
             let size = squares.iter().map(|k| k.norm()).collect::<Vec<_>>();
@@ -161,6 +186,47 @@ pub fn eigenvalues(
     Ok(found.iter().take(count).map(eigenvalue).collect())
 }
 
+/// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an
+/// eigenvalue for longer than an instant, and in the frame that turns with them gyroscopic forces act.
+fn refuse_turning(
+    system: &System,
+    linear: &Linearization<'_>,
+    state: &State,
+) -> Result<(), SpectrumError> {
+    let elimination = &system.elimination;
+    let (mut y, mut v) = (
+        vec![0.0; elimination.scratch()],
+        vec![[0.0; 4]; system.reference.len()],
+    );
+    elimination.expand(&state.coordinates, &mut y, &mut v);
+    let mut x = v.clone();
+    for (x, reference) in x.iter_mut().zip(&system.reference) {
+        x.iter_mut().zip(reference).for_each(|(x, r)| *x += r);
+    }
+    elimination.expand(&state.rates, &mut y, &mut v);
+    let rate = |node: usize| {
+        let (x, v) = (
+            Complex::new(x[node][2], x[node][3]),
+            Complex::new(v[node][2], v[node][3]),
+        );
+        v / x
+    };
+    for chain in &system.chains {
+        let first = chain.nodes(0)[0];
+        let turn = rate(first);
+        let alike =
+            |node: usize| (rate(node) - Complex::new(0.0, turn.im)).norm() <= 1e-9 * turn.im.abs();
+        if turn.im == 0.0 || !(first..first + chain.node_count()).all(alike) {
+            continue;
+        }
+        let [stiffness, _] = linear.project(std::slice::from_ref(&state.rates));
+        if stiffness[(0, 0)].abs() <= 1e-9 * linear.size(&state.rates) {
+            return Err(SpectrumError::Turns(turn.im));
+        }
+    }
+    Ok(())
+}
+
 /// Slowest first; of those that are equally fast the one that oscillates slower, then the one that decays faster.
 pub(super) fn sort(found: &mut [Complex<f64>]) {
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
@@ -169,7 +235,10 @@ pub(super) fn sort(found: &mut [Complex<f64>]) {
     let mut first = 0;
     while first < found.len() {
         let size = found[first].norm();
-        let alike = found[first..].iter().take_while(|s| near(s.norm(), size)).count();
+        let alike = found[first..]
+            .iter()
+            .take_while(|s| near(s.norm(), size))
+            .count();
         let order = |a: &Complex<f64>, b: &Complex<f64>| match near(a.im, b.im) {
             true => a.re.total_cmp(&b.re),
             false => a.im.total_cmp(&b.im),
@@ -191,10 +260,7 @@ fn noise(squares: &[f64]) -> f64 {
 }
 
 /// Eigenvalues `s` from those of `K`, `s^2 = -k`; what is below the noise is zero, twice.
-pub(super) fn roots(
-    squares: impl Iterator<Item = Complex<f64>>,
-    noise: f64,
-) -> Vec<Complex<f64>> {
+pub(super) fn roots(squares: impl Iterator<Item = Complex<f64>>, noise: f64) -> Vec<Complex<f64>> {
     let mut found = Vec::new();
     for k in squares.filter(|k| k.im >= 0.0) {
         if k.norm() <= noise {
@@ -217,14 +283,20 @@ fn symmetric(stiffness: &DMatrix<f64>) -> Result<Vec<f64>, SpectrumError> {
     let found = symmetric_eigenvalues(stiffness.nrows(), entry);
     let mut squares = found.ok_or(SpectrumError::NotFinite)?;
     let noise = noise(&squares);
-    squares.iter_mut().filter(|k| k.abs() <= noise).for_each(|k| *k = 0.0);
+    squares
+        .iter_mut()
+        .filter(|k| k.abs() <= noise)
+        .for_each(|k| *k = 0.0);
     Ok(squares)
 }
 
 fn general(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, SpectrumError> {
     let found = dense_eigenvalues(matrix.nrows(), |i, j| matrix[(i, j)]);
     let found = found.ok_or(SpectrumError::NotFinite)?;
-    Ok(found.into_iter().map(|(re, im)| Complex::new(re, im)).collect())
+    Ok(found
+        .into_iter()
+        .map(|(re, im)| Complex::new(re, im))
+        .collect())
 }
 
 /// Eigenvalues of `s^2 I + s R + K`, of a pair the one with the positive imaginary part: those of `[0 C^T; -C -R]`

@@ -23,6 +23,6 @@ mod reactions;
 mod solves;
 mod space;
 mod spatial;
-mod spectra;
 mod specimen;
+mod spectra;
 mod tangents;

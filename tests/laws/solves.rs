@@ -288,7 +288,10 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
         let assembly = &elimination.assembly;
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);
         body.add_tangent((&x, &rate), assembly, k, r);
-        for (c, column) in reduced_stiffness(&mut tangent, elimination).iter().enumerate() {
+        for (c, column) in reduced_stiffness(&mut tangent, elimination)
+            .iter()
+            .enumerate()
+        {
             let off = (DVector::from_column_slice(column) - stiffness.column(c)).amax();
             within("dense stiffness", off, 1e-12 * stiffness.amax())?;
         }

@@ -162,8 +162,15 @@ fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
         let step = if by_rate { 1e-3 } else { 1e-4 } * size;
         derivative(step, |t| {
             let mut state = moving.state.clone();
-            let moved = if by_rate { &mut state.rates } else { &mut state.coordinates };
-            moved.iter_mut().zip(basis.column(column).iter()).for_each(|(x, b)| *x += t * b);
+            let moved = if by_rate {
+                &mut state.rates
+            } else {
+                &mut state.coordinates
+            };
+            moved
+                .iter_mut()
+                .zip(basis.column(column).iter())
+                .for_each(|(x, b)| *x += t * b);
             let mut model = Model::new(system, &[], &mut work, &moving.state);
             if !by_rate {
                 assert!(model.project(&mut state));
@@ -180,7 +187,11 @@ fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
     let (by_place, by_rate) = (columns(false) - turned, columns(true));
     let rate = 1.0 + stiffness.amax().sqrt();
     within("K", (&by_place - &stiffness).amax(), 1e-5 * rate * rate)?;
-    within("R", (&by_rate - &damping).amax(), 1e-6 * (rate + damping.amax()))?;
+    within(
+        "R",
+        (&by_rate - &damping).amax(),
+        1e-6 * (rate + damping.amax()),
+    )?;
     let skew = |m: &DMatrix<f64>| u32::from((m - m.transpose()).amax() > 1e-4 * rate);
     let [all, unsymmetric, held] = seen.get();
     let multiplied = u32::from(system.constraints() > 0);

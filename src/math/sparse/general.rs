@@ -36,7 +36,10 @@ impl<T: Number> General<T> {
 
     /// Adds a factor times another matrix.
     pub fn add(&mut self, factor: T, matrix: &General<f64>) {
-        let parts = [(&mut self.lower, &matrix.lower), (&mut self.upper, &matrix.upper)];
+        let parts = [
+            (&mut self.lower, &matrix.lower),
+            (&mut self.upper, &matrix.upper),
+        ];
         for (to, from) in parts {
             for (to, from) in to.iter_mut().zip(from) {
                 *to = *to + factor * T::from(*from);

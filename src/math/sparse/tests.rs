@@ -285,3 +285,64 @@ fn chains_and_trees_have_no_fill() {
     }
     assert_eq!(Pattern::new(&[4; 4], &[(0, 1), (2, 3)]).slot(1, 2), None);
 }
+
+/// A matrix that is not symmetric: product, solution, determinant, and what is not symmetric about it.
+fn check_general<T: Number + ComplexField>(number: fn(f64, f64) -> T) {
+    for (g, graph) in graphs().iter().enumerate() {
+        let pattern = Pattern::new(&graph.0, &graph.1);
+        let (mut random, n) = (Random(g as u64), pattern.len());
+        let zero = <T as From<f64>>::from(0.0);
+        let (mut a, mut dense) = (General::zeros(&pattern), DMatrix::from_element(n, n, zero));
+        let own = (0..graph.0.len()).map(|v| (v, v));
+        for (v, w) in graph.1.iter().copied().chain(own) {
+            for (v, w) in [(v, w), (w, v)] {
+                let slot = pattern.slot(v, w).expect("stored");
+                for (r, i) in pattern.range(v).enumerate() {
+                    for (c, j) in pattern.range(w).enumerate() {
+                        // The largest entries of a block stand off its diagonal.
+                        let next = graph.0[v] - 1 - r == c && v == w;
+                        let bump = if next { 40.0 } else { 0.0 };
+                        let value = number(random.number() + bump, random.number());
+                        a.add_entry(slot, r, c, value);
+                        dense[(i, j)] += value;
+                    }
+                }
+            }
+        }
+        let x = DVector::from_fn(n, |_, _| number(random.number(), random.number()));
+        let b = &dense * &x;
+        let mut y = vec![zero; n];
+        a.multiply(&pattern, x.as_slice(), &mut y);
+        assert!(error(&y, b.as_slice()) < 1e-12, "product, graph {g}");
+        let [whole, skew] = a.largest(&pattern);
+        let exact = [&dense, &(&dense - dense.transpose())]
+            .map(|m| error(m.as_slice(), &vec![zero; n * n]));
+        assert!(
+            (whole - exact[0]).abs() + (skew - exact[1]).abs() < 1e-12,
+            "sizes, graph {g}"
+        );
+        let factors = a.factor(&pattern).expect("regular");
+        factors.solve(&pattern, &mut y);
+        assert!(error(&y, x.as_slice()) < 1e-12, "solution, graph {g}");
+        let one = <T as From<f64>>::from(1.0);
+        let found = factors
+            .blocks(&pattern)
+            .fold(one, |product, (pivots, is_odd)| {
+                let sign = <T as From<f64>>::from(if is_odd { -1.0 } else { 1.0 });
+                pivots
+                    .iter()
+                    .fold(product * sign, |product, pivot| product * *pivot)
+            });
+        let exact = dense.determinant();
+        assert!(
+            (found - exact).size() < 1e-10 * exact.size(),
+            "determinant, graph {g}"
+        );
+    }
+}
+
+#[test]
+fn factors_of_matrices_that_are_not_symmetric_solve() {
+    check_general::<f64>(|re, _| re);
+    check_general::<Complex<f64>>(Complex::new);
+}

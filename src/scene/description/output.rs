@@ -18,11 +18,12 @@ pub struct Output {
     /// Name of a motion, for what drives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<String>,
-    /// `natural_frequency` of a scene with one body only: its name, which then begins those of the
+    /// `natural_frequency` and `eigenvalue` of a scene with one body only: its name, which then begins those of the
     /// variables.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// `natural_frequency` only: how many, lowest first.
+    /// `natural_frequency` and `eigenvalue` only: how many, lowest frequency or slowest eigenvalue first; no more than
+    /// the scene has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u32>,
 }
@@ -72,6 +73,15 @@ pub enum OutputKind {
     CenterOfMass,
     /// Largest residual of the constraints, relative: of positions and of velocities.
     Residual,
-    /// Natural frequencies of the scene about the initial configuration, rad/s.
+    /// Natural frequencies of the scene at rest in the initial configuration, rad/s, without dampers; an unstable
+    /// mode is a negative number. In a turning frame the imaginary parts of the eigenvalues without dampers. Refused
+    /// where a force follows its marker and where cables turn initially: see `eigenvalue`.
     NaturalFrequency,
+    /// Eigenvalues `s = -decay_rate + i frequency` of small motions `c e^(s t)` about the initial state, as
+    /// `decay_rate` in 1/s, negative where the motion grows, and `frequency` in rad/s, slowest (least size of `s`) first;
+    /// conjugate pairs once, real ones (`frequency` 0) each by itself. With dampers, gyroscopic forces and forces that
+    /// follow, inputs held. Of a state in motion or out of equilibrium they are those of the equations of motion at
+    /// that instant, as seen from the frame of the scene; cables that turn initially are refused: describe them in a frame
+    /// that turns with them (`rotation`).
+    Eigenvalue,
 }

@@ -9,7 +9,7 @@ use crate::scene::description::Value;
 use crate::scene::marker::GROUND;
 
 /// Words that begin variable names of the scene itself, or stand for something else.
-const RESERVED: [&str; 11] = [
+const RESERVED: [&str; 12] = [
     GROUND,
     "gravity",
     "rotation",
@@ -19,6 +19,7 @@ const RESERVED: [&str; 11] = [
     "center_of_mass",
     "residual",
     "natural_frequency",
+    "eigenvalue",
     "time",
     "relative_tolerance",
 ];

@@ -7,7 +7,7 @@ use crate::scene::Error;
 use crate::scene::description::{Output, OutputKind};
 use crate::scene::resolved::{self, AngleId, JointKind, MotionKind, Reaction, Resolved, Turning};
 
-/// Most natural frequencies: they are computed with dense matrices.
+/// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
 
 impl Output {
@@ -31,7 +31,7 @@ impl Output {
             Reaction | ReactionMoment if self.motion.is_some() => (&["motion"], &["joint"]),
             Reaction | ReactionMoment => (&["joint"], &[]),
             Energy | Work | Momentum | CenterOfMass | Residual => (&[], &[]),
-            NaturalFrequency => (&[], &["body", "count"]),
+            NaturalFrequency | Eigenvalue => (&[], &["body", "count"]),
         };
         keys(path, "output", &all, must, may)?;
         let of = [&self.marker, &self.joint, &self.motion];
@@ -43,7 +43,11 @@ impl Output {
 
     fn validate_count(&self, path: &str) -> Result<(), Error> {
         let is_right = |count| (1..=MOST_FREQUENCIES).contains(&count);
-        if self.kind != OutputKind::NaturalFrequency || self.count.is_some_and(is_right) {
+        let is_spectrum = matches!(
+            self.kind,
+            OutputKind::NaturalFrequency | OutputKind::Eigenvalue
+        );
+        if !is_spectrum || self.count.is_some_and(is_right) {
             return Ok(());
         }
         let wanted = format!("an integer from 1 to {MOST_FREQUENCIES}");
@@ -123,13 +127,16 @@ impl<'a> Resolved<'a> {
             OutputKind::Momentum => To::Momentum,
             OutputKind::CenterOfMass => To::CenterOfMass,
             OutputKind::Residual => To::Residual,
-            OutputKind::NaturalFrequency => {
+            OutputKind::NaturalFrequency | OutputKind::Eigenvalue => {
                 let count = needed(path, "count", "a count", output.count)?;
                 let body = output.body.as_deref();
                 if let Some(name) = body {
                     self.validate_body_output(&format!("{path}.body"), name)?;
                 }
-                To::NaturalFrequency(body, count)
+                match output.kind {
+                    OutputKind::Eigenvalue => To::Eigenvalue(body, count),
+                    _ => To::NaturalFrequency(body, count),
+                }
             }
         })
     }
@@ -198,7 +205,7 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// Natural frequencies belong to the scene; one body may stand for it.
+    /// Natural frequencies and eigenvalues belong to the scene; one body may stand for it.
     fn validate_body_output(&self, path: &str, name: &str) -> Result<(), Error> {
         if !self.bodies_by_name.contains_key(name) {
             return Err(expected(path, "a body of this scene", quoted(name)));

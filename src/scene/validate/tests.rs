@@ -72,7 +72,8 @@ fn scene() -> Value {
             {"kind": "reaction", "joint": "ring"}, {"kind": "reaction", "motion": "feed"},
             {"kind": "reaction_moment", "motion": "drive"}, {"kind": "reaction_moment", "joint": "clamp"},
             {"kind": "energy"}, {"kind": "work"}, {"kind": "momentum"}, {"kind": "center_of_mass"},
-            {"kind": "residual"}, {"kind": "natural_frequency", "count": 3}
+            {"kind": "residual"}, {"kind": "natural_frequency", "count": 3},
+            {"kind": "eigenvalue", "count": 3}
         ],
         "ports": ports()
     })
@@ -338,6 +339,8 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /outputs/0 | {"kind": "momentum", "body": "rod"} | outputs[0].body: expected nothing for this kind of output
         /outputs/0 | {"kind": "natural_frequency", "count": 1, "body": "rod"} | outputs[0].body: expected nothing in a scene of several bodies
         /outputs/0 | {"kind": "natural_frequency"} | outputs[0].count: expected an integer from 1 to 100, found nothing
+        /outputs/0 | {"kind": "eigenvalue", "count": 0} | outputs[0].count: expected an integer from 1 to 100, found 0
+        /outputs/0 | {"kind": "eigenvalue", "count": 1, "body": "rod"} | outputs[0].body: expected nothing in a scene of several bodies
         /outputs/0 | {"kind": "energy"} | outputs[11]: expected an output not declared before
         /outputs/0 | {"kind": "energy", "count": 1} | outputs[0].count: expected nothing for this kind of output
     "#,

@@ -52,6 +52,8 @@ pub enum Source {
     Output(Quantity),
     /// Natural frequency about the initial configuration, lowest is 0.
     NaturalFrequency(usize),
+    /// Eigenvalue about the initial state, slowest is 0: its decay rate (0) or frequency (1).
+    Eigenvalue(usize, usize),
 }
 
 /// Parameters by name; masses, joints, loads and ports by their places in the scene.
@@ -192,7 +194,7 @@ impl Variable {
     }
 }
 
-/// The variables of a scene: time, parameters, inputs, outputs, natural frequencies.
+/// The variables of a scene: time, parameters, inputs, outputs, natural frequencies, eigenvalues.
 ///
 /// # Panics
 /// When the scene is not valid ([`Scene::resolved`]).

@@ -1,4 +1,4 @@
-//! Outputs, natural frequencies, and what goes out of ports.
+//! Outputs, natural frequencies, eigenvalues, and what goes out of ports.
 
 use super::unit::*;
 use super::{AXES, HolderId, List, MarkerId, Quantity, Source, Unit, component};
@@ -79,6 +79,7 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         }
         Output::Residual => add_residuals(list),
         Output::NaturalFrequency(body, count) => add_frequencies(list, *body, *count),
+        Output::Eigenvalue(body, count) => add_eigenvalues(list, *body, *count),
     }
 }
 
@@ -274,12 +275,46 @@ fn add_frequencies(list: &mut List, body: Option<&str>, count: u32) {
     };
     for number in 0..count as usize {
         let what = format!(
-            "Natural frequency {} about the initial configuration; an unstable one is negative",
+            "Natural frequency {} at rest in the initial configuration; an unstable one is negative",
             number + 1
         );
         let source = Source::NaturalFrequency(number);
         let unit = Some(RADIAN_PER_SECOND);
         list.add(component(&name, number), what, unit, source, None);
+    }
+}
+
+fn add_eigenvalues(list: &mut List, body: Option<&str>, count: u32) {
+    let name = body.map_or("eigenvalue".into(), |body| format!("{body}.eigenvalue"));
+    let parts = [
+        (
+            "decay_rate",
+            "Decay rate",
+            "; a growing one is negative",
+            PER_SECOND,
+        ),
+        (
+            "frequency",
+            "Frequency",
+            ", 0 of a real one",
+            RADIAN_PER_SECOND,
+        ),
+    ];
+    for (part, (key, what, note, unit)) in parts.into_iter().enumerate() {
+        for number in 0..count as usize {
+            let name = component(&format!("{name}.{key}"), number);
+            let what = format!(
+                "{what} of eigenvalue {} about the initial state{note}",
+                number + 1
+            );
+            list.add(
+                name,
+                what,
+                Some(unit),
+                Source::Eigenvalue(number, part),
+                None,
+            );
+        }
     }
 }
 
