@@ -358,7 +358,7 @@ impl Dynamics for Model<'_> {
 
     fn take_out_normal(&mut self, a: &mut [f64]) {
         for group in &mut self.work.groups {
-            let range = group.range();
+            let range = group.coordinates.clone();
             group.rows.take_out(&mut a[range]);
         }
     }
