@@ -10,7 +10,7 @@ use std::time::Duration;
 use clap::{Parser, Subcommand};
 use cpu_time::ThreadTime;
 use flexbody::fmi2::{self, Causality};
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, assemble};
 use flexbody::simulation::{Report, SignalError, Signals, Simulation};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -154,7 +154,10 @@ fn print_schema() -> Outcome<()> {
 }
 
 fn describe(scene: &Path, output: &Path) -> Outcome<()> {
-    for (name, text) in fmi2::describe(&read(scene)?) {
+    let (place, scene) = (scene, read(scene)?);
+    // What contradicts itself is told here, not by the first master that runs it.
+    assemble(&scene).map_err(|error| at(place, error))?;
+    for (name, text) in fmi2::describe(&scene) {
         let path = output.join(name);
         if let Some(directory) = path.parent() {
             fs::create_dir_all(directory).map_err(|error| at(directory, error))?;

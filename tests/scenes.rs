@@ -8,7 +8,43 @@ const SCENE: &str = include_str!("../scenes/cantilever.json");
 const FOUR_BAR: &str = include_str!("../scenes/four_bar.json");
 
 /// Where, what stands there instead, and how the message begins.
-const BAD: [(&str, &str, &str); 20] = [
+const BAD: [(&str, &str, &str); 28] = [
+    (
+        "/dimension",
+        "2.0",
+        "dimension: expected zero or a positive integer, found 2.0",
+    ),
+    (
+        "/experiment",
+        "5",
+        "experiment: expected an object { ... }, found 5",
+    ),
+    ("/bodies", "{}", "bodies: expected a list, found an object"),
+    (
+        "/initial",
+        "\"rest\"",
+        "initial: expected \"as_shaped\" or \"static_equilibrium\", found \"rest\"",
+    ),
+    (
+        "/initial",
+        "3",
+        "initial: expected \"as_shaped\" or \"static_equilibrium\", found 3",
+    ),
+    (
+        "/joints/0/markers",
+        "\"beam.root\"",
+        "joints[0].markers: expected a list of 2, found \"beam.root\"",
+    ),
+    (
+        "/bodies/0/shape",
+        "\"line\"",
+        "bodies[0].shape.line: expected an object { ... }, found null",
+    ),
+    (
+        "/inputs/0/follower",
+        "\"yes\"",
+        "inputs[0].follower: expected a boolean, found \"yes\"",
+    ),
     (
         "/bodies/0/material/density",
         "-1",
@@ -32,12 +68,12 @@ const BAD: [(&str, &str, &str); 20] = [
     (
         "/bodies/0/elements",
         "2.5",
-        "bodies[0].elements: invalid type",
+        "bodies[0].elements: expected zero or a positive integer, found 2.5",
     ),
     (
         "/bodies/0/colour",
         "\"red\"",
-        "bodies[0].colour: unknown field",
+        "bodies[0].colour: expected one of the keys name, elements",
     ),
     (
         "/bodies/0/shape",
@@ -52,7 +88,7 @@ const BAD: [(&str, &str, &str); 20] = [
     (
         "/joints/0/kind",
         "\"ball\"",
-        "joints[0].kind: unknown variant",
+        "joints[0].kind: expected \"revolute\" or",
     ),
     (
         "/joints/0/markers",
@@ -84,7 +120,11 @@ const BAD: [(&str, &str, &str); 20] = [
         "\"hinge\"",
         "outputs[4].joint: expected a joint of this scene",
     ),
-    ("/gravity", "[0, 0, -9.81]", "gravity: "),
+    (
+        "/gravity",
+        "[0, 0, -9.81]",
+        "gravity: expected a list of 2, found 3",
+    ),
     ("/dimension", "3", "dimension: expected 2 (planar), found 3"),
     (
         "/accuracy/relative_tolerance",
@@ -129,6 +169,21 @@ fn broken_json_is_a_message() {
         let error = Scene::from_json(text).expect_err("no scene");
         assert!(error.to_string().starts_with("scene: "), "{text}: {error}");
     }
+    let list = Scene::from_json("[1, 2]").expect_err("a list").to_string();
+    assert_eq!(list, "scene: expected an object { ... }, found a list");
+    let comma = Scene::from_json("{\"name\": \"a\",}").expect_err("a comma");
+    assert!(
+        comma
+            .to_string()
+            .contains("expected JSON: trailing comma at line 1"),
+        "{comma}"
+    );
+}
+
+#[test]
+fn a_mark_of_the_encoding_is_no_part_of_a_scene() {
+    let marked = format!("\u{feff}{SCENE}");
+    assert_eq!(Scene::from_json(&marked), Scene::from_json(SCENE));
 }
 
 #[test]

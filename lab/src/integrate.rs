@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use flexbody::integrators::{Attempt, Counts, Method, Stop, Tolerance, advance};
+use flexbody::math::switches::grain;
 use flexbody::system::{Accepted, Dynamics, Evaluation, Model, State, natural_frequencies};
 
 use crate::integrators::{self, Build, Probe, Tally};
@@ -118,11 +119,12 @@ fn fixed(
 ) -> (Counts, Result<(), Stop>) {
     let mut counts = Counts::default();
     while state.time < until {
-        let next = dynamics.breaks().iter().find(|t| **t > state.time);
-        let end = next.map_or(until, |t| t.min(until));
-        let (from, way) = (state.time, end - state.time);
+        let (from, near) = (state.time, grain(state.time));
         // History goes on over outputs but not over jumps.
-        if from <= 0.0 || dynamics.breaks().contains(&from) {
+        let jumps = dynamics.begin_stretch(from - 8.0 * near, until) <= from + near;
+        let end = dynamics.begin_stretch(from, until);
+        let way = end - from;
+        if from <= 0.0 || jumps {
             method.begin(dynamics, from, &state.coordinates, &state.rates);
         }
         let before = method.newton_iterations();
@@ -137,6 +139,9 @@ fn fixed(
             if let Err(stop) = whole(method, dynamics, state, (target, tolerance), &mut counts) {
                 return (counts, Err(stop));
             }
+        }
+        if let Accepted::Jumped(drive) = dynamics.end_stretch(state) {
+            return (counts, Err(Stop::Jumped(drive)));
         }
         counts.newton_iterations += method.newton_iterations() - before;
         if !state.coordinates.iter().all(|q| q.is_finite()) {

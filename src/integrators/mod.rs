@@ -115,17 +115,15 @@ pub enum Stop {
     StepTooSmall,
     /// The state is no longer finite.
     NotFinite,
-    /// The way to the communication point takes more than [`MOST_STEPS`].
-    TooManySteps,
+    /// The way to the communication point takes more work than the system allows.
+    TooMuchWork,
     /// A slide has left its cable; the joint.
     RanOff(usize),
     /// Constraints cannot be kept.
     Broken,
+    /// A driven coordinate jumps; its index.
+    Jumped(usize),
 }
-
-/// Most attempted steps of one call: a master should hear of it before a night has passed, and a fuzzer
-/// at once.
-pub const MOST_STEPS: u64 = if cfg!(fuzzing) { 1_000 } else { 10_000_000 };
 
 /// The error of an estimate of this power of the step as the driver, which takes the fourth, must see
 /// it to choose the right step.
@@ -147,7 +145,7 @@ const SAFETY: f64 = 0.9;
 /// time on the way at which something jumps. On failure the state is that of the last accepted step.
 ///
 /// # Errors
-/// The reason, when no step however short succeeds.
+/// The reason, when no step however short succeeds or the work is too much.
 pub fn advance(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
@@ -158,10 +156,11 @@ pub fn advance(
     let mut counts = Counts::default();
     let mut result = Ok(());
     while result.is_ok() && state.time < until {
-        let next = dynamics.breaks().iter().find(|t| **t > state.time);
-        let end = next.map_or(until, |t| t.min(until));
+        let end = dynamics.begin_stretch(state.time, until);
         result = advance_smoothly(method, dynamics, state, end, (tolerance, &mut counts));
         counts.newton_iterations += method.newton_iterations();
+        let crossed = outcome(dynamics.end_stretch(state));
+        result = result.and(crossed.map(drop));
     }
     (counts, result)
 }
@@ -187,8 +186,8 @@ fn advance_smoothly(
         if remaining <= 0.0 {
             return Ok(());
         }
-        if counts.steps + counts.rejected >= MOST_STEPS {
-            return Err(Stop::TooManySteps);
+        if dynamics.is_exhausted() {
+            return Err(Stop::TooMuchWork);
         }
         let wanted = state.step.min(method.longest_step());
         // Whole steps to the end: a sliver left over would cost a step of its own.
@@ -223,12 +222,12 @@ fn advance_smoothly(
                     relax(method, dynamics, state, tolerance)?;
                 }
             }
-            outcome => {
+            failed => {
                 counts.rejected += 1;
                 // What just failed at this length will not succeed at a longer one.
                 grow = 1.0;
-                state.step = h * shrink(outcome);
-                if let Attempt::Failed(_) = outcome {
+                state.step = h * shrink(failed);
+                if let Attempt::Failed(_) = failed {
                     ceiling = state.step;
                 }
                 if state.step <= shortest {
@@ -256,13 +255,8 @@ fn settle(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
 ) -> Result<(), Stop> {
-    match dynamics.accepted(state) {
-        Accepted::AsIs => {}
-        Accepted::Moved => {
-            method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
-        }
-        Accepted::RanOff(joint) => return Err(Stop::RanOff(joint)),
-        Accepted::Broken => return Err(Stop::Broken),
+    if outcome(dynamics.accepted(state))? {
+        method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
     }
     Ok(())
 }
@@ -282,6 +276,18 @@ fn relax(
         settle(method, dynamics, state)?;
     }
     Ok(())
+}
+
+/// Whether a state was moved, or why it cannot go on.
+fn outcome(accepted: Accepted) -> Result<bool, Stop> {
+    match accepted {
+        Accepted::AsIs => Ok(false),
+        Accepted::Moved => Ok(true),
+        Accepted::RanOff(joint) => Err(Stop::RanOff(joint)),
+        Accepted::Broken => Err(Stop::Broken),
+        Accepted::Jumped(drive) => Err(Stop::Jumped(drive)),
+        Accepted::NotFinite => Err(Stop::NotFinite),
+    }
 }
 
 fn reason(v: &[f64], a: &[f64]) -> Stop {

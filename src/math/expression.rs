@@ -4,16 +4,20 @@
 use num_dual::{Dual2, Dual2_64, DualNumCopy};
 
 use super::grammar;
+use super::switches::{self, Switch};
 
 /// Most numbers that wait while an expression is evaluated.
 pub(super) const DEPTH: usize = 64;
 
 /// An expression in `t` (s): numbers, `PI`, `E`, `+ - * / ^`, parentheses and the functions `sin`, `cos`,
-/// `tan`, `asin`, `acos`, `atan`, `sinh`, `cosh`, `tanh`, `exp`, `ln`, `log2`, `log10` and `sqrt`.
-/// Powers bind first, from the right, then signs: `-2^2` is -4.
+/// `tan`, `asin`, `acos`, `atan`, `atan2(y, x)`, `sinh`, `cosh`, `tanh`, `exp`, `ln`, `log2`, `log10`, `sqrt`,
+/// `abs`, `sign` (-1, 0 or 1), `step` (1 from zero on, 0 below), `min` and `max` of two or more, and `if(c, a, b)`,
+/// which is `a` where `c` is positive and `b` elsewhere. `a < b`, `<=`, `>`, `>=` are 1 where that is so
+/// and 0 elsewhere. Powers bind first, from the right, then signs: `-2^2` is -4; comparisons bind last.
 #[derive(Clone, Debug)]
 pub struct Expression {
     program: Vec<Operation>,
+    switches: bool,
 }
 
 /// A step of a program: it takes numbers from the top of a stack and puts one there.
@@ -31,6 +35,7 @@ pub(super) enum Operation {
     /// To a constant power: has derivatives also where the base is not positive.
     PowerOf(f64),
     Function(Elementary),
+    Switch(Switch),
 }
 
 /// Functions of one number.
@@ -67,7 +72,8 @@ impl Expression {
     /// What was expected in the text, and what was found.
     pub fn of(text: &str, variable: &'static str) -> Result<Self, String> {
         let program = grammar::program(text, variable)?;
-        Ok(Self { program })
+        let switches = switches::any(&program);
+        Ok(Self { program, switches })
     }
 
     /// The value if it is the same at all times.
@@ -76,6 +82,20 @@ impl Expression {
             [Operation::Number(value)] => Some(value),
             _ => None,
         }
+    }
+
+    /// The first time after `from`, `until` at the latest, at which it has a kink, a jump or a pole at which it
+    /// changes its sign.
+    pub fn next_break(&self, from: f64, until: f64) -> Option<f64> {
+        if !self.switches {
+            return None;
+        }
+        switches::next(&self.program, from, until)
+    }
+
+    /// Whether it may have kinks or jumps.
+    pub fn has_breaks(&self) -> bool {
+        self.switches
     }
 
     /// Value at a time.
@@ -108,6 +128,7 @@ impl Operation {
             Self::Time | Self::Number(_) => 1,
             Self::Negate | Self::PowerOf(_) | Self::Function(_) => 0,
             Self::Add | Self::Subtract | Self::Multiply | Self::Divide | Self::Power => -1,
+            Self::Switch(switch) => 1 - switch.arity() as isize,
         }
     }
 }
@@ -189,6 +210,16 @@ where
 
 /// Runs a program whose stack never holds more than [`DEPTH`] numbers.
 pub(super) fn run<N: ConstantPower>(program: &[Operation], t: N) -> N {
+    run_noting(program, t, |_| {})
+}
+
+/// Runs a program; `note` is told the branches that its switches take, and on which side of their poles
+/// quotients and tangents are, in order.
+pub(super) fn run_noting<N: ConstantPower>(
+    program: &[Operation],
+    t: N,
+    mut note: impl FnMut(u8),
+) -> N {
     let mut stack = [N::from(0.0); DEPTH];
     let mut height = 0_usize;
     for operation in program {
@@ -201,10 +232,24 @@ pub(super) fn run<N: ConstantPower>(program: &[Operation], t: N) -> N {
             Operation::Add => stack[top] + stack[height],
             Operation::Subtract => stack[top] - stack[height],
             Operation::Multiply => stack[top] * stack[height],
-            Operation::Divide => stack[top] / stack[height],
+            Operation::Divide => {
+                note(u8::from(stack[height].re() >= 0.0));
+                stack[top] / stack[height]
+            }
             Operation::Power => stack[top].powd(stack[height]),
             Operation::PowerOf(exponent) => stack[top].to(exponent),
-            Operation::Function(function) => function.apply(stack[top]),
+            Operation::Function(function) => {
+                if function == Elementary::Tan {
+                    note(u8::from(stack[top].re().cos() >= 0.0));
+                }
+                function.apply(stack[top])
+            }
+            Operation::Switch(switch) => {
+                let at = |k: usize| stack[(top + k).min(DEPTH - 1)];
+                let (value, branch) = switch.apply([stack[top], at(1), at(2)]);
+                note(branch);
+                value
+            }
         };
     }
     stack[0]
@@ -268,9 +313,18 @@ mod tests {
         }
     }
 
+    /// Every smooth function of one number.
+    fn elementary() -> Vec<String> {
+        let smooth = grammar::FUNCTIONS.iter().filter_map(|(name, operation)| {
+            let is_smooth = matches!(operation, Operation::Function(_));
+            is_smooth.then(|| format!("{name}(0.3 + 0.1*t)"))
+        });
+        smooth.collect()
+    }
+
     #[test]
     fn every_function_has_its_derivatives() {
-        let functions = grammar::FUNCTIONS.map(|(name, _)| format!("{name}(0.3 + 0.1*t)"));
+        let functions = elementary();
         let others = ["(1+t)^(1-t)", "2^t/(t+3)*5-t", "-(t^1.5)"].map(String::from);
         for text in functions.iter().chain(&others) {
             let f = Expression::new(text).expect(text);
@@ -285,7 +339,7 @@ mod tests {
 
     #[test]
     fn third_and_fourth_derivatives_follow_from_those_below() {
-        let functions = grammar::FUNCTIONS.map(|(name, _)| format!("{name}(0.3 + 0.1*t)"));
+        let functions = elementary();
         let others = [
             "(1+t)^(1-t)",
             "2^t/(t+3)*5-t",

@@ -11,7 +11,7 @@ pub enum Function {
     Expression(Box<Expression>),
     /// Straight from point to point.
     Linear(Table),
-    /// A cubic spline through the points, at rest at both ends.
+    /// A cubic spline through the points, straight outside.
     Spline(Table),
 }
 
@@ -52,14 +52,18 @@ impl Function {
         Table::new(points).map(Self::Linear)
     }
 
-    /// The cubic spline through points `[t, y]` with slope zero at both ends; the end values are held
-    /// outside. Its second derivative jumps at the ends only.
+    /// The cubic spline through points `[t, y]` with these slopes at its ends, with which it goes on
+    /// straight outside. Its second derivative jumps at the ends only.
     ///
     /// # Errors
-    /// No point, times that do not increase, numbers that are not finite.
-    pub fn spline(points: &[[f64; 2]]) -> Result<Self, String> {
+    /// No point, or one only where slopes are not zero; times that do not increase, numbers that are not
+    /// finite.
+    pub fn spline(points: &[[f64; 2]], ends: [f64; 2]) -> Result<Self, String> {
         let mut table = Table::new(points)?;
-        table.slopes = clamped_slopes(&table.times, &table.values);
+        if points.len() < 2 && ends != [0.0; 2] {
+            return Err("expected at least two points between two slopes, found one".into());
+        }
+        table.slopes = clamped_slopes(&table.times, &table.values, ends);
         Ok(Self::Spline(table))
     }
 
@@ -95,11 +99,26 @@ impl Function {
         [value, first, second, third, 0.0]
     }
 
-    /// Times where the function or one of its derivatives has a kink or a jump, increasing.
-    pub fn breaks(&self) -> &[f64] {
+    /// The first time after `from`, `until` at the latest, at which the function or one of its derivatives has
+    /// a kink or a jump. Allocates nothing, and follows from its arguments alone.
+    pub fn next_break(&self, from: f64, until: f64) -> Option<f64> {
         match self {
-            Self::Constant(_) | Self::Expression(_) => &[],
-            Self::Linear(table) | Self::Spline(table) => &table.times,
+            Self::Constant(_) => None,
+            Self::Expression(expression) => expression.next_break(from, until),
+            Self::Linear(table) | Self::Spline(table) => {
+                let after = table.times.partition_point(|time| *time <= from);
+                let next = table.times.get(after).copied();
+                next.filter(|time| *time <= until)
+            }
+        }
+    }
+
+    /// Whether it may have kinks or jumps.
+    pub fn has_breaks(&self) -> bool {
+        match self {
+            Self::Constant(_) => false,
+            Self::Expression(expression) => expression.has_breaks(),
+            Self::Linear(_) | Self::Spline(_) => true,
         }
     }
 }
@@ -125,13 +144,13 @@ impl Table {
         })
     }
 
-    /// Index of the piece that holds a time; what is held outside is an error.
-    fn piece(&self, t: f64) -> Result<usize, f64> {
+    /// Index of the piece that holds a time; outside, the point next to it is an error.
+    fn piece(&self, t: f64) -> Result<usize, usize> {
         let after = self.times.partition_point(|time| *time <= t);
         if after == 0 {
-            Err(self.values[0])
+            Err(0)
         } else if after == self.times.len() {
-            Err(self.values[after - 1])
+            Err(after - 1)
         } else {
             Ok(after - 1)
         }
@@ -139,7 +158,7 @@ impl Table {
 
     fn linear(&self, t: f64) -> [f64; 3] {
         match self.piece(t) {
-            Err(held) => [held, 0.0, 0.0],
+            Err(end) => [self.values[end], 0.0, 0.0],
             Ok(i) => {
                 let rate =
                     (self.values[i + 1] - self.values[i]) / (self.times[i + 1] - self.times[i]);
@@ -167,7 +186,10 @@ impl Table {
     /// Hermite's cubic on the piece.
     fn spline(&self, t: f64) -> [f64; 3] {
         let i = match self.piece(t) {
-            Err(held) => return [held, 0.0, 0.0],
+            Err(end) => {
+                let (slope, way) = (self.slopes[end], t - self.times[end]);
+                return [self.values[end] + slope * way, slope, 0.0];
+            }
             Ok(i) => i,
         };
         let (step, [a, square, cube]) = self.cubic(i);
@@ -180,11 +202,12 @@ impl Table {
     }
 }
 
-/// Slopes of the cubic spline with slope zero at both ends: continuous second derivatives at the
+/// Slopes of the cubic spline with these slopes at both ends: continuous second derivatives at the
 /// inner points are a diagonally dominant tridiagonal system.
-fn clamped_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
+fn clamped_slopes(times: &[f64], values: &[f64], [first, last]: [f64; 2]) -> Vec<f64> {
     let n = times.len();
     let mut slopes = vec![0.0; n];
+    (slopes[0], slopes[n - 1]) = (first, last);
     let mut above = vec![0.0; n];
     for i in 1..n.saturating_sub(1) {
         let (before, after) = (times[i] - times[i - 1], times[i + 1] - times[i]);
@@ -205,6 +228,12 @@ fn clamped_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
+    /// All kinks and jumps after `from`.
+    fn breaks(f: &Function, from: f64, until: f64) -> Vec<f64> {
+        let next = |t: &f64| f.next_break(*t, until);
+        std::iter::successors(f.next_break(from, until), next).collect()
+    }
+
     #[test]
     fn a_linear_table_goes_straight_and_holds_its_ends() {
         let f = Function::linear(&[[1.0, 2.0], [2.0, 4.0], [4.0, 0.0]]).expect("a table");
@@ -213,7 +242,8 @@ mod tests {
         assert_eq!(f.derivatives(3.0), [2.0, -2.0, 0.0]);
         assert_eq!(f.derivatives(2.0), [4.0, -2.0, 0.0]);
         assert_eq!(f.value(9.0), 0.0);
-        assert_eq!(f.breaks(), [1.0, 2.0, 4.0]);
+        assert_eq!(breaks(&f, 0.0, 9.0), [1.0, 2.0, 4.0]);
+        assert_eq!(breaks(&f, 1.0, 3.0), [2.0]);
         let one = Function::linear(&[[1.0, 2.0]]).expect("a table");
         assert_eq!([one.value(0.0), one.value(1.0), one.value(2.0)], [2.0; 3]);
     }
@@ -221,7 +251,7 @@ mod tests {
     #[test]
     fn a_spline_is_smooth_and_starts_and_ends_at_rest() {
         let points = [[0.0, 0.0], [0.5, 1.0], [0.7, 1.1], [2.0, -1.0], [2.5, 0.5]];
-        let f = Function::spline(&points).expect("a table");
+        let f = Function::spline(&points, [0.0; 2]).expect("a table");
         for [t, y] in points {
             assert!((f.value(t) - y).abs() < 1e-14, "{t}");
         }
@@ -240,9 +270,28 @@ mod tests {
             assert!(((after - 2.0 * y[0] + before) / (h * h) - y[2]).abs() < 1e-4);
         }
         // One cubic from rest to rest is the spline through its ends.
-        let f = Function::spline(&[[1.0, 0.0], [3.0, 2.0]]).expect("a table");
+        let f = Function::spline(&[[1.0, 0.0], [3.0, 2.0]], [0.0; 2]).expect("a table");
         assert_eq!(f.derivatives(2.0), [1.0, 1.5, 0.0]);
         assert_eq!(f.derivatives(5.0), [2.0, 0.0, 0.0]);
+    }
+
+    /// A cubic is its own spline between the slopes that it has at its ends, and goes on straight.
+    #[test]
+    fn a_spline_has_the_slopes_that_it_is_given() {
+        let cubic = |t: f64| [t * t * t - t, 3.0 * t * t - 1.0, 6.0 * t];
+        let points = [-1.0, 0.5, 0.7, 2.0].map(|t| [t, cubic(t)[0]]);
+        let f = Function::spline(&points, [cubic(-1.0)[1], cubic(2.0)[1]]).expect("a table");
+        for t in [-1.0, -0.3, 0.6, 1.9] {
+            for (found, wanted) in f.derivatives(t).into_iter().zip(cubic(t)) {
+                assert!(
+                    (found - wanted).abs() < 1e-13,
+                    "{t}: {found}, expected {wanted}"
+                );
+            }
+        }
+        assert_eq!(f.derivatives(3.0), [17.0, 11.0, 0.0]);
+        assert_eq!(f.derivatives(-2.0), [-2.0, 2.0, 0.0]);
+        assert!(Function::spline(&points[..1], [0.0, 1.0]).is_err());
     }
 
     #[test]
@@ -253,7 +302,7 @@ mod tests {
         assert_eq!(told, "expected a finite number, found inf");
         let f = Function::expression("t^2").expect("an expression");
         assert_eq!((f.value(3.0), f.derivatives(3.0)), (9.0, [9.0, 6.0, 2.0]));
-        assert!(f.breaks().is_empty());
+        assert!(breaks(&f, 0.0, 9.0).is_empty());
     }
 
     #[test]
@@ -266,7 +315,7 @@ mod tests {
             ),
             (&[[0.0, f64::NAN]], "finite numbers"),
         ] {
-            let told = Function::spline(points).expect_err("no table");
+            let told = Function::spline(points, [0.0; 2]).expect_err("no table");
             assert!(told.contains(wanted), "{told}");
         }
     }

@@ -1,23 +1,31 @@
 //! Reads expressions in `t` into programs: Dijkstra's shunting yard.
 
 use super::expression::{DEPTH, Elementary, Operation, run};
+use super::switches::Switch;
 
-/// Functions by name.
-pub(super) const FUNCTIONS: [(&str, Elementary); 14] = [
-    ("sin", Elementary::Sin),
-    ("cos", Elementary::Cos),
-    ("tan", Elementary::Tan),
-    ("asin", Elementary::Asin),
-    ("acos", Elementary::Acos),
-    ("atan", Elementary::Atan),
-    ("sinh", Elementary::Sinh),
-    ("cosh", Elementary::Cosh),
-    ("tanh", Elementary::Tanh),
-    ("exp", Elementary::Exp),
-    ("ln", Elementary::Ln),
-    ("log2", Elementary::Log2),
-    ("log10", Elementary::Log10),
-    ("sqrt", Elementary::Sqrt),
+/// Functions by name, and what computes them.
+pub(super) const FUNCTIONS: [(&str, Operation); 21] = [
+    ("sin", Operation::Function(Elementary::Sin)),
+    ("cos", Operation::Function(Elementary::Cos)),
+    ("tan", Operation::Function(Elementary::Tan)),
+    ("asin", Operation::Function(Elementary::Asin)),
+    ("acos", Operation::Function(Elementary::Acos)),
+    ("atan", Operation::Function(Elementary::Atan)),
+    ("sinh", Operation::Function(Elementary::Sinh)),
+    ("cosh", Operation::Function(Elementary::Cosh)),
+    ("tanh", Operation::Function(Elementary::Tanh)),
+    ("exp", Operation::Function(Elementary::Exp)),
+    ("ln", Operation::Function(Elementary::Ln)),
+    ("log2", Operation::Function(Elementary::Log2)),
+    ("log10", Operation::Function(Elementary::Log10)),
+    ("sqrt", Operation::Function(Elementary::Sqrt)),
+    ("atan2", Operation::Switch(Switch::Atan2)),
+    ("abs", Operation::Switch(Switch::Abs)),
+    ("sign", Operation::Switch(Switch::Sign)),
+    ("step", Operation::Switch(Switch::Step)),
+    ("min", Operation::Switch(Switch::Min)),
+    ("max", Operation::Switch(Switch::Max)),
+    ("if", Operation::Switch(Switch::If)),
 ];
 /// Numbers by name.
 const CONSTANTS: [(&str, f64); 2] = [("PI", std::f64::consts::PI), ("E", std::f64::consts::E)];
@@ -50,6 +58,10 @@ pub(super) fn program(text: &str, variable: &'static str) -> Result<Vec<Operatio
             let part = |c: &char| c.is_ascii_alphanumeric() || *c == '_';
             let length = rest.chars().take_while(part).count();
             reader.name(&rest[..length])?;
+            length
+        } else if matches!(first, '<' | '>') {
+            let length = 1 + usize::from(rest[1..].starts_with('='));
+            reader.comparison(&rest[..length])?;
             length
         } else {
             reader.sign(first)?;
@@ -88,8 +100,8 @@ fn number(text: &str) -> Option<(f64, usize)> {
 enum Place {
     /// Nothing, an opening parenthesis or an operator.
     Start,
-    /// The name of a function.
-    Name,
+    /// The name of a function, by its place in the list.
+    Name(usize),
     /// A number, `t` or a closing parenthesis.
     Operand,
 }
@@ -97,15 +109,22 @@ enum Place {
 /// What waits for the number to its right.
 #[derive(Clone, Copy)]
 enum Waiting {
-    Parenthesis,
-    Operator { operation: Operation, rank: u8 },
+    /// An opening parenthesis: of a function its place in the list, and how many of its numbers have ended.
+    Parenthesis {
+        function: Option<usize>,
+        ended: usize,
+    },
+    Operator {
+        operation: Operation,
+        rank: u8,
+    },
 }
 
-const SUM: u8 = 1;
-const PRODUCT: u8 = 2;
-const SIGN: u8 = 3;
-const POWER: u8 = 4;
-const FUNCTION: u8 = 5;
+const COMPARISON: u8 = 1;
+const SUM: u8 = 2;
+const PRODUCT: u8 = 3;
+const SIGN: u8 = 4;
+const POWER: u8 = 5;
 
 struct Reader {
     /// Name of the variable.
@@ -117,15 +136,16 @@ struct Reader {
 
 impl Reader {
     fn expected(&self, found: &str) -> String {
-        let inside = self
-            .waiting
-            .iter()
-            .any(|w| matches!(w, Waiting::Parenthesis));
-        let wanted = match self.place {
-            Place::Start => "a number, t, a function or \"(\"",
-            Place::Name => "\"(\" after the name of a function",
-            Place::Operand if inside => "an operator or \")\"",
-            Place::Operand => "an operator",
+        let opened = self.waiting.iter().rev().find_map(|waiting| match waiting {
+            Waiting::Parenthesis { function, .. } => Some(*function),
+            Waiting::Operator { .. } => None,
+        });
+        let wanted = match (self.place, opened) {
+            (Place::Start, _) => "a number, t, a function or \"(\"",
+            (Place::Name(_), _) => "\"(\" after the name of a function",
+            (Place::Operand, Some(Some(_))) => "an operator, \",\" or \")\"",
+            (Place::Operand, Some(None)) => "an operator or \")\"",
+            (Place::Operand, None) => "an operator",
         };
         format!("expected {wanted}, found {found}")
     }
@@ -153,7 +173,7 @@ impl Reader {
         if let Some((_, number)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
             return self.operand(Operation::Number(*number), name);
         }
-        let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
+        let Some(function) = FUNCTIONS.iter().position(|(known, _)| *known == name) else {
             let constants = CONSTANTS.map(|(known, _)| known);
             let functions = FUNCTIONS.map(|(known, _)| known);
             let known = [&[self.variable], &constants[..], &functions[..]]
@@ -166,18 +186,23 @@ impl Reader {
         if self.place != Place::Start {
             return Err(self.expected(&format!("\"{name}\"")));
         }
-        self.wait(Operation::Function(*function), FUNCTION);
-        self.place = Place::Name;
+        self.place = Place::Name(function);
         Ok(())
     }
 
     fn sign(&mut self, sign: char) -> Result<(), String> {
         match (sign, self.place) {
-            ('(', Place::Start | Place::Name) => {
-                self.waiting.push(Waiting::Parenthesis);
+            ('(', Place::Start | Place::Name(_)) => {
+                let function = match self.place {
+                    Place::Name(function) => Some(function),
+                    _ => None,
+                };
+                let ended = 0;
+                self.waiting.push(Waiting::Parenthesis { function, ended });
                 self.place = Place::Start;
                 Ok(())
             }
+            (',', Place::Operand) => self.next_number(),
             (')', Place::Operand) => self.close(),
             ('+', Place::Start) => Ok(()),
             ('-', Place::Start) => {
@@ -200,10 +225,28 @@ impl Reader {
     /// Writes what waits and binds at least as tight.
     fn operator(&mut self, operation: Operation, rank: u8) -> Result<(), String> {
         // Powers of powers are taken from the right.
-        self.release(if rank == POWER { FUNCTION } else { rank });
+        self.release(if rank == POWER { POWER + 1 } else { rank });
         self.wait(operation, rank);
         self.place = Place::Start;
         Ok(())
+    }
+
+    /// A comparison, whose sign is one character or two.
+    fn comparison(&mut self, text: &str) -> Result<(), String> {
+        if self.place != Place::Operand {
+            return Err(self.expected(&format!("\"{text}\"")));
+        }
+        let switch = match text {
+            "<" => Switch::Less,
+            "<=" => Switch::AtMost,
+            ">" => Switch::Greater,
+            _ => Switch::AtLeast,
+        };
+        self.release(SUM);
+        if let Some(Waiting::Operator { .. }) = self.waiting.last() {
+            return Err("expected one comparison, found two in a row".into());
+        }
+        self.operator(Operation::Switch(switch), COMPARISON)
     }
 
     fn release(&mut self, least: u8) {
@@ -216,11 +259,42 @@ impl Reader {
         }
     }
 
+    /// A comma: the next number of a function begins.
+    fn next_number(&mut self) -> Result<(), String> {
+        self.release(0);
+        let wrong = self.expected("\",\"");
+        let Some(Waiting::Parenthesis {
+            function: Some(_),
+            ended,
+        }) = self.waiting.last_mut()
+        else {
+            return Err(wrong);
+        };
+        *ended += 1;
+        self.place = Place::Start;
+        Ok(())
+    }
+
     fn close(&mut self) -> Result<(), String> {
         self.release(0);
-        if self.waiting.pop().is_none() {
-            return Err(self.expected("\")\""));
+        let wrong = self.expected("\")\"");
+        let Some(Waiting::Parenthesis { function, ended }) = self.waiting.pop() else {
+            return Err(wrong);
+        };
+        let Some((name, operation)) = function.map(|place| FUNCTIONS[place]) else {
+            return Ok(());
+        };
+        let (found, wanted) = (ended + 1, 1_usize.wrapping_add_signed(-operation.rise()));
+        let folds = matches!(operation, Operation::Switch(Switch::Min | Switch::Max));
+        if found < wanted || (found > wanted && !folds) {
+            let more = if folds { " or more" } else { "" };
+            return Err(format!(
+                "expected {wanted}{more} number(s) in \"{name}\", found {found}"
+            ));
         }
+        // The smallest of three is the smaller of the last and the smaller of two.
+        let times = if folds { found - 1 } else { 1 };
+        (0..times).for_each(|_| self.write(operation));
         Ok(())
     }
 
@@ -291,6 +365,23 @@ mod tests {
             ("", "a number, t, a function or \"(\", found the end"),
             ("t +", "a function or \"(\", found the end"),
             ("2 t", "expected an operator, found \"t\""),
+            (
+                "sin(2 t)",
+                "expected an operator, \",\" or \")\", found \"t\"",
+            ),
+            ("min(t)", "expected 2 or more number(s) in \"min\", found 1"),
+            ("abs(t, 2)", "expected 1 number(s) in \"abs\", found 2"),
+            ("if(t, 2)", "expected 3 number(s) in \"if\", found 2"),
+            (
+                "atan2(t, 1, 2)",
+                "expected 2 number(s) in \"atan2\", found 3",
+            ),
+            ("(t, 2)", "expected an operator or \")\", found \",\""),
+            ("t, 2", "expected an operator, found \",\""),
+            ("max(t,)", "a function or \"(\", found \")\""),
+            ("0 < t < 1", "expected one comparison, found two in a row"),
+            ("t == 1", "expected an operator, found \"=\""),
+            ("< 1", "a function or \"(\", found \"<\""),
             ("(2 t)", "expected an operator or \")\", found \"t\""),
             (
                 "sin t",

@@ -5,13 +5,20 @@ use super::resolved::{
     Action, Cable, InputKind, LoadKind, Marker, MotionKind, Output, Place, Resolved, Turning,
 };
 
+/// Shortest stretch between two nodes, in elements of even length: shorter ones swing so fast that they
+/// would set the steps of the whole scene.
+const SHORTEST: f64 = 1e-3;
+/// Part of the shortest stretch, and of the length of a body, by which roundoff moves a marker.
+const ROUNDOFF: f64 = 1e-9;
+
 impl<'a> Resolved<'a> {
     /// Material coordinates in [0, 1] of the nodes of a cable.
     ///
     /// # Errors
-    /// When there are too few elements for what acts inside the body.
+    /// When there are too few elements for what acts inside the body, or it acts at two places that are closer
+    /// than a thousandth of an element.
     pub fn nodes(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
-        let path = format!("bodies[{}].elements", cable.id.body);
+        let path = format!("bodies[{}]", cable.id.body);
         let elements = cable.body.elements as usize;
         nodes(&path, elements, &self.loaded_coordinates(cable))
     }
@@ -64,20 +71,40 @@ impl<'a> Resolved<'a> {
     }
 }
 
+/// Both ends and what is held between them, once each; what roundoff alone keeps apart is one.
+fn corners(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error> {
+    let shortest = SHORTEST / elements as f64;
+    let one = (ROUNDOFF * shortest).max(4.0 * f64::EPSILON);
+    let mut corners = vec![0.0];
+    let inner = held.iter().copied().filter(|c| *c < 1.0 - one);
+    for next in inner.chain([1.0]) {
+        let last = corners.last().copied().unwrap_or(0.0);
+        if next - last <= one {
+            continue;
+        }
+        if next - last < shortest {
+            let message = format!(
+                "expected what acts on the cable at one place or at places at least {shortest:e} of its length \
+                 apart (a thousandth of an element), found markers at {last} and {next}"
+            );
+            return Err(Error::new(format!("{path}.markers"), message));
+        }
+        corners.push(next);
+    }
+    Ok(corners)
+}
+
 /// Material coordinates in [0, 1] of the nodes of `elements` elements, with a node at every
 /// coordinate of `held`.
 fn nodes(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error> {
-    let inner = held.iter().copied().filter(|c| *c > 0.0 && *c < 1.0);
-    let mut corners = vec![0.0];
-    corners.extend(inner);
-    corners.push(1.0);
+    let corners = corners(path, elements, held)?;
     let stretches: Vec<f64> = corners.windows(2).map(|c| c[1] - c[0]).collect();
     if elements < stretches.len() {
         let message = format!(
             "expected at least {} elements (joints, loads and masses act inside the body), found {elements}",
             stretches.len()
         );
-        return Err(Error::new(path, message));
+        return Err(Error::new(format!("{path}.elements"), message));
     }
     let mut counts = vec![1_u32; stretches.len()];
     for _ in stretches.len()..elements {
@@ -114,7 +141,33 @@ mod tests {
 
     #[test]
     fn says_how_many_elements_it_needs() {
-        let error = nodes("bodies[0].elements", 1, &[0.5]).expect_err("too few");
-        assert!(error.to_string().contains("at least 2 elements"));
+        let error = nodes("bodies[0]", 1, &[0.5]).expect_err("too few");
+        let told = error.to_string();
+        assert!(
+            told.starts_with("bodies[0].elements: expected at least 2 elements"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn places_that_roundoff_keeps_apart_share_a_node() {
+        let held = [1e-16, 0.3, 0.1 + 0.2, 1.0 - 1e-16];
+        let nodes = nodes("bodies[0]", 10, &held).expect("three corners");
+        assert_eq!((nodes.len(), nodes[3]), (11, 0.3));
+        assert_eq!((nodes[0], nodes[10]), (0.0, 1.0));
+    }
+
+    #[test]
+    fn slivers_are_refused() {
+        for held in [[0.5, 0.5 + 1e-9], [1e-9, 0.5], [0.5, 1.0 - 9e-5]] {
+            let told = nodes("bodies[0]", 10, &held)
+                .expect_err("a sliver")
+                .to_string();
+            assert!(
+                told.starts_with("bodies[0].markers: expected what acts"),
+                "{told}"
+            );
+        }
+        assert!(nodes("bodies[0]", 10, &[0.5, 0.50011]).is_ok());
     }
 }

@@ -12,13 +12,17 @@ mod mesh;
 mod ports;
 mod resolved;
 mod shape;
+mod timed;
 mod validate;
+
+use description::{Reader, Strict};
+use serde::Deserialize;
 
 pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion,
-    InitialState, Integrator, Material, Method, RigidBody, Scene, Section, Shape, Strain, Table,
-    Value,
+    InitialState, Integrator, Interpolation, Material, Method, RigidBody, Scene, Section, Shape,
+    Strain, Table, Value,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Holder,
@@ -26,6 +30,7 @@ pub use resolved::{
     MotionKind, Output, Pivot, Place, Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId,
     Slider, Spring, Turning,
 };
+pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};
 
 /// What is wrong with a scene, and where.
@@ -54,20 +59,33 @@ impl Scene {
     /// # Errors
     /// Broken JSON, unknown keys, values of the wrong type and values out of range, each with its path.
     pub fn from_json(text: &str) -> Result<Self, Error> {
+        // Editors of some systems begin a file with a mark of its encoding.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut json = serde_json::Deserializer::from_str(text);
-        let mut scene: Self = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-            let (mut path, message) = (error.path().to_string(), error.inner().to_string());
-            // Broken JSON has no path.
-            if path == "." || path == "?" {
-                path = "scene".into();
-            }
-            match message.split_once(description::INNER) {
-                Some((inner, message)) => Error::new(format!("{path}.{inner}"), message),
-                None => Error::new(path, message),
+        let broken = |error: serde_json::Error| format!("expected JSON: {error}");
+        let value: Strict = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+            let path = error.path().to_string();
+            let is_told = error.inner().is_data();
+            let path = if path == "." || path == "?" {
+                "scene".into()
+            } else {
+                path
+            };
+            match is_told {
+                true => Error::new(path, error.inner().to_string()),
+                // The line and the column say where.
+                false => Error::new("scene", broken(error.into_inner())),
             }
         })?;
         json.end()
-            .map_err(|error| Error::new("scene", error.to_string()))?;
+            .map_err(|error| Error::new("scene", broken(error)))?;
+        let mut scene = Self::deserialize(Reader(value.0)).map_err(|wrong| {
+            let path = match wrong.path.as_str() {
+                "" => "scene",
+                path => path,
+            };
+            Error::new(path, wrong.message)
+        })?;
         scene.accuracy.relative_tolerance = Some(scene.relative_tolerance());
         scene.resolve()?;
         Ok(scene)

@@ -5,9 +5,9 @@ use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
 use super::{Error, Quantity, Report, Source, Spectra, StepFailure, Variable, method};
 use crate::body::Node;
-use crate::integrators::{MOST_STEPS, Method, Stop, Tolerance, advance};
+use crate::integrators::{Method, Tolerance, advance};
 use crate::math::jet::{Jet, part};
-use crate::scene::{Assembled, Holder, InitialState, Resolved};
+use crate::scene::{Assembled, Holder, InitialState, Resolved, Timed};
 use crate::system::{
     Derivatives, Evaluation, Gap, Model, NotAssembled, SpectrumError, State, System, Work,
     eigenvalues, equilibrium, moved, natural_frequencies,
@@ -33,15 +33,19 @@ pub(super) struct Inputs {
 
 pub(super) struct Engine {
     initial: InitialState,
+    /// Most work of one communication step.
+    pub(super) most_work: f64,
+    /// Functions of time of the scene, to say which of them ended a step.
+    pub(super) timed: Vec<Timed>,
     /// What holds something in the system, by its list and name, and names of bodies.
     holders: Vec<(&'static str, String)>,
     /// What the initial state was found with that a person should know.
     remarks: Remarks,
     bodies: Vec<String>,
-    assembled: Assembled,
-    work: Work,
-    method: Box<dyn Method>,
-    tolerance: Tolerance,
+    pub(super) assembled: Assembled,
+    pub(super) work: Work,
+    pub(super) method: Box<dyn Method>,
+    pub(super) tolerance: Tolerance,
     evaluation: Evaluation,
     evaluated: Evaluated,
     derivatives: Option<Box<Derivatives>>,
@@ -53,6 +57,11 @@ pub(super) struct Engine {
     sets_springs: bool,
     /// The state at time 0 under these inputs, until it has been asked for.
     start: Option<(Vec<f64>, State)>,
+}
+
+/// Most work of one communication step; of a fuzzer little, so that it hears of it at once.
+fn most_work(limit: f64) -> f64 {
+    if cfg!(fuzzing) { limit.min(1e5) } else { limit }
 }
 
 impl Inputs {
@@ -129,6 +138,8 @@ impl Engine {
         let watch = Watch::new(outputs, system, &tolerance);
         Ok(Self {
             initial: resolved.scene.initial.state(),
+            most_work: most_work(resolved.scene.method.work_limit),
+            timed: resolved.scene.timed(),
             holders: resolved.holders.iter().map(kind_and_name).collect(),
             remarks: Remarks::default(),
             bodies: names(&mut resolved.bodies.iter().map(|body| body.name())),
@@ -251,7 +262,7 @@ impl Engine {
     }
 
     /// Name of a joint, motion or port that holds something in the system.
-    fn name(&self, index: usize) -> &str {
+    pub(super) fn name(&self, index: usize) -> &str {
         &self.holders[index].1
     }
 
@@ -277,6 +288,7 @@ impl Engine {
         state.work[0] += self.set_energy(state, &inputs.values);
         let (system, start) = (&self.assembled.system, state.time);
         let model = Model::new(system, &inputs.values, &mut self.work, state);
+        let model = model.limited(self.most_work);
         let mut model = model.moving(&inputs.slopes).until(state, until);
         let (counts, result) =
             advance(&mut *self.method, &mut model, state, until, &self.tolerance);
@@ -295,7 +307,7 @@ impl Engine {
         };
         let failure = |stop| StepFailure {
             time: state.time,
-            reason: self.explain(stop),
+            reason: self.explain(stop, state, (start, until), &counts),
         };
         (report, result.map_err(failure))
     }
@@ -345,23 +357,6 @@ impl Engine {
         }
         self.evaluate(Evaluated::Kinematics, state, inputs);
         self.evaluation.spring_energy(&self.assembled.system)
-    }
-
-    fn explain(&self, stop: Stop) -> String {
-        let (method, tolerance) = (self.method.name(), self.tolerance.relative);
-        match stop {
-            Stop::StepTooSmall => format!(
-                "{method}: no step however short meets the relative tolerance {tolerance:e}"
-            ),
-            Stop::TooManySteps => format!(
-                "{method}: the relative tolerance {tolerance:e} takes more than {MOST_STEPS} steps"
-            ),
-            Stop::NotFinite => {
-                format!("{method}: velocities or accelerations are no longer finite")
-            }
-            Stop::RanOff(joint) => format!("slider `{}` has left its cable", self.name(joint)),
-            Stop::Broken => format!("{method}: constraints cannot be kept"),
-        }
     }
 
     /// Whether a state has the sizes of this system.

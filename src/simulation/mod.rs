@@ -8,6 +8,7 @@ mod quantities;
 mod shapes;
 mod signals;
 mod snapshot;
+mod stop;
 #[cfg(test)]
 mod tests;
 mod variables;
@@ -17,7 +18,7 @@ pub use signals::{SignalError, Signals};
 pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Parameter, Quantity, Source, Unit, Variable, variables};
 
-use crate::scene::{Error as SceneError, Scene};
+use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;
 use engine::{Engine, Inputs};
 use variables::start_inputs;
@@ -278,7 +279,9 @@ impl Simulation {
     /// Parameters that make no valid scene, no static equilibrium.
     pub fn initialize(&mut self, start_time: f64) -> Result<(), Error> {
         let scene = self.parametrized();
-        let mut engine = Engine::new(&scene.resolve()?, &self.variables)?;
+        let resolved = scene.resolve()?;
+        finite_at(&scene.timed(), start_time)?;
+        let mut engine = Engine::new(&resolved, &self.variables)?;
         let (state, spectra) = engine.initial_state(start_time, &self.inputs.values)?;
         (self.engine, self.state, self.spectra) = (Some(engine), state, spectra);
         self.current = true;
@@ -434,5 +437,6 @@ fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
         Gravity(axis) => scene.gravity[axis] = value,
         Rotation => scene.rotation = value,
         RelativeTolerance => scene.accuracy.relative_tolerance = Some(value),
+        WorkLimit => scene.method.work_limit = value,
     }
 }

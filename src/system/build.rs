@@ -8,7 +8,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
 use super::loads::{Load, coupling};
-use super::signal::{Drive, Signal};
+use super::signal::Drive;
 use super::{Constraints, DrivenRow, PlanarChain, System};
 use crate::body::{Assembly, Dependent, Elimination, Formulation, Marker, Node, Row};
 use crate::math::function::Function;
@@ -99,8 +99,8 @@ impl System {
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let mut system = Self {
             reference: parts.nodes,
-            is_driven_by_time: is_driven_by_time(&parts.drives, &parts.loads),
-            breaks: breaks(&parts.drives, &parts.loads),
+            is_driven_by_time: false,
+            has_breaks: false,
             grounded: grounded(&parts.loads, &nonlinear, parts.rotation, &parts.bodies),
             is_damped: chains_damped || loads_damped,
             needs_rates: loads_damped || parts.rotation != 0.0 || parts.tracks_work,
@@ -127,6 +127,11 @@ impl System {
             method: parts.constraints,
             tracks_work: parts.tracks_work,
         };
+        let has_breaks = system.functions().any(|(_, f)| f.has_breaks());
+        // Tables are smooth between their points.
+        let is_expression = |f: &Function| matches!(f, Function::Expression(_));
+        let is_driven_by_time = system.functions().any(|(_, f)| is_expression(f));
+        (system.has_breaks, system.is_driven_by_time) = (has_breaks, is_driven_by_time);
         system.settle();
         system.weigh();
         system.group(nonlinear);
@@ -382,29 +387,6 @@ fn printed_rows(parts: &Parts, assembly: &Assembly<4>, joints: &[Row<4>]) -> Vec
         rows.push(row);
     }
     rows
-}
-
-/// Whether an expression of time moves or loads the system; tables are smooth between their points.
-fn is_driven_by_time(drives: &[Drive], loads: &[Load]) -> bool {
-    let is_expression = |function: &Function| matches!(function, Function::Expression(_));
-    let drive = |drive: &Drive| matches!(drive, Drive::Function(f) if is_expression(f));
-    let signal = |signal: &Signal| matches!(signal, Signal::Function(f) if is_expression(f));
-    drives.iter().any(drive) || loads.iter().flat_map(Load::signals).any(signal)
-}
-
-fn breaks(drives: &[Drive], loads: &[Load]) -> Vec<f64> {
-    let of_drives = drives.iter().flat_map(|drive| match drive {
-        Drive::Function(function) => function.breaks(),
-        Drive::Input { .. } => &[],
-    });
-    let signals = loads.iter().flat_map(Load::signals);
-    let mut breaks: Vec<f64> = of_drives
-        .chain(signals.flat_map(Signal::breaks))
-        .copied()
-        .collect();
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup();
-    breaks
 }
 
 /// Nodes that something besides rows ties to the ground.

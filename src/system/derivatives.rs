@@ -77,7 +77,7 @@ impl Derivatives {
         order: usize,
         work: &mut Work,
     ) {
-        let time = state.time;
+        let time = system.now(state.time);
         self.values.time = Jet::new(time, 1.0, 0.0);
         let slope = |i: usize| slopes.get(i).copied().unwrap_or_default();
         self.set_inputs(plain, |i| {

@@ -55,8 +55,13 @@ pub trait Dynamics {
     fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64;
     /// Told of every accepted step: brings the state back to the constraints and counts turns on.
     fn accepted(&mut self, state: &mut State) -> Accepted;
-    /// Times that no step may lead across, s, increasing.
-    fn breaks(&self) -> &[f64];
+    /// Begins a stretch in which nothing has a kink or jumps: from a time to the one returned, `until` at the
+    /// latest. Accelerations at both ends are those inside it.
+    fn begin_stretch(&mut self, from: f64, until: f64) -> f64;
+    /// Whether it has done as much work as it may.
+    fn is_exhausted(&self) -> bool;
+    /// Ends the stretch, at whose end or before it the state stands; beyond a jump it goes on differently.
+    fn end_stretch(&mut self, state: &mut State) -> Accepted;
 }
 
 /// What became of an accepted state.
@@ -70,6 +75,10 @@ pub enum Accepted {
     RanOff(usize),
     /// It is off the constraints and cannot be brought back.
     Broken,
+    /// A driven coordinate jumps; its index.
+    Jumped(usize),
+    /// A driven coordinate has no value.
+    NotFinite,
 }
 
 /// Residual of positions, relative, beyond which constraints count as broken.
@@ -88,12 +97,18 @@ pub struct Model<'a> {
     /// Scratch of the system.
     pub work: &'a mut Work,
     pub(super) time: f64,
+    /// The kink or jump that ends the stretch under way.
+    pub(super) crossing: Option<f64>,
+    /// Evaluations of accelerations and tangents, factorizations and solves so far, and the most of them.
+    operations: u64,
+    most_operations: u64,
 }
 
 impl<'a> Model<'a> {
     /// The system at a state, what inputs drive held.
     pub fn new(system: &'a System, inputs: &'a [f64], work: &'a mut Work, state: &State) -> Self {
         work.follow(state);
+        work.stretch = None;
         work.inputs.clear();
         work.inputs.extend_from_slice(inputs);
         work.input_rates.clear();
@@ -122,7 +137,17 @@ impl<'a> Model<'a> {
             start: state.time,
             work,
             time: state.time,
+            crossing: None,
+            operations: 0,
+            most_operations: u64::MAX,
         }
+    }
+
+    /// Bounds its work: operations (evaluations of accelerations and tangents, factorizations, solves) times
+    /// [`System::parts`].
+    pub fn limited(mut self, work: f64) -> Self {
+        self.most_operations = (work / self.system.parts() as f64).ceil() as u64;
+        self
     }
 
     /// Inputs move from now on, with these first and second derivatives.
@@ -272,6 +297,7 @@ impl<'a> Model<'a> {
 
 impl Dynamics for Model<'_> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        self.operations += 1;
         let system = self.system;
         if system.method == Constraints::Partitioning && !system.constraints.is_empty() {
             let mut p = std::mem::take(&mut self.work.q);
@@ -313,6 +339,7 @@ impl Dynamics for Model<'_> {
     }
 
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
+        self.operations += 1;
         let system = self.system;
         if !system.constraints.is_empty() {
             // Multipliers stiffen, and the border needs the Jacobian here.
@@ -326,15 +353,18 @@ impl Dynamics for Model<'_> {
     }
 
     fn factor(&mut self, s: f64) -> bool {
+        self.operations += 1;
         self.work.tangent.factor(&self.system.elimination, s)
     }
 
     fn factor_complex(&mut self, s: Complex<f64>) -> bool {
+        self.operations += 1;
         let elimination = &self.system.elimination;
         self.work.tangent.factor_complex(elimination, s)
     }
 
     fn solve(&mut self, x: &mut [f64]) {
+        self.operations += 1;
         self.work.tangent.solve(&self.system.elimination, x);
     }
 
@@ -350,6 +380,7 @@ impl Dynamics for Model<'_> {
         back: &[[f64; 3]; 3],
         stages: &mut [Vec<f64>; 3],
     ) {
+        self.operations += 1;
         let elimination = &self.system.elimination;
         self.work
             .tangent
@@ -399,7 +430,15 @@ impl Dynamics for Model<'_> {
         }
     }
 
-    fn breaks(&self) -> &[f64] {
-        &self.system.breaks
+    fn is_exhausted(&self) -> bool {
+        self.operations >= self.most_operations
+    }
+
+    fn begin_stretch(&mut self, from: f64, until: f64) -> f64 {
+        self.enter(from, until)
+    }
+
+    fn end_stretch(&mut self, state: &mut State) -> Accepted {
+        self.leave(state)
     }
 }

@@ -11,10 +11,11 @@ use crate::math::jet::Number;
 impl System {
     /// Puts the nodal coordinates and, if given, rates of a state into `work`.
     pub(super) fn place(&self, time: f64, q: &[f64], v: Option<&[f64]>, work: &mut Work) {
+        let clock = self.clock(time, work);
         let mut courses = work.courses.iter();
         for (value, drive) in work.drives.iter_mut().zip(&self.drives) {
             *value = match drive {
-                Drive::Function(function) => function.derivatives(time),
+                Drive::Function(function) => function.derivatives(clock),
                 Drive::Input { .. } => {
                     let course = courses.next();
                     course.map_or([0.0; 3], |course| course.derivatives(time))
@@ -62,7 +63,7 @@ impl System {
 
     pub(super) fn instant<'a>(&'a self, time: f64, work: &'a Work) -> Instant<'a> {
         Instant {
-            time,
+            time: self.clock(time, work),
             inputs: &work.inputs,
             input_rates: &work.input_rates,
             x: &work.x,
@@ -110,6 +111,7 @@ impl System {
     /// Tangent at the state in `work`, with the multipliers of its last acceleration.
     pub(super) fn assemble(&self, time: f64, work: &mut Work) {
         let assembly = &self.elimination.assembly;
+        let clock = self.clock(time, work);
         let Work { tangent, x, v, .. } = work;
         let (drives, travel, angles) = (&work.drives, &work.travel, &work.angles);
         tangent.stages.set_base(x);
@@ -119,7 +121,7 @@ impl System {
             chain.add_tangent((x, v), assembly, stiffness, damping);
         }
         let at = Instant {
-            time,
+            time: clock,
             inputs: &work.inputs,
             input_rates: &work.input_rates,
             x,

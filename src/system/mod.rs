@@ -1,6 +1,7 @@
 //! Floor 3. A system: bodies, joints, motions and loads, constant after assembly; its state, plain
 //! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
 
+mod breaks;
 mod build;
 mod derivatives;
 pub mod dynamics;
@@ -24,6 +25,7 @@ mod state;
 mod steady;
 mod work;
 
+pub use breaks::Follower;
 pub use build::{BuildError, Lump, Parts};
 pub use derivatives::Derivatives;
 pub use dynamics::{Accepted, Dynamics, Model};
@@ -103,7 +105,8 @@ pub struct System {
     tracks_work: bool,
     /// Whether functions of time move or load it.
     is_driven_by_time: bool,
-    breaks: Vec<f64>,
+    /// Whether a function of time may have a kink or a jump.
+    has_breaks: bool,
     grounded: Vec<usize>,
 }
 
@@ -174,6 +177,13 @@ impl System {
         &self.redundant
     }
 
+    /// What an evaluation costs, in parts: elements, lumped masses, constraints, and what any evaluation costs
+    /// besides them, which is about as much as four elements.
+    pub fn parts(&self) -> usize {
+        let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
+        4 + elements + self.lumps.len() + self.constraints.len()
+    }
+
     /// Number of non-linear constraints.
     pub fn constraints(&self) -> usize {
         self.constraints.len()
@@ -189,11 +199,6 @@ impl System {
     /// `q'' = a(t, q)` are for systems where they do not.
     pub fn reads_rates(&self) -> bool {
         self.is_damped || self.needs_rates
-    }
-
-    /// Times at which something has a kink or jumps, s, increasing: no step leads across.
-    pub fn breaks(&self) -> &[f64] {
-        &self.breaks
     }
 
     /// Mass, kg.

@@ -68,7 +68,7 @@ impl Evaluation {
     /// Computes coordinates and rates.
     pub fn kinematics(&mut self, system: &System, state: &State, work: &mut Work) {
         work.follow(state);
-        self.time = state.time;
+        self.time = system.now(state.time);
         system.place(state.time, &state.coordinates, Some(&state.rates), work);
         self.x.copy_from_slice(&work.x);
         self.v.copy_from_slice(&work.v);

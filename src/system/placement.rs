@@ -223,7 +223,7 @@ impl System {
     }
 
     /// `q = T^T M dx`: coordinates that come closest to a nodal displacement in the mass norm.
-    fn coordinates_of(&self, dx: &[Node<4>], work: &mut Work, q: &mut [f64]) {
+    pub(super) fn coordinates_of(&self, dx: &[Node<4>], work: &mut Work, q: &mut [f64]) {
         work.f.fill([0.0; 4]);
         self.add_inertia(1.0, dx, &mut work.f);
         self.elimination.reduce(&work.f, &mut work.y, q);
@@ -246,7 +246,7 @@ impl System {
             // What a coupling turns along with may have turned fully before.
             if let Load::Turning(turning) = load {
                 let outside = turning.angle.value(Instant {
-                    time: state.time,
+                    time: self.now(state.time),
                     inputs,
                     input_rates: &[],
                     x,

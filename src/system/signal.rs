@@ -42,14 +42,6 @@ impl Signal {
     pub fn held(&self, at: Instant<'_>, fraction: f64) -> Self {
         Self::Function(Function::constant(fraction * self.value(at)))
     }
-
-    /// Times at which it has a kink or jumps, s.
-    pub fn breaks(&self) -> &[f64] {
-        match self {
-            Self::Function(function) => function.breaks(),
-            Self::Input(_) => &[],
-        }
-    }
 }
 
 /// A prescribed coordinate: its value and first two derivatives are needed.

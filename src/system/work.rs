@@ -26,6 +26,8 @@ pub struct Work {
     /// Driven coordinates with two derivatives, and the courses of those that inputs drive.
     pub(super) drives: Vec<[f64; 3]>,
     pub(super) courses: Vec<Course>,
+    /// First and last time at which functions of time are taken in the smooth stretch that is under way.
+    pub(super) stretch: Option<[f64; 2]>,
     /// Inputs and their rates at the time of the last configuration.
     pub(super) inputs: Vec<f64>,
     pub(super) input_rates: Vec<f64>,
@@ -61,6 +63,7 @@ impl Work {
             a: vector,
             drives: vec![[0.0; 3]; system.drives.len()],
             courses: vec![Course::default(); system.courses().count()],
+            stretch: None,
             inputs: Vec::new(),
             input_rates: Vec::new(),
             angles: vec![0.0; system.angles.len()],

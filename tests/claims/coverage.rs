@@ -18,7 +18,14 @@ const SINGLE: [&str; 3] = [
     "outputs{natural_frequency}.body",
 ];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`.
-const OWN: [&str; 3] = ["about.", "method.constraints", "method.formulation"];
+const OWN: [&str; 4] = [
+    "about.",
+    "method.constraints",
+    "method.formulation",
+    "method.work_limit",
+];
+/// Keys of every table, whatever follows it; their claims are the cases `switched_loads` and `struck_rod`.
+const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];
 
 /// What was done at a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -204,6 +211,7 @@ fn every_key_has_a_claim_that_moves_with_it() {
         .flat_map(|key| complaints(key, &records))
         .chain(plain.iter().flat_map(|key| of_default(key, &records)))
         .filter(|text| !OWN.iter().any(|key| text.starts_with(key)))
+        .filter(|text| !OF_TABLES.iter().any(|key| text.contains(key)))
         .collect();
     keys.retain(|key| records.contains_key(&(key.clone(), Deed::Changed)));
     let runs: usize = records.values().map(Vec::len).sum();

@@ -15,12 +15,13 @@ use crate::specimen::{Outcome, Specimen, units};
 /// Names all parameters, with the list and the key of the scene that they stand for and their units.
 macro_rules! keys {
     ($($variant:ident => $list:literal, $key:literal, $unit:literal;)*) => {
-        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Rotation", "RelativeTolerance"];
+        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Rotation", "RelativeTolerance", "WorkLimit"];
         fn key(parameter: Parameter) -> (&'static str, String, &'static str) {
             match parameter {
                 $(Parameter::$variant(i) => (stringify!($variant), format!("/{}/{i}{}", $list, $key), $unit),)*
                 Parameter::Rotation => ("Rotation", "/rotation".into(), "rad/s"),
                 Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
+                Parameter::WorkLimit => ("WorkLimit", "/method/work_limit".into(), ""),
             }
         }
     };

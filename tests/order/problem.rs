@@ -15,7 +15,8 @@ pub struct Problem {
     real: Matrix2<f64>,
     complex: Matrix2<Complex<f64>>,
     /// Calls of `acceleration`, and accepted steps.
-    calls: u32,
+    pub calls: u32,
+    pub most_calls: u32,
     pub steps: u32,
     /// Power that comes in and that is dissipated, from time and rates.
     pub powers: fn(f64, Vector2<f64>) -> [f64; 2],
@@ -39,6 +40,7 @@ impl Problem {
             real: Matrix2::zeros(),
             complex: Matrix2::zeros(),
             calls: 0,
+            most_calls: u32::MAX,
             steps: 0,
             powers: |_, _| [0.0; 2],
             power: [0.0; 2],
@@ -125,7 +127,16 @@ impl Dynamics for Problem {
         (self.settle)(state)
     }
 
-    fn breaks(&self) -> &[f64] {
-        &self.breaks
+    fn is_exhausted(&self) -> bool {
+        self.calls >= self.most_calls
+    }
+
+    fn begin_stretch(&mut self, from: f64, until: f64) -> f64 {
+        let next = self.breaks.iter().find(|t| **t > from);
+        next.map_or(until, |t| t.min(until))
+    }
+
+    fn end_stretch(&mut self, _state: &mut State) -> Accepted {
+        Accepted::AsIs
     }
 }

@@ -122,7 +122,15 @@ impl Dynamics for Probe<'_> {
         self.model.accepted(state)
     }
 
-    fn breaks(&self) -> &[f64] {
-        self.model.breaks()
+    fn is_exhausted(&self) -> bool {
+        self.model.is_exhausted()
+    }
+
+    fn begin_stretch(&mut self, from: f64, until: f64) -> f64 {
+        self.model.begin_stretch(from, until)
+    }
+
+    fn end_stretch(&mut self, state: &mut State) -> Accepted {
+        self.model.end_stretch(state)
     }
 }

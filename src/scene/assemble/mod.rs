@@ -23,6 +23,9 @@ use crate::system::{
     Angle, BuildError, Constraints as Method, End, Lump, Parts, PlanarChain, Signal, System,
 };
 
+/// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
+const BYTES: usize = 5000;
+
 /// A system and what of its scene is needed beside it.
 #[derive(Clone, Debug)]
 pub struct Assembled {
@@ -71,8 +74,9 @@ impl Resolved<'_> {
     ///
     /// # Errors
     /// When a mesh is too coarse for what acts inside its body, when a motion contradicts joints, when a
-    /// body has no mass.
+    /// body has no mass, when memory does not suffice.
     pub fn assemble(&self) -> Result<Assembled, Error> {
+        self.reserve()?;
         let mut builder = Builder {
             resolved: self,
             motions: Motions::default(),
@@ -129,6 +133,19 @@ impl Resolved<'_> {
             },
             tracks_work: self.outputs.iter().any(|o| matches!(o, Output::Work)),
         }
+    }
+
+    /// Asks for the memory that a scene will take, and gives it back: an allocation that fails later would end
+    /// the process.
+    fn reserve(&self) -> Result<(), Error> {
+        let elements = self.scene.elements();
+        let bytes = elements as usize * BYTES;
+        Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| {
+            let wanted = bytes / 1_000_000;
+            let message =
+                format!("expected memory for {elements} elements ({wanted} MB), found less");
+            Error::new("bodies", message)
+        })
     }
 
     fn explain(&self, error: &BuildError) -> Error {

@@ -52,7 +52,9 @@ pub struct RigidBody {
     pub name: String,
     /// Mass, kg.
     pub mass: f64,
-    /// Moment of inertia about the centre of mass, kg m^2; 0 is a particle, which does not turn.
+    /// Moment of inertia about the centre of mass, kg m^2; 0 (and where nothing is said) is a particle, which
+    /// does not turn.
+    #[serde(default)]
     pub inertia: f64,
     /// Centre of mass at the start, m.
     pub position: [f64; 2],
@@ -165,7 +167,9 @@ impl<'de> Deserialize<'de> for Body {
         };
         let mut value = Strict::deserialize(deserializer)?.0;
         let Some(keys) = value.as_object_mut() else {
-            return Err(D::Error::custom("expected a body { ... }"));
+            return Err(D::Error::custom(format!(
+                "expected a body {{ ... }}, found {value}"
+            )));
         };
         let element = keys.remove("element").ok_or_else(|| wrong("nothing"))?;
         match element.as_str() {

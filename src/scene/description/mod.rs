@@ -7,6 +7,7 @@ mod joint;
 mod load;
 mod output;
 mod port;
+mod reader;
 mod strict;
 mod value;
 
@@ -20,8 +21,9 @@ pub use joint::{Joint, JointKind, Motion, MotionKind};
 pub use load::{Input, InputKind, Load, LoadKind};
 pub use output::{Output, OutputKind};
 pub use port::{Port, PortKind};
-pub use strict::INNER;
-pub use value::{LoadValue, MotionValue, Table, Value};
+pub use reader::Reader;
+pub use strict::Strict;
+pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};
 
 /// A scene: bodies, joints, what drives and loads them, what goes in and what comes out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -98,7 +100,7 @@ impl Scene {
 }
 
 /// Formulation, constraints and integrator.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Method {
     /// How connectivity and linear joints are eliminated.
@@ -110,6 +112,26 @@ pub struct Method {
     /// Integrator.
     #[serde(default)]
     pub integrator: Integrator,
+    /// Most work of one communication step: evaluations (of accelerations and tangents, factorizations and
+    /// solves) times parts (elements, masses and constraints, and four). A step that takes more ends where it
+    /// is. A billion takes about a minute.
+    #[serde(default = "work_limit")]
+    pub work_limit: f64,
+}
+
+impl Default for Method {
+    fn default() -> Self {
+        Self {
+            formulation: Formulation::default(),
+            constraints: Constraints::default(),
+            integrator: Integrator::default(),
+            work_limit: work_limit(),
+        }
+    }
+}
+
+fn work_limit() -> f64 {
+    1e9
 }
 
 /// Formulations by name.

@@ -7,8 +7,10 @@ use serde::Deserialize;
 use serde::de::{DeserializeOwned, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 
+use super::reader::Reader;
+
 /// Stands between a path inside a value and the message about what is there.
-pub const INNER: char = '\u{1f}';
+pub(super) const INNER: char = '\u{1f}';
 
 /// Any JSON value in which no key stands twice.
 pub struct Strict(pub Value);
@@ -20,16 +22,7 @@ pub fn at(path: &str, message: &str) -> String {
 
 /// Reads a type from a value; the error carries its path inside the value.
 pub fn typed<T: DeserializeOwned, E: Error>(value: Value) -> Result<T, E> {
-    serde_path_to_error::deserialize(value).map_err(|error| {
-        let path = error.path().to_string();
-        let message = error.inner().to_string();
-        // A message of the value itself, e.g. about a missing key, has no path of its own.
-        E::custom(if path == "." {
-            message
-        } else {
-            at(&path, &message)
-        })
-    })
+    T::deserialize(Reader(value)).map_err(|wrong| E::custom(at(&wrong.path, &wrong.message)))
 }
 
 struct AnyValue;
@@ -87,7 +80,7 @@ impl<'de> Visitor<'de> for AnyValue {
 }
 
 fn twice<E: Error>(key: impl Display) -> E {
-    E::custom(format!("duplicate field `{key}`"))
+    E::custom(format!("expected every key once, found \"{key}\" twice"))
 }
 
 impl<'de> Deserialize<'de> for Strict {

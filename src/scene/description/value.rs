@@ -15,19 +15,39 @@ use crate::math::function::Function;
 pub enum Value {
     /// Constant.
     Number(f64),
-    /// Expression in `t`, e.g. `0.1*sin(2*PI*t)`.
+    /// Expression in `t`, e.g. `0.1*sin(2*PI*t)`: numbers, `PI`, `E`, `+ - * / ^`, `< <= > >=` (1 or 0), `sin`, `cos`,
+    /// `tan`, `asin`, `acos`, `atan`, `atan2(y, x)`, `sinh`, `cosh`, `tanh`, `exp`, `ln`, `log2`, `log10`, `sqrt`, `abs`,
+    /// `sign`, `step` (1 from zero on), `min`, `max`, `if(c, a, b)` (`a` where `c` is positive). No step leads
+    /// across a kink or a jump. A motion must not jump; where its velocity does, the drive strikes the bodies.
     Expression(String),
     /// Table.
     Table(Table),
 }
 
-/// A table over time. Motions follow a smooth spline through it, at rest before and after; loads go
-/// straight from point to point and hold the end values outside.
+/// A table over time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Table {
     /// Times (s, increasing) and values.
     pub table: Vec<[f64; 2]>,
+    /// What happens between the points; of a motion `spline`, of all else `linear` where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<Interpolation>,
+    /// Rates of a spline at its first and last point, with which it goes on outside, 1/s; 0 where nothing is
+    /// said: at rest before and after.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slopes: Option<[f64; 2]>,
+}
+
+/// Ways from point to point of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Interpolation {
+    /// Straight from point to point, the end values held outside. The velocity of a motion jumps at every
+    /// point: the drive strikes the bodies there.
+    Linear,
+    /// A smooth cubic spline.
+    Spline,
 }
 
 /// Values of a load: one of a moment, two of a force.
@@ -62,26 +82,35 @@ pub struct MasterInput {
 }
 
 impl Value {
-    /// The function of time of a load: tables are piecewise linear.
+    /// The function of time of a load: tables are piecewise linear unless they say otherwise.
     ///
     /// # Errors
     /// What is wrong with an expression or a table; never for a valid scene.
     pub fn function(&self) -> Result<Function, String> {
-        match self {
-            Self::Number(value) => Ok(Function::constant(*value)),
-            Self::Expression(text) => Function::expression(text),
-            Self::Table(table) => Function::linear(&table.table),
-        }
+        self.interpolated(Interpolation::Linear)
     }
 
-    /// The function of time of a motion: tables are splines.
+    /// The function of time of a motion: tables are splines unless they say otherwise.
     ///
     /// # Errors
     /// What is wrong with an expression or a table; never for a valid scene.
     pub fn motion_function(&self) -> Result<Function, String> {
+        self.interpolated(Interpolation::Spline)
+    }
+
+    fn interpolated(&self, otherwise: Interpolation) -> Result<Function, String> {
         match self {
-            Self::Table(table) => Function::spline(&table.table),
-            _ => self.function(),
+            Self::Number(value) => Ok(Function::constant(*value)),
+            Self::Expression(text) => Function::expression(text),
+            Self::Table(table) => match table.interpolation.unwrap_or(otherwise) {
+                Interpolation::Linear if table.slopes.is_some() => {
+                    Err("expected slopes of a spline only, found those of a linear table".into())
+                }
+                Interpolation::Linear => Function::linear(&table.table),
+                Interpolation::Spline => {
+                    Function::spline(&table.table, table.slopes.unwrap_or_default())
+                }
+            },
         }
     }
 }
@@ -126,6 +155,8 @@ enum Found {
 #[serde(deny_unknown_fields)]
 struct TableOrInput {
     table: Option<Vec<[f64; 2]>>,
+    interpolation: Option<Interpolation>,
+    slopes: Option<[f64; 2]>,
     input: Option<u8>,
 }
 
@@ -170,10 +201,18 @@ impl<'de> Visitor<'de> for Anything {
         match TableOrInput::deserialize(keys)? {
             TableOrInput {
                 table: Some(table),
+                interpolation,
+                slopes,
                 input: None,
-            } => Ok(Found::One(Value::Table(Table { table }))),
+            } => Ok(Found::One(Value::Table(Table {
+                table,
+                interpolation,
+                slopes,
+            }))),
             TableOrInput {
                 table: None,
+                interpolation: None,
+                slopes: None,
                 input: Some(input),
             } => Ok(Found::Input(MasterInput { input })),
             _ => Err(A::Error::custom(format!("expected {}", self.wanted))),

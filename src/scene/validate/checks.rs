@@ -9,7 +9,7 @@ use crate::scene::description::Value;
 use crate::scene::marker::GROUND;
 
 /// Words that begin variable names of the scene itself, or stand for something else.
-const RESERVED: [&str; 12] = [
+const RESERVED: [&str; 13] = [
     GROUND,
     "gravity",
     "rotation",
@@ -22,6 +22,7 @@ const RESERVED: [&str; 12] = [
     "eigenvalue",
     "time",
     "relative_tolerance",
+    "work_limit",
 ];
 
 /// Longest text about a scene.

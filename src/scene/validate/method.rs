@@ -1,6 +1,6 @@
 //! Checks of the chosen method.
 
-use super::checks::{expected, quoted};
+use super::checks::{expected, positive, quoted};
 use crate::scene::description::{Input, InputKind, Joint, JointKind};
 use crate::scene::marker::GROUND;
 use crate::scene::{Constraints, Error, Formulation, Integrator, Scene};
@@ -8,6 +8,11 @@ use crate::scene::{Constraints, Error, Formulation, Integrator, Scene};
 impl Scene {
     pub(super) fn validate_method(&self) -> Result<(), Error> {
         let method = &self.method;
+        positive(
+            "method.work_limit",
+            "evaluations times parts",
+            method.work_limit,
+        )?;
         let as_printed = method.formulation == Formulation::AsPrinted;
         let partitioning = method.constraints == Constraints::Partitioning;
         if method.integrator != Integrator::Rk4 && (as_printed || partitioning) {

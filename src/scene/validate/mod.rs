@@ -22,6 +22,8 @@ use checks::{expected, finite, name, positive, scene_name, sentence, vector};
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
 pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
+/// Elements of all bodies together: what a computer of today holds.
+const ALL_ELEMENTS: u64 = 1_000_000;
 /// Relative tolerances: below, the error of a step drowns in roundoff; above, it is none at all.
 pub const TOLERANCE: RangeInclusive<f64> = 1e-12..=0.1;
 
@@ -93,6 +95,12 @@ impl Scene {
         Ok(())
     }
 
+    /// Elements of all bodies together.
+    pub(super) fn elements(&self) -> u64 {
+        let cables = self.bodies.iter().filter_map(|body| body.cable());
+        cables.map(|cable| u64::from(cable.elements)).sum()
+    }
+
     fn validate_bodies(&self) -> Result<(), Error> {
         if self.bodies.is_empty() {
             return Err(expected("bodies", "at least one body", "none"));
@@ -100,6 +108,11 @@ impl Scene {
         for (index, body) in self.bodies.iter().enumerate() {
             let path = format!("bodies[{index}]");
             body.validate(&path)?;
+        }
+        let elements: u64 = self.elements();
+        if elements > ALL_ELEMENTS {
+            let wanted = format!("at most {ALL_ELEMENTS} elements in all bodies together");
+            return Err(expected("bodies", &wanted, elements));
         }
         Ok(())
     }

@@ -99,6 +99,8 @@ pub enum Parameter {
     Rotation,
     /// Relative tolerance of the integrator.
     RelativeTolerance,
+    /// Most work of one communication step.
+    WorkLimit,
 }
 
 /// Outputs.

@@ -37,6 +37,10 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
     let what = "Error in time that a step may make, relative to the size of the scene";
     let (parameter, start) = (Parameter::RelativeTolerance, scene.relative_tolerance());
     list.parameter("relative_tolerance", what, None, parameter, start);
+    let what = "Most work of one communication step: evaluations times parts (elements, masses, constraints, \
+                and four); a billion takes about a minute";
+    let (parameter, start) = (Parameter::WorkLimit, scene.method.work_limit);
+    list.parameter("work_limit", what, None, parameter, start);
 }
 
 fn add_cable(list: &mut List, cable: &Cable<'_>) {

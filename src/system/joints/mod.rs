@@ -46,6 +46,17 @@ pub enum JointKind {
     DrivenWay(Vector2<f64>, usize),
 }
 
+impl JointKind {
+    /// Driven coordinates that it follows.
+    pub fn drives(&self) -> &[usize] {
+        match self {
+            Self::DrivenAngle(drive) | Self::DrivenWay(_, drive) => std::slice::from_ref(drive),
+            Self::DrivenPosition(drives) => drives,
+            _ => &[],
+        }
+    }
+}
+
 /// A joint or a motion.
 #[derive(Clone, Debug)]
 pub struct Joint {

@@ -171,15 +171,21 @@ impl Load {
     }
 
     /// Its sizes that change in time.
-    pub fn signals(&self) -> Vec<&Signal> {
+    pub fn signals(&self) -> [Option<&Signal>; 4] {
         match self {
-            Self::Force(load) => load.components.iter().collect(),
-            Self::Moment(load) => vec![&load.size],
-            Self::Distributed(load) => load.components.iter().collect(),
-            Self::Spring(load) => vec![&load.length],
-            Self::Rotational(_) => vec![],
-            Self::Coupling(load) => load.position.iter().chain(&load.velocity).collect(),
-            Self::Turning(load) => vec![&load.angle, &load.velocity],
+            Self::Force(Force { components, .. })
+            | Self::Distributed(Distributed { components, .. }) => {
+                let [x, y] = components;
+                [Some(x), Some(y), None, None]
+            }
+            Self::Moment(load) => [Some(&load.size), None, None, None],
+            Self::Spring(load) => [Some(&load.length), None, None, None],
+            Self::Rotational(_) => [None; 4],
+            Self::Coupling(load) => {
+                let ([x, y], [u, v]) = (&load.position, &load.velocity);
+                [Some(x), Some(y), Some(u), Some(v)]
+            }
+            Self::Turning(load) => [Some(&load.angle), Some(&load.velocity), None, None],
         }
     }
 

@@ -1,0 +1,124 @@
+//! Functions of time of a scene, and where they have no value.
+
+use super::{Error, Scene, Value};
+use crate::math::function::Function;
+use crate::math::switches::grain;
+
+/// A function of time of a scene.
+#[derive(Clone, Debug)]
+pub struct Timed {
+    /// Where it stands.
+    path: String,
+    /// Name of the motion or load that follows it.
+    name: String,
+    function: Function,
+    /// Highest derivative that is needed.
+    order: usize,
+}
+
+/// Steps of time, in grains, around a time at which a function may have no value.
+const AROUND: [f64; 9] = [0.0, 1.0, -1.0, 16.0, -16.0, 256.0, -256.0, 4096.0, -4096.0];
+/// Moments, in grains, within which a function multiplies near a pole.
+const MOMENTS: [f64; 4] = [4096.0, 65536.0, 1048576.0, 268435456.0];
+
+impl Scene {
+    /// Functions of time of a valid scene.
+    pub fn timed(&self) -> Vec<Timed> {
+        let mut timed = Vec::new();
+        let mut add = |path: String, name: &str, value: &Value, order: usize| {
+            let function = match order {
+                2 => value.motion_function(),
+                _ => value.function(),
+            };
+            if let Ok(function) = function {
+                let name = name.to_owned();
+                timed.push(Timed {
+                    path,
+                    name,
+                    function,
+                    order,
+                });
+            }
+        };
+        let place = |path: String, count: usize, k: usize| match count {
+            1 => path,
+            _ => format!("{path}[{k}]"),
+        };
+        for (i, motion) in self.motions.iter().enumerate() {
+            let values = motion.value.components();
+            for (k, value) in values.iter().enumerate() {
+                let path = place(format!("motions[{i}].value"), values.len(), k);
+                add(path, &motion.name, value, 2);
+            }
+        }
+        for (i, load) in self.loads.iter().enumerate() {
+            let values = load.value.as_ref().map_or(&[][..], |v| v.components());
+            for (k, value) in values.iter().enumerate() {
+                let path = place(format!("loads[{i}].value"), values.len(), k);
+                add(path, &load.name, value, 0);
+            }
+            if let Some(length) = &load.length {
+                // The rate at which a rest length changes does work.
+                add(format!("loads[{i}].length"), &load.name, length, 1);
+            }
+        }
+        timed
+    }
+}
+
+/// Whether every function of time has a value at a time, s, and where it needs them its derivatives.
+///
+/// # Errors
+/// The first that has none, with its place and name.
+pub fn finite_at(timed: &[Timed], time: f64) -> Result<(), Error> {
+    let mut told = timed.iter().filter_map(|timed| timed.broken(time, time));
+    told.next().map_or(Ok(()), Err)
+}
+
+/// Whether every function of time has a value near a time, s: no pole.
+///
+/// # Errors
+/// The first that has none, with its place and name.
+pub fn finite_near(timed: &[Timed], time: f64) -> Result<(), Error> {
+    let near = AROUND.map(|steps| time + steps * grain(time));
+    for timed in timed {
+        let broken = near.iter().find_map(|t| timed.broken(*t, time));
+        if let Some(error) = broken.or_else(|| timed.pole(time)) {
+            return Err(error);
+        }
+    }
+    Ok(())
+}
+
+impl Timed {
+    /// What is told of a time where it has no value.
+    fn broken(&self, t: f64, told: f64) -> Option<Error> {
+        const WHAT: [&str; 3] = ["value", "first derivative", "second derivative"];
+        let found = self.function.derivatives(t);
+        let order = found[..=self.order].iter().position(|x| !x.is_finite())?;
+        Some(self.error(WHAT[order], told, found[order]))
+    }
+
+    /// What is told of a time near a pole: within a moment the value has become a multiple of what it was.
+    fn pole(&self, time: f64) -> Option<Error> {
+        let value = self.function.value(time);
+        let size = |back: f64| self.function.value(time - back).abs();
+        let grows = MOMENTS
+            .map(|grains| grains * grain(time))
+            .into_iter()
+            .any(|moment| {
+                // A zero is no pole: before it the value was as large as after it.
+                let before = [1.0, 2.0, 4.0].map(|k| size(k * moment));
+                before.into_iter().all(|before| value.abs() > 10.0 * before)
+            });
+        grows.then(|| self.error("value", time, value))
+    }
+
+    fn error(&self, what: &str, time: f64, found: f64) -> Error {
+        let message = format!(
+            "expected a finite {what} of `{}` at t = {time} s, found {found:e}",
+            self.name
+        );
+        Error::new(&self.path, message)
+    }
+}

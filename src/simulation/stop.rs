@@ -1,0 +1,72 @@
+//! Why a step was not finished, in words: what was reached, what was expected, what to do.
+
+use super::engine::Engine;
+use crate::integrators::{Counts, Stop};
+use crate::scene::finite_near;
+use crate::system::State;
+
+impl Engine {
+    /// What ended the way from `start` to `until` at a state.
+    pub(super) fn explain(
+        &mut self,
+        stop: Stop,
+        state: &State,
+        (start, until): (f64, f64),
+        counts: &Counts,
+    ) -> String {
+        let (method, tolerance) = (self.method.name(), self.tolerance.relative);
+        if matches!(stop, Stop::StepTooSmall | Stop::NotFinite | Stop::Broken) {
+            if let Err(error) = finite_near(&self.timed, state.time) {
+                return error.to_string();
+            }
+            if let Some(names) = self.newly_redundant(state) {
+                return format!(
+                    "{method}: expected joints and motions that leave one way to go on, found a dead point, \
+                     where {names} hold what others hold already"
+                );
+            }
+        }
+        match stop {
+            Stop::StepTooSmall => format!(
+                "{method}: no step however short meets the relative tolerance {tolerance:e}"
+            ),
+            Stop::TooMuchWork => {
+                let (parts, limit) = (self.assembled.system.parts(), self.most_work);
+                let (taken, way) = (counts.steps, state.time - start);
+                format!(
+                    "{method}: expected a step to {until} s within work_limit = {limit:e} (evaluations times \
+                     {parts} parts), found it spent after {taken} sub-steps over {way:e} s, {} rejected; take \
+                     shorter communication steps, a looser relative_tolerance than {tolerance:e}, fewer elements \
+                     or a higher work_limit",
+                    counts.rejected
+                )
+            }
+            Stop::NotFinite => {
+                format!("{method}: velocities or accelerations are no longer finite")
+            }
+            Stop::RanOff(joint) => format!("slider `{}` has left its cable", self.name(joint)),
+            Stop::Broken => format!(
+                "{method}: constraints cannot be kept: expected joints and motions that can hold together from \
+                 here on, found a linkage at the end of its reach or motions that contradict each other"
+            ),
+            Stop::Jumped(drive) => {
+                let joint = self.assembled.system.driven_joint(drive);
+                let name = joint.map_or("", |joint| self.name(joint));
+                format!("expected a motion without jumps, found one of `{name}`")
+            }
+        }
+    }
+
+    /// Names of joints and motions that hold what others hold already at this state but not anywhere.
+    fn newly_redundant(&mut self, state: &State) -> Option<String> {
+        let system = &self.assembled.system;
+        let (joints, _) = system.redundant_at(state, &mut self.work);
+        self.forget();
+        let always = self.assembled.system.redundant();
+        let names = joints.iter().filter(|joint| !always.contains(joint));
+        let names: Vec<_> = names
+            .map(|joint| format!("`{}`", self.name(*joint)))
+            .collect();
+        (!names.is_empty()).then(|| names.join(", "))
+    }
+}

@@ -1,0 +1,164 @@
+//! Kinks and jumps of functions of time: no step leads across one, and none is taken from both sides at once.
+//!
+//! Between two of them motion is smooth: functions of time are taken inside that stretch also at its ends,
+//! [`grain`] away, so that a method which evaluates the end of its step sees the branch that the step was on.
+//! Where the velocity of a driven coordinate jumps, an impulse of its drive sets the bodies moving: of all
+//! velocities that joints and motions allow, those that change least in the mass norm (E. J. Routh, Dynamics
+//! of a System of Rigid Bodies, part I, chapter VIII, after Gauss's principle).
+
+use super::dynamics::Model;
+use super::joints::Joint;
+use super::signal::{Drive, Signal};
+use super::{Accepted, State, System, Work};
+use crate::math::function::Function;
+use crate::math::switches::grain;
+
+/// Jump of a driven coordinate, relative, that counts as one.
+const JUMP: f64 = 1e-9;
+/// Jump of its velocity, relative, below which it is roundoff.
+const ROUNDOFF: f64 = 1e-12;
+
+/// A function of time, by what follows it in the system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Follower {
+    /// A driven coordinate, by its index.
+    Drive(usize),
+    /// A load, by its index.
+    Load(usize),
+}
+
+impl System {
+    /// All functions of time, and what follows them.
+    pub fn functions(&self) -> impl Iterator<Item = (Follower, &Function)> {
+        let drives = self.drives.iter().enumerate();
+        let of_drives = drives.filter_map(|(index, drive)| match drive {
+            Drive::Function(function) => Some((Follower::Drive(index), function)),
+            Drive::Input { .. } => None,
+        });
+        let of_loads = self.loads.iter().enumerate().flat_map(|(index, load)| {
+            let signals = load.signals().into_iter().flatten();
+            signals.filter_map(move |signal| match signal {
+                Signal::Function(function) => Some((Follower::Load(index), function)),
+                Signal::Input(_) => None,
+            })
+        });
+        of_drives.chain(of_loads)
+    }
+
+    /// The first joint or motion that follows a driven coordinate.
+    pub fn driven_joint(&self, drive: usize) -> Option<usize> {
+        let follows = |joint: &Joint| joint.kind.drives().contains(&drive);
+        self.joints.iter().position(follows)
+    }
+
+    /// The time at which functions of time are taken at `time`.
+    pub(super) fn clock(&self, time: f64, work: &Work) -> f64 {
+        match work.stretch {
+            Some([first, last]) => time.max(first).min(last),
+            None => self.now(time),
+        }
+    }
+
+    /// The time at which functions of time are taken between steps: after a kink or a jump at it.
+    pub(super) fn now(&self, time: f64) -> f64 {
+        match self.has_breaks {
+            true => time + grain(time),
+            false => time,
+        }
+    }
+
+    /// The first kink or jump after `from`, `until` at the latest.
+    fn next_break(&self, from: f64, until: f64) -> Option<f64> {
+        if !self.has_breaks {
+            return None;
+        }
+        let found = (self.functions()).filter_map(|(_, function)| function.next_break(from, until));
+        found.min_by(f64::total_cmp)
+    }
+
+    /// Driven coordinates as functions of time have them at `clock`, with one derivative.
+    fn driven_at(&self, clock: f64) -> impl Iterator<Item = (usize, [f64; 3])> {
+        let drives = self.drives.iter().enumerate();
+        drives.filter_map(move |(index, drive)| match drive {
+            Drive::Function(function) => Some((index, function.derivatives(clock))),
+            Drive::Input { .. } => None,
+        })
+    }
+}
+
+impl Model<'_> {
+    /// Begins a stretch without kinks and jumps at `from`; its end, `until` at the latest.
+    pub(super) fn enter(&mut self, from: f64, until: f64) -> f64 {
+        let (first, last) = (from + grain(from), until + grain(until));
+        let found = self.system.next_break(first, last);
+        self.crossing = found;
+        self.work.stretch = match (self.system.has_breaks, found) {
+            (true, Some(time)) => Some([first, (time - grain(time)).max(first)]),
+            (true, None) => Some([first, f64::INFINITY]),
+            (false, _) => None,
+        };
+        found.map_or(until, |time| time.min(until))
+    }
+
+    /// Ends the stretch; a state at its end goes on after the kink or jump there.
+    pub(super) fn leave(&mut self, state: &mut State) -> Accepted {
+        let before = self
+            .work
+            .stretch
+            .take()
+            .map_or(state.time, |[_, last]| last);
+        let crossed = self.crossing.take();
+        let mut driven = self.system.driven_at(state.time.min(before));
+        if driven.any(|(_, orders)| orders.iter().any(|x| !x.is_finite())) {
+            return Accepted::NotFinite;
+        }
+        if crossed.is_none_or(|time| state.time < time - grain(time)) {
+            return Accepted::AsIs;
+        }
+        let after = self.system.now(crossed.unwrap_or(state.time));
+        let smallest = self.system.size().min(1.0);
+        let mut jumps = false;
+        let pairs = (self.system.driven_at(before)).zip(self.system.driven_at(after));
+        for ((index, [p, v, a]), (_, [q, u, b])) in pairs {
+            if (q - p).abs() > JUMP * p.abs().max(q.abs()).max(smallest) {
+                return Accepted::Jumped(index);
+            }
+            let smooth = (after - before) * (a.abs() + b.abs());
+            jumps |= (u - v).abs() > ROUNDOFF * (u.abs() + v.abs()) + 2.0 * smooth;
+        }
+        if !jumps {
+            return Accepted::AsIs;
+        }
+        self.strike(state, [before, after])
+    }
+
+    /// Velocities after an impulse of what is driven, whose velocity jumps from one time to another.
+    fn strike(&mut self, state: &mut State, [before, after]: [f64; 2]) -> Accepted {
+        let (system, time) = (self.system, state.time);
+        let rates = Some(&state.rates[..]);
+        self.work.stretch = Some([before, before]);
+        system.place(time, &state.coordinates, rates, self.work);
+        let energy = system.quadratic(&self.work.v);
+        let mut old = std::mem::take(&mut self.work.v);
+        self.work.stretch = Some([after, after]);
+        system.place(time, &state.coordinates, None, self.work);
+        self.work.supply.fill([0.0; 4]);
+        system.follow(&self.work.drives, 1, &mut self.work.supply);
+        for (rate, driven) in old.iter_mut().zip(&self.work.supply) {
+            rate.iter_mut().zip(driven).for_each(|(v, d)| *v -= d);
+        }
+        system.coordinates_of(&old, self.work, &mut state.rates);
+        self.work.v = old;
+        let kept = self.project(state);
+        system.place(time, &state.coordinates, Some(&state.rates), self.work);
+        if system.tracks_work {
+            // Drives alone do work: the other impulses act where velocities have no part before or after.
+            state.work[0] += system.quadratic(&self.work.v) - energy;
+        }
+        self.work.stretch = None;
+        match kept {
+            true => Accepted::Moved,
+            false => Accepted::Broken,
+        }
+    }
+}
