@@ -78,6 +78,11 @@ impl Marker {
         self.nodes[0] == self.nodes[1]
     }
 
+    /// Distance of a point of a rigid body from the centre of mass, m.
+    pub fn arm(&self) -> f64 {
+        self.values[1].hypot(self.across)
+    }
+
     /// The same point, its weights constants of another kind of numbers.
     #[inline(always)]
     pub fn lift<N: Number>(&self) -> Marker<N> {

@@ -51,7 +51,7 @@ fn bodies_that_do_not_fit_are_refused_with_the_names_of_their_joints() {
     let begins = "joints: expected bodies that fit together, found gaps: ";
     assert!(text.starts_with(begins), "{text}");
     assert!(
-        text.contains("joint `left` 0.100 m") && text.contains("joint `right` 0.100 m"),
+        text.contains("joint `left` 0.150 m") && text.contains("joint `right` 0.150 m"),
         "{text}"
     );
 }
@@ -118,7 +118,7 @@ fn steady_motion_needs_bodies_that_move_as_one_at_a_constant_rate() {
     let started = |motion: &str, spin: f64| {
         let mut rod = simulation(&format!(
             r#""bodies": [ {{ "name": "rod", "element": "rigid", "mass": 1.0, "inertia": 1.0,
-                 "position": [0.5, 0.0], "motion": {{ "spin": {spin} }}, "markers": {{ "a": [-0.5, 0.0], "b": [0.5, 0.0] }} }} ],
+                 "position": [0.5, 0.0], "motion": {{ "velocity": [0.0, {}], "spin": {spin} }}, "markers": {{ "a": [-0.5, 0.0], "b": [0.5, 0.0] }} }} ],
                "joints": [ {{ "name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"] }}{motion} ],
                "initial": "steady", "outputs": [ {{ "kind": "angular_velocity", "marker": "rod.b" }} ]"#
         ));

@@ -187,10 +187,7 @@ impl System {
         let cables = self.chains.iter().map(super::PlanarChain::length);
         let joints = self.joints.iter().flat_map(|joint| {
             let reach = joint.ends.each_ref().map(|end| match end.marker() {
-                Some(marker) if marker.element.is_none() => {
-                    let [x, y, ..] = self.reference[marker.nodes[0]];
-                    (marker.position(&self.reference) - Vector2::new(x, y)).norm()
-                }
+                Some(marker) if marker.element.is_none() => marker.arm(),
                 _ => 0.0,
             });
             let length = match joint.kind {
