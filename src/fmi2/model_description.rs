@@ -289,36 +289,6 @@ mod tests {
         assert_eq!(model_description(&scene), model_description(&scene));
     }
 
-    /// The attributes that FMI 2.0 has for it [2.2.1].
-    #[test]
-    fn a_model_says_whose_it_is() {
-        let attribute = |scene: &Scene, key: &str| {
-            let text = model_description(scene);
-            let (_, rest) = text.split_once(&format!(" {key}=\""))?;
-            Some(rest.split('"').next()?.to_owned())
-        };
-        let mut scene = example();
-        let library = "library: MIT OR Apache-2.0, see documentation/licenses";
-        assert_eq!(attribute(&scene, "license").as_deref(), Some(library));
-        for key in ["author", "version", "copyright"] {
-            let root = model_description(&scene);
-            let root = root.split("<CoSimulation").next().expect("a root");
-            assert!(!root.contains(&format!(" {key}=")), "{key}");
-        }
-        scene.about.author = Some("A & B".into());
-        scene.about.version = Some("1.2".into());
-        scene.about.copyright = Some("(c) 2026 A".into());
-        scene.about.license = Some("CC-BY-4.0".into());
-        for (key, expected) in [
-            ("author", "A &amp; B"),
-            ("copyright", "(c) 2026 A"),
-            ("license", &format!("CC-BY-4.0; {library}")),
-        ] {
-            assert_eq!(attribute(&scene, key).as_deref(), Some(expected), "{key}");
-        }
-        assert!(model_description(&scene).contains(" version=\"1.2\" "));
-    }
-
     #[test]
     fn variables_stand_in_the_order_of_their_references() {
         let scene = example();

@@ -183,12 +183,11 @@ pub fn name<'a>(path: &str, name: &'a str, names: &mut BTreeSet<&'a str>) -> Res
 mod tests {
     use serde_json::{Value, json};
 
-    use super::*;
     use crate::scene::Scene;
 
     fn bead() -> Value {
         json!({"name": "scene", "dimension": 2,
-            "bodies": [{"name": "bead", "element": "rigid", "mass": 1, "inertia": 0, "position": [0, 0],
+            "bodies": [{"name": "bead", "element": "rigid", "mass": 1, "inertia": 1, "position": [0, 0],
                 "markers": {"eye": [0, 0]}}],
             "outputs": [{"kind": "position", "marker": "bead.eye"}]})
     }
