@@ -164,7 +164,7 @@ const MANY: &str = r#"{ "name": "many", "dimension": 2, "gravity": [0.0, -1.0],
             { "kind": "reaction_moment", "motion": "drive" },
             { "kind": "momentum" }, { "kind": "center_of_mass" }, { "kind": "residual" },
             { "kind": "work" }, { "kind": "energy" },
-            { "kind": "natural_frequency", "count": 2 } ],
+            { "kind": "eigenvalue", "count": 2 } ],
           "accuracy": { "relative_tolerance": 1.0e-4 },
           "method": { METHOD } }"#;
 

@@ -120,7 +120,8 @@ fn steady_motion_needs_bodies_that_move_as_one_at_a_constant_rate() {
             r#""bodies": [ {{ "name": "rod", "element": "rigid", "mass": 1.0, "inertia": 1.0,
                  "position": [0.5, 0.0], "motion": {{ "velocity": [0.0, {}], "spin": {spin} }}, "markers": {{ "a": [-0.5, 0.0], "b": [0.5, 0.0] }} }} ],
                "joints": [ {{ "name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"] }}{motion} ],
-               "initial": "steady", "outputs": [ {{ "kind": "angular_velocity", "marker": "rod.b" }} ]"#
+               "initial": "steady", "outputs": [ {{ "kind": "angular_velocity", "marker": "rod.b" }} ]"#,
+            0.5 * spin
         ));
         rod.initialize(0.0)
             .map(|()| get(&mut rod, "rod.b.angular_velocity"))
