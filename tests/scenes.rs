@@ -23,12 +23,12 @@ const BAD: [(&str, &str, &str); 28] = [
     (
         "/initial",
         "\"rest\"",
-        "initial: expected \"as_shaped\" or \"static_equilibrium\", found \"rest\"",
+        "initial: expected \"as_shaped\" or \"static_equilibrium\" or \"steady\", found \"rest\"",
     ),
     (
         "/initial",
         "3",
-        "initial: expected \"as_shaped\" or \"static_equilibrium\", found 3",
+        "initial: expected a state or {\"state\": ..., \"loads\": [...]}, found 3",
     ),
     (
         "/joints/0/markers",

@@ -252,8 +252,9 @@ mod tests {
             let mut krylov = Krylov::new(200);
             krylov.extend(60, diagonal(twice));
             if twice {
+                // Whether copies are there already is left to roundoff.
                 let once = krylov.symmetric().expect("values");
-                assert!((once[1].value.re - exact(2)).abs() < 1e-8);
+                assert!((once[0].value.re - exact(0)).abs() < 1e-8);
                 krylov.start();
                 krylov.extend(120, diagonal(twice));
             }

@@ -196,7 +196,7 @@ fn values_out_of_range_are_refused() {
         /bodies/3/motion | {"spin": 1} | bodies[3].motion.spin: expected 0 in a body without inertia
         /bodies/2/markers/2x | [0, 0] | bodies[2].markers.2x: expected a letter or _
         /initial | 3 | initial: expected a state or {"state": ..., "loads": [...]}, found 3
-        /initial | "resting" | initial: unknown variant
+        /initial | "resting" | initial: expected "as_shaped" or "static_equilibrium" or "steady", found "resting"
         /initial | {"state": "as_shaped", "loads": [{"name": "f", "kind": "force", "marker": "rod.tip", "value": [0, 1]}]} | initial.state: expected a state that loads act on
         /bodies/2/motion | {"deformation": ["0", "s"]} | bodies[2].motion.deformation: expected none of a rigid body
         /masses/0/mass | -1 | masses[0].mass: expected zero or a positive number (kg)
