@@ -218,9 +218,7 @@ fn advance_smoothly(
                     *sum += part;
                 }
                 settle(method, dynamics, state)?;
-                if state.time >= until {
-                    relax(method, dynamics, state, tolerance)?;
-                }
+                relax(method, dynamics, state, (until, tolerance))?;
             }
             failed => {
                 counts.rejected += 1;
@@ -261,13 +259,16 @@ fn settle(
     Ok(())
 }
 
-/// Lets forces come to rest in a state that is read, once or twice.
+/// Lets forces come to rest in a state at the end of a call, which is read.
 fn relax(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
-    tolerance: &Tolerance,
+    (until, tolerance): (f64, &Tolerance),
 ) -> Result<(), Stop> {
+    if state.time < until {
+        return Ok(());
+    }
     for _ in 0..RELAXATIONS {
         let read = (state.time, &mut state.coordinates[..], &mut state.rates[..]);
         if !method.relax(dynamics, read, tolerance) {

@@ -8,69 +8,12 @@
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8
 //! (method, transformation, stopping, error estimate Eqs. 8.19-8.20).
 
-mod rest;
-
 use nalgebra::Complex;
 
-use super::{Attempt, Method, Tolerance};
+use super::{Attempt, Method, Tolerance, size};
+use crate::math::radau::{A_INVERSE, ALPHA, B, BETA, C, ERROR, GAMMA, INVERSE, T};
 use crate::system::Dynamics;
 
-/// Nodes.
-const C: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
-/// Real eigenvalue of the inverse Runge-Kutta matrix, and the complex pair.
-const GAMMA: f64 = 3.637_834_252_744_496;
-const ALPHA: f64 = 2.681_082_873_627_752;
-const BETA: f64 = 3.050_430_199_247_410_5;
-/// Transformation that makes the inverse Runge-Kutta matrix block diagonal: `z = T w`.
-const T: [[f64; 3]; 3] = [
-    [
-        0.091_232_394_870_892_94,
-        -0.141_255_295_020_954_2,
-        -0.030_029_194_105_147_424,
-    ],
-    [
-        0.241_717_932_707_107,
-        0.204_129_352_293_799_93,
-        0.382_942_112_757_261_9,
-    ],
-    [0.966_048_182_615_093, 1.0, 0.0],
-];
-/// Its inverse.
-const INVERSE: [[f64; 3]; 3] = [
-    [
-        4.325_579_890_063_155,
-        0.339_199_251_815_809_87,
-        0.541_770_539_935_874_9,
-    ],
-    [
-        -4.178_718_591_551_905,
-        -0.327_682_820_761_062_4,
-        0.476_623_554_500_550_45,
-    ],
-    [
-        -0.502_872_634_945_786_9,
-        2.571_926_949_855_605,
-        -0.596_039_204_828_224_9,
-    ],
-];
-/// Inverse of the Runge-Kutta matrix.
-const A_INVERSE: [[f64; 3]; 3] = [
-    [
-        3.224_744_871_391_589,
-        1.167_840_084_690_405_5,
-        -0.253_197_264_742_180_8,
-    ],
-    [
-        -3.567_840_084_690_405_5,
-        0.775_255_128_608_411,
-        1.053_197_264_742_180_8,
-    ],
-    [5.531_972_647_421_809, -7.531_972_647_421_809, 5.0],
-];
-/// Weights of the stages in an integral.
-const B: [f64; 3] = [0.376_403_062_700_467_3, 0.512_485_826_188_421_6, 1.0 / 9.0];
-/// Weights of the stages in the error estimate.
-const ERROR: [f64; 3] = [-10.048_809_399_827_415, 1.382_142_733_160_749, -1.0 / 3.0];
 /// Size of the error that Newton's method leaves, in units of the tolerance.
 const NEWTON: f64 = 0.03;
 /// Tolerance beyond which Newton's method leaves no more: what it leaves strains stiff directions, and
@@ -84,6 +27,8 @@ const END: usize = 2;
 const ITERATIONS: i32 = 10;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
 const LARGEST_TURN: f64 = 1.5;
+/// Part of the acceleration, in tolerances, that may be left unsolved in a state that is read.
+const UNSOLVED: f64 = 10.0;
 /// Rate of convergence below which the tangent is kept for the next step.
 const FAST: f64 = 1e-3;
 
@@ -315,6 +260,22 @@ impl Radau {
         }
     }
 
+    /// Acceleration at the end of the step less that of the stage equations' solution there, but for what
+    /// constraints hold, into `f[0]`: what Newton's iteration and the way back to the constraints left in stiff
+    /// directions. Its size, and that of the solution.
+    fn left(&mut self, dynamics: &mut dyn Dynamics) -> (f64, f64) {
+        let [_, _, last] = A_INVERSE;
+        let mut solved = 0.0;
+        for i in 0..self.a.len() {
+            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
+            let acceleration = product(&last, &z) / self.attempted;
+            self.f[0][i] = self.a[i] - acceleration;
+            solved += acceleration * acceleration;
+        }
+        dynamics.take_out_normal(&mut self.f[0]);
+        (size(&self.f[0]), solved.sqrt())
+    }
+
     fn factor(
         &mut self,
         dynamics: &mut dyn Dynamics,
@@ -354,19 +315,59 @@ impl Method for Radau {
     fn relax(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &mut [f64], &mut [f64]),
+        (time, q, v): (f64, &mut [f64], &mut [f64]),
         tolerance: &Tolerance,
     ) -> bool {
-        self.let_rest(dynamics, state, tolerance)
+        let (left, solved) = self.left(dynamics);
+        let natural = tolerance.position / (tolerance.time * tolerance.time);
+        let goal = UNSOLVED * tolerance.relative * (solved + natural);
+        if left.is_nan() || left <= goal {
+            return false;
+        }
+        let s = GAMMA / self.attempted;
+        dynamics.linearize(time, q, v);
+        self.tangent = false;
+        if !dynamics.factor(s) {
+            return false;
+        }
+        dynamics.solve(&mut self.f[0]);
+        for (i, d) in self.f[0].iter().enumerate() {
+            q[i] += d;
+            v[i] += s * d;
+        }
+        dynamics.acceleration(time, q, v, &mut self.a);
+        true
     }
 
     fn error(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        state: (f64, &[f64], &[f64]),
-        error: [&mut [f64]; 2],
+        (time, q, v): (f64, &[f64], &[f64]),
+        [position, velocity]: [&mut [f64]; 2],
     ) {
-        self.error_left(dynamics, state, error);
+        let s = GAMMA / self.attempted;
+        dynamics.linearize(time, q, v);
+        if !dynamics.factor(s) {
+            position.fill(0.0);
+            velocity.fill(0.0);
+            return;
+        }
+        dynamics.acceleration(time, q, v, &mut self.a);
+        self.left(dynamics);
+        dynamics.solve(&mut self.f[0]);
+        // Filtered twice more: stiff directions follow the others, whatever was started with.
+        position.copy_from_slice(&self.error_q);
+        velocity.copy_from_slice(&self.error_v);
+        for error in [&mut *position, &mut *velocity] {
+            for _ in 0..2 {
+                dynamics.solve(error);
+                error.iter_mut().for_each(|e| *e *= s * s);
+            }
+        }
+        for (i, d) in self.f[0].iter().enumerate() {
+            position[i] += d;
+            velocity[i] += s * d;
+        }
     }
 
     fn work(&self) -> [f64; 2] {

@@ -12,6 +12,7 @@ pub mod jet;
 pub mod krylov;
 pub mod lanes;
 pub mod quadrature;
+pub mod radau;
 pub mod row_space;
 pub mod sparse;
 pub mod switches;

@@ -324,12 +324,9 @@ impl Engine {
             let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
             let at = (state.time, &state.coordinates[..], &state.rates[..]);
             self.method.error(&mut model, at, [q, v]);
-            for (moved, now) in q.iter_mut().zip(&state.coordinates) {
-                *moved += now;
-            }
-            for (moved, now) in v.iter_mut().zip(&state.rates) {
-                *moved += now;
-            }
+            let add = |(moved, now): (&mut f64, &f64)| *moved += now;
+            q.iter_mut().zip(&state.coordinates).for_each(add);
+            v.iter_mut().zip(&state.rates).for_each(add);
             if model.project(shifted) {
                 let shifted = std::mem::take(&mut watch.shifted);
                 self.forget();

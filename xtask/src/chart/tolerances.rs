@@ -233,7 +233,7 @@ fn section(rows: &[Row]) -> String {
 
 Ready scenes in their default experiment (boom, cantilever, crane and hanging cable, which rest in it, are let go from their shapes), errors in time only: the mesh stays. Reference: Radau IIA at {REFERENCE:.0e}, the same program; \
 for scenes that run explicitly another method, for the others a tighter tolerance. Closed forms and independent programs are in the cases `bead_on_rod`, `driven_pivot`, `let_go`, `long_runs`, `slider_crank_rigid`.
-Cells: largest error of the kind, over the largest size of each output, over the tolerance; a star where the log names an output of the kind as one that the tolerance does not reach (docs/decisions/0022).
+Cells: largest error of the kind, over the largest size of each output, over the tolerance; a star where the log names an output of the kind as one that the tolerance does not reach (docs/decisions/0022-what-is-read-obeys-the-tolerance.md).
 
 {}
 **What it means.** Of {} errors {} are beyond {LIMIT} tolerances, {} of them named by the log. \
