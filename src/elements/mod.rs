@@ -99,3 +99,8 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     /// [`Self::damping`] of a pack.
     fn pack_damping<S: Simd>(simd: S, pack: &Self::Pack, e: &NodalPack<D>, out: &mut BlockPack<D>);
 }
+
+/// The matrix of 2 x 2 blocks over the vectors of an element in the plane.
+pub fn whole(blocks: &Blocks<2>) -> SMatrix<f64, 8, 8> {
+    SMatrix::from_fn(|r, c| blocks[r / 2][c / 2][(r % 2, c % 2)])
+}

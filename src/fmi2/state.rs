@@ -115,15 +115,7 @@ impl SavedState {
         let body = checked(bytes, guid)?;
         let mut reader = Reader(&body[8 + 4 + GUID_BYTES..]);
         let [mode, flags] = reader.take()?;
-        let lifecycle = lifecycle::State::from_bit(mode)
-            .filter(|state| *state as u8 <= lifecycle::State::Error as u8 && flags < 2 * MOVING)
-            .ok_or_else(|| refused("names a lifecycle state that does not exist"))?;
-        let (initialized, started) = (flags & INITIALIZED != 0, flags & STARTED != 0);
-        if !fits_together(lifecycle, initialized, started) {
-            return Err(refused(
-                "names a lifecycle state that its numbers do not belong to",
-            ));
-        }
+        let (lifecycle, initialized, started) = stage(mode, flags)?;
         let [start_time, stop, time, step, input, lost] = reader.numbers()?;
         let mut lengths = [0; ARRAYS];
         for length in &mut lengths {
@@ -207,6 +199,20 @@ impl SavedState {
             slopes.as_flattened(),
         ]
     }
+}
+
+/// Where an instance stood: its lifecycle state, whether it was initialized, whether it was started.
+fn stage(mode: u8, flags: u8) -> Result<(lifecycle::State, bool, bool), Fault> {
+    let lifecycle = lifecycle::State::from_bit(mode)
+        .filter(|state| *state as u8 <= lifecycle::State::Error as u8 && flags < 2 * MOVING)
+        .ok_or_else(|| refused("names a lifecycle state that does not exist"))?;
+    let (initialized, started) = (flags & INITIALIZED != 0, flags & STARTED != 0);
+    if !fits_together(lifecycle, initialized, started) {
+        return Err(refused(
+            "names a lifecycle state that its numbers do not belong to",
+        ));
+    }
+    Ok((lifecycle, initialized, started))
 }
 
 /// Whether a simulation can be that far in a lifecycle state.

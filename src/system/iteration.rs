@@ -264,16 +264,7 @@ pub(super) fn slowest(
             return Err(missing);
         }
         let ritz = krylov.general().ok_or(NotFound::NotFinite)?;
-        let mut found: Vec<Complex<f64>> = certain(&ritz)
-            .map(|ritz| shift + ritz.value.inv())
-            .map(|s| Complex::new(s.re, s.im.abs()))
-            .collect();
-        sort(&mut found);
-        // Of these the ones that no unfound one can be slower than.
-        let reach = ritz
-            .get(found.len())
-            .map_or(f64::INFINITY, |ritz| ritz.value.inv().norm());
-        found.retain(|s| s.norm() + shift < reach || reach.is_infinite());
+        let found = surely_slowest(&ritz, shift);
         if found.len() <= count {
             continue;
         }
@@ -290,6 +281,21 @@ pub(super) fn slowest(
         }
     }
     Err(missing)
+}
+
+/// Eigenvalues that are certain and that no unfound one can be slower than, slowest first.
+fn surely_slowest(ritz: &[Ritz], shift: f64) -> Vec<Complex<f64>> {
+    let mut found: Vec<Complex<f64>> = certain(ritz)
+        .map(|ritz| shift + ritz.value.inv())
+        .map(|s| Complex::new(s.re, s.im.abs()))
+        .collect();
+    sort(&mut found);
+    // Of these the ones that no unfound one can be slower than.
+    let reach = ritz
+        .get(found.len())
+        .map_or(f64::INFINITY, |ritz| ritz.value.inv().norm());
+    found.retain(|s| s.norm() + shift < reach || reach.is_infinite());
+    found
 }
 
 /// The values of the equations in the span of all displacements found, nearest to those found so far: free of the

@@ -221,9 +221,9 @@ impl System {
                     let whole = probe.differentiate(&nodes, false, &force).whole;
                     SMatrix::from_fn(|r, c| whole[(r, c)])
                 } else {
-                    whole(&element.stiffness(&e, &Nodal::zeros()))
+                    elements::whole(&element.stiffness(&e, &Nodal::zeros()))
                 };
-                let damping = is_damped.then(|| whole(&element.damping(&e)));
+                let damping = is_damped.then(|| elements::whole(&element.damping(&e)));
                 let places = [
                     (Some(stiffness), &mut made.stiffness),
                     (damping, &mut made.damping),
@@ -494,9 +494,4 @@ impl System {
         }
         border
     }
-}
-
-/// The matrix of its blocks.
-fn whole(blocks: &elements::Blocks<2>) -> SMatrix<f64, 8, 8> {
-    SMatrix::from_fn(|r, c| blocks[r / 2][c / 2][(r % 2, c % 2)])
 }

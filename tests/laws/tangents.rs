@@ -122,6 +122,20 @@ fn tangents_are_derivatives_of_accelerations_where_constraints_leave_freedom() {
     );
 }
 
+/// Compares `K` and `R` with differences of accelerations by place and by rate.
+fn alike(
+    rate: f64,
+    [by_place, stiffness]: [&DMatrix<f64>; 2],
+    [by_rate, damping]: [&DMatrix<f64>; 2],
+) -> Outcome {
+    within("K", (by_place - stiffness).amax(), 1e-5 * rate * rate)?;
+    within(
+        "R",
+        (by_rate - damping).amax(),
+        1e-6 * (rate + damping.amax()),
+    )
+}
+
 /// Against the covariant derivative along motions that keep the constraints: accelerations at states that are moved
 /// and brought back, in the tangent plane, less what the plane's own turning makes of them.
 fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
@@ -186,12 +200,7 @@ fn exact(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
     };
     let (by_place, by_rate) = (columns(false) - turned, columns(true));
     let rate = 1.0 + stiffness.amax().sqrt();
-    within("K", (&by_place - &stiffness).amax(), 1e-5 * rate * rate)?;
-    within(
-        "R",
-        (&by_rate - &damping).amax(),
-        1e-6 * (rate + damping.amax()),
-    )?;
+    alike(rate, [&by_place, &stiffness], [&by_rate, &damping])?;
     let skew = |m: &DMatrix<f64>| u32::from((m - m.transpose()).amax() > 1e-4 * rate);
     let [all, unsymmetric, held] = seen.get();
     let multiplied = u32::from(system.constraints() > 0);

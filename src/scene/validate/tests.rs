@@ -72,8 +72,7 @@ fn scene() -> Value {
             {"kind": "reaction", "joint": "ring"}, {"kind": "reaction", "motion": "feed"},
             {"kind": "reaction_moment", "motion": "drive"}, {"kind": "reaction_moment", "joint": "clamp"},
             {"kind": "energy"}, {"kind": "work"}, {"kind": "momentum"}, {"kind": "center_of_mass"},
-            {"kind": "residual"}, {"kind": "natural_frequency", "count": 3},
-            {"kind": "eigenvalue", "count": 3}
+            {"kind": "residual"}, {"kind": "natural_frequency", "count": 3}, {"kind": "eigenvalue", "count": 3}
         ],
         "ports": ports()
     })

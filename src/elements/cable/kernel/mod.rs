@@ -8,55 +8,13 @@
 use crate::elements::Strain;
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point, RADAU_3, RADAU_3_LAST};
+use crate::math::quadrature::{BETWEEN_3, Point, RADAU_3, RADAU_3_LAST};
 
-/// Weights of the three vectors in `r'` and `l r''`.
-type Combination = [f64; 3];
 type Vector<N, const D: usize> = [N; D];
 type Square<N, const D: usize> = [[N; D]; D];
 
 /// The three vectors and, where damping reads them, their rates.
 type Motion<'a, N, const D: usize> = (&'a [Vector<N, D>; 3], &'a Option<[Vector<N, D>; 3]>);
-
-/// A quadrature point with the weights of the vectors there.
-#[derive(Debug, PartialEq)]
-pub(super) struct Sample {
-    weight: f64,
-    slope: Combination,
-    curvature: Combination,
-}
-
-const fn sample(point: Point) -> Sample {
-    let at = point.at;
-    let square = at * at;
-    Sample {
-        weight: point.weight,
-        slope: [
-            6.0 * (at - square),
-            1.0 - 4.0 * at + 3.0 * square,
-            3.0 * square - 2.0 * at,
-        ],
-        curvature: [6.0 - 12.0 * at, 6.0 * at - 4.0, 6.0 * at - 2.0],
-    }
-}
-
-const BETWEEN: [Sample; 3] = [
-    sample(BETWEEN_3[0]),
-    sample(BETWEEN_3[1]),
-    sample(BETWEEN_3[2]),
-];
-const LOBATTO: [Sample; 3] = [
-    sample(LOBATTO_3[0]),
-    sample(LOBATTO_3[1]),
-    sample(LOBATTO_3[2]),
-];
-const RADAU: [Sample; 3] = [sample(RADAU_3[0]), sample(RADAU_3[1]), sample(RADAU_3[2])];
-const RADAU_LAST: [Sample; 3] = [
-    sample(RADAU_3_LAST[0]),
-    sample(RADAU_3_LAST[1]),
-    sample(RADAU_3_LAST[2]),
-];
-const BENDING: [Sample; 3] = [sample(GAUSS_3[0]), sample(GAUSS_3[1]), sample(GAUSS_3[2])];
 
 /// Changes numbers one by one. No closures: they are not inlined everywhere, and then not compiled for
 /// the processor at hand.
@@ -88,8 +46,11 @@ macro_rules! at_axial_points {
     }};
 }
 
+mod sampling;
 mod tangent;
 
+pub(super) use sampling::Sampling;
+use sampling::{BENDING, BETWEEN, Combination, LOBATTO, RADAU, RADAU_LAST, Sample};
 pub(super) use tangent::transposed;
 
 #[inline(always)]
@@ -168,30 +129,6 @@ pub(super) struct Curvature<N, const C: usize> {
     decay: N,
     /// 1 / a.
     inverse: N,
-}
-
-/// Points that axial strain is sampled at (docs/decisions/0003-quadrature.md, 0021-stable-equilibria.md).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sampling {
-    /// Between Gauss and Lobatto: short elements.
-    Between,
-    /// Lobatto: slender elements.
-    Lobatto,
-    /// Radau without the last end: slender elements without bending stiffness whose last end is free.
-    FreeLast,
-    /// Radau without the first end.
-    FreeFirst,
-}
-
-impl Sampling {
-    fn points(self) -> &'static [Sample; 3] {
-        match self {
-            Self::Between => &BETWEEN,
-            Self::Lobatto => &LOBATTO,
-            Self::FreeLast => &RADAU,
-            Self::FreeFirst => &RADAU_LAST,
-        }
-    }
 }
 
 /// Parameters of one element or, in lanes, of several.
