@@ -81,11 +81,6 @@ const BAD: [(&str, &str, &str); 28] = [
         "bodies[0].shape.arc.length: expected more than the distance",
     ),
     (
-        "/bodies/0/motion",
-        "{\"spin\": 1.0}",
-        "bodies[0].motion: expected no motion at static equilibrium",
-    ),
-    (
         "/joints/0/kind",
         "\"ball\"",
         "joints[0].kind: expected \"revolute\" or",

@@ -142,6 +142,7 @@ impl Radau {
             let at = time + C[stage] * h;
             dynamics.acceleration(at, &self.stage_q, &self.stage_v, &mut self.f[stage]);
             dynamics.set_stage(stage);
+            self.powers[stage] = dynamics.power();
         }
         for i in 0..q.len() {
             let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
@@ -416,7 +417,7 @@ impl Method for Radau {
         }
         let error = self.estimate(dynamics, state, h, tolerance);
         if error <= 1.0 {
-            if dynamics.tracks_work() {
+            if dynamics.dissipates() {
                 // Power is quadratic in rates of strain, which the last correction still changed.
                 for stage in 0..END {
                     self.place(stage, q, v);

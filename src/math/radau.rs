@@ -4,9 +4,11 @@
 
 /// Nodes.
 pub const C: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
-/// Real eigenvalue of the inverse Runge-Kutta matrix, and the complex pair.
+/// Real eigenvalue of the inverse Runge-Kutta matrix.
 pub const GAMMA: f64 = 3.637_834_252_744_496;
+/// Real part of its complex pair.
 pub const ALPHA: f64 = 2.681_082_873_627_752;
+/// Imaginary part of the pair.
 pub const BETA: f64 = 3.050_430_199_247_410_5;
 /// Transformation that makes the inverse Runge-Kutta matrix block diagonal: `z = T w`.
 pub const T: [[f64; 3]; 3] = [

@@ -221,13 +221,8 @@ fn another_instance_goes_on_bit_for_bit() {
 #[test]
 fn spectra_that_there_are_not_are_refused() {
     let rotor = |outputs: &str, spin: &str| {
-        let jet = match spin {
-            "" => {
-                r#"{ "name": "jet", "kind": "force", "marker": "rope.b", "follower": true,
-                     "value": [-1.0, 0.0] }"#
-            }
-            _ => "",
-        };
+        let jet = r#"{ "name": "jet", "kind": "force", "marker": "rope.b", "follower": true, "value": [-1.0, 0.0] }"#;
+        let jet = if spin.is_empty() { jet } else { "" };
         simulation(&format!(
             r#""gravity": [0.0, 0.0], "bodies": [
                  {{ "name": "rope", "element": "cable", "elements": 2,
@@ -256,11 +251,7 @@ fn spectra_that_there_are_not_are_refused() {
         r#"natural_frequency: expected forces with a potential, found one that follows "rope""#,
     );
     let spin = r#" "motion": { "spin": 2.0 },"#;
-    refused(
-        &eigenvalue(3),
-        spin,
-        "that do not turn as a whole, found 2 rad/s",
-    );
+    refused(&eigenvalue(3), spin, "that do not turn as a whole");
     rotor(&eigenvalue(3), "").start().expect("a spectrum");
 }
 

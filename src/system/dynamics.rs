@@ -23,8 +23,8 @@ pub trait Dynamics {
     fn steps_in(&self, _time: f64, _h: f64) -> f64 {
         1.0
     }
-    /// Whether anything reads that power.
-    fn tracks_work(&self) -> bool {
+    /// Whether anything dissipates, and the power is read.
+    fn dissipates(&self) -> bool {
         true
     }
     /// Computes `K` and `R` at a state, for the calls below.
@@ -334,8 +334,8 @@ impl Dynamics for Model<'_> {
         }
     }
 
-    fn tracks_work(&self) -> bool {
-        self.system.tracks_work
+    fn dissipates(&self) -> bool {
+        self.system.tracks_work && self.system.is_damped
     }
 
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {

@@ -51,7 +51,7 @@ fn a_scene_is_a_regular_file_of_bounded_size() {
     let unit = Unit::new();
     let scene = unit.folder().join("scene.json");
     let began = Instant::now();
-    let mut refused = |found: &str| {
+    let refused = |found: &str| {
         let reason = refusal(&unit);
         let expected = format!("expected a regular file of at most 67108864 bytes, found {found}");
         assert!(reason.contains("scene.json"), "{reason}");

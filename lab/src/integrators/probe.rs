@@ -68,8 +68,8 @@ impl Dynamics for Probe<'_> {
         self.model.steps_in(time, h)
     }
 
-    fn tracks_work(&self) -> bool {
-        self.model.tracks_work()
+    fn dissipates(&self) -> bool {
+        self.model.dissipates()
     }
 
     fn take_out_normal(&mut self, a: &mut [f64]) {

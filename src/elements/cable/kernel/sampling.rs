@@ -1,4 +1,7 @@
 //! Points of a cable element at which strains are sampled, with the weights of the three vectors there.
+//!
+//! Source: J. Gerstmayr, H. Irschik, J. Sound Vib. 318 (2008), section 3 (separate rules for stretching and bending);
+//! docs/decisions/0003-quadrature.md, 0021-stable-equilibria.md.
 
 use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point, RADAU_3, RADAU_3_LAST};
 
@@ -7,7 +10,7 @@ pub(super) type Combination = [f64; 3];
 
 /// A quadrature point with the weights of the vectors there.
 #[derive(Debug, PartialEq)]
-pub(in super::super) struct Sample {
+pub(in crate::elements::cable) struct Sample {
     pub weight: f64,
     pub slope: Combination,
     pub curvature: Combination,
@@ -48,7 +51,7 @@ pub(super) const BENDING: [Sample; 3] =
 
 /// Points that axial strain is sampled at (docs/decisions/0003-quadrature.md, 0021-stable-equilibria.md).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in super::super) enum Sampling {
+pub(in crate::elements::cable) enum Sampling {
     /// Between Gauss and Lobatto: short elements.
     Between,
     /// Lobatto: slender elements.
