@@ -8,7 +8,7 @@ const SCENE: &str = include_str!("../scenes/cantilever.json");
 const FOUR_BAR: &str = include_str!("../scenes/four_bar.json");
 
 /// Where, what stands there instead, and how the message begins.
-const BAD: [(&str, &str, &str); 28] = [
+const BAD: [(&str, &str, &str); 27] = [
     (
         "/dimension",
         "2.0",

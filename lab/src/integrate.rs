@@ -184,6 +184,8 @@ fn whole(
             }
             Accepted::RanOff(joint) => return Err(Stop::RanOff(joint)),
             Accepted::Broken => return Err(Stop::Broken),
+            Accepted::Jumped(drive) => return Err(Stop::Jumped(drive)),
+            Accepted::NotFinite => return Err(Stop::NotFinite),
         }
     }
     Ok(())

@@ -232,11 +232,11 @@ impl<'a> Model<'a> {
 
     /// `K x`, in place, inside the tangent plane of the constraints.
     pub fn apply_stiffness(&mut self, x: &mut [f64]) {
-        self.work.into_tangent_plane(x);
+        self.work.project_on_tangent_plane(x);
         self.work
             .tangent
             .apply_stiffness(&self.system.elimination, x);
-        self.work.into_tangent_plane(x);
+        self.work.project_on_tangent_plane(x);
     }
 
     fn instant<'b>(&'b self, x: &'b [Node<4>]) -> Instant<'b> {

@@ -188,7 +188,7 @@ impl System {
             } else {
                 self.turning_rows(work, index)
             };
-            made.borders[index] = self.border(work, index, (elsewhere, turning), &mut made);
+            made.borders[index] = self.border(work, index, elsewhere, turning, &mut made);
         }
         made
     }
@@ -439,7 +439,8 @@ impl System {
         &self,
         work: &Work,
         index: usize,
-        (elsewhere, turning): (&[(usize, usize, f64)], Option<Vec<Vec<f64>>>),
+        elsewhere: &[(usize, usize, f64)],
+        turning: Option<Vec<Vec<f64>>>,
         made: &mut Linearization<'_>,
     ) -> Border {
         let (group, elimination) = (&work.groups[index], &self.elimination);

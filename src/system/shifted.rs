@@ -12,12 +12,15 @@ use crate::math::row_space::RowSpace;
 use crate::math::sparse::{self, Factors, General};
 use crate::math::vector::dot;
 
+/// Solutions for the columns of a border, and the factors of its Schur complement.
+type BorderFactors<T> = (Vec<Vec<T>>, LU<T, Dyn, Dyn>);
+
 /// Factors of `s^2 I + s R + K` for one `s`.
 pub(super) struct Shifted<'a, T: ComplexField> {
     of: &'a Linearization<'a>,
     factors: Factors<T>,
     /// For every border its solutions and the factors of what remains.
-    borders: Vec<(Vec<Vec<T>>, LU<T, Dyn, Dyn>)>,
+    borders: Vec<BorderFactors<T>>,
     y: Vec<T>,
 }
 
@@ -174,7 +177,7 @@ impl Elastic {
 }
 
 impl<T: ComplexField + sparse::Number> Shifted<'_, T> {
-    fn factor_border(&mut self, border: &Border) -> (Vec<Vec<T>>, LU<T, Dyn, Dyn>) {
+    fn factor_border(&mut self, border: &Border) -> BorderFactors<T> {
         let pattern = self.of.elimination.assembly.pattern();
         let real = <T as From<f64>>::from;
         let solve = |column: &Vec<f64>| {
@@ -213,7 +216,7 @@ impl<T: ComplexField + sparse::Number> Shifted<'_, T> {
             }
             for (nu, solution) in nu.iter().zip(solutions) {
                 let pairs = y.iter_mut().zip(solution);
-                pairs.for_each(|(y, s)| *y = *y - *nu * *s);
+                pairs.for_each(|(y, s)| *y -= *nu * *s);
             }
         }
         true

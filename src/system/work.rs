@@ -82,7 +82,7 @@ impl Work {
     }
 
     /// Takes the part of `q` out that constraints do not allow, with the Jacobians of the last acceleration.
-    pub(super) fn into_tangent_plane(&mut self, q: &mut [f64]) {
+    pub(super) fn project_on_tangent_plane(&mut self, q: &mut [f64]) {
         for group in &mut self.groups {
             group.rows.take_out(&mut q[group.coordinates.clone()]);
         }

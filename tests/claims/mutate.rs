@@ -107,7 +107,7 @@ pub fn changes(scene: &Value, place: &Place) -> Vec<Mutant> {
                 is_renamed: true,
             }]
         }
-        Sort::Text if place.key.ends_with("#expression") => {
+        Sort::Text if place.key.ends_with("#expression") || place.key.contains(".deformation") => {
             let text = found.as_str().expect("an expression");
             vec![plain(json!(format!("({text})*1.05+0.01")))]
         }

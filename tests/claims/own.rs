@@ -1,7 +1,8 @@
 //! Keys that by their nature do not change results, and faults of method: claims of their own.
 
-use flexbody::scene::Scene;
+use flexbody::scene::{Scene, assemble};
 use flexbody::simulation::Simulation;
+use flexbody::system::{Dynamics, Model, Work};
 use serde_json::{Value, json};
 
 /// A simulation at its start.
@@ -214,4 +215,42 @@ fn equilibrium_is_on_the_branch_of_growing_loads() {
             );
         }
     }
+}
+
+/// How far slopes turn between two states, and the logarithm of how far they stretch: a step that stretches
+/// a cable by much is as long as one that turns it.
+#[test]
+fn a_stretch_counts_as_a_turn() {
+    let scene = json!({
+        "name": "free", "dimension": 2,
+        "bodies": [{"element": "cable", "name": "rod", "elements": 1,
+                    "material": {"youngs_modulus": 1e6, "density": 1000.0},
+                    "section": {"area": 1e-3, "second_moment": 1e-6},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}}}]});
+    let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+    let system = assemble(&scene).expect("a system").system;
+    let (mut work, state) = (Work::new(&system), system.blank_state(0.0));
+    let elimination = system.elimination();
+    let mut turn = |slope: [f64; 2]| {
+        let change = [slope[0] - 1.0, slope[1]];
+        let nodes = [
+            [0.0, 0.0, change[0], change[1]],
+            [change[0], change[1], change[0], change[1]],
+        ];
+        let mut forces = [[0.0; 4]; 2];
+        system.add_inertia(1.0, &nodes, &mut forces);
+        let mut q = vec![0.0; elimination.coordinates()];
+        let mut scratch = vec![0.0; elimination.scratch()];
+        elimination.reduce(&forces, &mut scratch, &mut q);
+        let mut model = Model::new(&system, &[], &mut work, &state);
+        model.largest_turn(&state.coordinates, &q)
+    };
+    for factor in [1.4_f64, 0.6] {
+        assert!(
+            (turn([factor, 0.0]) - factor.ln().abs()).abs() < 1e-9,
+            "{factor}"
+        );
+    }
+    let (sin, cos) = 0.3_f64.sin_cos();
+    assert!((turn([cos, sin]) - 0.3).abs() < 1e-9);
 }

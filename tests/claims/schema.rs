@@ -139,6 +139,9 @@ impl Schema {
         if let Some(alternatives) = node["anyOf"].as_array() {
             return alternatives.iter().any(|node| self.fits(node, value));
         }
+        if let Some(variants) = variants(node) {
+            return variants.iter().any(|variant| value == variant);
+        }
         match (kind(node), value) {
             ("number" | "integer", Value::Number(_)) | ("array", Value::Array(_)) => true,
             ("string", Value::String(_)) => true,
@@ -171,7 +174,7 @@ impl Schema {
             "number" => vec![json!(0.37)],
             "integer" => vec![json!(2)],
             "boolean" => vec![json!(true)],
-            "string" => vec![json!("0.37+0.1*t")],
+            "string" => vec![json!("0.37+0.1*t"), json!("0.37")],
             "array" if length(node).is_none() => match kind(self.resolve(&node["items"])) {
                 "number" => vec![json!([0.37]), json!([0.37, 0.21])],
                 "array" => vec![json!([[0.0, 0.37], [1.0, 0.73]])],

@@ -15,16 +15,30 @@ use crate::specimen::{Outcome, Specimen, units};
 /// Names all parameters, with the list and the key of the scene that they stand for and their units.
 macro_rules! keys {
     ($($variant:ident => $list:literal, $key:literal, $unit:literal;)*) => {
-        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Rotation", "RelativeTolerance", "WorkLimit"];
-        fn key(parameter: Parameter) -> (&'static str, String, &'static str) {
+        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Gravity", "Rotation", "RelativeTolerance", "WorkLimit"];
+        /// Name, place in the scene and unit of a parameter whose variable bears the name of a part.
+        fn key(parameter: Parameter, scene: &Value, variable: &str) -> (&'static str, String, &'static str) {
             match parameter {
-                $(Parameter::$variant(i) => (stringify!($variant), format!("/{}/{i}{}", $list, $key), $unit),)*
+                $(Parameter::$variant(..) => {
+                    let place = part(scene, $list, variable);
+                    (stringify!($variant), format!("/{}/{place}{}", $list, $key), $unit)
+                })*
+                Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
                 Parameter::Rotation => ("Rotation", "/rotation".into(), "rad/s"),
                 Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
                 Parameter::WorkLimit => ("WorkLimit", "/method/work_limit".into(), ""),
             }
         }
     };
+}
+
+/// Place in its list of the part whose name begins that of a variable.
+fn part(scene: &Value, list: &str, variable: &str) -> usize {
+    let (owner, _) = variable.rsplit_once('.').expect("the name of a part");
+    let key = if list == "masses" { "marker" } else { "name" };
+    let parts = scene[list].as_array().expect("a list");
+    let place = parts.iter().position(|part| part[key] == owner);
+    place.expect("a part of this name")
 }
 
 keys! {
@@ -45,7 +59,6 @@ keys! {
     CouplingDamping => "ports", "/damping", "N.s/m";
     TurningStiffness => "ports", "/rotational_stiffness", "N.m/rad";
     TurningDamping => "ports", "/rotational_damping", "N.m.s/rad";
-    Gravity => "gravity", "", "m/s2";
 }
 
 /// What the master sets, by list of the scene, and its unit.
@@ -139,7 +152,7 @@ fn every_parameter_is_its_key() {
             let Source::Parameter(parameter) = variable.source else {
                 continue;
             };
-            let (label, pointer, unit) = key(parameter);
+            let (label, pointer, unit) = key(parameter, &specimen.scene, &variable.name);
             let Some((scene, value)) = changed(&specimen.scene, &pointer) else {
                 continue;
             };
@@ -179,16 +192,18 @@ fn every_parameter_is_its_key() {
     conclude(findings);
 }
 
-/// The list of a scene that an input comes from.
-fn list(scene: &Scene, place: usize) -> &'static str {
-    let layout = scene.input_layout();
-    let first = |of: &[usize]| of.first().copied().unwrap_or(layout.total);
-    let ports = first(&layout.of_ports);
-    let port = layout.of_ports.iter().rposition(|first| *first <= place);
-    match port.map(|port| &scene.ports[port]) {
-        Some(port) if port.is_coupling() => "couplings",
+/// The list of a scene that an input comes from, by its name: that of a motion, of a port, or of what a load
+/// acts on.
+fn list(scene: &Value, variable: &str) -> &'static str {
+    let (owner, _) = variable.rsplit_once('.').expect("the name of a part");
+    let find = |list: &str| {
+        let parts = scene[list].as_array().into_iter().flatten();
+        parts.into_iter().find(|part| part["name"] == owner)
+    };
+    match find("ports") {
+        Some(port) if port["stiffness"].is_number() || port["damping"].is_number() => "couplings",
         Some(_) => "ports",
-        None if place >= first(&layout.of_motions).min(ports) => "motions",
+        None if find("motions").is_some() => "motions",
         None => "inputs",
     }
 }
@@ -217,10 +232,10 @@ fn every_input_acts_in_its_unit() {
         let units = units(&specimen.scene);
         let simulation = simulation(&specimen.scene);
         for (index, variable) in simulation.variables().iter().enumerate() {
-            let Source::Input(place) = variable.source else {
+            let Source::Input(_) = variable.source else {
                 continue;
             };
-            let list = list(simulation.scene(), place);
+            let list = list(&specimen.scene, &variable.name);
             let word = variable.name.rsplit('.').next().unwrap_or_default();
             let label = format!("{list}.{word}");
             let noticed = disturbed(specimen, &known, (index, variable.start.unwrap_or(0.0)));

@@ -303,7 +303,7 @@ mod tests {
             start.wait();
             let python = project.prepare()?;
             let stamp = std::fs::metadata(project.0.join("target/python").join(STAMP))?;
-            run_quietly(&mut python.module("pip").arg("--version"))?;
+            run_quietly(python.module("pip").arg("--version"))?;
             Ok(stamp.modified()?)
         };
         let made: Vec<Result<_>> = std::thread::scope(|scope| {

@@ -85,7 +85,7 @@ pub(super) fn solve(model: &mut Model<'_>, s: f64, least: f64, x: &mut [f64]) ->
 /// Solves with the symmetric factors, inside the tangent plane of the constraints.
 fn preconditioned(model: &mut Model<'_>, f: &[f64]) -> Vec<f64> {
     let mut x = f.to_vec();
-    model.work.into_tangent_plane(&mut x);
+    model.work.project_on_tangent_plane(&mut x);
     model.solve(&mut x);
     x
 }

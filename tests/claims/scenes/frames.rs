@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::{cross, dot, left, sum, times};
+use super::{cross, dot, left, sum, times, turned};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
@@ -47,6 +47,7 @@ fn line() -> Specimen {
     );
     let about = mass * length * length / 12.0;
     Specimen::new("line", scene)
+        .fact("DefaultExperiment/tolerance", "0.0001")
         .vector("rod.p.position", "m", sum(from, times(0.3, way)))
         .vector(
             "rod.p.velocity",
@@ -69,33 +70,34 @@ fn line() -> Specimen {
         )
 }
 
-/// An arc drawn from left to right sags: half its angle is 0.6, its radius 1 m.
+/// An arc drawn from left to right sags, here along an inclined chord: half its angle is 0.6, its radius 1 m.
 fn arc() -> Specimen {
-    let (half, rho, area) = (0.6_f64, 1300.0, 2e-3);
+    let (half, slope, rho, area) = (0.6_f64, 0.25, 1300.0, 2e-3);
     let (chord, length) = (2.0 * half.sin(), 2.0 * half);
     let from = [0.3, 1.2];
+    let to = sum(from, turned(slope, [chord, 0.0]));
     let scene = json!({
         "name": "arc", "dimension": 2,
         "bodies": [{"element": "cable", "name": "rope", "elements": 4,
                     "material": {"youngs_modulus": 1e6, "density": rho},
                     "section": {"area": area, "second_moment": 1e-7},
-                    "shape": {"arc": {"from": from, "to": [from[0] + chord, from[1]], "length": length}},
+                    "shape": {"arc": {"from": from, "to": to, "length": length}},
                     "motion": {"velocity": [0.5, 0.0]},
                     "markers": {"first": 0.0, "middle": 0.5, "last": 1.0}}],
         "outputs": [{"kind": "position", "marker": "rope.middle"}, {"kind": "angle", "marker": "rope.first"},
                     {"kind": "position", "marker": "rope.last"}, {"kind": "angle", "marker": "rope.last"},
                     {"kind": "curvature", "marker": "rope.middle"}, {"kind": "momentum"},
                     {"kind": "energy"}]});
-    let sag = 1.0 - half.cos();
+    let lowest = [0.5 * chord, half.cos() - 1.0];
     Specimen::new("arc", scene)
         .vector(
             "rope.middle.position",
             "m",
-            [from[0] + 0.5 * chord, from[1] - sag],
+            sum(from, turned(slope, lowest)),
         )
-        .claim("rope.first.angle", "rad", -half)
-        .vector("rope.last.position", "m", [from[0] + chord, from[1]])
-        .claim("rope.last.angle", "rad", half)
+        .claim("rope.first.angle", "rad", slope - half)
+        .vector("rope.last.position", "m", to)
+        .claim("rope.last.angle", "rad", slope + half)
         // Of the elements, to the second order of their length.
         .claim_within("rope.middle.curvature", "1/m", 1.0, 1e-2)
         .claim("momentum[1]", "N.s", rho * area * length * 0.5)

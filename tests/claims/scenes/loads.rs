@@ -17,6 +17,8 @@ pub fn all() -> Vec<Specimen> {
         spring_forms(),
         kinks(),
         works(),
+        works_of_what_moves(),
+        held(),
     ]
 }
 
@@ -266,4 +268,52 @@ fn works() -> Specimen {
             0.5 * j * (spin * spin - left_over * left_over),
             1e-6,
         )
+}
+
+/// Work of a moment and of a uniform load on free bodies.
+fn works_of_what_moves() -> Specimen {
+    let (moment, line, t) = (1.4, [2.0, -1.5], 0.6);
+    let scene = json!({
+        "name": "works_of_what_moves", "dimension": 2, "accuracy": {"relative_tolerance": 1e-9},
+        "bodies": [body("wheel", [3.0, 0.0], 0.2),
+                   {"element": "cable", "name": "rod", "elements": 2,
+                    "material": {"youngs_modulus": 1e4, "density": 1250.0},
+                    "section": {"area": 2e-3, "second_moment": 1e-6},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": [0.6, 0.8]}}}],
+        "loads": [{"name": "twist", "kind": "moment", "marker": "wheel.c", "value": moment},
+                  {"name": "wind", "kind": "distributed", "body": "rod", "value": line}],
+        "outputs": [{"kind": "work"}]});
+    // The rod is 1 m long and weighs 2.5 kg.
+    let work = 0.5 * t * t * (moment * moment / 0.4 + dot(line, line) / 2.5);
+    Specimen::new("works_of_what_moves", scene)
+        .at(t)
+        .claim_within("energy.input", "J", work, 1e-7)
+}
+
+/// Beads that are held: one on a spring whose length at rest shrinks, one on a damper to a point that comes in
+/// and moves, one that turns against a damper.
+fn held() -> Specimen {
+    let (k, d, dr, t) = (30.0, 1.5, 0.8, 0.5);
+    let hold = |name: &str, of: &str, place: [f64; 2]| json!({"name": name, "kind": "position", "marker": of, "value": place});
+    let scene = json!({
+        "name": "held", "dimension": 2, "accuracy": {"relative_tolerance": 1e-9},
+        "bodies": [bead("a", [0.6, 0.8], [0.0, 0.0]), body("b", [2.0, 0.0], 0.3)],
+        "motions": [hold("hold", "a.c", [0.6, 0.8]), hold("keep", "b.c", [2.0, 0.0]),
+                    {"name": "still", "kind": "angle", "marker": "b.p", "value": 0.3}],
+        "loads": [{"name": "winch", "kind": "spring_damper", "markers": ["ground", "a.c"], "point": [0.0, 0.0],
+                   "stiffness": k, "length": "0.9-0.4*t"}],
+        "ports": [{"name": "flange", "marker": "b.c", "kind": "motion", "damping": d, "rotational_damping": dr}],
+        "outputs": [{"kind": "work"}, {"kind": "energy"}]});
+    let (speed, spin) = ([0.4, -0.3], 0.7);
+    let stretch = |t: f64| 0.1 + 0.4 * t;
+    let stored = |t: f64| 0.5 * k * stretch(t) * stretch(t);
+    let lost = t * (d * dot(speed, speed) + dr * spin * spin);
+    Specimen::new("held", scene)
+        .set("flange.velocity[1]", speed[0])
+        .set("flange.velocity[2]", speed[1])
+        .set("flange.angular_velocity", spin)
+        .at(t)
+        .claim_within("energy.spring", "J", stored(t), 1e-8)
+        .claim_within("energy.input", "J", stored(t) - stored(0.0) + lost, 1e-7)
+        .claim_within("energy.dissipated", "J", lost, 1e-7)
 }

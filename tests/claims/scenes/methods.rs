@@ -13,6 +13,8 @@ pub fn all() -> Vec<Specimen> {
         settled(),
         unsettled(),
         frequencies(),
+        eigenvalues(),
+        eigenvalues_of_a_body(),
         frequencies_of_a_body(),
     ]);
     all
@@ -112,6 +114,50 @@ fn frequencies() -> Specimen {
         .fact("variables", 14)
         .claim("natural_frequency[1]", "rad/s", 3.0)
         .claim("natural_frequency[2]", "rad/s", 10.0)
+}
+
+/// A lever on a spring with a damper: `J s^2 + d s + k = 0`.
+fn damped(name: &str, y: f64, [inertia, stiffness, damping]: [f64; 3]) -> [Value; 2] {
+    [
+        json!({"element": "rigid", "name": name, "mass": 2.0, "inertia": inertia, "position": [0.0, y],
+               "markers": {"c": [0.0, 0.0]}}),
+        json!({"name": format!("{name}_hinge"), "kind": "hinge", "markers": ["ground", format!("{name}.c")],
+               "stiffness": stiffness, "damping": damping}),
+    ]
+}
+
+/// Decay rate and frequency of such a lever.
+fn root([inertia, stiffness, damping]: [f64; 3]) -> [f64; 2] {
+    let decay = 0.5 * damping / inertia;
+    [decay, (stiffness / inertia - decay * decay).sqrt()]
+}
+
+fn eigenvalues() -> Specimen {
+    let (slow, fast) = ([0.5, 4.5, 0.3], [0.2, 20.0, 1.0]);
+    let [[a, of_a], [b, of_b]] = [damped("a", 0.0, fast), damped("b", 1.0, slow)];
+    let scene = json!({
+        "name": "eigenvalues", "dimension": 2, "bodies": [a, b], "joints": [of_a, of_b],
+        "outputs": [{"kind": "eigenvalue", "count": 2}]});
+    let [first, second] = [root(slow), root(fast)];
+    Specimen::new("eigenvalues", scene)
+        .fact("variables", 16)
+        .claim("eigenvalue.decay_rate[1]", "1/s", first[0])
+        .claim("eigenvalue.frequency[1]", "rad/s", first[1])
+        .claim("eigenvalue.decay_rate[2]", "1/s", second[0])
+        .claim("eigenvalue.frequency[2]", "rad/s", second[1])
+}
+
+/// The same of one body, by its name.
+fn eigenvalues_of_a_body() -> Specimen {
+    let of = [0.5, 4.5, 0.3];
+    let [body, joint] = damped("arm", 0.0, of);
+    let scene = json!({
+        "name": "eigenvalue", "dimension": 2, "bodies": [body], "joints": [joint],
+        "outputs": [{"kind": "eigenvalue", "count": 1, "body": "arm"}]});
+    let [decay, frequency] = root(of);
+    Specimen::new("eigenvalue", scene)
+        .claim("arm.eigenvalue.decay_rate[1]", "1/s", decay)
+        .claim("arm.eigenvalue.frequency[1]", "rad/s", frequency)
 }
 
 /// Of a scene with one body, by its name: a pendulum that hangs.

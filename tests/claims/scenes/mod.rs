@@ -3,6 +3,7 @@
 
 mod cables;
 mod frames;
+mod initial;
 mod inputs;
 mod joints;
 mod loads;
@@ -29,6 +30,7 @@ pub fn all() -> Vec<Specimen> {
         inputs::all(),
         ports::all(),
         methods::all(),
+        initial::all(),
     ];
     parts.into_iter().flatten().collect()
 }

@@ -67,7 +67,7 @@ fn plain() -> Specimen {
     Specimen::new("plain", scene)
         .fact("DefaultExperiment/stopTime", 1)
         .fact("DefaultExperiment/stepSize", 0.01)
-        .fact("DefaultExperiment/tolerance", "0.0001")
+        .fact("DefaultExperiment/tolerance", "1e-7")
         .vector("plate.p.position", "m", [0.7, -0.5])
         .vector("plate.p.velocity", "m/s", [0.0, 0.0])
         .vector("plate.p.acceleration", "m/s2", [0.0, 0.0])

@@ -10,6 +10,9 @@ use super::numbers::short;
 use super::page;
 use super::plot::{Axis, Line, Mark, Panel, draw};
 
+/// An output of the reference and of a run.
+type Pair = (Vec<f64>, Vec<f64>);
+
 const TOLERANCES: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 /// Tolerance of the references, all with the implicit method: explicit ones are stable there or are not.
 const REFERENCE: f64 = 1e-10;
@@ -97,7 +100,7 @@ fn compare(
             .collect();
         let columns = columns?;
         for i in 0..columns[0].0.len() {
-            let norm = |part: &dyn Fn(&(Vec<f64>, Vec<f64>)) -> f64| {
+            let norm = |part: &dyn Fn(&Pair) -> f64| {
                 columns
                     .iter()
                     .map(|pair| part(pair).powi(2))
