@@ -90,6 +90,33 @@ fn errors_shrink_with_the_tolerance() {
     }
 }
 
+/// `method.work_limit`, as a key and as a parameter: a step that takes more work ends with the reason.
+#[test]
+fn work_is_bounded_by_its_limit() {
+    let step = |scene: &Value, parameter: Option<f64>| {
+        let scene = Scene::from_json(&scene.to_string()).unwrap_or_else(|error| panic!("{error}"));
+        let mut simulation = Simulation::new(scene);
+        let place = simulation
+            .variables()
+            .iter()
+            .position(|v| v.name == "work_limit");
+        if let Some(value) = parameter {
+            let done = simulation.set_real(place.expect("a variable"), value);
+            done.expect("a parameter");
+        }
+        simulation.initialize(0.0).expect("a start");
+        simulation.step(2.5).map_err(|failure| failure.reason)
+    };
+    let plain = oscillator(1e-8);
+    let mut limited = plain.clone();
+    limited["method"] = json!({"work_limit": 10.0});
+    assert_eq!(step(&plain, None), Ok(()));
+    for ended in [step(&limited, None), step(&plain, Some(10.0))] {
+        assert!(ended.is_err_and(|reason| reason.contains("work_limit = 1e1")));
+    }
+    assert_eq!(step(&limited, Some(1e6)), Ok(()));
+}
+
 /// `method.constraints`: both ways keep a bead on its link, which goes round at constant speed; they are
 /// not the same.
 #[test]

@@ -15,7 +15,7 @@ use crate::specimen::{Outcome, Specimen, units};
 /// Names all parameters, with the list and the key of the scene that they stand for and their units.
 macro_rules! keys {
     ($($variant:ident => $list:literal, $key:literal, $unit:literal;)*) => {
-        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Gravity", "Rotation", "RelativeTolerance", "WorkLimit"];
+        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Gravity", "Rotation", "RelativeTolerance"];
         /// Name, place in the scene and unit of a parameter whose variable bears the name of a part.
         fn key(parameter: Parameter, scene: &Value, variable: &str) -> (&'static str, String, &'static str) {
             match parameter {
@@ -26,6 +26,7 @@ macro_rules! keys {
                 Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
                 Parameter::Rotation => ("Rotation", "/rotation".into(), "rad/s"),
                 Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
+                // Its claim is in `own.rs`: it changes no result.
                 Parameter::WorkLimit => ("WorkLimit", "/method/work_limit".into(), ""),
             }
         }

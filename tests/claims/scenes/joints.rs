@@ -42,7 +42,7 @@ fn pendulum() -> Specimen {
     let alpha = cross(arm, times(m, g)) / (j + m * l * l);
     let a = sum(times(alpha, left(arm)), times(-spin * spin, arm));
     Specimen::new("pendulum", scene)
-        .fact("variables", 16)
+        .fact("variables", 17)
         .vector("bar.root.position", "m", pin)
         .claim("bar.tip.angular_acceleration", "rad/s2", alpha)
         .vector("pin.reaction", "N", times(m, sum(a, times(-1.0, g))))

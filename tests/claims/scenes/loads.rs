@@ -64,7 +64,7 @@ fn forces() -> Specimen {
             "rad/s2",
             cross(arm, along) / 0.4,
         )
-        .vector("c.c.acceleration", "m/s2", [1.6 / 1.6, 0.5 / 1.6])
+        .vector("c.c.acceleration", "m/s2", [1.0, 0.5 / 1.6])
 }
 
 /// Moments on bodies, and torques between two that are pinned at their centres of mass.

@@ -111,7 +111,7 @@ fn frequencies() -> Specimen {
         "joints": [hinge("stiff", "b.c", 20.0), hinge("soft", "a.c", 4.5)],
         "outputs": [{"kind": "natural_frequency", "count": 2}]});
     Specimen::new("frequencies", scene)
-        .fact("variables", 14)
+        .fact("variables", 15)
         .claim("natural_frequency[1]", "rad/s", 3.0)
         .claim("natural_frequency[2]", "rad/s", 10.0)
 }
@@ -140,7 +140,7 @@ fn eigenvalues() -> Specimen {
         "outputs": [{"kind": "eigenvalue", "count": 2}]});
     let [first, second] = [root(slow), root(fast)];
     Specimen::new("eigenvalues", scene)
-        .fact("variables", 16)
+        .fact("variables", 17)
         .claim("eigenvalue.decay_rate[1]", "1/s", first[0])
         .claim("eigenvalue.frequency[1]", "rad/s", first[1])
         .claim("eigenvalue.decay_rate[2]", "1/s", second[0])

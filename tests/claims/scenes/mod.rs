@@ -12,6 +12,7 @@ mod motions;
 mod ports;
 mod rigid;
 mod slides;
+mod tables;
 
 use serde_json::{Value, json};
 
@@ -30,6 +31,7 @@ pub fn all() -> Vec<Specimen> {
         inputs::all(),
         ports::all(),
         methods::all(),
+        tables::all(),
         initial::all(),
     ];
     parts.into_iter().flatten().collect()

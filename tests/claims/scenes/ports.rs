@@ -47,7 +47,7 @@ fn by_force() -> Specimen {
         sum(centre, turn)
     };
     Specimen::new("by_force", scene)
-        .fact("variables", 30)
+        .fact("variables", 31)
         .set("flange.force[1]", force[0])
         .set("flange.force[2]", force[1])
         .set("flange.moment", moment)
@@ -84,7 +84,7 @@ fn by_motion() -> Specimen {
         "ports": [{"name": "flange", "marker": "a.c", "kind": "motion", "rotation": true},
                   {"name": "hook", "marker": "b.c", "kind": "motion"}],
         "outputs": outputs});
-    let mut specimen = Specimen::new("by_motion", scene).fact("variables", 42);
+    let mut specimen = Specimen::new("by_motion", scene).fact("variables", 43);
     for port in ["flange", "hook"] {
         for k in 0..2 {
             specimen = specimen
@@ -191,7 +191,7 @@ fn coupled_without() -> Specimen {
         "outputs": accelerations(&["a.c", "b.c", "e.c"])});
     let stretch = sum(place, times(-1.0, POINT[0]));
     let rate = sum(speed, times(-1.0, POINT[1]));
-    let mut specimen = Specimen::new("coupled_without", scene).fact("variables", 53);
+    let mut specimen = Specimen::new("coupled_without", scene).fact("variables", 54);
     for (port, turns) in [("soft", true), ("undamped", true), ("straight", false)] {
         specimen = set(specimen, port, turns);
     }
