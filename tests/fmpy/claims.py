@@ -117,7 +117,7 @@ def critical(claim, _folder, fmu, _case):
         # The eigenvalue itself crosses zero smoothly; its signed root does not.
         return frequency * abs(frequency)
 
-    found = root(indicator, *claim["between"], 0.01 * claim["relative"] * abs(claim["value"]))
+    found = vanishing(indicator, *claim["between"], 0.01 * claim["relative"] * abs(claim["value"]))
     if not abs(found - claim["value"]) <= claim["relative"] * abs(claim["value"]):
         raise AssertionError(
             f"{claim['indicator']} vanishes at {claim['vary']} = {found!r}, expected {claim['value']!r}"
@@ -274,34 +274,21 @@ def steps(instance, claim, stop_time):
             instance.set(changes.pop(0)["set"])
 
 
-def root(function, low, high, tolerance):
-    """The root of a function between two arguments (Illinois variant of false position)."""
-    at_low, at_high = function(low), function(high)
-    if not at_low * at_high <= 0.0:
-        raise AssertionError(
-            f"expected a change of sign, found {at_low:g} at {low:g} and {at_high:g} at {high:g}"
-        )
-    side = 0
-    for _ in range(MOST_HALVINGS):
-        if at_low == at_high:
-            return low
-        middle = (low * at_high - high * at_low) / (at_high - at_low)
-        value = function(middle)
-        if value == 0.0:
-            return middle
-        if (value > 0.0) == (at_high > 0.0):
-            moved, high, at_high = abs(high - middle), middle, value
-            at_low *= 0.5 if side > 0 else 1.0
-            side = 1
-        else:
-            moved, low, at_low = abs(middle - low), middle, value
-            at_high *= 0.5 if side < 0 else 1.0
-            side = -1
-        if min(moved, abs(high - low)) <= tolerance:
-            return middle
-    raise AssertionError(
-        f"no root to {tolerance:g} after {MOST_HALVINGS} steps; it lies from {low!r} to {high!r}"
-    )
+def vanishing(function, start, end, tolerance):
+    """Where a function that is positive from `start` on falls to zero, by secants through points short of it: beyond,
+    what is found in equilibrium is another branch."""
+    a, b = start, start + 0.1 * (end - start)
+    at_a, at_b, before = function(a), function(b), math.inf
+    for _ in range(40):
+        found = b - at_b * (b - a) / (at_b - at_a)
+        if not (at_b > 0.0 and (found - start) * (end - found) >= 0.0):
+            raise AssertionError(f"expected a fall to zero, found {at_a:g} at {a:g} and {at_b:g} at {b:g}")
+        if abs(found - before) <= tolerance:
+            return found
+        before, a, at_a = found, b, at_b
+        b += 0.9 * (found - b)
+        at_b = function(b)
+    raise AssertionError(f"expected a fall to zero, found {at_b:g} at {b:g}")
 
 
 def read_reference(path):
