@@ -19,7 +19,7 @@ pub struct Timed {
 /// Steps of time, in grains, around a time at which a function may have no value.
 const AROUND: [f64; 9] = [0.0, 1.0, -1.0, 16.0, -16.0, 256.0, -256.0, 4096.0, -4096.0];
 /// Moments, in grains, within which a function multiplies near a pole.
-const MOMENTS: [f64; 4] = [4096.0, 65536.0, 1048576.0, 268435456.0];
+const MOMENTS: [f64; 5] = [4096.0, 1_048_576.0, 268_435_456.0, 6.9e10, 2.8e11];
 
 impl Scene {
     /// Functions of time of a valid scene.
@@ -103,15 +103,18 @@ impl Timed {
     fn pole(&self, time: f64) -> Option<Error> {
         let value = self.function.value(time);
         let size = |back: f64| self.function.value(time - back).abs();
-        let grows = MOMENTS
-            .map(|grains| grains * grain(time))
-            .into_iter()
-            .any(|moment| {
-                // A zero is no pole: before it the value was as large as after it.
-                let before = [1.0, 2.0, 4.0].map(|k| size(k * moment));
-                before.into_iter().all(|before| value.abs() > 10.0 * before)
-            });
-        grows.then(|| self.error("value", time, value))
+        let mut moments = MOMENTS.iter().map(|grains| grains * grain(time));
+        let moment = moments.find(|moment| {
+            // A zero is no pole: before it the value was as large as after it.
+            let before = [1.0, 2.0, 4.0].map(|k| size(k * moment));
+            before.into_iter().all(|before| value.abs() > 10.0 * before)
+        })?;
+        let message = format!(
+            "expected a bounded value of `{}` near t = {time} s, found {value:e}, over ten times that of \
+             {moment:.0e} s before",
+            self.name
+        );
+        Some(Error::new(&self.path, message))
     }
 
     fn error(&self, what: &str, time: f64, found: f64) -> Error {

@@ -41,7 +41,7 @@ pub(super) struct Engine {
     holders: Vec<(&'static str, String)>,
     /// What the initial state was found with that a person should know.
     remarks: Remarks,
-    bodies: Vec<String>,
+    pub(super) bodies: Vec<String>,
     pub(super) assembled: Assembled,
     pub(super) work: Work,
     pub(super) method: Box<dyn Method>,

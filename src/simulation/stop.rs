@@ -5,6 +5,12 @@ use crate::integrators::{Counts, Stop};
 use crate::scene::finite_near;
 use crate::system::State;
 
+/// Part of a constraint that is left beside the others near a dead point.
+const NEAR: f64 = 1e-2;
+
+/// Part of a communication step below which a sub-step comes to nothing.
+const CRAWL: f64 = 1e-5;
+
 impl Engine {
     /// What ended the way from `start` to `until` at a state.
     pub(super) fn explain(
@@ -15,14 +21,16 @@ impl Engine {
         counts: &Counts,
     ) -> String {
         let (method, tolerance) = (self.method.name(), self.tolerance.relative);
-        if matches!(stop, Stop::StepTooSmall | Stop::NotFinite | Stop::Broken) {
+        // Steps that shrink and shrink spend any work.
+        let crawls = stop == Stop::TooMuchWork && state.step < CRAWL * (until - start);
+        if crawls || matches!(stop, Stop::StepTooSmall | Stop::NotFinite | Stop::Broken) {
             if let Err(error) = finite_near(&self.timed, state.time) {
                 return error.to_string();
             }
             if let Some(names) = self.newly_redundant(state) {
                 return format!(
                     "{method}: expected joints and motions that leave one way to go on, found a dead point, \
-                     where {names} hold what others hold already"
+                     where {names} hold (nearly) what others hold already"
                 );
             }
         }
@@ -57,16 +65,17 @@ impl Engine {
         }
     }
 
-    /// Names of joints and motions that hold what others hold already at this state but not anywhere.
+    /// Names of joints and motions that hold what others hold already at this state but not anywhere, and of
+    /// rigid bodies that joints alone keep in shape there.
     fn newly_redundant(&mut self, state: &State) -> Option<String> {
         let system = &self.assembled.system;
-        let (joints, _) = system.redundant_at(state, &mut self.work);
+        let (joints, bodies) = system.redundant_within(NEAR, state, &mut self.work);
         self.forget();
         let always = self.assembled.system.redundant();
-        let names = joints.iter().filter(|joint| !always.contains(joint));
-        let names: Vec<_> = names
-            .map(|joint| format!("`{}`", self.name(*joint)))
-            .collect();
+        let joints = joints.iter().filter(|joint| !always.contains(joint));
+        let joints = joints.map(|joint| self.name(*joint));
+        let names = joints.chain(bodies.iter().map(|body| &self.bodies[*body][..]));
+        let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
         (!names.is_empty()).then(|| names.join(", "))
     }
 }

@@ -212,12 +212,22 @@ impl System {
     /// Joints that hold, at least in part, what others hold already, at the start; and bodies that need
     /// not be kept rigid, since joints do.
     pub fn redundant_at(&self, state: &super::State, work: &mut Work) -> (Vec<usize>, Vec<usize>) {
+        self.redundant_within(RANK, state, work)
+    }
+
+    /// The same of what is held but for this part, relative.
+    pub fn redundant_within(
+        &self,
+        part: f64,
+        state: &super::State,
+        work: &mut Work,
+    ) -> (Vec<usize>, Vec<usize>) {
         let (mut joints, mut bodies) = (self.redundant.clone(), Vec::new());
         work.follow(state);
         self.place(state.time, &state.coordinates, None, work);
         self.jacobians(work);
         for group in &mut work.groups {
-            group.rows.factor(RANK);
+            group.rows.factor(part);
             for row in group.rows.dependent() {
                 let constraint = &self.constraints[group.constraints.start + row];
                 match (constraint.joint, &constraint.kind) {
