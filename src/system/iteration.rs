@@ -264,11 +264,13 @@ pub(super) fn slowest(
             return Err(missing);
         }
         let ritz = krylov.general().ok_or(NotFound::NotFinite)?;
-        let found = surely_slowest(&ritz, shift);
-        if found.len() <= count {
+        let (found, beyond) = surely_slowest(&ritz, shift);
+        if found.len() < count {
             continue;
         }
-        let sizes: Vec<f64> = found.iter().map(|s| s.norm()).collect();
+        let mut sizes: Vec<f64> = found.iter().map(|s| s.norm()).collect();
+        // Others may be next to each other without end, as those of damped material are: they need not be found.
+        sizes.extend(beyond);
         let Some((radius, number)) = split(&sizes, count, usize::MAX, |size| size) else {
             continue;
         };
@@ -283,8 +285,9 @@ pub(super) fn slowest(
     Err(missing)
 }
 
-/// Eigenvalues that are certain and that no unfound one can be slower than, slowest first.
-fn surely_slowest(ritz: &[Ritz], shift: f64) -> Vec<Complex<f64>> {
+/// Eigenvalues that are certain and that no unfound one can be slower than, slowest first; with the size that all
+/// unfound ones exceed, as far as they show.
+fn surely_slowest(ritz: &[Ritz], shift: f64) -> (Vec<Complex<f64>>, Option<f64>) {
     let mut found: Vec<Complex<f64>> = certain(ritz)
         .map(|ritz| shift + ritz.value.inv())
         .map(|s| Complex::new(s.re, s.im.abs()))
@@ -295,7 +298,7 @@ fn surely_slowest(ritz: &[Ritz], shift: f64) -> Vec<Complex<f64>> {
         .get(found.len())
         .map_or(f64::INFINITY, |ritz| ritz.value.inv().norm());
     found.retain(|s| s.norm() + shift < reach || reach.is_infinite());
-    found
+    (found, reach.is_finite().then_some(reach - shift))
 }
 
 /// The values of the equations in the span of all displacements found, nearest to those found so far: free of the

@@ -44,7 +44,10 @@ pub enum SpectrumError {
     #[error("expected a linearization of finite numbers, found others")]
     NotFinite,
     /// The iteration did not find them all: how many were wanted.
-    #[error("expected the {0} slowest for certain, found that the iteration does not converge")]
+    #[error(
+        "expected the {0} slowest for certain, found that the iteration does not converge: damped material gathers \
+         eigenvalues at -1/damping_time, so ask for fewer"
+    )]
     NotConverged(usize),
 }
 
@@ -161,24 +164,20 @@ pub fn eigenvalues(
     let linear = at(system, inputs, work, state);
     refuse_turning(system, &linear, state)?;
     let mut found = if is_small(&linear, count) {
-        let [stiffness, damping] = linear.dense();
-        if linear.is_damped {
-            quadratic(&stiffness, &damping)?
-        } else if linear.is_symmetric {
-            let squares = symmetric(&stiffness)?;
-            roots(
-                squares.iter().map(|k| Complex::new(*k, 0.0)),
-                noise(&squares),
-            )
-        } else {
-            let squares = general(&stiffness)?;
-            let size = squares.iter().map(|k| k.norm()).collect::<Vec<_>>();
-            roots(squares.into_iter(), noise(&size))
-        }
-    } else if linear.is_symmetric && !linear.is_damped {
-        iteration::slowest_conservative(system, work, &linear, count)?
+        all(&linear)?
     } else {
-        iteration::slowest(system, work, &linear, count)?
+        let found = if linear.is_symmetric && !linear.is_damped {
+            iteration::slowest_conservative(system, work, &linear, count)
+        } else {
+            iteration::slowest(system, work, &linear, count)
+        };
+        match found {
+            // Eigenvalues that lie next to each other without end, as those of damped material do.
+            Err(NotFound::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
+                all(&linear)?
+            }
+            found => found?,
+        }
     };
     if count > found.len() {
         return Err(SpectrumError::Count(count, found.len()));
@@ -189,6 +188,22 @@ pub fn eigenvalues(
         frequency: s.im.abs(),
     };
     Ok(found.iter().take(count).map(eigenvalue).collect())
+}
+
+/// All eigenvalues, by dense matrices; of a pair the one with the positive imaginary part.
+fn all(linear: &Linearization<'_>) -> Result<Vec<Complex<f64>>, SpectrumError> {
+    let [stiffness, damping] = linear.dense();
+    if linear.is_damped {
+        return quadratic(&stiffness, &damping);
+    }
+    if linear.is_symmetric {
+        let squares = symmetric(&stiffness)?;
+        let real = squares.iter().map(|k| Complex::new(*k, 0.0));
+        return Ok(roots(real, noise(&squares)));
+    }
+    let squares = general(&stiffness)?;
+    let size = squares.iter().map(|k| k.norm()).collect::<Vec<_>>();
+    Ok(roots(squares.into_iter(), noise(&size)))
 }
 
 /// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an

@@ -12,6 +12,18 @@ SWING = Path(__file__).with_name("swing.json")
 MECHANISM = Path(__file__).with_name("mechanism.json")
 
 
+def pytest_collection_modifyitems(items):
+    """Tests of one scene run in one process, which packages the scene once; the others go by their file."""
+    for item in items:
+        values = item.callspec.params.values() if hasattr(item, "callspec") else []
+        paths = [value for value in values if isinstance(value, Path)]
+        group = paths[0] if paths else item.path
+        cases = ROOT / "tests" / "cases"
+        if cases in group.parents and group.parent != cases:
+            group = group.parent
+        item.add_marker(pytest.mark.xdist_group(str(group)))
+
+
 class Library:
     """FMUs by scene file."""
 

@@ -9,7 +9,7 @@ from instance import Instance
 
 STEP = 0.05
 STOP = 0.5
-ERROR = 3
+DISCARD, ERROR = 2, 3
 
 
 def run(fmu, values=None):
@@ -34,7 +34,17 @@ PARAMETERS = {
 
 
 def test_every_start_value_is_tried(swing):
-    assert set(PARAMETERS) == set(swing.names("parameter", "input"))
+    # What bounds the work of a step changes no result that is within it.
+    assert set(PARAMETERS) == set(swing.names("parameter", "input")) - {"work_limit"}
+
+
+def test_a_step_beyond_the_work_limit_is_discarded(swing):
+    with Instance(swing) as instance:
+        instance.initialize({"work_limit": 10.0})
+        with pytest.raises(FMICallException) as failure:
+            instance.run(STOP, STEP)
+        assert failure.value.status == DISCARD
+        assert "work_limit = 1e1" in instance.messages[-1]
 
 
 @pytest.mark.parametrize("name", PARAMETERS)

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pytest
 from conftest import MECHANISM, ROOT, all_scenes, place_of
@@ -32,7 +33,10 @@ def test_shipped_scenes_run_to_their_stop_time(path, fmu_of):
         instance.messages.clear()
         instance.initialize()
         rows = [instance.outputs(), *instance.run(*experiment(fmu))]
-        assert instance.messages == []
+        # What the tolerance does not hold is told, once an output; nothing else is.
+        doubtful = re.compile(r"\S+: errors of the steps may have left more than 10 times the relative tolerance; .*")
+        assert [message for message in instance.messages if not doubtful.fullmatch(message)] == []
+        assert len(set(instance.messages)) == len(instance.messages)
     assert all(math.isfinite(value) for row in rows for value in row)
 
 
@@ -139,9 +143,9 @@ def test_a_motion_of_what_is_held_is_refused_with_its_place(edited):
         motion = {"name": "push", "kind": "position", "marker": "crank.pin", "value": ["t", 0.0]}
         scene["motions"].append(motion)
 
-    status, message = refusal(edited(ROOT / "scenes" / "slider_crank.json", hold))
-    assert status == ERROR
-    assert "motions[1]: expected a motion of what joints and other motions leave free" in message
+    with pytest.raises(AssertionError) as failure:
+        edited(ROOT / "scenes" / "slider_crank.json", hold)
+    assert "motions[1]: expected a motion of what joints and other motions leave free" in str(failure.value)
 
 
 def test_a_ring_that_runs_off_its_rope_stops_there(edited):

@@ -101,7 +101,8 @@ fn rust_tests(workspace: &Workspace) -> Result<()> {
 }
 
 fn fmpy_tests(workspace: &Workspace) -> Result<()> {
-    pytest(&Python::prepare(workspace)?, workspace, "tests/fmpy")
+    let mut tests = pytest(&Python::prepare(workspace)?, workspace, "tests/fmpy")?;
+    run(tests.args(["-n", "auto", "--maxprocesses", "8", "--dist", "loadgroup"]))
 }
 
 /// Not all masters have packages for other platforms than this one.
@@ -110,19 +111,20 @@ fn master_tests(workspace: &Workspace) -> Result<()> {
         eprintln!("skipped: the masters' packages are pinned for Linux on x86-64");
         return Ok(());
     }
-    pytest(
+    run(&mut pytest(
         &Python::prepare_masters(workspace)?,
         workspace,
         "tests/masters",
-    )
+    )?)
 }
 
-fn pytest(python: &Python, workspace: &Workspace, tests: &str) -> Result<()> {
+fn pytest(python: &Python, workspace: &Workspace, tests: &str) -> Result<Command> {
     let xtask = std::env::current_exe().context("cannot find this program itself")?;
-    // The tests package their FMUs with this very program.
-    run(python
-        .module("pytest")
+    let mut command = python.module("pytest");
+    command
         .args(["-p", "no:cacheprovider", "--durations", "5", "-rs"])
         .arg(workspace.path(tests))
-        .env("FLEXBODY_XTASK", xtask))
+        // The tests package their FMUs with this very program.
+        .env("FLEXBODY_XTASK", xtask);
+    Ok(command)
 }

@@ -30,7 +30,7 @@ impl Spring {
         let square = d.norm_squared();
         let is_open = square > N::of(0.0);
         let length = if is_open { square.sqrt() } else { square };
-        let unit = if is_open { d / length } else { d };
+        let unit = if is_open { d / length } else { Vector2::zeros() };
         (
             unit,
             length,
@@ -49,8 +49,12 @@ impl Spring {
     }
 
     pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
-        let (unit, none) = (self.stretch(at).0, Vector2::zeros());
-        let pull = unit * self.tension(at);
+        let ((unit, _, speed), none) = (self.stretch(at), Vector2::zeros());
+        // Without a rest length it pulls to the other end however near that is: the part has no kink there.
+        let [a, b] = self.ends.map(|end| end.lift().position(at.x));
+        let stiffness = N::of(self.stiffness);
+        let pull = (b - a) * stiffness
+            + unit * (N::of(self.damping) * speed - stiffness * self.rest(at));
         self.ends[0].lift().add_force(pull, none, f);
         self.ends[1].lift().add_force(-pull, none, f);
     }
@@ -58,11 +62,11 @@ impl Spring {
     pub(super) fn add_tangent(&self, at: Instant<'_>, stiffness: Add<'_>, damping: Add<'_>) {
         let (unit, length, _) = self.stretch(at);
         let along: Matrix2<f64> = unit * unit.transpose();
-        // A spring in compression pushes itself aside; that part stays out where it has no length.
-        let turn = if length > 0.0 {
-            self.tension(at) / length
-        } else {
-            0.0
+        // A spring in compression pushes itself aside; that part stays out where it has no direction.
+        let turn = match length > 0.0 {
+            true => self.tension(at) / length,
+            false if self.rest(at) == 0.0 => self.stiffness,
+            false => 0.0,
         };
         let k = along * self.stiffness + (Matrix2::identity() - along) * turn;
         super::between(&self.ends, k, 0, stiffness);

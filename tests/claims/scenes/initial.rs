@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use super::{cross, sum, times};
+use super::{cross, sum, times, turned as turned_by};
 use crate::specimen::Specimen;
 
 /// Time of the start, s.
@@ -16,6 +16,7 @@ pub fn all() -> Vec<Specimen> {
         bars(),
         turning(),
         turning_loaded(),
+        let_go_turning(),
         deforming(),
     ]
 }
@@ -59,6 +60,12 @@ fn levers() -> Specimen {
     }
     lever("f", 10.0);
     lever("free", 12.0);
+    // A force that keeps its direction, of the size that holds the lever at this angle.
+    let (angle, arm) = (0.25, [0.5, -0.2]);
+    lever("d", 14.0);
+    let dead = STIFFNESS * (angle - REST) / turned_by(angle, arm)[0];
+    loads.push(json!({"name": "weight", "kind": "force", "marker": "d.p", "value": [0.0, dead]}));
+    expected.push(("d".into(), STIFFNESS * (angle - REST)));
     let push = [0.6, 1.1];
     loads.push(
         json!({"name": "push", "kind": "force", "marker": "f.p", "follower": true, "value": push}),
@@ -179,6 +186,18 @@ fn turning_loaded() -> Specimen {
         json!({"state": "steady", "loads": [pull]}),
         12.0,
     )
+}
+
+/// The same at the equilibrium at rest, from which it is let go with its spin: drawn by the force alone.
+fn let_go_turning() -> Specimen {
+    let pull = json!({"name": "pull", "kind": "force", "marker": "bar.tip", "value": [12.0, 0.0]});
+    let initial = json!({"state": "static_equilibrium", "loads": [pull]});
+    let mut specimen = turned("let_go_turning", initial, 12.0);
+    specimen.claims.clear();
+    let reach = LENGTH * (1.0 + 12.0 / AXIAL);
+    specimen
+        .vector_within("bar.tip.position", "m", [reach, 0.0], 1e-8)
+        .claim_within("bar.tip.velocity[2]", "m/s", 3.0 * reach, 1e-7)
 }
 
 /// A velocity of deformation beside that of the body as a whole.

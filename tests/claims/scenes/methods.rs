@@ -133,14 +133,18 @@ fn root([inertia, stiffness, damping]: [f64; 3]) -> [f64; 2] {
 }
 
 fn eigenvalues() -> Specimen {
-    let (slow, fast) = ([0.5, 4.5, 0.3], [0.2, 20.0, 1.0]);
-    let [[a, of_a], [b, of_b]] = [damped("a", 0.0, fast), damped("b", 1.0, slow)];
+    let (slow, fast, faster) = ([0.5, 4.5, 0.3], [0.2, 20.0, 1.0], [0.1, 40.0, 0.2]);
+    let [[a, of_a], [b, of_b], [c, of_c]] = [
+        damped("a", 0.0, fast),
+        damped("b", 1.0, slow),
+        damped("c", 2.0, faster),
+    ];
     let scene = json!({
-        "name": "eigenvalues", "dimension": 2, "bodies": [a, b], "joints": [of_a, of_b],
+        "name": "eigenvalues", "dimension": 2, "bodies": [a, b, c], "joints": [of_a, of_b, of_c],
         "outputs": [{"kind": "eigenvalue", "count": 2}]});
     let [first, second] = [root(slow), root(fast)];
     Specimen::new("eigenvalues", scene)
-        .fact("variables", 17)
+        .fact("variables", 21)
         .claim("eigenvalue.decay_rate[1]", "1/s", first[0])
         .claim("eigenvalue.frequency[1]", "rad/s", first[1])
         .claim("eigenvalue.decay_rate[2]", "1/s", second[0])

@@ -6,7 +6,7 @@ use super::{cross, dot, extra, left, sum, times, turned};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    vec![flight(), lumped(), plain()]
+    vec![flight(), lumped(), plain(), disc()]
 }
 
 /// A body in free flight: mechanics of the rigid body at one instant.
@@ -61,9 +61,11 @@ fn plain() -> Specimen {
     let scene = json!({
         "name": "plain", "dimension": 2,
         "bodies": [{"element": "rigid", "name": "plate", "mass": 2.0, "inertia": 0.3,
-                    "position": [0.4, -0.7], "markers": {"p": [0.3, 0.2]}}],
+                    "position": [0.4, -0.7], "markers": {"p": [0.3, 0.2]}},
+                   {"element": "rigid", "name": "puck", "mass": 1.0, "inertia": 0.1,
+                    "position": [1.5, 0.3], "motion": {}, "markers": {"p": [0.1, 0.0]}}],
         "outputs": [{"kind": "position", "marker": "plate.p"}, {"kind": "velocity", "marker": "plate.p"},
-                    {"kind": "acceleration", "marker": "plate.p"}]});
+                    {"kind": "acceleration", "marker": "plate.p"}, {"kind": "position", "marker": "puck.p"}]});
     Specimen::new("plain", scene)
         .fact("DefaultExperiment/stopTime", 1)
         .fact("DefaultExperiment/stepSize", 0.01)
@@ -73,7 +75,22 @@ fn plain() -> Specimen {
         .vector("plate.p.acceleration", "m/s2", [0.0, 0.0])
         .at(0.5)
         .vector("plate.p.position", "m", [0.7, -0.5])
+        .vector("puck.p.position", "m", [1.6, 0.3])
         .fact("method", "rk4")
+}
+
+/// A disc on a spring at its middle: nothing holds its turn, which a body without inertia would not have.
+fn disc() -> Specimen {
+    let scene = json!({
+        "name": "disc", "dimension": 2,
+        "bodies": [{"element": "rigid", "name": "disc", "mass": 2.0, "inertia": 0.3,
+                    "position": [0.4, -0.7], "markers": {"c": [0.0, 0.0]}}],
+        "loads": [{"name": "spring", "kind": "spring_damper", "markers": ["ground", "disc.c"],
+                   "point": [0.4, -0.7], "stiffness": 18.0, "length": 0.0}],
+        "outputs": [{"kind": "natural_frequency", "count": 2}]});
+    Specimen::new("disc", scene)
+        .claim("natural_frequency[1]", "rad/s", 0.0)
+        .claim("natural_frequency[2]", "rad/s", 3.0)
 }
 
 /// Masses on a cable that turns about its first end, and on a rigid body.
