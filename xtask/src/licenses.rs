@@ -10,6 +10,7 @@ use serde_json::Value;
 
 use crate::archive::Content;
 use crate::cargo::{Workspace, release, rustc};
+use crate::linker::c_library_notices;
 use crate::platform::Platform;
 use crate::process::{prepared, shown, stdout, write_whole};
 
@@ -39,15 +40,20 @@ struct Linked {
     folder: PathBuf,
 }
 
-/// Puts the licenses of a package's library into the folder of an FMU.
-pub fn put(workspace: &Workspace, package: &str, folder: &Path) -> Result<()> {
-    for (name, bytes) in content(workspace, package)? {
+/// Puts the licenses of a package's libraries for these platforms into the folder of an FMU.
+pub fn put(
+    workspace: &Workspace,
+    package: &str,
+    platforms: &[Platform],
+    folder: &Path,
+) -> Result<()> {
+    for (name, bytes) in content(workspace, package, platforms)? {
         write_whole(&prepared(&folder.join(name))?, bytes)?;
     }
     Ok(())
 }
 
-fn content(workspace: &Workspace, package: &str) -> Result<Content> {
+fn content(workspace: &Workspace, package: &str, platforms: &[Platform]) -> Result<Content> {
     let read =
         |path: &Path| std::fs::read(path).with_context(|| format!("cannot read {}", shown(path)));
     let mut content = Content::new();
@@ -59,6 +65,11 @@ fn content(workspace: &Workspace, package: &str) -> Result<Content> {
     add("crates.txt", notices(&linked(workspace, package)?)?.into());
     let (file, name) = standard_library()?;
     add(&name, read(&file)?);
+    for platform in platforms {
+        if let Some(file) = c_library_notices(workspace, *platform)? {
+            add("mingw-w64.txt", read(&file)?);
+        }
+    }
     Ok(content)
 }
 

@@ -123,12 +123,26 @@ fn quoted(path: &Path) -> String {
     format!("'{}'", path.display().to_string().replace('\'', r"'\''"))
 }
 
+/// The file with the notices of the C library that a platform's library is linked with; none where it is the system's.
+pub fn c_library_notices(workspace: &Workspace, platform: Platform) -> Result<Option<PathBuf>> {
+    if platform != Platform::Win64 || platform.is_host() {
+        return Ok(None);
+    }
+    let python = Python::prepare_linker(workspace)?;
+    Ok(Some(zig(&python)?.join("lib/libc/mingw/COPYING")))
+}
+
+/// The folder of Zig.
+fn zig(python: &Python) -> Result<PathBuf> {
+    let question = "import ziglang; print(ziglang.__path__[0])";
+    let folder = stdout(Command::new(python.program("python")).args(["-c", question]))?;
+    Ok(folder.trim_end().into())
+}
+
 /// The folder of macOS's system libraries: text that says what they offer. Zig's names a variant of
 /// a processor that Rust's linker does not know.
 fn sdk(workspace: &Workspace, python: &Python) -> Result<PathBuf> {
-    let question = "import ziglang; print(ziglang.__path__[0])";
-    let zig = stdout(Command::new(python.program("python")).args(["-c", question]))?;
-    let source = Path::new(zig.trim_end()).join("lib/libc/darwin/libSystem.tbd");
+    let source = zig(python)?.join("lib/libc/darwin/libSystem.tbd");
     let text = std::fs::read_to_string(&source)
         .with_context(|| format!("cannot read {}", shown(&source)))?;
     let text = text.replace("arm64e.x1-", "arm64e-");

@@ -32,13 +32,13 @@ pub fn package(
     };
     // Libraries first: what their tools lack is said before the program is compiled.
     let mut libraries = Vec::new();
-    for platform in platforms {
+    for &platform in &platforms {
         libraries.push((platform, workspace.library(PACKAGE, platform)?));
     }
     let binary = workspace.binary()?;
     let stage = Stage::new(workspace)?;
     describe::describe(&binary, scene, &stage.0)?;
-    licenses::put(workspace, PACKAGE, &stage.0)?;
+    licenses::put(workspace, PACKAGE, &platforms, &stage.0)?;
     let folder = stage.0.join(TERMINALS);
     if !terminals && folder.exists() {
         std::fs::remove_dir_all(&folder)

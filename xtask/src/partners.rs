@@ -4,11 +4,11 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use crate::archive;
 use crate::cargo::Workspace;
 use crate::package::{Stage, put_library};
 use crate::platform::Platform;
 use crate::process::{announced, prepared, run_quietly, shown};
+use crate::{archive, licenses};
 
 /// The package, its library in an FMU, its program, and its folder among the FMUs.
 const PARTNERS: &str = "partners";
@@ -29,6 +29,7 @@ pub fn partners(workspace: &Workspace, output: Option<&Path>) -> Result<()> {
     for entry in listing {
         let folder = entry?.path();
         let name = folder.file_name().unwrap_or_default().to_string_lossy();
+        licenses::put(workspace, PARTNERS, &[platform], &folder)?;
         put_library(&library, &folder, PARTNERS, platform)?;
         let output = prepared(&output.join(format!("{name}.fmu")))?;
         let done = format!("packaged {}", shown(&output));

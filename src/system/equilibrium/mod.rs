@@ -83,12 +83,23 @@ pub fn find(
         part.scale_loads(fraction, work);
         part
     };
-    Path {
+    let path = Path {
         inputs,
         first: 1.0,
         predicts: false,
+        kept: 0.0,
+    };
+    let before = state.clone();
+    let found = path.follow(way, work, state);
+    match turning {
+        // A turn that nothing drives is neutral, and the tangent singular.
+        Some(Turning { rate, .. }) if found.is_err() => {
+            state.copy_from(&before);
+            let kept = rate.abs();
+            Path { kept, ..path }.follow(way, work, state)
+        }
+        _ => found,
     }
-    .follow(way, work, state)
 }
 
 /// Closes joints that are apart at `state` little by little, bodies unloaded: to the configuration of least strain
@@ -117,6 +128,7 @@ pub(super) fn close(
         inputs,
         first: CLOSING,
         predicts: true,
+        kept: 0.0,
     };
     closing.follow(way, work, state)?;
     let last = Path {
@@ -141,6 +153,8 @@ struct Path<'a> {
     first: f64,
     /// Whether what changes along it moves nodes, so that a step starts from where that takes all others.
     predicts: bool,
+    /// Shift that Newton's method keeps, 1/s.
+    kept: f64,
 }
 
 impl Path<'_> {
@@ -213,14 +227,14 @@ impl Path<'_> {
     ) -> Result<Found, f64> {
         let least = smallest_shift(system, self.inputs, work, state);
         let mut model = Model::new(system, self.inputs, work, state);
-        Newton::new(&mut model, least).settle(state, guard)
+        Newton::new(&mut model, least, self.kept).settle(state, guard)
     }
 
     /// Moves all nodes as the tangent asks for when those that joints hold move on to the next system.
     fn predict(&self, (before, next): (&System, &System), work: &mut Work, state: &mut State) {
         let least = smallest_shift(before, self.inputs, work, state);
         let mut model = Model::new(before, self.inputs, work, state);
-        Newton::new(&mut model, least).predict(state, next);
+        Newton::new(&mut model, least, 0.0).predict(state, next);
     }
 }
 

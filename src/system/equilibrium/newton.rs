@@ -49,6 +49,8 @@ pub(super) struct Newton<'a, 'b> {
     model: &'a mut Model<'b>,
     /// Smallest shift.
     least: f64,
+    /// Shift that is kept to the end, where a direction in which nothing acts is free; else 0.
+    kept: f64,
     is_conservative: bool,
     rest: Vec<f64>,
     force: Vec<f64>,
@@ -59,11 +61,12 @@ pub(super) struct Newton<'a, 'b> {
 }
 
 impl<'a, 'b> Newton<'a, 'b> {
-    pub(super) fn new(model: &'a mut Model<'b>, least: f64) -> Self {
+    pub(super) fn new(model: &'a mut Model<'b>, least: f64, kept: f64) -> Self {
         let rest = vec![0.0; model.system.coordinates()];
         Self {
             is_conservative: model.system.is_conservative(),
-            least,
+            least: least.max(kept),
+            kept,
             force: rest.clone(),
             x: rest.clone(),
             trial: rest.clone(),
@@ -77,7 +80,8 @@ impl<'a, 'b> Newton<'a, 'b> {
     pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, f64> {
         for _ in 0..ESCAPES {
             self.relax(state, guard)?;
-            if !self.is_conservative || !self.leave(state) {
+            // What turns freely is held by its turn as well, which the potential does not see.
+            if !self.is_conservative || self.kept > 0.0 || !self.leave(state) {
                 return Ok(Found { is_stable: true });
             }
         }
@@ -89,7 +93,7 @@ impl<'a, 'b> Newton<'a, 'b> {
     fn relax(&mut self, state: &mut State, guard: Guard) -> Result<(), f64> {
         let (time, size) = (state.time, self.model.system.scale());
         let is_transient = guard == Guard::Transient;
-        let (mut shift, mut before, mut correction) = (0.0_f64, f64::INFINITY, f64::INFINITY);
+        let (mut shift, mut before, mut correction) = (self.kept, f64::INFINITY, f64::INFINITY);
         let (mut strength, mut is_nudged) = (0.0, false);
         for iteration in 0..if is_transient { TRANSIENT } else { ITERATIONS } {
             (self.model).acceleration(time, &state.coordinates, &self.rest, &mut self.force);
@@ -111,7 +115,7 @@ impl<'a, 'b> Newton<'a, 'b> {
             if !self.correct(&mut shift) {
                 return Err(correction);
             }
-            if shift > 0.0 && self.is_conservative && !is_nudged {
+            if shift > 0.0 && self.kept == 0.0 && self.is_conservative && !is_nudged {
                 is_nudged = true;
                 if self.nudge(state) {
                     continue;
@@ -121,7 +125,12 @@ impl<'a, 'b> Newton<'a, 'b> {
             if !correction.is_finite() {
                 return Err(correction);
             }
-            if shift == 0.0 && correction < CLOSE {
+            // A shift that is kept makes the end linear.
+            let (is_last, part) = match self.kept > 0.0 {
+                true => (true, 0.9),
+                false => (shift == 0.0, 0.1),
+            };
+            if is_last && correction < CLOSE {
                 self.trial.clone_from(&state.coordinates);
                 self.trial
                     .iter_mut()
@@ -130,7 +139,7 @@ impl<'a, 'b> Newton<'a, 'b> {
                 if !self.accept(state) {
                     return Err(correction);
                 }
-                if correction < EXACT || correction > 0.1 * before {
+                if correction < EXACT || correction > part * before {
                     return Ok(());
                 }
                 before = correction;
@@ -145,7 +154,7 @@ impl<'a, 'b> Newton<'a, 'b> {
                 (true, true) if correction < CLOSE => 0.0,
                 (true, true) => shift,
                 (true, false) if shift > self.least => shift / 5.0,
-                (true, false) => 0.0,
+                (true, false) => self.kept,
                 (false, _) => (5.0 * shift).max(self.least),
             };
         }

@@ -30,7 +30,11 @@ impl Spring {
         let square = d.norm_squared();
         let is_open = square > N::of(0.0);
         let length = if is_open { square.sqrt() } else { square };
-        let unit = if is_open { d / length } else { Vector2::zeros() };
+        let unit = if is_open {
+            d / length
+        } else {
+            Vector2::zeros()
+        };
         (
             unit,
             length,
@@ -53,8 +57,8 @@ impl Spring {
         // Without a rest length it pulls to the other end however near that is: the part has no kink there.
         let [a, b] = self.ends.map(|end| end.lift().position(at.x));
         let stiffness = N::of(self.stiffness);
-        let pull = (b - a) * stiffness
-            + unit * (N::of(self.damping) * speed - stiffness * self.rest(at));
+        let pull =
+            (b - a) * stiffness + unit * (N::of(self.damping) * speed - stiffness * self.rest(at));
         self.ends[0].lift().add_force(pull, none, f);
         self.ends[1].lift().add_force(-pull, none, f);
     }
