@@ -13,7 +13,7 @@ use crate::{archive, describe, licenses};
 /// What says which variables make up a port; only FMUs of scenes with ports have it.
 const TERMINALS: &str = "terminalsAndIcons";
 /// The package that is every scene's library, and thereby its `modelIdentifier`.
-const PACKAGE: &str = "flexbody";
+pub const PACKAGE: &str = "flexbody";
 
 /// Makes an FMU of a scene for some platforms, or for the host where none is named, with terminals
 /// or without, says where, and returns its path.

@@ -6,6 +6,8 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 
 use crate::cargo::{Workspace, release};
+use crate::package::PACKAGE;
+use crate::platform::Platform;
 use crate::process::run;
 use crate::python::Python;
 use crate::{describe, fuzz};
@@ -96,8 +98,17 @@ fn declared_rust(workspace: &Workspace) -> Result<()> {
         .arg(workspace.target("declared-rust")))
 }
 
+/// What FMUs are made of is compiled meanwhile: linking with optimization keeps one core busy.
 fn rust_tests(workspace: &Workspace) -> Result<()> {
-    run(workspace.cargo("test").arg("--workspace"))
+    std::thread::scope(|scope| {
+        let products = scope.spawn(|| {
+            workspace.binary()?;
+            workspace.library(PACKAGE, Platform::host()?)
+        });
+        let tested = run(workspace.cargo("test").arg("--workspace"));
+        let built = products.join().expect("a build that does not panic");
+        tested.and(built.map(drop))
+    })
 }
 
 fn fmpy_tests(workspace: &Workspace) -> Result<()> {
