@@ -11,6 +11,7 @@ mod methods;
 mod motions;
 mod ports;
 mod rigid;
+mod sections;
 mod slides;
 mod tables;
 
@@ -24,6 +25,7 @@ pub fn all() -> Vec<Specimen> {
         rigid::all(),
         frames::all(),
         cables::all(),
+        sections::all(),
         joints::all(),
         slides::all(),
         motions::all(),
