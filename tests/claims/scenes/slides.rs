@@ -6,7 +6,7 @@ use super::{dot, extra, left, sum, times};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    vec![line(), links(), along(), bead()]
+    vec![line(), links(), along(), bead(), carried(), on_an_arc()]
 }
 
 fn bead_at(name: &str, mass: f64, place: [f64; 2], speed: [f64; 2]) -> Value {
@@ -119,4 +119,53 @@ fn bead() -> Specimen {
         .vector("a.c.velocity", "m/s", [0.3, 0.4])
         .at(0.4)
         .claim_within("ring2.travel", "m", 0.52, 1e-9)
+}
+
+/// A bead that moves outwards along a cable that turns: only the force across the cable acts on it, `2 w u`.
+fn carried() -> Specimen {
+    let (mass, rate, speed, at) = (0.5, 0.8, 0.6, 0.35);
+    let turn = |name: &str, of: &str| json!({"name": name, "kind": "angle", "marker": of, "value": format!("{rate}*t")});
+    let place = |name: &str, of: &str, value: Value| json!({"name": name, "kind": "position", "marker": of, "value": value});
+    let scene = json!({
+        "name": "carried", "dimension": 2,
+        "bodies": [{"element": "cable", "name": "arm", "elements": 1,
+                    "material": {"youngs_modulus": 1e5, "density": 1000.0},
+                    "section": {"area": 1e-3, "second_moment": 1e-7},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}},
+                    "motion": {"spin": rate}, "markers": {"root": 0.0, "tip": 1.0}},
+                   bead_at("bead", mass, [at, 0.0], [speed, rate * at])],
+        "joints": [{"name": "ring", "kind": "along", "markers": ["arm", "bead.c"]}],
+        "motions": [place("hold", "arm.root", json!([0.0, 0.0])), turn("first", "arm.root"),
+                    place("swing", "arm.tip", json!([format!("cos({rate}*t)"), format!("sin({rate}*t)")])),
+                    turn("second", "arm.tip")],
+        "outputs": [{"kind": "acceleration", "marker": "bead.c"}, {"kind": "reaction", "joint": "ring"}]});
+    let across = 2.0 * rate * speed;
+    Specimen::new("carried", scene)
+        .vector("bead.c.acceleration", "m/s2", [0.0, across])
+        .vector("ring.reaction", "N", [0.0, mass * across])
+}
+
+/// A bead that coasts through the lowest point of a heavy cable on an arc of radius 1 m.
+fn on_an_arc() -> Specimen {
+    let (half, speed) = (0.6_f64, 0.7);
+    let clamp =
+        |name: &str, of: &str| json!({"name": name, "kind": "weld", "markers": ["ground", of]});
+    let scene = json!({
+        "name": "on_an_arc", "dimension": 2,
+        "bodies": [{"element": "cable", "name": "rail", "elements": 8,
+                    "material": {"youngs_modulus": 1e5, "density": 1e9},
+                    "section": {"area": 1e-3, "second_moment": 1e-7},
+                    "shape": {"arc": {"from": [-half.sin(), 0.0], "to": [half.sin(), 0.0], "length": 2.0 * half}},
+                    "markers": {"first": 0.0, "last": 1.0}},
+                   bead_at("bead", 1e-3, [0.0, half.cos() - 1.0], [speed, 0.0])],
+        "joints": [clamp("a", "rail.first"), clamp("b", "rail.last"),
+                   {"name": "ring", "kind": "along", "markers": ["rail", "bead.c"]}],
+        "outputs": [{"kind": "acceleration", "marker": "bead.c"}]});
+    // The curvature is that of the elements.
+    Specimen::new("on_an_arc", scene).vector_within(
+        "bead.c.acceleration",
+        "m/s2",
+        [0.0, speed * speed],
+        5e-3,
+    )
 }
