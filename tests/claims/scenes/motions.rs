@@ -36,6 +36,9 @@ pub fn all() -> Vec<Specimen> {
         mastered(),
         described(),
         steps(),
+        stretching(),
+        turned_back(),
+        works(),
     ]
 }
 
@@ -313,6 +316,77 @@ fn steps() -> Specimen {
         specimen = claimed(specimen, n, end, n);
     }
     specimen
+}
+
+/// The slope at the end of a cable turns as it is driven, also while it stretches.
+fn stretching() -> Specimen {
+    let scene = json!({
+        "name": "stretching", "dimension": 2,
+        "bodies": [{"element": "cable", "name": "rod", "elements": 2,
+                    "material": {"youngs_modulus": 1e4, "density": 1000.0},
+                    "section": {"area": 1e-3, "second_moment": 1e-7},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": [0.8, 0.0]}},
+                    "motion": {"spin": 0.3, "deformation": ["0.25*s", "0"]}, "markers": {"root": 0.0}}],
+        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "rod.root"]}],
+        "motions": [{"name": "turn", "kind": "angle", "marker": "rod.root", "value": "0.3*t+0.4*t^2"}],
+        "outputs": outputs(&TURNS, "rod.root")});
+    Specimen::new("stretching", scene)
+        .claim("rod.root.angle", "rad", 0.0)
+        .claim("rod.root.angular_velocity", "rad/s", 0.3)
+        .claim("rod.root.angular_acceleration", "rad/s2", 0.8)
+}
+
+/// A plate is moved by a point that goes on another way at once: the impulse there keeps its moment of momentum about that
+/// point, and does the work that the plate gains.
+fn turned_back() -> Specimen {
+    let (mass, inertia, arm, speed, jump) = (1.6, 0.4, 0.5, [-0.8, 0.3], 0.5);
+    let scene = json!({
+        "name": "turned_back", "dimension": 2,
+        "bodies": [{"element": "rigid", "name": "plate", "mass": mass, "inertia": inertia, "position": [-speed[0] * jump, -arm],
+                    "motion": {"velocity": [speed[0], 0.0]}, "markers": {"c": [0.0, 0.0], "p": [0.0, arm]}}],
+        "motions": [{"name": "hand", "kind": "position", "marker": "plate.p",
+                     "value": [format!("(t-{jump})*if(t-{jump},{},{})", speed[1], speed[0]), 0.0]}],
+        "outputs": [{"kind": "velocity", "marker": "plate.c"}, {"kind": "angular_velocity", "marker": "plate.c"},
+                    {"kind": "work"}]});
+    let spin = -mass * arm * (speed[1] - speed[0]) / (inertia + mass * arm * arm);
+    let after = speed[1] + spin * arm;
+    let gained = 0.5 * mass * (after * after - speed[0] * speed[0]) + 0.5 * inertia * spin * spin;
+    Specimen::new("turned_back", scene)
+        .at(0.4)
+        .vector("plate.c.velocity", "m/s", [speed[0], 0.0])
+        .claim("plate.c.angular_velocity", "rad/s", 0.0)
+        .claim("energy.input", "J", 0.0)
+        .at(jump)
+        .vector("plate.c.velocity", "m/s", [after, 0.0])
+        .claim("plate.c.angular_velocity", "rad/s", spin)
+        .claim("energy.input", "J", gained)
+}
+
+/// What drives a point, a direction and the angle of a pin from rest does the work that goes into speed and height.
+fn works() -> Specimen {
+    let (g, t) = ([0.6, -9.0], 0.5);
+    let scene = json!({
+        "name": "works_of_drives", "dimension": 2, "gravity": g, "accuracy": {"relative_tolerance": 1e-9},
+        "bodies": [wheel("p", [0.4, 0.1], 0.0), wheel("m", [2.0, 0.0], 0.4), wheel("u", [3.0, 0.0], 0.1),
+                   wheel("v", [3.0, 0.0], 0.6)],
+        "joints": [{"name": "axle", "kind": "revolute", "markers": ["ground", "m.c"]},
+                   {"name": "first", "kind": "revolute", "markers": ["ground", "u.c"]},
+                   {"name": "pin", "kind": "revolute", "markers": ["u.c", "v.c"]}],
+        "motions": [{"name": "drive", "kind": "position", "marker": "p.c", "value": ["0.4+0.7*t^2", "0.1-0.5*t^2"]},
+                    {"name": "turn", "kind": "angle", "marker": "m.c", "value": "0.4+0.9*t^2"},
+                    {"name": "bend", "kind": "angle", "joint": "pin", "value": "0.5+0.6*t^2"}],
+        "outputs": [{"kind": "work"}]});
+    let (way, speed) = ([0.7 * t * t, -0.5 * t * t], [1.4 * t, -t]);
+    let of_the_point = 1.6 * (0.5 * super::dot(speed, speed) - super::dot(g, way));
+    let of_the_wheel = 0.5 * 0.4 * (1.8 * t).powi(2);
+    // Both wheels turn against each other.
+    let of_the_pin = 0.4 * (0.6 * t).powi(2);
+    Specimen::new("works_of_drives", scene).at(t).claim_within(
+        "energy.input",
+        "J",
+        of_the_point + of_the_wheel + of_the_pin,
+        1e-7,
+    )
 }
 
 #[test]
