@@ -203,12 +203,20 @@ fn let_go_turning() -> Specimen {
 /// A velocity of deformation beside that of the body as a whole.
 fn deforming() -> Specimen {
     let mut body = bar("bar", [0.2, 0.1], [1.0, 0.0], 2);
+    body["markers"]["quarter"] = json!(0.25);
     body["motion"] =
-        json!({"velocity": [0.1, 0.2], "spin": 0.5, "deformation": ["0.3*s", "0.2*s^2-0.1"]});
+        json!({"velocity": [0.1, 0.2], "spin": 0.5, "deformation": ["0.3*s^2", "0.2*s^2-0.1"]});
     let scene = json!({
         "name": "deforming", "dimension": 2, "bodies": [body],
-        "outputs": [{"kind": "velocity", "marker": "bar.middle"}, {"kind": "velocity", "marker": "bar.tip"}]});
+        "outputs": [{"kind": "velocity", "marker": "bar.middle"}, {"kind": "velocity", "marker": "bar.tip"},
+                    {"kind": "velocity", "marker": "bar.quarter"}]});
+    // Between nodes the field goes on, a polynomial of degree 2.
+    let quarter = [
+        0.1 + 0.3 * 0.25 * 0.25,
+        0.2 + 0.5 * 0.2 + 0.2 * 0.25 * 0.25 - 0.1,
+    ];
     Specimen::new("deforming", scene)
-        .vector("bar.middle.velocity", "m/s", [0.25, 0.2 + 0.2 - 0.05])
+        .vector("bar.quarter.velocity", "m/s", quarter)
+        .vector("bar.middle.velocity", "m/s", [0.175, 0.2 + 0.2 - 0.05])
         .vector("bar.tip.velocity", "m/s", [0.4, 0.2 + 0.4 + 0.1])
 }

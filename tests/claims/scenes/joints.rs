@@ -11,6 +11,7 @@ pub fn all() -> Vec<Specimen> {
         pins(),
         welds(),
         welded_pair(),
+        angles_from_another(),
         hinges(),
         hinged_pair(),
         angle_of_a_joint(),
@@ -108,6 +109,23 @@ fn welds() -> Specimen {
         .claim("guide.reaction_moment", "N.m", -1.7)
         .vector("turned.tip.acceleration", "m/s2", g)
         .claim("kept.c.angle", "rad", 0.7)
+}
+
+/// A body that is clamped, and others held at angles from it: welded to it, and kept in direction only.
+fn angles_from_another() -> Specimen {
+    let scene = json!({
+        "name": "angles_from_another", "dimension": 2,
+        "bodies": [body("base", [1.5, 0.4], [0.0, 0.0], 0.1, 0.0), body("fin", [0.8, 0.3], [-0.6, 0.0], 0.3, 0.0),
+                   body("vane", [0.8, 0.3], [1.0, 2.0], 0.7, 0.0)],
+        "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "base.c"], "angle": 0.2},
+                   {"name": "seam", "kind": "weld", "markers": ["base.c", "fin.tip"], "angle": 0.35},
+                   {"name": "guide", "kind": "orientation", "markers": ["base.c", "vane.c"], "angle": -0.45}],
+        "outputs": [{"kind": "angle", "marker": "base.c"}, {"kind": "angle", "marker": "fin.c"},
+                    {"kind": "angle", "marker": "vane.c"}]});
+    Specimen::new("angles_from_another", scene)
+        .claim("base.c.angle", "rad", 0.2)
+        .claim("fin.c.angle", "rad", 0.2 + 0.35)
+        .claim("vane.c.angle", "rad", 0.2 - 0.45)
 }
 
 /// Two free bodies welded at their centres of mass, and two with their directions held: a moment on one
