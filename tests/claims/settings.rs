@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::coverage::for_each_specimen;
 use crate::mutate::with;
-use crate::specimen::{Outcome, Specimen, units};
+use crate::specimen::{Outcome, Specimen, limits, units};
 
 /// Names all parameters, with the list and the key of the scene that they stand for and their units.
 macro_rules! keys {
@@ -187,6 +187,42 @@ fn every_parameter_is_its_key() {
             findings.1.extend(wrong);
             if noticed || label == "RelativeTolerance" {
                 findings.0.remove(label);
+            }
+        }
+    });
+    conclude(findings);
+}
+
+/// A master that reads the model description knows what it must not set.
+#[test]
+fn parameters_out_of_their_limits_are_those_that_are_refused() {
+    let findings = findings([]);
+    for_each_specimen(|specimen| {
+        let limits = limits(&specimen.scene);
+        let mut simulation = simulation(&specimen.scene);
+        for index in 0..simulation.variables().len() {
+            let variable = &simulation.variables()[index];
+            let (name, is_integer) = (variable.name.clone(), variable.is_integer());
+            if !matches!(variable.source, Source::Parameter(_)) {
+                continue;
+            }
+            let before = simulation.setting(index);
+            let mut set = |value: f64| match is_integer {
+                true => simulation.set_integer(index, value as i32).is_ok(),
+                false => simulation.set_real(index, value).is_ok(),
+            };
+            let [least, greatest] = limits[&name];
+            for value in [-1.0, 2e5] {
+                let is_within = least.is_none_or(|least| value >= least)
+                    && greatest.is_none_or(|greatest| value <= greatest);
+                if set(value) != is_within {
+                    let mut findings = findings.lock().expect("no panic while locked");
+                    let place = format!("{}: {name}", specimen.name);
+                    findings.1.push(format!(
+                        "{place}: {value}, limits {least:?} and {greatest:?}"
+                    ));
+                }
+                assert!(set(before), "{name}: its own value is refused");
             }
         }
     });

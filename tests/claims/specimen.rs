@@ -305,3 +305,20 @@ pub fn units(scene: &Value) -> BTreeMap<String, String> {
     };
     variables.filter_map(unit).collect()
 }
+
+/// Least and greatest values of parameters in the model description, by name.
+pub fn limits(scene: &Value) -> BTreeMap<String, [Option<f64>; 2]> {
+    let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+    let text = model_description(&scene);
+    let document = roxmltree::Document::parse(&text).expect("XML");
+    let variables = document
+        .descendants()
+        .filter(|node| node.has_tag_name("ScalarVariable"));
+    let limits = |node: roxmltree::Node<'_, '_>| {
+        let kind = node.children().find(roxmltree::Node::is_element)?;
+        let number = |key: &str| kind.attribute(key)?.parse().ok();
+        let name = node.attribute("name")?.to_owned();
+        Some((name, ["min", "max"].map(number)))
+    };
+    variables.filter_map(limits).collect()
+}
