@@ -6,7 +6,15 @@ use super::{dot, extra, left, sum, times};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    vec![line(), links(), along(), bead(), carried(), on_an_arc()]
+    vec![
+        line(),
+        links(),
+        along(),
+        bead(),
+        carried(),
+        on_an_arc(),
+        put_on(),
+    ]
 }
 
 fn bead_at(name: &str, mass: f64, place: [f64; 2], speed: [f64; 2]) -> Value {
@@ -168,4 +176,25 @@ fn on_an_arc() -> Specimen {
         [0.0, speed * speed],
         5e-3,
     )
+}
+
+/// A bead that is described beside a heavy rail is put on it, by the shortest way.
+fn put_on() -> Specimen {
+    let clamp =
+        |name: &str, of: &str| json!({"name": name, "kind": "weld", "markers": ["ground", of]});
+    let (along, way) = ([0.6, 0.8], 0.35);
+    let beside = sum(times(way, along), times(0.05, left(along)));
+    let scene = json!({
+        "name": "put_on", "dimension": 2,
+        "bodies": [{"element": "cable", "name": "rail", "elements": 2,
+                    "material": {"youngs_modulus": 1e5, "density": 1e12},
+                    "section": {"area": 1e-3, "second_moment": 1e-7},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": along}}, "markers": {"first": 0.0, "last": 1.0}},
+                   bead_at("bead", 1e-3, beside, [0.0, 0.0])],
+        "joints": [clamp("a", "rail.first"), clamp("b", "rail.last"),
+                   {"name": "ring", "kind": "along", "markers": ["rail", "bead.c"]}],
+        "outputs": [{"kind": "position", "marker": "bead.c"}, {"kind": "travel", "joint": "ring"}]});
+    Specimen::new("put_on", scene)
+        .vector("bead.c.position", "m", times(way, along))
+        .claim("ring.travel", "m", way)
 }
