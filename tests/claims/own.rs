@@ -117,6 +117,43 @@ fn work_is_bounded_by_its_limit() {
     assert_eq!(step(&limited, Some(1e6)), Ok(()));
 }
 
+/// Errors are held to the tolerance of the scene as a whole. A mote that vibrates beside a heavy bead hardly counts
+/// there: its velocity is told of, once, and that of the bead is not. Of a mote like the bead nothing is told.
+#[test]
+fn outputs_that_the_tolerance_does_not_reach_are_told_of() {
+    let told = |mass: f64, way: f64, square: f64| {
+        let mut scene = oscillator(1e-4);
+        scene["method"] = json!({"integrator": "radau"});
+        let mut add = |list: &str, part: Value| {
+            scene[list].as_array_mut().expect("a list").push(part);
+        };
+        add(
+            "bodies",
+            json!({"element": "rigid", "name": "mote", "mass": mass, "inertia": 0.0, "position": [way, 1.0],
+                   "markers": {"c": [0.0, 0.0]}}),
+        );
+        add(
+            "loads",
+            json!({"name": "thread", "kind": "spring_damper", "markers": ["ground", "mote.c"], "point": [-1.0, 1.0],
+                   "stiffness": square * mass, "length": 1.0}),
+        );
+        for of in ["bead.c", "mote.c"] {
+            add("outputs", json!({"kind": "velocity", "marker": of}));
+        }
+        let mut simulation = started(&scene);
+        let mut names = Vec::new();
+        for k in 1..=20 {
+            simulation.step(0.1 * f64::from(k)).expect("a step");
+            while let Some(name) = simulation.next_doubtful() {
+                names.push(name.to_owned());
+            }
+        }
+        names
+    };
+    assert_eq!(told(1e-9, 0.01, 400.0), ["mote.c.velocity"]);
+    assert_eq!(told(0.5, 0.3, 16.0), [""; 0]);
+}
+
 /// `method.constraints`: both ways keep a bead on its link, which goes round at constant speed; they are
 /// not the same.
 #[test]
