@@ -281,6 +281,25 @@ fn equilibrium_is_on_the_branch_of_growing_loads() {
     }
 }
 
+/// A force that stays across the tip turns it by half a turn at most: moments follow the pendulum that swings by a
+/// right angle to both sides (Kirchhoff's analogy). A mesh too coarse for the load may find no equilibrium, but
+/// none with turns more.
+#[test]
+fn a_force_across_the_tip_rolls_no_beam_up() {
+    for share in [25.0, 200.0, 1000.0] {
+        let mut scene = pulled_down(share, 5);
+        scene["bodies"][0]["material"]["youngs_modulus"] = json!(1e7);
+        scene["bodies"][0]["section"]["second_moment"] = json!(1e-7);
+        scene["loads"][0]["follower"] = json!(true);
+        let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+        let mut simulation = Simulation::new(scene);
+        if simulation.initialize(0.0).is_ok() {
+            let turn = read(&mut simulation, "beam.tip.angle");
+            assert!((-3.2..=0.1).contains(&turn), "{share}: {turn}");
+        }
+    }
+}
+
 /// How far slopes turn between two states, and the logarithm of how far they stretch: a step that stretches
 /// a cable by much is as long as one that turns it.
 #[test]
