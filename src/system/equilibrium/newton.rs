@@ -131,12 +131,7 @@ impl<'a, 'b> Newton<'a, 'b> {
                 false => (shift == 0.0, 0.1),
             };
             if is_last && correction < CLOSE {
-                self.trial.clone_from(&state.coordinates);
-                self.trial
-                    .iter_mut()
-                    .zip(&self.x)
-                    .for_each(|(q, x)| *q += x);
-                if !self.accept(state) {
+                if !self.correct_whole(state) {
                     return Err(correction);
                 }
                 if correction < EXACT || correction > part * before {
@@ -188,6 +183,13 @@ impl<'a, 'b> Newton<'a, 'b> {
         let predicted = fraction * dot(&self.force, &self.x);
         let (change, size) = self.model.potential_difference(q, &self.trial);
         change <= -1e-4 * predicted || predicted <= NOISE * size
+    }
+
+    /// Goes the whole correction; false, and back where it was, where constraints cannot be kept there.
+    fn correct_whole(&mut self, state: &mut State) -> bool {
+        self.trial.clone_from(&state.coordinates);
+        (self.trial.iter_mut().zip(&self.x)).for_each(|(q, x)| *q += x);
+        self.accept(state)
     }
 
     /// Goes to `trial`; false, and back where it was, where constraints cannot be kept there.
