@@ -290,35 +290,36 @@ fn attribute_of(scene: &Scene, element: &str, attribute: &str) -> String {
     found.unwrap_or_default().into()
 }
 
-/// The units of real variables in the model description, by name.
-pub fn units(scene: &Value) -> BTreeMap<String, String> {
+/// What a function finds at the type of variables in the model description (`Real`, `Integer`), by name.
+fn of_variables<T>(
+    scene: &Value,
+    find: impl Fn(roxmltree::Node<'_, '_>) -> Option<T>,
+) -> BTreeMap<String, T> {
     let scene = Scene::from_json(&scene.to_string()).expect("a scene");
     let text = model_description(&scene);
     let document = roxmltree::Document::parse(&text).expect("XML");
     let variables = document
         .descendants()
         .filter(|node| node.has_tag_name("ScalarVariable"));
-    let unit = |node: roxmltree::Node<'_, '_>| {
-        let real = node.children().find(|child| child.has_tag_name("Real"))?;
-        let name = node.attribute("name")?.to_owned();
-        Some((name, real.attribute("unit").unwrap_or_default().to_owned()))
-    };
-    variables.filter_map(unit).collect()
+    let found = variables.filter_map(|node| {
+        let kind = node.children().find(roxmltree::Node::is_element)?;
+        Some((node.attribute("name")?.to_owned(), find(kind)?))
+    });
+    found.collect()
+}
+
+/// The units of real variables in the model description, by name.
+pub fn units(scene: &Value) -> BTreeMap<String, String> {
+    of_variables(scene, |kind| {
+        let is_real = kind.has_tag_name("Real");
+        is_real.then(|| kind.attribute("unit").unwrap_or_default().to_owned())
+    })
 }
 
 /// Least and greatest values of parameters in the model description, by name.
 pub fn limits(scene: &Value) -> BTreeMap<String, [Option<f64>; 2]> {
-    let scene = Scene::from_json(&scene.to_string()).expect("a scene");
-    let text = model_description(&scene);
-    let document = roxmltree::Document::parse(&text).expect("XML");
-    let variables = document
-        .descendants()
-        .filter(|node| node.has_tag_name("ScalarVariable"));
-    let limits = |node: roxmltree::Node<'_, '_>| {
-        let kind = node.children().find(roxmltree::Node::is_element)?;
+    of_variables(scene, |kind| {
         let number = |key: &str| kind.attribute(key)?.parse().ok();
-        let name = node.attribute("name")?.to_owned();
-        Some((name, ["min", "max"].map(number)))
-    };
-    variables.filter_map(limits).collect()
+        Some(["min", "max"].map(number))
+    })
 }

@@ -117,15 +117,17 @@ fn beads() -> Specimen {
     specimen
 }
 
-const LENGTH: f64 = 0.8;
-const AXIAL: f64 = 200.0;
+/// Length of a bar, m, and its axial stiffness, N.
+pub const LENGTH: f64 = 0.8;
+pub const AXIAL: f64 = 200.0;
 
-fn bar(name: &str, from: [f64; 2], along: [f64; 2], elements: u32) -> Value {
+/// A bar from a point along a unit vector.
+pub fn bar(name: &str, from: [f64; 2], along: [f64; 2], elements: u32) -> Value {
     json!({"element": "cable", "name": name, "elements": elements,
            "material": {"youngs_modulus": 4000.0, "density": 30.0},
            "section": {"area": AXIAL / 4000.0, "second_moment": 1e-3},
            "shape": {"line": {"from": from, "to": sum(from, times(LENGTH, along))}},
-           "markers": {"root": 0.0, "middle": 0.5, "tip": 1.0}})
+           "markers": {"root": 0.0, "quarter": 0.25, "middle": 0.5, "tip": 1.0}})
 }
 
 /// Bars that are pinned at one end and drawn along their line by a uniform load: the tip is `q L^2 / (2 EA)`
@@ -203,7 +205,6 @@ fn let_go_turning() -> Specimen {
 /// A velocity of deformation beside that of the body as a whole.
 fn deforming() -> Specimen {
     let mut body = bar("bar", [0.2, 0.1], [1.0, 0.0], 2);
-    body["markers"]["quarter"] = json!(0.25);
     body["motion"] =
         json!({"velocity": [0.1, 0.2], "spin": 0.5, "deformation": ["0.3*s^2", "0.2*s^2-0.1"]});
     let scene = json!({

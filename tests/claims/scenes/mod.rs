@@ -54,6 +54,11 @@ pub fn resting() -> Value {
     body
 }
 
+/// A weld to the ground.
+pub fn clamp(name: &str, marker: &str) -> Value {
+    json!({"name": name, "kind": "weld", "markers": ["ground", marker]})
+}
+
 /// A vector turned counter-clockwise.
 pub fn turned(angle: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();

@@ -2,22 +2,12 @@
 
 use serde_json::{Value, json};
 
-use super::{left, times};
+use super::initial::{AXIAL, LENGTH, bar};
+use super::{clamp, left, times};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![drawn(), stiff(), turned_bar(), at_rest_outside()]
-}
-
-const AXIAL: f64 = 200.0;
-const LENGTH: f64 = 0.8;
-
-fn bar(name: &str, y: f64, elements: u32) -> Value {
-    json!({"element": "cable", "name": name, "elements": elements,
-           "material": {"youngs_modulus": 4000.0, "density": 30.0},
-           "section": {"area": AXIAL / 4000.0, "second_moment": 1e-3},
-           "shape": {"line": {"from": [0.0, y], "to": [LENGTH, y]}},
-           "markers": {"root": 0.0, "quarter": 0.25, "middle": 0.5, "tip": 1.0}})
 }
 
 fn outputs(kind: &str, of: &str, at: &[&str]) -> Vec<Value> {
@@ -25,17 +15,16 @@ fn outputs(kind: &str, of: &str, at: &[&str]) -> Vec<Value> {
     at.iter().map(output).collect()
 }
 
+const ALONG: [f64; 2] = [1.0, 0.0];
 const PLACES: [&str; 4] = ["root", "quarter", "middle", "tip"];
 
 /// Bars that are drawn along their line: by forces in the middle, after which less is left, and at the tip;
 /// and by a uniform load, of which every section carries what acts beyond it.
 fn drawn() -> Specimen {
     let (inside, end, line) = (12.0, 18.0, 8.0);
-    let clamp =
-        |name: &str, of: &str| json!({"name": name, "kind": "weld", "markers": ["ground", of]});
     let pull = |name: &str, at: &str, force: f64| json!({"name": name, "kind": "force", "marker": at, "value": [force, 0.0]});
     // Nearer to the node than roundoff tells apart.
-    let mut rod = bar("rod", 0.0, 2);
+    let mut rod = bar("rod", [0.0, 0.0], ALONG, 2);
     rod["markers"]["near"] = json!(0.499_999_999_99);
     let read = [
         outputs("axial_force", "rod", &PLACES),
@@ -45,7 +34,7 @@ fn drawn() -> Specimen {
     .concat();
     let scene = json!({
         "name": "drawn", "dimension": 2, "initial": "static_equilibrium",
-        "bodies": [rod, bar("mast", 1.0, 2)],
+        "bodies": [rod, bar("mast", [0.0, 1.0], ALONG, 2)],
         "joints": [clamp("a", "rod.root"), clamp("b", "mast.root")],
         "loads": [pull("first", "rod.middle", inside), pull("second", "rod.tip", end),
                   {"name": "wind", "kind": "distributed", "body": "mast", "value": [line, 0.0]}],
@@ -91,7 +80,7 @@ fn turned_bar() -> Specimen {
     let rate = 3.0;
     let scene = json!({
         "name": "turned_bar", "dimension": 2, "rotation": rate, "initial": "static_equilibrium",
-        "bodies": [bar("bar", 0.0, 4)],
+        "bodies": [bar("bar", [0.0, 0.0], ALONG, 4)],
         "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "bar.root"]}],
         "outputs": outputs("axial_force", "bar", &["root", "middle"])});
     let a = rate * (30.0_f64 / 4000.0).sqrt();
@@ -104,7 +93,7 @@ fn turned_bar() -> Specimen {
 /// A free bar that rests outside of a frame that turns: it goes round in there, and no section carries anything.
 fn at_rest_outside() -> Specimen {
     let rate = 1.3;
-    let mut body = bar("bar", 0.4, 2);
+    let mut body = bar("bar", [0.0, 0.4], ALONG, 2);
     body["motion"] = json!({"velocity": times(-rate, left([0.0, 0.4])), "spin": -rate});
     let read = [
         outputs("axial_force", "bar", &["quarter"]),

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{dot, extra, left, sum, times};
+use super::{clamp, dot, extra, left, sum, times};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
@@ -82,7 +82,6 @@ fn along() -> Specimen {
                "shape": {"line": {"from": [x, 0.0], "to": [x + 1.0, 0.0]}}, "markers": {"root": 0.0, "tip": 1.0}})
     };
     let keep = |name: &str, of: &str, x: f64| json!({"name": name, "kind": "spring_damper", "markers": ["ground", of], "point": [x, 0.0], "stiffness": 100.0});
-    let clamp = |name: &str, marker: &str| json!({"name": name, "kind": "weld", "markers": ["ground", marker]});
     let scene = json!({
         "name": "along", "dimension": 2, "gravity": [0.0, -g], "initial": "static_equilibrium",
         "bodies": [beam("beam", 0.0), beam("other", 2.0), bead_at("bead", m, [0.5, 0.0], [0.0, 0.0]),
@@ -156,8 +155,6 @@ fn carried() -> Specimen {
 /// A bead that coasts through the lowest point of a heavy cable on an arc of radius 1 m.
 fn on_an_arc() -> Specimen {
     let (half, speed) = (0.6_f64, 0.7);
-    let clamp =
-        |name: &str, of: &str| json!({"name": name, "kind": "weld", "markers": ["ground", of]});
     let scene = json!({
         "name": "on_an_arc", "dimension": 2,
         "bodies": [{"element": "cable", "name": "rail", "elements": 8,
@@ -180,8 +177,6 @@ fn on_an_arc() -> Specimen {
 
 /// A bead that is described beside a heavy rail is put on it, by the shortest way.
 fn put_on() -> Specimen {
-    let clamp =
-        |name: &str, of: &str| json!({"name": name, "kind": "weld", "markers": ["ground", of]});
     let (along, way) = ([0.6, 0.8], 0.35);
     let beside = sum(times(way, along), times(0.05, left(along)));
     let scene = json!({
