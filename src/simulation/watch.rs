@@ -13,8 +13,7 @@ use crate::system::{State, System};
 /// Errors beyond this many tolerances of an output's largest size are told of: the estimate is within a factor
 /// of three of the error on most scenes, and what is off by 30 tolerances must not stay unsaid.
 const LIMIT: f64 = 10.0;
-/// Communication points at the beginning that are all sampled, then every one of as many as [`EVERY`].
-const FIRST: u64 = 8;
+/// Communication points from one sample to the next; before, those whose number is a power of two are sampled.
 const EVERY: u64 = 16;
 /// Part of its natural size that an output must reach for its errors to be compared with it.
 const SMALLEST: f64 = 1e-3;
@@ -85,7 +84,7 @@ impl Watch {
         self.points += 1;
         self.steps += steps;
         self.elapsed += time;
-        let is_due = self.points <= FIRST || self.points.is_multiple_of(EVERY);
+        let is_due = self.points.is_power_of_two() || self.points.is_multiple_of(EVERY);
         is_due && self.groups.iter().any(|group| !group.is_doubtful)
     }
 

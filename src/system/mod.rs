@@ -17,6 +17,7 @@ pub mod loads;
 mod multipliers;
 mod outputs;
 mod placement;
+mod quadrature;
 mod section;
 mod shifted;
 mod signal;
@@ -47,6 +48,7 @@ use crate::body::{Chain, Elimination, Node};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
 use loads::{Instant, Load};
+use quadrature::Source;
 
 /// Flexible bodies of a planar system.
 pub type PlanarChain = Chain<Cable<2, 1>, 2, 4>;
@@ -103,8 +105,11 @@ pub struct System {
     needs_rates: bool,
     /// Whether work is integrated.
     tracks_work: bool,
-    /// Whether functions of time move or load it.
-    is_driven_by_time: bool,
+    /// Expressions of time that move or load it.
+    sources: Vec<Source>,
+    /// Mass, kg, and size, m.
+    mass: f64,
+    size: f64,
     /// Whether a function of time may have a kink or a jump.
     has_breaks: bool,
     grounded: Vec<usize>,
@@ -131,6 +136,10 @@ impl System {
 
     /// Size: the length of the longest cable, or the largest distance of two nodes if that is more, m.
     pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    fn extent(&self) -> f64 {
         let longest = self
             .chains
             .iter()
@@ -203,6 +212,10 @@ impl System {
 
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
+        self.mass
+    }
+
+    fn total_mass(&self) -> f64 {
         let chains: f64 = self.chains.iter().map(PlanarChain::mass).sum();
         chains + self.lumps.iter().map(|lump| lump.mass).sum::<f64>()
     }

@@ -29,16 +29,29 @@ const FLAGS: [&str; 7] = [
     "-Zsanitizer=address",
 ];
 
-/// Runs what there is to run; says so where the platform has no sanitizer or no C++ compiler.
-pub fn test(workspace: &Workspace) -> Result<()> {
+/// Why this machine cannot fuzz: no sanitizer, no C++ compiler.
+fn hindrance() -> Option<&'static str> {
     let supported =
         cfg!(target_os = "linux") && cfg!(any(target_arch = "x86_64", target_arch = "aarch64"));
     if !supported {
-        eprintln!("skipped: fuzzing is set up for Linux on x86-64 and AArch64 only");
-        return Ok(());
+        return Some("fuzzing is set up for Linux on x86-64 and AArch64 only");
     }
-    if process::run_quietly(Command::new("c++").arg("--version")).is_err() {
-        eprintln!("skipped: libFuzzer needs a C++ compiler named c++");
+    let compiles = process::run_quietly(Command::new("c++").arg("--version")).is_ok();
+    (!compiles).then_some("libFuzzer needs a C++ compiler named c++")
+}
+
+/// Compiles what is to run, where that is possible.
+pub fn prepare(workspace: &Workspace) -> Result<()> {
+    match hindrance() {
+        Some(_) => Ok(()),
+        None => build(workspace).map(drop),
+    }
+}
+
+/// Runs what there is to run; says so where that is nothing.
+pub fn test(workspace: &Workspace) -> Result<()> {
+    if let Some(reason) = hindrance() {
+        eprintln!("skipped: {reason}");
         return Ok(());
     }
     let programs = build(workspace)?;

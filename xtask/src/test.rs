@@ -116,8 +116,18 @@ fn fmpy_tests(workspace: &Workspace) -> Result<()> {
     run(tests.args(["-n", "auto", "--maxprocesses", "8", "--dist", "loadgroup"]))
 }
 
-/// Not all masters have packages for other platforms than this one.
+/// One system after the other: what is fuzzed is compiled meanwhile.
 fn master_tests(workspace: &Workspace) -> Result<()> {
+    std::thread::scope(|scope| {
+        let targets = scope.spawn(|| fuzz::prepare(workspace));
+        let tested = coupled(workspace);
+        let built = targets.join().expect("a build that does not panic");
+        tested.and(built)
+    })
+}
+
+/// Not all masters have packages for other platforms than this one.
+fn coupled(workspace: &Workspace) -> Result<()> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         eprintln!("skipped: the masters' packages are pinned for Linux on x86-64");
         return Ok(());

@@ -64,8 +64,8 @@ impl Dynamics for Probe<'_> {
         self.model.power()
     }
 
-    fn steps_in(&self, time: f64, h: f64) -> f64 {
-        self.model.steps_in(time, h)
+    fn quadrature_error(&self, step: [f64; 2], rule: [&[f64]; 2], natural: f64) -> f64 {
+        self.model.quadrature_error(step, rule, natural)
     }
 
     fn dissipates(&self) -> bool {
