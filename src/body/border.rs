@@ -1,7 +1,7 @@
 //! What non-linear constraints add to a solve: a border of a few rows per component of the system.
 //!
 //! Acceleration keeps to the constraints, so a Newton correction may leave their tangent plane only as
-//! far as inertia alone says: `[A U; U^T 0] [d; nu] = [f; U^T M^-1 f / s^2]` with `U = W Q^T` the forces along the
+//! far as inertia alone says: `[A U; U^T 0] [d; nu] = [f; U^T M^-1 f / m]` with `U = W Q^T` the forces along the
 //! orthonormal rows `Q` of the Jacobian in `q`, solved through `S = U^T A^-1 U`.
 //!
 //! Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14
@@ -9,6 +9,7 @@
 
 use std::ops::Range;
 
+use super::stages::STAGES;
 use crate::math::row_space::RowSpace;
 use crate::math::sparse::Number;
 
@@ -24,8 +25,8 @@ pub struct Border<R, C> {
     pub forces: Vec<f64>,
     pub real: Schur<R>,
     pub complex: Schur<C>,
-    /// Parts of three stages along `Q`.
-    pub normal: [Vec<f64>; 3],
+    /// Parts of the stages along `Q`.
+    pub normal: [Vec<f64>; STAGES],
 }
 
 /// `A^-1 U` and the factors of `S` for one matrix `A`.

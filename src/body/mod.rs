@@ -15,4 +15,5 @@ pub use chain::Chain;
 pub use connectivity::{Cluster, Dependent, Node, RANK_TOLERANCE, Row};
 pub use elimination::{Elimination, Formulation};
 pub use marker::{Marker, left};
+pub use stages::STAGES;
 pub use tangent::Tangent;

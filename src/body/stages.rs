@@ -1,4 +1,4 @@
-//! Solves for the three stages of an implicit method together, with one tangent that turns along.
+//! Solves for the stages of an implicit method together, with one tangent that turns along.
 //!
 //! The stage equations become one real and one complex system when all stages share a tangent. In
 //! absolute coordinates they hardly do: a slope that turns by `t` in a step turns the axial stiffness
@@ -24,14 +24,17 @@ use super::assembly::Assembly;
 use super::connectivity::{Cluster, Node};
 use super::elimination::Elimination;
 
-/// Vectors of three stages and how far the directions of nodes have turned.
+/// Most stages: one real and one complex system.
+pub const STAGES: usize = 3;
+
+/// Vectors of the stages and how far the directions of nodes have turned.
 #[derive(Clone, Debug)]
 pub struct Stages<const D: usize, const B: usize> {
     nodes: Vec<Node<B>>,
     /// Unit directions where the tangent was made.
     base: Vec<SVector<f64, D>>,
     /// Unit directions at the stages.
-    turned: [Vec<SVector<f64, D>>; 3],
+    turned: [Vec<SVector<f64, D>>; STAGES],
     knots: Vec<Knot>,
     /// Whether nodes belong to cables.
     elastic: Vec<bool>,
@@ -46,14 +49,14 @@ const RIGID: f64 = 1e-6;
 /// Difference of turns, rad, from which on tied nodes cannot each turn by itself.
 const APART: f64 = 3e-3;
 
-/// How the free coordinates of a cluster with cables turn at three stages: square matrices by rows.
+/// How the free coordinates of a cluster with cables turn at the stages: square matrices by rows.
 #[derive(Clone, Debug)]
 struct Knot {
     cluster: usize,
     range: Range<usize>,
-    turns: [Vec<f64>; 3],
+    turns: [Vec<f64>; STAGES],
     /// Stages at which its nodes turn apart: at others each node may turn by itself.
-    active: [bool; 3],
+    active: [bool; STAGES],
     normal: Vec<f64>,
     y: Vec<f64>,
 }
@@ -163,7 +166,7 @@ fn knots<const B: usize>(assembly: &Assembly<B>, elastic: &[bool]) -> Vec<Knot> 
                 cluster: index,
                 range: assembly.cluster_range(index),
                 turns: [zeros.clone(), zeros.clone(), zeros.clone()],
-                active: [false; 3],
+                active: [false; STAGES],
                 normal: zeros,
                 y: vec![0.0; n],
             }
@@ -311,13 +314,15 @@ fn floating<const D: usize, const B: usize>(
 }
 
 impl<const D: usize, const B: usize> Tangent<D, B> {
-    /// Solves in place, in the coordinates `q`: `forward` takes the three right-hand sides to one for
-    /// the real factors and two for the complex ones, `back` takes the solutions to the stages.
+    /// Solves in place, in the coordinates `q`, for as many stages as there are vectors. `forward` and `back` are square
+    /// matrices by rows: the first takes the right-hand sides to one for the real factors, where their number is
+    /// odd, then to real and imaginary part of one for the complex factors; the other takes the solutions to the
+    /// stages.
     pub fn solve_stages(
         &mut self,
         elimination: &Elimination<B>,
-        (forward, back): (&[[f64; 3]; 3], &[[f64; 3]; 3]),
-        q: &mut [Vec<f64>; 3],
+        [forward, back]: [&[f64]; 2],
+        q: &mut [Vec<f64>],
     ) {
         let assembly = &elimination.assembly;
         for (i, q) in q.iter_mut().enumerate() {
@@ -331,19 +336,10 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
                 }
             }
         }
-        for k in 0..self.x.len() {
-            let y = [q[0][k], q[1][k], q[2][k]];
-            self.x[k] = product(&forward[0], &y);
-            self.z[k] = Complex::new(product(&forward[1], &y), product(&forward[2], &y));
-        }
-        self.real.solve(assembly.pattern(), &mut self.x);
-        self.complex.solve(assembly.pattern(), &mut self.z);
-        self.correct_stages(forward);
-        for k in 0..self.x.len() {
-            let solution = [self.x[k], self.z[k].re, self.z[k].im];
-            for (q, row) in q.iter_mut().zip(back) {
-                q[k] = product(row, &solution);
-            }
+        match q.len() {
+            1 => self.solve_together::<1>(assembly, [forward, back], q),
+            2 => self.solve_together::<2>(assembly, [forward, back], q),
+            _ => self.solve_together::<3>(assembly, [forward, back], q),
         }
         for (i, q) in q.iter_mut().enumerate() {
             self.stages.turn_forth(assembly, i, q);
@@ -351,22 +347,65 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
         }
     }
 
-    fn correct_stages(&mut self, forward: &[[f64; 3]; 3]) {
-        let (real, complex) = (1.0 / (self.s.0 * self.s.0), (self.s.1 * self.s.1).inv());
+    /// The solves themselves, over the free coordinates.
+    fn solve_together<const S: usize>(
+        &mut self,
+        assembly: &Assembly<B>,
+        [forward, back]: [&[f64]; 2],
+        q: &mut [Vec<f64>],
+    ) {
+        let [forward, back] = [forward, back].map(|matrix| matrix.as_chunks::<S>().0);
+        // The real system comes first.
+        let (has_real, first) = (S % 2 == 1, S % 2);
+        for k in 0..self.x.len() {
+            let y: [f64; S] = std::array::from_fn(|i| q[i][k]);
+            if has_real {
+                self.x[k] = product(&forward[0], &y);
+            }
+            if S > 1 {
+                let [re, im] = [first, first + 1].map(|row| product(&forward[row], &y));
+                self.z[k] = Complex::new(re, im);
+            }
+        }
+        if has_real {
+            self.real.solve(assembly.pattern(), &mut self.x);
+        }
+        if S > 1 {
+            self.complex.solve(assembly.pattern(), &mut self.z);
+        }
+        self.correct_stages(forward);
+        for k in 0..self.x.len() {
+            let solution: [f64; S] = std::array::from_fn(|i| match i {
+                0 if has_real => self.x[k],
+                i if i == first => self.z[k].re,
+                _ => self.z[k].im,
+            });
+            for (q, row) in q.iter_mut().zip(back) {
+                q[k] = product(row, &solution);
+            }
+        }
+    }
+
+    fn correct_stages<const S: usize>(&mut self, forward: &[[f64; S]]) {
+        let (real, complex) = (1.0 / self.inertia.0, self.inertia.1.inv());
+        let (has_real, first) = (S % 2 == 1, S % 2);
         for border in &mut self.borders {
             let rows = (&border.forces[..], border.rank);
             let normal = &border.normal;
-            let mixed = |row: &[f64; 3], i: usize| {
-                product(row, &[normal[0][i], normal[1][i], normal[2][i]])
+            let mixed = |row: usize, i: usize| {
+                let of_stages = std::array::from_fn(|stage| normal[stage][i]);
+                product(&forward[row], &of_stages)
             };
-            let x = &mut self.x[border.range.clone()];
-            border
-                .real
-                .correct(rows, |i| real * mixed(&forward[0], i), x);
-            let z = &mut self.z[border.range.clone()];
-            let target =
-                |i: usize| complex * Complex::new(mixed(&forward[1], i), mixed(&forward[2], i));
-            border.complex.correct(rows, target, z);
+            if has_real {
+                let x = &mut self.x[border.range.clone()];
+                border.real.correct(rows, |i| real * mixed(0, i), x);
+            }
+            if S > 1 {
+                let z = &mut self.z[border.range.clone()];
+                let target =
+                    |i: usize| complex * Complex::new(mixed(first, i), mixed(first + 1, i));
+                border.complex.correct(rows, target, z);
+            }
         }
     }
 }
@@ -418,8 +457,9 @@ fn rotated<const D: usize>(
     v - sum * (sum.dot(v) / scale) + to * (2.0 * from.dot(v))
 }
 
-fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+fn product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
+    let products = a.iter().zip(b).map(|(a, b)| a * b);
+    products.fold(0.0, |sum, product| sum + product)
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -1,5 +1,5 @@
 //! The tangent over the free coordinates, and solves with it in the coordinates `q` without any dense
-//! matrix: `(s^2 I + s T^T R T + T^T K T)^-1 = W^T (s^2 M + s R + K)^-1 W`, one sparse solve.
+//! matrix: `(m I + r T^T R T + T^T K T)^-1 = W^T (m M + r R + K)^-1 W`, one sparse solve.
 
 use nalgebra::Complex;
 
@@ -19,8 +19,8 @@ pub struct Tangent<const D: usize, const B: usize> {
     is_damped: bool,
     pub(super) real: Matrix<f64>,
     pub(super) complex: Matrix<Complex<f64>>,
-    /// What the factors were made for.
-    pub(super) s: (f64, Complex<f64>),
+    /// Weights of inertia that the factors were made with, 1/s^2.
+    pub(super) inertia: (f64, Complex<f64>),
     pub(super) borders: Vec<Border<f64, Complex<f64>>>,
     pub(super) x: Vec<f64>,
     product: Vec<f64>,
@@ -52,7 +52,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
             is_damped,
             real: zeros,
             complex: Matrix::zeros(pattern),
-            s: (0.0, Complex::new(0.0, 0.0)),
+            inertia: (0.0, Complex::new(0.0, 0.0)),
             borders: borders.iter().map(border).collect(),
             x: vec![0.0; pattern.len()],
             product: vec![0.0; pattern.len()],
@@ -80,22 +80,22 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
         }
     }
 
-    /// Factors `s^2 M + s R + K` for a real `s`. False when it is not positive definite where the
+    /// Factors `m M + r R + K` for real weights `[m, r]`. False when it is not positive definite where the
     /// constraints leave freedom.
-    pub fn factor(&mut self, elimination: &Elimination<B>, s: f64) -> bool {
-        self.inertia(elimination, s) == Some(0)
+    pub fn factor(&mut self, elimination: &Elimination<B>, weights: [f64; 2]) -> bool {
+        self.inertia(elimination, weights) == Some(0)
     }
 
-    /// Factors `s^2 M + s R + K` for a real `s`. The number of negative eigenvalues where the constraints leave
-    /// freedom, by Sylvester's law of inertia; nothing at a vanishing pivot.
-    pub fn inertia(&mut self, elimination: &Elimination<B>, s: f64) -> Option<usize> {
-        self.s.0 = s;
+    /// Factors `m M + r R + K` for real weights `[m, r]`. The number of negative eigenvalues where the constraints
+    /// leave freedom, by Sylvester's law of inertia; nothing at a vanishing pivot.
+    pub fn inertia(&mut self, elimination: &Elimination<B>, weights: [f64; 2]) -> Option<usize> {
+        self.inertia.0 = weights[0];
         let damping = self.is_damped.then_some(&self.damping);
         combine(
             &elimination.mass,
             damping,
             &self.stiffness,
-            (s * s, s),
+            weights,
             &mut self.real,
         );
         self.factor_combined(elimination)
@@ -108,13 +108,12 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     /// [`Border`]: theorem 3.1 there.
     pub fn factor_below(&mut self, elimination: &Elimination<B>, shift: f64) -> Option<usize> {
         // What is held does not move: inertia has no say.
-        self.s.0 = f64::INFINITY;
-        let factors = (-shift, 0.0);
+        self.inertia.0 = f64::INFINITY;
         combine(
             &elimination.mass,
             None,
             &self.stiffness,
-            factors,
+            [-shift, 0.0],
             &mut self.real,
         );
         self.factor_combined(elimination)
@@ -137,15 +136,19 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
         Some(negative)
     }
 
-    /// Factors `s^2 M + s R + K` for a complex `s`. False at a vanishing pivot.
-    pub fn factor_complex(&mut self, elimination: &Elimination<B>, s: Complex<f64>) -> bool {
-        self.s.1 = s;
+    /// Factors `m M + r R + K` for complex weights `[m, r]`. False at a vanishing pivot.
+    pub fn factor_complex(
+        &mut self,
+        elimination: &Elimination<B>,
+        weights: [Complex<f64>; 2],
+    ) -> bool {
+        self.inertia.1 = weights[0];
         let damping = self.is_damped.then_some(&self.damping);
         combine(
             &elimination.mass,
             damping,
             &self.stiffness,
-            (s * s, s),
+            weights,
             &mut self.complex,
         );
         let pattern = elimination.assembly.pattern();
@@ -175,7 +178,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
         }
         elimination.forces(q);
         self.real.solve(elimination.assembly.pattern(), q);
-        let scale = 1.0 / (self.s.0 * self.s.0);
+        let scale = 1.0 / self.inertia.0;
         // Where inertia has no say a correction stays in the tangent plane.
         let scale = if scale.is_finite() { scale } else { 0.0 };
         for border in &mut self.borders {
@@ -228,7 +231,7 @@ fn combine<T: Number>(
     mass: &Matrix<f64>,
     damping: Option<&Matrix<f64>>,
     stiffness: &Matrix<f64>,
-    (m, r): (T, T),
+    [m, r]: [T; 2],
     out: &mut Matrix<T>,
 ) {
     let terms = mass.values.iter().zip(&stiffness.values);

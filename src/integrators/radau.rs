@@ -150,7 +150,8 @@ impl Radau {
                 f[i] -= product(row, &z) / h;
             }
         }
-        dynamics.solve_stages(&INVERSE, &T, &mut self.f);
+        let [forward, back] = [INVERSE.as_flattened(), T.as_flattened()];
+        dynamics.solve_stages(forward, back, &mut self.f);
         for (z, x) in self.zq.iter_mut().zip(&self.f) {
             z.iter_mut().zip(x).for_each(|(z, x)| *z += x);
         }
@@ -290,8 +291,10 @@ impl Radau {
         }
         if self.factored != h {
             self.factored = 0.0;
-            let complex = Complex::new(ALPHA / h, BETA / h);
-            if !dynamics.factor(GAMMA / h) || !dynamics.factor_complex(complex) {
+            let (real, complex) = (GAMMA / h, Complex::new(ALPHA / h, BETA / h));
+            if !dynamics.factor([real * real, real])
+                || !dynamics.factor_complex([complex * complex, complex])
+            {
                 return false;
             }
             self.factored = h;
@@ -328,7 +331,7 @@ impl Method for Radau {
         let s = GAMMA / self.attempted;
         dynamics.linearize(time, q, v);
         self.tangent = false;
-        if !dynamics.factor(s) {
+        if !dynamics.factor([s * s, s]) {
             return false;
         }
         dynamics.solve(&mut self.f[0]);
@@ -348,7 +351,7 @@ impl Method for Radau {
     ) {
         let s = GAMMA / self.attempted;
         dynamics.linearize(time, q, v);
-        if !dynamics.factor(s) {
+        if !dynamics.factor([s * s, s]) {
             position.fill(0.0);
             velocity.fill(0.0);
             return;

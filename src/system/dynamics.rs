@@ -10,6 +10,9 @@ use super::{Constraints, State, System, Work};
 use crate::body::Node;
 use crate::elements::Element;
 
+/// Most stages that a method may solve for together.
+pub const STAGES: usize = crate::body::STAGES;
+
 /// A second-order system with identity inertia, `q'' = a(t, q, q')`, with `K = -da/dq` and
 /// `R = -da/dq'`.
 pub trait Dynamics {
@@ -29,24 +32,21 @@ pub trait Dynamics {
     }
     /// Computes `K` and `R` at a state, for the calls below.
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]);
-    /// Factors `s^2 I + s R + K` for a real `s`; false when it is not positive definite.
-    fn factor(&mut self, s: f64) -> bool;
-    /// Factors `s^2 I + s R + K` for a complex `s`; false when it is singular.
-    fn factor_complex(&mut self, s: Complex<f64>) -> bool;
+    /// Factors `m I + r R + K` for real weights `[m, r]` of inertia (1/s^2) and damping (1/s); false when it is not
+    /// positive definite.
+    fn factor(&mut self, weights: [f64; 2]) -> bool;
+    /// The same for complex weights, beside the real factors; false when it is singular.
+    fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool;
     /// Solves in place with the real factors.
     fn solve(&mut self, x: &mut [f64]);
-    /// Remembers the configuration of the last acceleration as that of one of three stages.
+    /// Remembers the configuration of the last acceleration as that of a stage, at most [`STAGES`].
     fn set_stage(&mut self, stage: usize);
-    /// Solves for three stages in place: `forward` takes the right-hand sides to one for the real
-    /// factors and two for the complex ones, `back` takes the solutions to the stages. The tangent may
-    /// be turned along to the configurations set before, so the result is exact only to first order in
-    /// the way from the linearization.
-    fn solve_stages(
-        &mut self,
-        forward: &[[f64; 3]; 3],
-        back: &[[f64; 3]; 3],
-        stages: &mut [Vec<f64>; 3],
-    );
+    /// Solves for the first stages in place, as many as there are vectors. `forward`, a square matrix by rows, takes
+    /// the right-hand sides to one for the real factors, where their number is odd, then to real and imaginary part
+    /// of one for the complex factors; `back` takes the solutions to the stages. The tangent may be turned along to
+    /// the configurations set before, so the result is exact only to first order in the way from the
+    /// linearization.
+    fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]);
     /// Takes out of an acceleration what is against the constraints of the last [`Dynamics::acceleration`].
     fn take_out_normal(&mut self, _a: &mut [f64]) {}
     /// `R x`, in place.
@@ -224,10 +224,11 @@ impl<'a> Model<'a> {
         (sum, size)
     }
 
-    /// Number of negative eigenvalues of `s^2 I + s R + K` where constraints leave freedom, and its factors for
-    /// [`Dynamics::solve`]; nothing where it is singular.
-    pub fn inertia(&mut self, s: f64) -> Option<usize> {
-        self.work.tangent.inertia(&self.system.elimination, s)
+    /// Number of negative eigenvalues of `m I + r R + K` for weights `[m, r]` where constraints leave freedom, and its
+    /// factors for [`Dynamics::solve`]; nothing where it is singular.
+    pub fn inertia(&mut self, weights: [f64; 2]) -> Option<usize> {
+        let elimination = &self.system.elimination;
+        self.work.tangent.inertia(elimination, weights)
     }
 
     /// `K x`, in place, inside the tangent plane of the constraints.
@@ -348,15 +349,16 @@ impl Dynamics for Model<'_> {
         system.assemble(time, self.work);
     }
 
-    fn factor(&mut self, s: f64) -> bool {
-        self.operations += 1;
-        self.work.tangent.factor(&self.system.elimination, s)
-    }
-
-    fn factor_complex(&mut self, s: Complex<f64>) -> bool {
+    fn factor(&mut self, weights: [f64; 2]) -> bool {
         self.operations += 1;
         let elimination = &self.system.elimination;
-        self.work.tangent.factor_complex(elimination, s)
+        self.work.tangent.factor(elimination, weights)
+    }
+
+    fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool {
+        self.operations += 1;
+        let elimination = &self.system.elimination;
+        self.work.tangent.factor_complex(elimination, weights)
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -370,17 +372,11 @@ impl Dynamics for Model<'_> {
         tangent.stages.set(assembly, stage, x);
     }
 
-    fn solve_stages(
-        &mut self,
-        forward: &[[f64; 3]; 3],
-        back: &[[f64; 3]; 3],
-        stages: &mut [Vec<f64>; 3],
-    ) {
+    fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]) {
         self.operations += 1;
         let elimination = &self.system.elimination;
-        self.work
-            .tangent
-            .solve_stages(elimination, (forward, back), stages);
+        let tangent = &mut self.work.tangent;
+        tangent.solve_stages(elimination, [forward, back], stages);
     }
 
     fn take_out_normal(&mut self, a: &mut [f64]) {

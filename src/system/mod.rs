@@ -29,7 +29,7 @@ mod work;
 pub use breaks::Follower;
 pub use build::{BuildError, Lump, Parts};
 pub use derivatives::Derivatives;
-pub use dynamics::{Accepted, Dynamics, Model};
+pub use dynamics::{Accepted, Dynamics, Model, STAGES};
 pub use end::{Angle, End};
 pub use frequencies::fastest;
 pub use outputs::Evaluation;

@@ -70,18 +70,18 @@ impl Dynamics for Problem {
         [self.stiffness, self.damping] = (self.tangent)(pair(q), pair(v));
     }
 
-    fn factor(&mut self, s: f64) -> bool {
-        let a = Matrix2::identity() * (s * s) + self.damping * s + self.stiffness;
+    fn factor(&mut self, [inertia, damping]: [f64; 2]) -> bool {
+        let a = Matrix2::identity() * inertia + self.damping * damping + self.stiffness;
         a.try_inverse().is_some_and(|inverse| {
             self.real = inverse;
             true
         })
     }
 
-    fn factor_complex(&mut self, s: Complex<f64>) -> bool {
+    fn factor_complex(&mut self, [inertia, damping]: [Complex<f64>; 2]) -> bool {
         let complex = |m: Matrix2<f64>| m.map(|x| Complex::new(x, 0.0));
-        let shift = Matrix2::from_diagonal_element(s * s);
-        let a = shift + complex(self.damping) * s + complex(self.stiffness);
+        let shift = Matrix2::from_diagonal_element(inertia);
+        let a = shift + complex(self.damping) * damping + complex(self.stiffness);
         a.try_inverse().is_some_and(|inverse| {
             self.complex = inverse;
             true
@@ -96,14 +96,11 @@ impl Dynamics for Problem {
     // All stages share the tangent here.
     fn set_stage(&mut self, _stage: usize) {}
 
-    fn solve_stages(
-        &mut self,
-        forward: &[[f64; 3]; 3],
-        back: &[[f64; 3]; 3],
-        stages: &mut [Vec<f64>; 3],
-    ) {
-        let mix = |rows: &[[f64; 3]; 3], x: [Vector2<f64>; 3]| {
-            rows.map(|row| x[0] * row[0] + x[1] * row[1] + x[2] * row[2])
+    fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]) {
+        let mix = |rows: &[f64], x: [Vector2<f64>; 3]| -> [Vector2<f64>; 3] {
+            let row =
+                |i: usize| x[0] * rows[3 * i] + x[1] * rows[3 * i + 1] + x[2] * rows[3 * i + 2];
+            [row(0), row(1), row(2)]
         };
         let [real, re, im] = mix(forward, [0, 1, 2].map(|i| pair(&stages[i])));
         let z = self.complex * re.zip_map(&im, Complex::new);

@@ -166,8 +166,8 @@ impl Method for Alpha {
             next: &mut self.next,
             tolerance,
         };
-        let s = (inertia / (w.beta * h * h)).sqrt();
-        if let Err(factor) = self.newton.solve(dynamics, &mut step, s) {
+        let weights = [inertia / (w.beta * h * h), w.gamma / (w.beta * h)];
+        if let Err(factor) = self.newton.solve(dynamics, &mut step, weights) {
             return Attempt::Failed(factor);
         }
         if self.fixed {
@@ -178,7 +178,7 @@ impl Method for Alpha {
         }
         // Through the tangent, so that stiff modes do not spoil it.
         self.newton.solve_last(dynamics, &mut self.error);
-        let scale = w.error() * h * h * s * s;
+        let scale = w.error() * h * h * weights[0];
         self.error.iter_mut().for_each(|e| *e *= scale);
         Attempt::Done(rescaled(tolerance.norm(&self.error, &[]), 3.0))
     }

@@ -330,7 +330,7 @@ impl Method for EnergyMomentum {
             rates: v,
             tolerance,
         };
-        let outcome = newton.solve(dynamics, &mut step, 2.0 / h);
+        let outcome = newton.solve(dynamics, &mut step, [4.0 / (h * h), 2.0 / h]);
         self.newton = newton;
         if let Err(factor) = outcome {
             return Attempt::Failed(factor);

@@ -121,7 +121,8 @@ impl Gauss {
                 f[i] -= product(row, &z) / h;
             }
         }
-        dynamics.solve_stages(&self.forward, &self.back, &mut self.f);
+        let [forward, back] = [self.forward.as_flattened(), self.back.as_flattened()];
+        dynamics.solve_stages(forward, back, &mut self.f);
         let (mut positions, mut velocities) = (0.0, 0.0);
         for i in 0..q.len() {
             let x = [self.f[0][i], self.f[1][i], self.f[2][i]];
@@ -210,8 +211,9 @@ impl Method for Gauss {
             if self.factored != h {
                 self.factored = h;
                 // Indefinite factors serve too.
-                dynamics.factor(self.real / h);
-                dynamics.factor_complex(self.complex / h);
+                let (real, complex) = (self.real / h, self.complex / h);
+                dynamics.factor([real * real, real]);
+                dynamics.factor_complex([complex * complex, complex]);
             }
             match self.newton(dynamics, state, h, tolerance) {
                 Ok(()) => {

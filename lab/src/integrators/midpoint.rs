@@ -99,7 +99,10 @@ impl Method for Midpoint {
             v: &mut self.v,
             tolerance,
         };
-        match self.newton.solve(dynamics, &mut step, self.per_time) {
+        match self
+            .newton
+            .solve(dynamics, &mut step, [self.per_time.powi(2), self.per_time])
+        {
             // There is no estimate: fixed steps only.
             Ok(()) => Attempt::Done(1.0),
             Err(factor) => Attempt::Failed(factor),

@@ -3,9 +3,8 @@
 
 use flexbody::integrators::Tolerance;
 use flexbody::system::Dynamics;
-use nalgebra::Complex;
 
-/// What a step solves: `r = 0`, with corrections `(s^2 I + s R + K)^-1 r`.
+/// What a step solves: `r = 0`, with corrections `(m I + w R + K)^-1 r`.
 pub trait Equation {
     /// Residual, an acceleration.
     fn residual(&mut self, dynamics: &mut dyn Dynamics, r: &mut [f64]);
@@ -27,13 +26,11 @@ const DIVERGING: f64 = 20.0;
 /// State of the iteration.
 pub struct Newton {
     r: Vec<f64>,
-    /// For what the factors were made; 0 for nothing.
-    factored: f64,
+    /// Weights of inertia and damping for which the factors were made, if there are any.
+    factored: Option<[f64; 2]>,
     tangent: bool,
-    /// Whether solves turn the tangent along with directions, as those of the product's Radau do: through
-    /// its solve for three stages, two of which are idle.
+    /// Whether solves turn the tangent along with directions, as those of the product's Radau do.
     turned: bool,
-    stages: [Vec<f64>; 3],
     /// Rate of convergence seen last with the tangent that is kept.
     rate: f64,
     /// Iterations since the last reset.
@@ -43,12 +40,10 @@ pub struct Newton {
 impl Newton {
     /// For `n` coordinates, with a tangent that stays as it is or turns along.
     pub fn new(n: usize, turned: bool) -> Self {
-        let zero = vec![0.0; if turned { n } else { 0 }];
         Self {
             turned,
-            stages: [zero.clone(), zero.clone(), zero],
             r: vec![0.0; n],
-            factored: 0.0,
+            factored: None,
             tangent: false,
             rate: 1.0,
             iterations: 0,
@@ -69,22 +64,19 @@ impl Newton {
 
     fn solve_turned(&mut self, dynamics: &mut dyn Dynamics) {
         if self.turned {
-            const FIRST: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
             dynamics.set_stage(0);
-            self.stages[0].copy_from_slice(&self.r);
-            dynamics.solve_stages(&FIRST, &FIRST, &mut self.stages);
-            self.r.copy_from_slice(&self.stages[0]);
+            dynamics.solve_stages(&[1.0], &[1.0], std::slice::from_mut(&mut self.r));
         } else {
             dynamics.solve(&mut self.r);
         }
     }
 
-    /// Solves; `Err` is the fraction of the step to try instead.
+    /// Solves with these weights of inertia and damping; `Err` is the fraction of the step to try instead.
     pub fn solve(
         &mut self,
         dynamics: &mut dyn Dynamics,
         equation: &mut impl Equation,
-        s: f64,
+        weights: [f64; 2],
     ) -> Result<(), f64> {
         let mut before = 0.0;
         for k in 0..ITERATIONS {
@@ -93,17 +85,13 @@ impl Newton {
             if is_new {
                 equation.linearize(dynamics);
                 self.tangent = true;
-                self.factored = 0.0;
+                self.factored = None;
                 self.rate = 1.0;
             }
-            if self.factored != s {
+            if self.factored != Some(weights) {
                 // Iterates may be compressed so far that the tangent is indefinite; its factors still serve.
-                dynamics.factor(s);
-                if self.turned && self.iterations == 0 {
-                    // The idle stages only need some factors.
-                    dynamics.factor_complex(Complex::new(s, s));
-                }
-                self.factored = s;
+                dynamics.factor(weights);
+                self.factored = Some(weights);
             }
             self.solve_turned(dynamics);
             let size = equation.correct(dynamics, &self.r);

@@ -81,14 +81,14 @@ impl Dynamics for Probe<'_> {
         self.model.linearize(time, q, v);
     }
 
-    fn factor(&mut self, s: f64) -> bool {
+    fn factor(&mut self, weights: [f64; 2]) -> bool {
         self.tally.factorizations += 1;
-        self.model.factor(s)
+        self.model.factor(weights)
     }
 
-    fn factor_complex(&mut self, s: Complex<f64>) -> bool {
+    fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool {
         self.tally.factorizations += 1;
-        self.model.factor_complex(s)
+        self.model.factor_complex(weights)
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -100,12 +100,7 @@ impl Dynamics for Probe<'_> {
         self.model.set_stage(stage);
     }
 
-    fn solve_stages(
-        &mut self,
-        forward: &[[f64; 3]; 3],
-        back: &[[f64; 3]; 3],
-        stages: &mut [Vec<f64>; 3],
-    ) {
+    fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]) {
         self.tally.solves += 1;
         self.model.solve_stages(forward, back, stages);
     }

@@ -164,7 +164,7 @@ impl<'a, 'b> Newton<'a, 'b> {
             return unsymmetric::solve(self.model, *shift, self.least, &mut self.x);
         }
         for _ in 0..SHIFTS {
-            if self.model.factor(*shift) {
+            if self.model.factor([*shift * *shift, *shift]) {
                 self.model.solve(&mut self.x);
                 return true;
             }
@@ -244,13 +244,13 @@ impl<'a, 'b> Newton<'a, 'b> {
 
     /// The lowest mode where the model is linearized, and its eigenvalue if that is negative.
     fn lowest(&mut self, state: &State) -> Option<f64> {
-        if self.model.factor(self.least) {
+        if self.model.factor([self.least * self.least, self.least]) {
             return None;
         }
         let mut shift = self.least;
         for _ in 0..SHIFTS {
             shift *= 2.0;
-            if self.model.factor(shift) {
+            if self.model.factor([shift * shift, shift]) {
                 break;
             }
         }
@@ -327,7 +327,7 @@ impl<'a, 'b> Newton<'a, 'b> {
         }
         let mut shift = self.least;
         for _ in 0..SHIFTS {
-            if self.model.factor(shift) {
+            if self.model.factor([shift * shift, shift]) {
                 self.model.solve(&mut self.x);
                 (state.coordinates.iter_mut().zip(&self.x)).for_each(|(q, x)| *q += x);
                 return;

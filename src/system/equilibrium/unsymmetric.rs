@@ -19,7 +19,7 @@ const ENOUGH: f64 = 1e-13;
 pub(super) fn solve(model: &mut Model<'_>, s: f64, least: f64, x: &mut [f64]) -> bool {
     let mut shift = s;
     for _ in 0..STEPS {
-        if model.inertia(shift).is_some() {
+        if model.inertia([shift * shift, shift]).is_some() {
             break;
         }
         shift = (3.0 * shift).max(least);
