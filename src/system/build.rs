@@ -8,7 +8,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
 use super::loads::{Load, coupling};
-use super::quadrature::Source;
+use super::motion::quadrature::Source;
 use super::signal::Drive;
 use super::{Constraints, DrivenRow, PlanarChain, System};
 use crate::body::{Assembly, Dependent, Elimination, Formulation, Marker, Node, Row};

@@ -1,43 +1,35 @@
 //! Floor 3. A system: bodies, joints, motions and loads, constant after assembly; its state, plain
 //! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
 
-mod breaks;
 mod build;
-mod derivatives;
-pub mod dynamics;
 mod end;
-pub mod equilibrium;
-mod forces;
-mod frequencies;
-mod held;
-mod iteration;
+mod instant;
 pub mod joints;
-mod linearization;
 pub mod loads;
-mod multipliers;
+mod motion;
 mod outputs;
-mod placement;
-mod quadrature;
-mod section;
-mod shifted;
 mod signal;
-mod spectrum;
+mod spectra;
+mod start;
 mod state;
-mod steady;
 mod work;
 
-pub use breaks::Follower;
 pub use build::{BuildError, Lump, Parts};
-pub use derivatives::Derivatives;
-pub use dynamics::{Accepted, Dynamics, Model, STAGES};
 pub use end::{Angle, End};
-pub use frequencies::fastest;
-pub use outputs::Evaluation;
-pub use placement::{Gap, NotAssembled};
+pub use instant::Instant;
+pub use motion::breaks::Follower;
+pub use motion::dynamics::{Accepted, Dynamics, Model, STAGES};
+pub use outputs::derivatives::Derivatives;
+pub use outputs::evaluation::Evaluation;
 pub use signal::{Course, Drive, Signal, moved};
-pub use spectrum::{Eigenvalue, SpectrumError, eigenvalues, linearized, natural_frequencies};
+pub use spectra::frequencies::fastest;
+pub use spectra::spectrum::{
+    Eigenvalue, SpectrumError, eigenvalues, linearized, natural_frequencies,
+};
+pub use start::equilibrium;
+pub use start::placement::{Gap, NotAssembled};
+pub use start::steady::{NotSteady, Steady};
 pub use state::State;
-pub use steady::{NotSteady, Steady};
 pub use work::Work;
 
 use std::ops::Range;
@@ -47,8 +39,8 @@ use nalgebra::Vector2;
 use crate::body::{Chain, Elimination, Node};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
-use loads::{Instant, Load};
-use quadrature::Source;
+use loads::Load;
+use motion::quadrature::Source;
 
 /// Flexible bodies of a planar system.
 pub type PlanarChain = Chain<Cable<2, 1>, 2, 4>;
@@ -148,7 +140,7 @@ impl System {
         if self.chains.len() == 1 && self.bodies.len() == 1 {
             return longest;
         }
-        longest.max(placement::extent(&self.reference))
+        longest.max(start::placement::extent(&self.reference))
     }
 
     /// Number of independent coordinates `q`.

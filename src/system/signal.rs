@@ -1,6 +1,6 @@
 //! Numbers that change in time: functions of time, and inputs that the master sets.
 
-use super::loads::Instant;
+use super::instant::Instant;
 use crate::math::function::Function;
 use crate::math::jet::Number;
 

@@ -1,6 +1,6 @@
 //! Scratch of a system: nothing allocates in a step.
 
-use super::multipliers::Group;
+use super::motion::multipliers::Group;
 use super::signal::Course;
 use super::{State, System};
 use crate::body::{Node, Tangent};

@@ -20,9 +20,14 @@ fn floor(room: &str) -> Option<usize> {
 
 /// First segments of all paths that start at `crate`.
 fn imports(source: &Source) -> Vec<(usize, String)> {
+    segments(source, "crate::")
+}
+
+/// What follows a prefix in all paths that start with it.
+fn segments(source: &Source, prefix: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
-    for (at, _) in source.code.match_indices("crate::") {
-        let rest = &source.code[at + "crate::".len()..];
+    for (at, _) in source.code.match_indices(prefix) {
+        let rest = &source.code[at + prefix.len()..];
         let names = match rest.strip_prefix('{') {
             Some(list) => first_segments(list),
             None => vec![identifier(rest)],
@@ -85,6 +90,59 @@ fn a_file_imports_lower_floors_or_its_own_room() {
                 "{}:{line}: write crate:: for super::super",
                 source.path
             ));
+        }
+    }
+    no_complaints(&complaints);
+}
+
+/// Rooms inside `system/` from the ground up; a file in one imports lower ones, its own, and the files beside them.
+const INNER: [&str; 6] = ["joints", "loads", "motion", "spectra", "outputs", "start"];
+
+/// Names that `system/mod.rs` hands on, each with its room.
+fn handed_on() -> Vec<(String, usize)> {
+    let face = Source::read("src/system/mod.rs");
+    let mut names = Vec::new();
+    for (room, name) in INNER.iter().enumerate() {
+        let prefix = format!("pub use {name}::");
+        for (at, _) in face.code.match_indices(&prefix) {
+            let path = face.code[at + prefix.len()..]
+                .split(';')
+                .next()
+                .unwrap_or_default();
+            let last = path.rsplit("::").next().unwrap_or_default();
+            let list = last.trim_start_matches('{').trim_end_matches('}');
+            names.extend(list.split(',').map(|name| (identifier(name.trim()), room)));
+        }
+    }
+    names
+}
+
+#[test]
+fn inside_the_system_too_a_file_imports_lower_rooms_or_its_own() {
+    let handed_on = handed_on();
+    assert!(handed_on.iter().any(|(name, _)| name == "Model"));
+    let mut complaints = Vec::new();
+    for source in sources(&["src/system"]) {
+        let inside = source.inside().unwrap_or_default();
+        let mut parts = inside.trim_start_matches("system/").split('/');
+        let own = parts
+            .next()
+            .and_then(|room| INNER.iter().position(|name| *name == room));
+        let Some(own) = own else { continue };
+        for (line, name) in segments(&source, "crate::system::") {
+            let room = INNER.iter().position(|room| *room == name);
+            let through = || {
+                handed_on
+                    .iter()
+                    .find(|(handed, _)| *handed == name)
+                    .map(|(_, room)| *room)
+            };
+            if room.or_else(through).is_some_and(|room| room > own) {
+                complaints.push(format!(
+                    "{}:{line}: {} imports {name}",
+                    source.path, INNER[own]
+                ));
+            }
         }
     }
     no_complaints(&complaints);
@@ -300,10 +358,10 @@ fn what_computes_does_not_know_kinds_of_joints_and_loads() {
     ];
     let mut complaints = Vec::new();
     for file in [
-        "dynamics.rs",
-        "forces.rs",
-        "multipliers.rs",
-        "frequencies.rs",
+        "motion/dynamics.rs",
+        "motion/forces.rs",
+        "motion/multipliers.rs",
+        "spectra/frequencies.rs",
         "work.rs",
     ] {
         let source = Source::read(&format!("src/system/{file}"));

@@ -3,7 +3,8 @@
 
 use flexbody::body::Node;
 use flexbody::math::function::Function;
-use flexbody::system::loads::{Coupling, Instant, Load, Rotational, Turning};
+use flexbody::system::Instant;
+use flexbody::system::loads::{Coupling, Load, Rotational, Turning};
 use flexbody::system::{Angle, End, Signal};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;

@@ -15,8 +15,8 @@ pub use hinge::Rotational;
 pub use moment::Moment;
 pub use spring::Spring;
 
-use super::PlanarChain;
-use super::end::{Angle, End};
+use super::end::End;
+use super::instant::Instant;
 use super::signal::Signal;
 use crate::body::{Node, NodeBlock};
 use crate::math::jet::Number;
@@ -38,25 +38,6 @@ pub enum Load {
     Coupling(Coupling),
     /// A rotational spring with a damper from the direction of a marker to an angle.
     Turning(Turning),
-}
-
-/// Time, inputs and state as loads see them.
-#[derive(Clone, Copy)]
-pub struct Instant<'a, N = f64> {
-    /// Time, s.
-    pub time: N,
-    /// Inputs at this time.
-    pub inputs: &'a [N],
-    /// Their rates.
-    pub input_rates: &'a [N],
-    /// Nodal coordinates.
-    pub x: &'a [Node<4, N>],
-    /// Their rates.
-    pub v: &'a [Node<4, N>],
-    /// Flexible bodies.
-    pub chains: &'a [PlanarChain],
-    /// Counted angles of the system and their current values, rad.
-    pub angles: (&'a [Angle], &'a [N]),
 }
 
 /// Adds a block times a factor to a matrix over nodes: row node, column node, block.

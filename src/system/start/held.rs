@@ -3,14 +3,14 @@
 
 use nalgebra::Vector2;
 
-use super::signal::Drive;
-use super::{Instant, System, Work};
 use crate::body::Node;
 use crate::math::function::Function;
+use crate::system::signal::Drive;
+use crate::system::{Instant, System, Work};
 
 /// How far joints are apart: what has to be added to the reference, and values of the constraints.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Open {
+pub(in crate::system) struct Open {
     /// Change of the reference that holds the linear rows where they are, m.
     pub reference: Vec<Node<4>>,
     /// Values of the non-linear constraints.
@@ -20,7 +20,7 @@ pub(super) struct Open {
 impl System {
     /// The same system with loads and motions held as they are at the time and under the inputs in
     /// `work`, and with the loads of the initial state where asked for.
-    pub(super) fn held(&self, time: f64, work: &Work, with_initial: bool) -> Self {
+    pub(in crate::system) fn held(&self, time: f64, work: &Work, with_initial: bool) -> Self {
         let at = self.instant(time, work);
         let mut held = self.clone();
         if with_initial {
@@ -38,7 +38,7 @@ impl System {
     }
 
     /// Scales gravity, the speed of rotation squared, and all loads but springs.
-    pub(super) fn scale_loads(&mut self, fraction: f64, work: &Work) {
+    pub(in crate::system) fn scale_loads(&mut self, fraction: f64, work: &Work) {
         for load in &mut self.loads {
             let at = Instant {
                 time: 0.0,
@@ -58,14 +58,14 @@ impl System {
     }
 
     /// Takes all loads, springs, gravity and rotation away.
-    pub(super) fn unload(&mut self) {
+    pub(in crate::system) fn unload(&mut self) {
         self.loads.clear();
         self.weight.fill([0.0; 4]);
         self.rotation = 0.0;
     }
 
     /// Turns about a point at a rate, rad/s, beside what the frame does: loads get the centrifugal force.
-    pub(super) fn turn(&mut self, rate: f64, center: Vector2<f64>) {
+    pub(in crate::system) fn turn(&mut self, rate: f64, center: Vector2<f64>) {
         let arm = vec![[center.x, center.y, 0.0, 0.0]; self.reference.len()];
         let mut weight = std::mem::take(&mut self.weight);
         self.add_inertia(-rate * rate, &arm, &mut weight);
@@ -76,7 +76,7 @@ impl System {
     }
 
     /// Holds joints apart by a fraction of their gaps.
-    pub(super) fn open(&mut self, open: &Open, fraction: f64) {
+    pub(in crate::system) fn open(&mut self, open: &Open, fraction: f64) {
         for (x, change) in self.reference.iter_mut().zip(&open.reference) {
             x.iter_mut()
                 .zip(change)

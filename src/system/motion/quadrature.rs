@@ -1,13 +1,13 @@
 //! Errors that explicit methods make when they integrate a function of time: a driven coordinate or a load that changes
 //! faster than the scene moves. Their embedded formulas compare accelerations of one step, and hardly see it.
 
-use super::System;
 use super::dynamics::Model;
-use super::joints::{JointKind, Target};
-use super::loads::Load;
-use super::signal::{Drive, Signal};
 use crate::math::function::Function;
 use crate::math::quadrature::GAUSS_3;
+use crate::system::System;
+use crate::system::joints::{JointKind, Target};
+use crate::system::loads::Load;
+use crate::system::signal::{Drive, Signal};
 
 /// What is integrated of a driven angle and of any other driven coordinate: the second derivatives of these.
 const OF_ANGLE: &[Target] = &[Target::Value(0, 0.0), Target::Cosine(0), Target::Sine(0)];
@@ -18,7 +18,7 @@ const ROUNDOFF: f64 = 16.0 * f64::EPSILON;
 
 /// An expression of time in a system.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Source {
+pub(in crate::system) struct Source {
     what: What,
     /// Its natural size, in powers of the mass (kg) and the size (m) of the system, and of the rate at which
     /// it moves (1/s).
@@ -35,7 +35,7 @@ enum What {
 
 impl Source {
     /// Those of a system. Tables are smooth between their points.
-    pub(super) fn all(system: &System) -> Vec<Self> {
+    pub(in crate::system) fn all(system: &System) -> Vec<Self> {
         let drives = system.drives.iter().enumerate();
         let drives = drives.filter_map(|(index, drive)| match drive {
             Drive::Function(Function::Expression(_)) => {
@@ -88,7 +88,12 @@ impl Model<'_> {
     /// How far a rule is off over a step, against Gauss's of order 6: the largest error of any expression of time over
     /// its size there, or over its natural size if that is more. What is small beside the scene must not
     /// stop it, and may be nothing but roundoff.
-    pub(super) fn missed(&self, [time, h]: [f64; 2], rule: [&[f64]; 2], natural: f64) -> f64 {
+    pub(in crate::system) fn missed(
+        &self,
+        [time, h]: [f64; 2],
+        rule: [&[f64]; 2],
+        natural: f64,
+    ) -> f64 {
         let system = self.system;
         let scales = [system.mass, system.size, 1.0 / natural];
         let at = |part: f64| system.clock(time + part * h, self.work);

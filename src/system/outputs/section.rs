@@ -12,13 +12,13 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::loads::Load;
-use super::outputs::Evaluation;
-use super::{PlanarChain, System};
+use super::evaluation::Evaluation;
 use crate::body::Marker;
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_3;
+use crate::system::loads::Load;
+use crate::system::{PlanarChain, System};
 
 impl<N: Number> Evaluation<N> {
     /// Force that the element before a node of a cable exerts on the one after it (report Eq. 14), N:

@@ -9,12 +9,12 @@ use std::f64::consts::PI;
 
 use nalgebra::Complex;
 
+use super::dense::{ROUNDOFF, quadratic, roots, sort};
 use super::frequencies::largest_eigenvalue;
 use super::linearization::Linearization;
-use super::spectrum::{ROUNDOFF, quadratic, roots, sort};
-use super::{System, Work};
 use crate::math::krylov::{Krylov, Ritz};
 use crate::math::row_space::RowSpace;
+use crate::system::{System, Work};
 
 /// Residual, relative, at which a value counts as found.
 const CONVERGED: f64 = 1e-10;
@@ -319,7 +319,7 @@ fn improved(
     rows.factor(1e-9);
     let basis: Vec<Vec<f64>> = (0..rows.rank()).map(|i| rows.unit(i).to_vec()).collect();
     let [stiffness, damping] = linear.project(&basis);
-    let Ok(mut better) = quadratic(&stiffness, &damping) else {
+    let Some(mut better) = quadratic(&stiffness, &damping) else {
         return found;
     };
     let mut zeros = 0;

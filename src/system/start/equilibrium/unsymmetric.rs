@@ -7,7 +7,7 @@
 use crate::body::Node;
 use crate::math::jet::{Jet, part};
 use crate::math::vector::{dot, norm};
-use crate::system::loads::Instant;
+use crate::system::instant::Instant;
 use crate::system::{Dynamics, Model};
 
 /// Most steps, and the residual at which the iteration ends, relative to that at its start.

@@ -1,16 +1,22 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use super::joints::{Constraint, ConstraintKind, View};
-use super::loads::Instant;
-use super::signal::Drive;
-use super::{System, Work};
 use crate::body::Node;
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
+use crate::system::instant::Instant;
+use crate::system::joints::{Constraint, ConstraintKind, View};
+use crate::system::signal::Drive;
+use crate::system::{System, Work};
 
 impl System {
     /// Puts the nodal coordinates and, if given, rates of a state into `work`.
-    pub(super) fn place(&self, time: f64, q: &[f64], v: Option<&[f64]>, work: &mut Work) {
+    pub(in crate::system) fn place(
+        &self,
+        time: f64,
+        q: &[f64],
+        v: Option<&[f64]>,
+        work: &mut Work,
+    ) {
         let clock = self.clock(time, work);
         let mut courses = work.courses.iter();
         for (value, drive) in work.drives.iter_mut().zip(&self.drives) {
@@ -36,7 +42,7 @@ impl System {
     }
 
     /// Where slides are on their cables, searched from where they were.
-    pub(super) fn find_travel<N: Number>(&self, x: &[Node<4, N>], travel: &mut [N]) {
+    pub(in crate::system) fn find_travel<N: Number>(&self, x: &[Node<4, N>], travel: &mut [N]) {
         for (constraint, travel) in self.slides.iter().zip(travel) {
             if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
                 *travel = along.travel(&self.chains[along.chain], x, *travel);
@@ -45,13 +51,13 @@ impl System {
     }
 
     /// Puts nodal rates into `work`; what drives them is that of the last [`System::place`].
-    pub(super) fn place_rates(&self, v: &[f64], work: &mut Work) {
+    pub(in crate::system) fn place_rates(&self, v: &[f64], work: &mut Work) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
         self.follow(&work.drives, 1, &mut work.v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
-    pub(super) fn follow(&self, drives: &[[f64; 3]], order: usize, out: &mut [Node<4>]) {
+    pub(in crate::system) fn follow(&self, drives: &[[f64; 3]], order: usize, out: &mut [Node<4>]) {
         for driven in &self.driven {
             let mut value = self.linear[driven.row].target.derivatives(drives)[order];
             if order == 0 {
@@ -61,7 +67,7 @@ impl System {
         }
     }
 
-    pub(super) fn instant<'a>(&'a self, time: f64, work: &'a Work) -> Instant<'a> {
+    pub(in crate::system) fn instant<'a>(&'a self, time: f64, work: &'a Work) -> Instant<'a> {
         Instant {
             time: self.clock(time, work),
             inputs: &work.inputs,
@@ -74,7 +80,7 @@ impl System {
     }
 
     /// Total force on the nodes in `work`, but for constraints.
-    pub(super) fn forces(&self, time: f64, work: &mut Work) {
+    pub(in crate::system) fn forces(&self, time: f64, work: &mut Work) {
         let mut force = std::mem::take(&mut work.f);
         force.copy_from_slice(&self.weight);
         for chain in &self.chains {
@@ -96,7 +102,7 @@ impl System {
     }
 
     /// Generalized forces `T^T (f - M G c'')` of the nodal forces in `work`, which stay.
-    pub(super) fn reduce(&self, work: &mut Work, a: &mut [f64]) {
+    pub(in crate::system) fn reduce(&self, work: &mut Work, a: &mut [f64]) {
         let change = |sign: f64, work: &mut Work| {
             for driven in &self.driven {
                 let second = self.linear[driven.row].target.derivatives(&work.drives)[2];
@@ -109,7 +115,7 @@ impl System {
     }
 
     /// Tangent at the state in `work`, with the multipliers of its last acceleration.
-    pub(super) fn assemble(&self, time: f64, work: &mut Work) {
+    pub(in crate::system) fn assemble(&self, time: f64, work: &mut Work) {
         let assembly = &self.elimination.assembly;
         let clock = self.clock(time, work);
         let Work { tangent, x, v, .. } = work;
@@ -163,7 +169,7 @@ impl System {
 
     /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.supply`:
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
-    pub(super) fn supply(&self, a: &[f64], work: &mut Work) {
+    pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
         self.follow(&work.drives, 2, &mut work.other);
         for (supply, f) in work.supply.iter_mut().zip(&work.f) {
@@ -184,7 +190,7 @@ impl System {
 
     /// Power that comes in through loads and motions and that is dissipated, W, at the state and
     /// accelerations in place.
-    pub(super) fn powers(&self, time: f64, a: &[f64], work: &mut Work) -> [f64; 2] {
+    pub(in crate::system) fn powers(&self, time: f64, a: &[f64], work: &mut Work) -> [f64; 2] {
         if !self.drives.is_empty() {
             self.supply(a, work);
         }
@@ -196,7 +202,7 @@ impl System {
 
     /// Power that comes in and that is dissipated, W, with the forces that linear constraints supply and
     /// the multipliers of the others.
-    pub(super) fn power<'a, N: Number>(
+    pub(in crate::system) fn power<'a, N: Number>(
         &self,
         at: Instant<'_, N>,
         view: &View<'_, N>,
@@ -227,12 +233,12 @@ impl System {
     }
 
     /// Energy of the centrifugal force in a turning frame, negative, J.
-    pub(super) fn centrifugal<N: Number>(&self, x: &[Node<4, N>]) -> N {
+    pub(in crate::system) fn centrifugal<N: Number>(&self, x: &[Node<4, N>]) -> N {
         N::of(self.rotation * self.rotation) * self.quadratic(x)
     }
 
     /// `x^T M x / 2`.
-    pub(super) fn quadratic<N: Number>(&self, x: &[Node<4, N>]) -> N {
+    pub(in crate::system) fn quadratic<N: Number>(&self, x: &[Node<4, N>]) -> N {
         let mut sum = N::of(0.0);
         for chain in &self.chains {
             for (j, element) in chain.elements().iter().enumerate() {
@@ -250,7 +256,7 @@ impl System {
 }
 
 /// Inner product of weights and numbers of any kind.
-pub(super) fn weighted<N: Number>(weights: &Node<4>, numbers: &Node<4, N>) -> N {
+pub(in crate::system) fn weighted<N: Number>(weights: &Node<4>, numbers: &Node<4, N>) -> N {
     let products = weights.iter().zip(numbers).map(|(w, n)| *n * N::of(*w));
     products.fold(N::of(0.0), |sum, product| sum + product)
 }

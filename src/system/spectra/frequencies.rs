@@ -1,8 +1,8 @@
 //! How fast a system is at most.
 
-use super::{Dynamics, Model, State, System, Work};
 use crate::math::eigen::symmetric_eigenvalues;
 use crate::math::vector::{dot, norm};
+use crate::system::{Dynamics, Model, State, System, Work};
 
 /// Steps of the Lanczos iteration, and what is added to its largest value, which it nears from below.
 const STEPS: usize = 40;

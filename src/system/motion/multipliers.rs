@@ -13,12 +13,12 @@
 
 use std::ops::Range;
 
-use super::joints::{ConstraintKind, View};
-use super::{System, Work};
 use crate::body::Node;
 use crate::math::jet::Number;
 use crate::math::row_space::RowSpace;
 use crate::math::vector::dot;
+use crate::system::joints::{ConstraintKind, View};
+use crate::system::{System, Work};
 
 /// Most iterations of a projection.
 const ITERATIONS: usize = 20;
@@ -35,22 +35,22 @@ const EXACT: f64 = 2e-15;
 
 /// Constraints of one component of a system.
 #[derive(Clone, Debug)]
-pub(super) struct Group {
-    pub(super) component: usize,
+pub(in crate::system) struct Group {
+    pub(in crate::system) component: usize,
     /// Its constraints and its coordinates.
-    pub(super) constraints: Range<usize>,
-    pub(super) coordinates: Range<usize>,
-    pub(super) rows: RowSpace,
+    pub(in crate::system) constraints: Range<usize>,
+    pub(in crate::system) coordinates: Range<usize>,
+    pub(in crate::system) rows: RowSpace,
     right: Vec<f64>,
-    pub(super) lambda: Vec<f64>,
+    pub(in crate::system) lambda: Vec<f64>,
     /// Dependent coordinates, under partitioning, and the rows that determine them (first).
-    pub(super) dependent: Vec<usize>,
+    pub(in crate::system) dependent: Vec<usize>,
     chosen: Vec<usize>,
     square: Vec<f64>,
 }
 
 impl Group {
-    pub(super) fn all(system: &System) -> Vec<Self> {
+    pub(in crate::system) fn all(system: &System) -> Vec<Self> {
         let mut first = 0;
         let groups = system.groups.iter().map(|(component, count)| {
             let part = &system.elimination.assembly.components()[*component];
@@ -98,7 +98,7 @@ impl System {
     }
 
     /// The state in `work` as constraints see it.
-    pub(super) fn view<'a>(&'a self, work: &'a Work) -> View<'a> {
+    pub(in crate::system) fn view<'a>(&'a self, work: &'a Work) -> View<'a> {
         View {
             x: &work.x,
             v: &work.v,
@@ -109,7 +109,7 @@ impl System {
     }
 
     /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`.
-    pub(super) fn constrain(&self, work: &mut Work, a: &mut [f64]) {
+    pub(in crate::system) fn constrain(&self, work: &mut Work, a: &mut [f64]) {
         self.jacobians(work);
         let mut groups = std::mem::take(&mut work.groups);
         self.driven_acceleration(&work.drives, &mut work.other);
@@ -132,14 +132,19 @@ impl System {
     }
 
     /// Nodal accelerations of what is driven.
-    pub(super) fn driven_acceleration(&self, drives: &[[f64; 3]], out: &mut [Node<4>]) {
+    pub(in crate::system) fn driven_acceleration(&self, drives: &[[f64; 3]], out: &mut [Node<4>]) {
         out.fill([0.0; 4]);
         self.follow(drives, 2, out);
     }
 
     /// Projects positions onto the constraints at a time. Returns the largest residual left, relative
     /// to the size of its constraint.
-    pub(super) fn project_positions(&self, time: f64, q: &mut [f64], work: &mut Work) -> f64 {
+    pub(in crate::system) fn project_positions(
+        &self,
+        time: f64,
+        q: &mut [f64],
+        work: &mut Work,
+    ) -> f64 {
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
             self.place(time, q, None, work);
@@ -150,13 +155,13 @@ impl System {
             }
             before = residual;
             self.jacobians(work);
-            self.correct(q, work, super::Constraint::value);
+            self.correct(q, work, crate::system::Constraint::value);
         }
         before
     }
 
     /// Projects velocities onto the constraints at the positions and drives in `work`.
-    pub(super) fn project_velocities(&self, v: &mut [f64], work: &mut Work) {
+    pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work) {
         self.jacobians(work);
         self.place_rates(v, work);
         self.correct(v, work, constraint_rate);
@@ -167,7 +172,7 @@ impl System {
         &self,
         q: &mut [f64],
         work: &mut Work,
-        missing: impl Fn(&super::Constraint, &View<'_>) -> f64,
+        missing: impl Fn(&crate::system::Constraint, &View<'_>) -> f64,
     ) {
         let mut groups = std::mem::take(&mut work.groups);
         let view = self.view(work);
@@ -177,7 +182,9 @@ impl System {
                 *right = -missing(constraint, &view);
             }
             let q = &mut q[group.coordinates.clone()];
-            if self.method == super::Constraints::Partitioning && !group.dependent.is_empty() {
+            if self.method == crate::system::Constraints::Partitioning
+                && !group.dependent.is_empty()
+            {
                 group.move_dependent(q);
             } else {
                 group.rows.factor(PROJECTED_RANK);
@@ -188,7 +195,7 @@ impl System {
     }
 
     /// Selects dependent coordinates by pivoting, at the positions in `work`.
-    pub(super) fn select(&self, work: &mut Work) {
+    pub(in crate::system) fn select(&self, work: &mut Work) {
         self.jacobians(work);
         for group in &mut work.groups {
             group.select();
@@ -196,22 +203,28 @@ impl System {
     }
 
     /// Largest residual of positions, relative to the size of the constraint.
-    pub(super) fn position_residual<N: Number>(&self, view: &View<'_, N>) -> f64 {
-        let residual = |c: &super::Constraint| c.value(view).plain().abs() / c.size(&self.chains);
+    pub(in crate::system) fn position_residual<N: Number>(&self, view: &View<'_, N>) -> f64 {
+        let residual =
+            |c: &crate::system::Constraint| c.value(view).plain().abs() / c.size(&self.chains);
         let all = self.constraints.iter().chain(&self.settled);
         all.map(residual).fold(0.0, larger)
     }
 
     /// Largest residual of velocities, relative to the size of the constraint, 1/s.
-    pub(super) fn velocity_residual<N: Number>(&self, view: &View<'_, N>) -> f64 {
-        let residual =
-            |c: &super::Constraint| constraint_rate(c, view).plain().abs() / c.size(&self.chains);
+    pub(in crate::system) fn velocity_residual<N: Number>(&self, view: &View<'_, N>) -> f64 {
+        let residual = |c: &crate::system::Constraint| {
+            constraint_rate(c, view).plain().abs() / c.size(&self.chains)
+        };
         self.constraints.iter().map(residual).fold(0.0, larger)
     }
 
     /// Joints that hold, at least in part, what others hold already, at the start; and bodies that need
     /// not be kept rigid, since joints do.
-    pub fn redundant_at(&self, state: &super::State, work: &mut Work) -> (Vec<usize>, Vec<usize>) {
+    pub fn redundant_at(
+        &self,
+        state: &crate::system::State,
+        work: &mut Work,
+    ) -> (Vec<usize>, Vec<usize>) {
         self.redundant_within(RANK, state, work)
     }
 
@@ -219,7 +232,7 @@ impl System {
     pub fn redundant_within(
         &self,
         part: f64,
-        state: &super::State,
+        state: &crate::system::State,
         work: &mut Work,
     ) -> (Vec<usize>, Vec<usize>) {
         let (mut joints, mut bodies) = (self.redundant.clone(), Vec::new());
@@ -246,7 +259,7 @@ impl System {
 }
 
 /// `dg/dt` at the coordinates and rates in place.
-fn constraint_rate<N: Number>(constraint: &super::Constraint, view: &View<'_, N>) -> N {
+fn constraint_rate<N: Number>(constraint: &crate::system::Constraint, view: &View<'_, N>) -> N {
     let mut rate = constraint.rate(view);
     constraint.gradient(view).for_each(|node, term| {
         for (term, v) in term.iter().zip(&view.v[node]) {
@@ -258,10 +271,10 @@ fn constraint_rate<N: Number>(constraint: &super::Constraint, view: &View<'_, N>
 
 impl Group {
     /// Its constraints with their multipliers.
-    pub(super) fn multiplied<'a>(
+    pub(in crate::system) fn multiplied<'a>(
         &'a self,
-        constraints: &'a [super::Constraint],
-    ) -> impl Iterator<Item = (&'a super::Constraint, f64)> {
+        constraints: &'a [crate::system::Constraint],
+    ) -> impl Iterator<Item = (&'a crate::system::Constraint, f64)> {
         let own = &constraints[self.constraints.clone()];
         own.iter().zip(self.lambda.iter().copied())
     }

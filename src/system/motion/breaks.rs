@@ -7,11 +7,11 @@
 //! of a System of Rigid Bodies, part I, chapter VIII, after Gauss's principle).
 
 use super::dynamics::Model;
-use super::joints::Joint;
-use super::signal::{Drive, Signal};
-use super::{Accepted, State, System, Work};
 use crate::math::function::Function;
 use crate::math::switches::grain;
+use crate::system::joints::Joint;
+use crate::system::signal::{Drive, Signal};
+use crate::system::{Accepted, State, System, Work};
 
 /// Jump of a driven coordinate, relative, that counts as one.
 const JUMP: f64 = 1e-9;
@@ -52,7 +52,7 @@ impl System {
     }
 
     /// The time at which functions of time are taken at `time`.
-    pub(super) fn clock(&self, time: f64, work: &Work) -> f64 {
+    pub(in crate::system) fn clock(&self, time: f64, work: &Work) -> f64 {
         match work.stretch {
             Some([first, last]) => time.max(first).min(last),
             None => self.now(time),
@@ -60,7 +60,7 @@ impl System {
     }
 
     /// The time at which functions of time are taken between steps: after a kink or a jump at it.
-    pub(super) fn now(&self, time: f64) -> f64 {
+    pub(in crate::system) fn now(&self, time: f64) -> f64 {
         match self.has_breaks {
             true => time + grain(time),
             false => time,
@@ -88,7 +88,7 @@ impl System {
 
 impl Model<'_> {
     /// Begins a stretch without kinks and jumps at `from`; its end, `until` at the latest.
-    pub(super) fn enter(&mut self, from: f64, until: f64) -> f64 {
+    pub(in crate::system) fn enter(&mut self, from: f64, until: f64) -> f64 {
         let (first, last) = (from + grain(from), until + grain(until));
         let found = self.system.next_break(first, last);
         self.crossing = found;
@@ -101,7 +101,7 @@ impl Model<'_> {
     }
 
     /// Ends the stretch; a state at its end goes on after the kink or jump there.
-    pub(super) fn leave(&mut self, state: &mut State) -> Accepted {
+    pub(in crate::system) fn leave(&mut self, state: &mut State) -> Accepted {
         let before = self
             .work
             .stretch

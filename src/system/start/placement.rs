@@ -9,11 +9,12 @@ use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
 
 use super::equilibrium;
 use super::held::Open;
-use super::joints::{Constraint, ConstraintKind, JointKind, View};
-use super::loads::{Instant, Load};
-use super::{Dynamics, Model, State, System, Work};
 use crate::body::Node;
 use crate::math::vector::dot;
+use crate::system::instant::Instant;
+use crate::system::joints::{Constraint, ConstraintKind, JointKind, View};
+use crate::system::loads::Load;
+use crate::system::{Dynamics, Model, State, System, Work};
 
 /// Most iterations.
 const ITERATIONS: usize = 200;
@@ -184,7 +185,7 @@ impl System {
     /// Size of the largest body, with what joins it: length of a cable, reach of the ends of joints from the centre
     /// of mass of a rigid body, length of a distance, m. 0 where there are only particles.
     pub fn body_size(&self) -> f64 {
-        let cables = self.chains.iter().map(super::PlanarChain::length);
+        let cables = self.chains.iter().map(crate::system::PlanarChain::length);
         let joints = self.joints.iter().flat_map(|joint| {
             let reach = joint.ends.each_ref().map(|end| match end.marker() {
                 Some(marker) if marker.element.is_none() => marker.arm(),
@@ -220,7 +221,7 @@ impl System {
     }
 
     /// `q = T^T M dx`: coordinates that come closest to a nodal displacement in the mass norm.
-    pub(super) fn coordinates_of(&self, dx: &[Node<4>], work: &mut Work, q: &mut [f64]) {
+    pub(in crate::system) fn coordinates_of(&self, dx: &[Node<4>], work: &mut Work, q: &mut [f64]) {
         work.f.fill([0.0; 4]);
         self.add_inertia(1.0, dx, &mut work.f);
         self.elimination.reduce(&work.f, &mut work.y, q);
@@ -416,14 +417,14 @@ impl System {
 }
 
 /// What a row is more than it is to equal.
-fn missing(linear: &super::Linear, x: &[Node<4>], work: &Work) -> f64 {
+fn missing(linear: &crate::system::Linear, x: &[Node<4>], work: &Work) -> f64 {
     let value: f64 = (linear.row.terms.iter())
         .map(|(node, c)| dot(c, &x[*node]))
         .sum();
     value - linear.target.derivatives(&work.drives)[0]
 }
 
-fn linear_size(linear: &super::Linear, size: f64) -> f64 {
+fn linear_size(linear: &crate::system::Linear, size: f64) -> f64 {
     let positions = linear.on_second[0].norm() > 0.0;
     if positions { size } else { 1.0 }
 }
@@ -443,7 +444,7 @@ fn difference(a: &[Node<4>], b: &[Node<4>]) -> Vec<Node<4>> {
 }
 
 /// Largest distance from the first node, m; 1 where there is none.
-pub(super) fn extent(x: &[Node<4>]) -> f64 {
+pub(in crate::system) fn extent(x: &[Node<4>]) -> f64 {
     let way = |p: &Node<4>| (p[0] - x[0][0]).hypot(p[1] - x[0][1]);
     let largest = x.iter().map(way).fold(0.0, f64::max);
     if largest > 0.0 { largest } else { 1.0 }

@@ -3,12 +3,12 @@
 
 use nalgebra::Complex;
 
-use super::joints::ConstraintKind;
-use super::loads::Instant;
-use super::signal::{Course, moved};
-use super::{Constraints, State, System, Work};
 use crate::body::Node;
 use crate::elements::Element;
+use crate::system::instant::Instant;
+use crate::system::joints::ConstraintKind;
+use crate::system::signal::{Course, moved};
+use crate::system::{Constraints, State, System, Work};
 
 /// Most stages that a method may solve for together.
 pub const STAGES: usize = crate::body::STAGES;
@@ -96,9 +96,9 @@ pub struct Model<'a> {
     start: f64,
     /// Scratch of the system.
     pub work: &'a mut Work,
-    pub(super) time: f64,
+    pub(in crate::system) time: f64,
     /// The kink or jump that ends the stretch under way.
-    pub(super) crossing: Option<f64>,
+    pub(in crate::system) crossing: Option<f64>,
     /// Evaluations of accelerations and tangents, factorizations and solves so far, and the most of them.
     operations: u64,
     most_operations: u64,

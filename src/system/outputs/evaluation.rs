@@ -2,22 +2,23 @@
 
 use nalgebra::Vector2;
 
-use super::forces::weighted;
-use super::joints::View;
-use super::loads::{Instant, Load};
-use super::{Dynamics, Model, State, System, Work};
 use crate::body::{Marker, Node};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::vector::dot;
+use crate::system::instant::Instant;
+use crate::system::joints::View;
+use crate::system::loads::Load;
+use crate::system::motion::forces::weighted;
+use crate::system::{Dynamics, Model, State, System, Work};
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
 pub struct Evaluation<N = f64> {
-    pub(super) time: N,
+    pub(in crate::system) time: N,
     /// Inputs, and their rates.
-    pub(super) inputs: Vec<N>,
-    pub(super) input_rates: Vec<N>,
+    pub(in crate::system) inputs: Vec<N>,
+    pub(in crate::system) input_rates: Vec<N>,
     /// Coordinates, m.
     pub x: Vec<Node<4, N>>,
     /// Rates, m/s.
@@ -25,14 +26,14 @@ pub struct Evaluation<N = f64> {
     /// Accelerations, m/s^2.
     pub acceleration: Vec<Node<4, N>>,
     /// Forces that linear constraints supply, N.
-    pub(super) supply: Vec<Node<4, N>>,
+    pub(in crate::system) supply: Vec<Node<4, N>>,
     /// Multipliers of non-linear constraints.
-    pub(super) lambda: Vec<N>,
+    pub(in crate::system) lambda: Vec<N>,
     /// Angles that are counted, rad.
     pub angles: Vec<N>,
     /// Where slides are, m.
     pub travel: Vec<N>,
-    pub(super) drives: Vec<[N; 3]>,
+    pub(in crate::system) drives: Vec<[N; 3]>,
 }
 
 impl<N: Number> Evaluation<N> {
@@ -150,7 +151,7 @@ impl<N: Number> Evaluation<N> {
         }
     }
 
-    pub(super) fn instant<'a>(&'a self, system: &'a System) -> Instant<'a, N> {
+    pub(in crate::system) fn instant<'a>(&'a self, system: &'a System) -> Instant<'a, N> {
         Instant {
             time: self.time,
             inputs: &self.inputs,
@@ -162,7 +163,7 @@ impl<N: Number> Evaluation<N> {
         }
     }
 
-    pub(super) fn view<'a>(&'a self, system: &'a System) -> View<'a, N> {
+    pub(in crate::system) fn view<'a>(&'a self, system: &'a System) -> View<'a, N> {
         View {
             x: &self.x,
             v: &self.v,
@@ -267,7 +268,10 @@ impl<N: Number> Evaluation<N> {
 
 impl System {
     /// Chain, element and place inside it of a marker of a cable.
-    pub(super) fn element(&self, marker: &Marker) -> Option<(&super::PlanarChain, usize, f64)> {
+    pub(in crate::system) fn element(
+        &self,
+        marker: &Marker,
+    ) -> Option<(&crate::system::PlanarChain, usize, f64)> {
         let (j, xi) = marker.element?;
         let first = self.bodies[marker.body].start;
         let chain = self.chains.iter().find(|c| c.nodes(0)[0] == first)?;

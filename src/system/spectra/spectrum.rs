@@ -3,19 +3,16 @@
 
 use nalgebra::{Complex, DMatrix};
 
+use super::dense::{general, noise, quadratic, roots, sort, symmetric};
 use super::iteration::{self, NotFound};
 use super::linearization::Linearization;
-use super::{Dynamics, Model, State, System, Work};
-use crate::math::eigen::{eigenvalues as dense_eigenvalues, symmetric_eigenvalues};
+use crate::system::{Dynamics, Model, State, System, Work};
 
 /// Free coordinates up to which all eigenvalues are computed, with dense matrices; and up to which they are
 /// where this many times the number that is wanted exceeds them.
 const SMALL: usize = 64;
 const MIDDLE: usize = 400;
 const SHARE: usize = 3;
-/// Roundoff of an eigenvalue of `K`, relative to the size of `K` and the number of coordinates.
-pub(super) const ROUNDOFF: f64 = 4.0 * f64::EPSILON;
-
 /// An eigenvalue `s = -decay_rate + i frequency`, or a pair of conjugate ones: `x = c e^(s t)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Eigenvalue {
@@ -114,7 +111,9 @@ pub fn natural_frequencies(
     let signed = |square: &f64| square.abs().sqrt().copysign(*square);
     if system.rotation == 0.0 {
         let squares = match &linear {
-            linear if is_small(linear, count) => symmetric(&linear.dense()[0])?,
+            linear if is_small(linear, count) => {
+                symmetric(&linear.dense()[0]).ok_or(SpectrumError::NotFinite)?
+            }
             linear if linear.is_symmetric => iteration::lowest(system, work, linear, count)?,
             linear => {
                 let found = iteration::slowest(system, work, linear, count)?;
@@ -127,7 +126,7 @@ pub fn natural_frequencies(
     }
     let found = if is_small(&linear, count) {
         let [stiffness, damping] = linear.dense();
-        quadratic(&stiffness, &damping)?
+        quadratic(&stiffness, &damping).ok_or(SpectrumError::NotFinite)?
     } else {
         iteration::slowest(system, work, &linear, count)?
     };
@@ -194,14 +193,14 @@ pub fn eigenvalues(
 fn all(linear: &Linearization<'_>) -> Result<Vec<Complex<f64>>, SpectrumError> {
     let [stiffness, damping] = linear.dense();
     if linear.is_damped {
-        return quadratic(&stiffness, &damping);
+        return quadratic(&stiffness, &damping).ok_or(SpectrumError::NotFinite);
     }
     if linear.is_symmetric {
-        let squares = symmetric(&stiffness)?;
+        let squares = symmetric(&stiffness).ok_or(SpectrumError::NotFinite)?;
         let real = squares.iter().map(|k| Complex::new(*k, 0.0));
         return Ok(roots(real, noise(&squares)));
     }
-    let squares = general(&stiffness)?;
+    let squares = general(&stiffness).ok_or(SpectrumError::NotFinite)?;
     let size = squares.iter().map(|k| k.norm()).collect::<Vec<_>>();
     Ok(roots(squares.into_iter(), noise(&size)))
 }
@@ -247,113 +246,8 @@ fn refuse_turning(
     Ok(())
 }
 
-/// Slowest first; of those that are equally fast the one that oscillates slower, then the one that decays faster.
-pub(super) fn sort(found: &mut [Complex<f64>]) {
-    let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
-    found.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-    // Conjugates of a whole spectrum are equally fast to roundoff.
-    let mut first = 0;
-    while first < found.len() {
-        let size = found[first].norm();
-        let alike = found[first..]
-            .iter()
-            .take_while(|s| near(s.norm(), size))
-            .count();
-        let order = |a: &Complex<f64>, b: &Complex<f64>| match near(a.im, b.im) {
-            true => a.re.total_cmp(&b.re),
-            false => a.im.total_cmp(&b.im),
-        };
-        found[first..first + alike].sort_by(order);
-        first += alike;
-    }
-}
-
 fn is_small(linear: &Linearization<'_>, count: usize) -> bool {
     let n = linear.elimination.coordinates();
     // The elimination as printed has no other solves.
     n <= SMALL || (n <= MIDDLE && SHARE * count > n) || n != linear.elimination.scratch()
-}
-
-fn noise(squares: &[f64]) -> f64 {
-    let size = squares.iter().fold(0.0_f64, |m, k| m.max(k.abs()));
-    ROUNDOFF * squares.len() as f64 * size
-}
-
-/// Eigenvalues `s` from those of `K`, `s^2 = -k`; what is below the noise is zero, twice.
-pub(super) fn roots(squares: impl Iterator<Item = Complex<f64>>, noise: f64) -> Vec<Complex<f64>> {
-    let mut found = Vec::new();
-    for k in squares.filter(|k| k.im >= 0.0) {
-        if k.norm() <= noise {
-            found.extend([Complex::new(0.0, 0.0); 2]);
-        } else if k.im == 0.0 && k.re > 0.0 {
-            found.push(Complex::new(0.0, k.re.sqrt()));
-        } else if k.im == 0.0 {
-            let rate = (-k.re).sqrt();
-            found.extend([Complex::new(-rate, 0.0), Complex::new(rate, 0.0)]);
-        } else {
-            let s = (-k).sqrt();
-            found.extend([s, -s].map(|s| Complex::new(s.re, s.im.abs())));
-        }
-    }
-    found
-}
-
-fn symmetric(stiffness: &DMatrix<f64>) -> Result<Vec<f64>, SpectrumError> {
-    let entry = |i: usize, j: usize| 0.5 * (stiffness[(i, j)] + stiffness[(j, i)]);
-    let found = symmetric_eigenvalues(stiffness.nrows(), entry);
-    let mut squares = found.ok_or(SpectrumError::NotFinite)?;
-    let noise = noise(&squares);
-    squares
-        .iter_mut()
-        .filter(|k| k.abs() <= noise)
-        .for_each(|k| *k = 0.0);
-    Ok(squares)
-}
-
-fn general(matrix: &DMatrix<f64>) -> Result<Vec<Complex<f64>>, SpectrumError> {
-    let found = dense_eigenvalues(matrix.nrows(), |i, j| matrix[(i, j)]);
-    let found = found.ok_or(SpectrumError::NotFinite)?;
-    Ok(found
-        .into_iter()
-        .map(|(re, im)| Complex::new(re, im))
-        .collect())
-}
-
-/// Eigenvalues of `s^2 I + s R + K`, of a pair the one with the positive imaginary part: those of `[0 C^T; -C -R]`
-/// with `K = C C^T`, whose roundoff is that of rates; where `K` is not symmetric and positive definite, of
-/// `[0 w I; -K/w -R]`, whose roundoff is that of their squares.
-pub(super) fn quadratic(
-    stiffness: &DMatrix<f64>,
-    damping: &DMatrix<f64>,
-) -> Result<Vec<Complex<f64>>, SpectrumError> {
-    let n = stiffness.nrows();
-    let size = stiffness.amax();
-    let skew = (stiffness - stiffness.transpose()).amax();
-    let root = match skew <= 1e-13 * size {
-        true => stiffness.clone().cholesky().map(|c| c.l()),
-        false => None,
-    };
-    let rate = match size.sqrt() {
-        0.0 => 1.0,
-        rate => rate,
-    };
-    let entry = |i: usize, j: usize| match (i < n, j < n, &root) {
-        (true, true, _) => 0.0,
-        (true, false, Some(root)) => root[(j - n, i)],
-        (true, false, None) => rate * f64::from(u8::from(j - n == i)),
-        (false, true, Some(root)) => -root[(i - n, j)],
-        (false, true, None) => -stiffness[(i - n, j)] / rate,
-        (false, false, _) => -damping[(i - n, j - n)],
-    };
-    let matrix = DMatrix::from_fn(2 * n, 2 * n, entry);
-    let noise = ROUNDOFF * (2 * n) as f64 * size;
-    let found = general(&matrix)?.into_iter().filter(|s| s.im >= 0.0);
-    // Without a root a double eigenvalue 0 shows as the root of roundoff.
-    let zero = |s: Complex<f64>| root.is_none() && s.norm_sqr() <= noise;
-    let twice = |s: Complex<f64>| match (zero(s), s.im > 0.0) {
-        (true, true) => vec![Complex::new(0.0, 0.0); 2],
-        (true, false) => vec![Complex::new(0.0, 0.0)],
-        _ => vec![s],
-    };
-    Ok(found.flat_map(twice).collect())
 }

@@ -6,9 +6,9 @@
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 
 use super::equilibrium::Turning;
-use super::{State, System, Work};
 use crate::body::Node;
 use crate::math::vector::dot;
+use crate::system::{State, System, Work};
 
 /// Part of the largest singular value below which motions and joints leave a field free.
 const FREE: f64 = 1e-9;

@@ -13,14 +13,14 @@
 
 use nalgebra::{DMatrix, SMatrix};
 
-use super::end::End;
-use super::joints::{Constraint, ConstraintKind, View};
-use super::loads::Instant;
-use super::{System, Work};
 use crate::body::{Assembly, Elimination, Node, NodeBlock};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number};
 use crate::math::sparse::General;
+use crate::system::end::End;
+use crate::system::instant::Instant;
+use crate::system::joints::{Constraint, ConstraintKind, View};
+use crate::system::{System, Work};
 
 /// Part of a block that its transpose must differ by to count as not symmetric.
 const SKEW: f64 = 1e-10;

@@ -15,9 +15,9 @@ mod unsymmetric;
 use nalgebra::Vector2;
 
 use super::held::Open;
-use super::{Dynamics, Model, State, System, Work};
 use crate::body::Node;
 use crate::math::vector::norm;
+use crate::system::{Dynamics, Model, State, System, Work};
 use newton::{Guard, Newton, stiffest};
 
 /// Smallest step of the way.

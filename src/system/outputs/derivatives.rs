@@ -9,11 +9,11 @@
 //!
 //! Source: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 13.
 
-use super::signal::Drive;
-use super::{Evaluation, State, System, Work};
 use crate::body::Node;
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::math::vector::dot;
+use crate::system::signal::Drive;
+use crate::system::{Evaluation, State, System, Work};
 
 /// An evaluation with derivatives, and what it takes to make one.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ impl Derivatives {
     pub fn new(system: &System, work: &Work) -> Self {
         let nodes = vec![[Jet::from_re(0.0); 4]; system.reference.len()];
         let q = vec![0.0; system.coordinates()];
-        let border = |group: &super::multipliers::Group| {
+        let border = |group: &crate::system::motion::multipliers::Group| {
             let (count, length) = (group.constraints.len(), group.coordinates.len());
             let (rows, lambda) = (vec![0.0; count * length], vec![0.0; count]);
             Border {

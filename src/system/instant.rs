@@ -1,0 +1,24 @@
+//! A system at an instant, as loads see it.
+
+use super::PlanarChain;
+use super::end::Angle;
+use crate::body::Node;
+
+/// Time, inputs and state as loads see them.
+#[derive(Clone, Copy)]
+pub struct Instant<'a, N = f64> {
+    /// Time, s.
+    pub time: N,
+    /// Inputs at this time.
+    pub inputs: &'a [N],
+    /// Their rates.
+    pub input_rates: &'a [N],
+    /// Nodal coordinates.
+    pub x: &'a [Node<4, N>],
+    /// Their rates.
+    pub v: &'a [Node<4, N>],
+    /// Flexible bodies.
+    pub chains: &'a [PlanarChain],
+    /// Counted angles of the system and their current values, rad.
+    pub angles: (&'a [Angle], &'a [N]),
+}

@@ -1,0 +1,7 @@
+//! How a system moves: forces on its nodes, constraints, accelerations, and what integrators see of them.
+
+pub(in crate::system) mod breaks;
+pub(in crate::system) mod dynamics;
+pub(in crate::system) mod forces;
+pub(in crate::system) mod multipliers;
+pub(in crate::system) mod quadrature;

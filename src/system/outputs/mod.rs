@@ -1,0 +1,5 @@
+//! What is read of a system at a state, and its derivatives.
+
+pub(in crate::system) mod derivatives;
+pub(in crate::system) mod evaluation;
+pub(in crate::system) mod section;

@@ -1,0 +1,8 @@
+//! Small motions about a state: the linearized equations, their natural frequencies and eigenvalues.
+
+mod dense;
+pub(in crate::system) mod frequencies;
+mod iteration;
+pub(in crate::system) mod linearization;
+mod shifted;
+pub(in crate::system) mod spectrum;
