@@ -7,7 +7,7 @@ use super::logger::Category;
 use super::model_description::limits;
 use super::number::number;
 use super::parts::parts;
-use crate::scene::{Body, Constraints, Formulation, InitialState, Integrator, Scene, Strain};
+use crate::scene::{Body, Formulation, InitialState, Integrator, Scene, Strain};
 use crate::simulation::{Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
@@ -134,16 +134,8 @@ fn model(scene: &Scene) -> String {
         }
         InitialState::Steady => "the equilibrium in the steady motion that all bodies start with",
     };
-    let constraints = match scene.method.constraints {
-        Constraints::Projection => {
-            "multipliers for those that are not linear; positions and velocities are projected \
-             after every step"
-        }
-        Constraints::Partitioning => {
-            "independent coordinates are integrated, the others follow (report MBS97-2-UIC, \
-             Section 7)"
-        }
-    };
+    let constraints = "multipliers for those that are not linear; positions and velocities are projected \
+                       after every step";
     let mut strains: Vec<&str> = Vec::new();
     for cable in scene.bodies.iter().filter_map(Body::cable) {
         let strain = strain_in_words(cable.strain);

@@ -20,7 +20,7 @@ use serde::Deserialize;
 
 pub use assemble::{Assembled, assemble};
 pub use description::{
-    About, Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion,
+    About, Accuracy, Body, CableBody, Experiment, Formulation, Initial, InitialMotion,
     InitialState, Integrator, Interpolation, Material, Method, RigidBody, Scene, Section, Shape,
     Strain, Table, Value,
 };

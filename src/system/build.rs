@@ -9,7 +9,7 @@ use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
 use super::loads::{Load, coupling};
 use super::signal::Drive;
-use super::{Constraints, DrivenRow, PlanarChain, System};
+use super::{DrivenRow, PlanarChain, System};
 use crate::body::{Assembly, Dependent, Elimination, Formulation, Marker, Node, Row};
 use crate::math::function::Function;
 use crate::math::sparse::Matrix;
@@ -58,8 +58,6 @@ pub struct Parts {
     pub rotation: f64,
     /// How linear constraints are eliminated.
     pub formulation: Formulation,
-    /// How non-linear constraints are kept.
-    pub constraints: Constraints,
     /// Whether work is to be integrated.
     pub tracks_work: bool,
 }
@@ -124,7 +122,6 @@ impl System {
             gravity: parts.gravity,
             weight: Vec::new(),
             rotation: parts.rotation,
-            method: parts.constraints,
             tracks_work: parts.tracks_work,
         };
         let has_breaks = system.functions().any(|(_, f)| f.has_breaks());

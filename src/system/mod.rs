@@ -31,6 +31,7 @@ pub use derivatives::Derivatives;
 pub use dynamics::{Accepted, Dynamics, Model};
 pub use end::{Angle, End};
 pub use frequencies::fastest;
+pub use multipliers::ConstraintRow;
 pub use outputs::Evaluation;
 pub use placement::{Gap, NotAssembled};
 pub use signal::{Course, Drive, Signal, moved};
@@ -50,17 +51,6 @@ use loads::{Instant, Load};
 
 /// Flexible bodies of a planar system.
 pub type PlanarChain = Chain<Cable<2, 1>, 2, 4>;
-
-/// How non-linear constraints are kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Constraints {
-    /// Multipliers for accelerations; positions and velocities projected after every step, orthogonal
-    /// in the mass norm.
-    Projection,
-    /// Independent coordinates are integrated, dependent ones follow (report section 7), selected anew
-    /// by pivoting after every step.
-    Partitioning,
-}
 
 /// Everything about a system that does not change in time.
 #[derive(Clone, Debug)]
@@ -97,7 +87,6 @@ pub struct System {
     weight: Vec<Node<4>>,
     /// Rate at which the frame turns, rad/s.
     rotation: f64,
-    method: Constraints,
     is_damped: bool,
     /// Whether anything reads rates besides damping.
     needs_rates: bool,

@@ -8,7 +8,7 @@ use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::loads::Load;
-use flexbody::system::{Constraints, End, Parts, PlanarChain, State, System, Work};
+use flexbody::system::{End, Parts, PlanarChain, State, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -184,7 +184,6 @@ impl Chain {
             gravity: Vector2::zeros(),
             rotation: 0.0,
             formulation,
-            constraints: Constraints::Projection,
             tracks_work: false,
         }
     }

@@ -4,7 +4,7 @@ use flexbody::body::{Formulation, Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};
 use flexbody::system::joints::{Joint, JointKind};
-use flexbody::system::{Constraints, End, Evaluation, Parts, PlanarChain, System, Work};
+use flexbody::system::{End, Evaluation, Parts, PlanarChain, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::support::{Row, figure, short};
@@ -68,7 +68,6 @@ fn product(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
         gravity: Vector2::new(0.0, -1.0),
         rotation: 0.0,
         formulation: Formulation::MassWeighted,
-        constraints: Constraints::Projection,
         tracks_work: false,
     });
     let system = system.map_err(|error| format!("{error:?}"))?;

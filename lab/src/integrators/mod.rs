@@ -24,6 +24,7 @@ mod newton;
 mod nystrom;
 #[cfg(test)]
 mod order;
+mod partitioning;
 mod probe;
 mod splitting;
 mod verlet;

@@ -12,16 +12,14 @@ use super::resolved::{
     self, Action, BodyReference, CouplingId, Ends, First, InputKind, JointKind, LoadKind, MarkerId,
     Output, Place, Resolved, Spring, Turning,
 };
-use super::{CableBody, Constraints, Error, Formulation, Scene, Strain};
+use super::{CableBody, Error, Formulation, Scene, Strain};
 use crate::body::{self, Marker, Node};
 use crate::elements::cable::{self, Inertia};
 use crate::elements::{self, Nodal};
 use crate::math::function::Function;
 use crate::system::joints::{self, Joint};
 use crate::system::loads::{self, Load};
-use crate::system::{
-    Angle, BuildError, Constraints as Method, End, Lump, Parts, PlanarChain, Signal, System,
-};
+use crate::system::{Angle, BuildError, End, Lump, Parts, PlanarChain, Signal, System};
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
 const BYTES: usize = 5000;
@@ -126,10 +124,6 @@ impl Resolved<'_> {
             formulation: match scene.method.formulation {
                 Formulation::MassWeighted => body::Formulation::MassWeighted,
                 Formulation::AsPrinted => body::Formulation::AsPrinted,
-            },
-            constraints: match scene.method.constraints {
-                Constraints::Projection => Method::Projection,
-                Constraints::Partitioning => Method::Partitioning,
             },
             tracks_work: self.outputs.iter().any(|o| matches!(o, Output::Work)),
         }

@@ -3,7 +3,7 @@
 use super::checks::{expected, positive, quoted};
 use crate::scene::description::{Input, InputKind, Joint, JointKind};
 use crate::scene::marker::GROUND;
-use crate::scene::{Constraints, Error, Formulation, Integrator, Scene};
+use crate::scene::{Error, Formulation, Integrator, Scene};
 
 impl Scene {
     pub(super) fn validate_method(&self) -> Result<(), Error> {
@@ -14,13 +14,9 @@ impl Scene {
             method.work_limit,
         )?;
         let as_printed = method.formulation == Formulation::AsPrinted;
-        let partitioning = method.constraints == Constraints::Partitioning;
-        if method.integrator != Integrator::Rk4 && (as_printed || partitioning) {
-            let wanted = if as_printed {
-                "\"rk4\": the implicit solve needs the exact connectivity that as_printed breaks"
-            } else {
-                "\"rk4\": the implicit solve keeps its constraints by projection"
-            };
+        if method.integrator != Integrator::Rk4 && as_printed {
+            let wanted =
+                "\"rk4\": the implicit solve needs the exact connectivity that as_printed breaks";
             let found = format!("{:?}", method.integrator).to_lowercase();
             return Err(expected("method.integrator", wanted, quoted(&found)));
         }

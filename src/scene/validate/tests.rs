@@ -160,7 +160,7 @@ fn types_and_keys_keep_their_places() {
         /motions/0/value | {"table": [[0, 1]], "input": 1} | motions[0].value: expected a number
         /motions/0/value | {"spline": 1} | motions[0].value.spline: expected one of the keys table, interpolation, slopes, input
         /motions/2/value | {"input": -1} | motions[2].value.input: expected zero or a positive integer, found -1
-        /method | {"constraints": "baumgarte"} | method.constraints: expected "projection" or "partitioning", found "baumgarte"
+        /method | {"constraints": "partitioning"} | method.constraints: expected one of the keys formulation, integrator, work_limit, found "constraints"
     "#,
     );
     let twice = scene()
