@@ -1,6 +1,6 @@
 //! From the description of a mechanism to the product's system.
 
-use flexbody::body::{Formulation, Marker};
+use flexbody::body::Marker;
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::loads::{Distributed, Force, Load, Moment, Rotational, Spring};
 use flexbody::system::{
@@ -25,7 +25,7 @@ impl Mechanism {
         let bodies = self.bodies.iter().zip(&self.firsts);
         bodies
             .filter_map(|(body, first)| match body {
-                Body::Cable(elements) => Some(PlanarChain::new(elements.clone(), *first, true)),
+                Body::Cable(elements) => Some(PlanarChain::new(elements.clone(), *first)),
                 _ => None,
             })
             .collect()
@@ -170,7 +170,6 @@ impl Mechanism {
             angles,
             gravity: self.gravity,
             rotation: self.rotation,
-            formulation: Formulation::MassWeighted,
             tracks_work: true,
         }
     }

@@ -71,7 +71,7 @@ pub struct Scene {
     /// What accuracy is asked for.
     #[serde(default)]
     pub accuracy: Accuracy,
-    /// Formulation and integrator, where the automatic choice is not wanted.
+    /// Integrator, where the automatic choice is not wanted.
     #[serde(default)]
     pub method: Method,
     /// Default experiment of the FMU.
@@ -99,13 +99,10 @@ impl Scene {
     }
 }
 
-/// Formulation and integrator.
+/// Integrator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Method {
-    /// How connectivity and linear joints are eliminated.
-    #[serde(default)]
-    pub formulation: Formulation,
     /// Integrator.
     #[serde(default)]
     pub integrator: Integrator,
@@ -119,7 +116,6 @@ pub struct Method {
 impl Default for Method {
     fn default() -> Self {
         Self {
-            formulation: Formulation::default(),
             integrator: Integrator::default(),
             work_limit: work_limit(),
         }
@@ -128,17 +124,6 @@ impl Default for Method {
 
 fn work_limit() -> f64 {
     1e9
-}
-
-/// Formulations by name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Formulation {
-    /// QR elimination weighted by the square root of the mass: exact connectivity, identity inertia.
-    #[default]
-    MassWeighted,
-    /// Report MBS97-2-UIC, Eqs. 23-34, as printed. It tears the elements apart; for charts only.
-    AsPrinted,
 }
 
 /// Integrators by name.
