@@ -1,21 +1,34 @@
 //! Every claim of every case in `tests/cases`, natively. The same claims run through the packaged
-//! FMU under fmpy (`tests/fmpy/claims.py`); both read them alike.
+//! FMU under fmpy (`tests/fmpy/claims.py`), read and evaluated there anew: the FMU is seen from outside Rust alone, and what one
+//! of the two gets wrong the other does not believe. The lab checks its own cases with what stands here (`lab/src/cases.rs`).
 //!
 //! `FLEXBODY_CASE=name` checks only the cases whose folder has `name` in its name.
 
 mod cases_runner;
 
-use cases_runner::{Case, Verdict, check_all, table};
+use std::path::Path;
+
+use cases_runner::{Case, Step, Verdict, check_all, table};
+use flexbody::simulation::Simulation;
+
+/// The product takes the steps.
+fn product(_: &Path, _: &Simulation) -> Result<Step, String> {
+    Ok(Box::new(|simulation, until| {
+        let step = simulation.step(until);
+        step.map_err(|failure| failure.to_string())
+    }))
+}
 
 #[test]
 fn every_claim_of_every_case_holds() {
     let filter = std::env::var("FLEXBODY_CASE").unwrap_or_default();
-    let cases = cases_runner::find(&filter).expect("readable cases");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    let cases = cases_runner::find(&root, &filter).expect("readable cases");
     assert!(
         !cases.is_empty(),
         "expected a case in tests/cases with \"{filter}\" in its name, found none"
     );
-    let verdicts = check_all(&cases);
+    let verdicts = check_all(&cases, &product);
     println!("{}", table(&verdicts));
     let failed: Vec<String> = verdicts.iter().filter_map(Verdict::failure).collect();
     assert!(
@@ -29,9 +42,9 @@ fn every_claim_of_every_case_holds() {
 
 /// A case of the runner's own, that is on no disk.
 fn refusal(case: &str) -> String {
-    match Case::parse("planted", std::path::Path::new("."), case) {
+    match Case::parse("planted", Path::new("."), case) {
         Ok(case) => {
-            let failures = check_all(&[case])
+            let failures = check_all(&[case], &product)
                 .iter()
                 .filter_map(Verdict::failure)
                 .collect::<Vec<_>>();

@@ -172,8 +172,6 @@ fn scenes() -> Vec<String> {
     let mut scenes: Vec<String> = [r#""integrator": "radau""#, r#""integrator": "rk4""#]
         .map(|method| MANY.replace("METHOD", method))
         .into();
-    let partitioned = r#""integrator": "rk4", "constraints": "partitioning""#;
-    scenes.push(MANY.replace("METHOD", partitioned));
     for integrator in ["radau", "rk4", "rkn43", "verlet", "auto"] {
         let reads_rates = !matches!(integrator, "rkn43" | "verlet");
         for damping_time in [0.0, 1e-4].into_iter().take(1 + usize::from(reads_rates)) {

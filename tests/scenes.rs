@@ -129,7 +129,7 @@ const BAD: [(&str, &str, &str); 27] = [
     (
         "/method",
         "{\"formulation\": \"as_printed\"}",
-        "method.integrator: expected \"rk4\"",
+        "method.formulation: expected one of the keys integrator, work_limit, found \"formulation\"",
     ),
     ("/name", "\"a/b\"", "name: expected letters"),
 ];

@@ -30,6 +30,9 @@ pub struct Integrate {
     /// Relative tolerance: of every step where there is no fixed one, else what Newton's method leaves.
     #[arg(long, default_value_t = 1e-6)]
     tolerance: f64,
+    /// How constraints that are not linear are kept.
+    #[arg(long, value_enum, default_value_t)]
+    constraints: Constraints,
     /// Time at which to end, s.
     #[arg(long)]
     stop_time: f64,
@@ -47,6 +50,16 @@ pub struct Integrate {
     report: PathBuf,
 }
 
+/// Ways to keep constraints.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Constraints {
+    /// As the product does: positions and velocities projected after every step
+    #[default]
+    Projection,
+    /// Independent coordinates are integrated, dependent ones follow
+    Partitioning,
+}
+
 /// What all steps took together.
 #[derive(Default)]
 struct Cost {
@@ -59,11 +72,14 @@ struct Cost {
 pub fn integrate(arguments: &Integrate) -> Outcome<()> {
     let scene = read(&arguments.scene, &arguments.set)?;
     let mut start = Start::new(scene)?;
-    let tolerance = Tolerance {
-        relative: arguments.tolerance,
-        position: start.assembled.system.scale(),
-        time: 1.0 / rate(&mut start),
-    };
+    let tolerance = tolerance(&mut start, arguments.tolerance);
+    let partitioned = arguments.constraints == Constraints::Partitioning;
+    if partitioned && !matches!(&*arguments.method, "rk4" | "dopri5") {
+        let name = &arguments.method;
+        return Err(format!(
+            "--method {name}: expected rk4 or dopri5 with coordinate partitioning"
+        ));
+    }
     let mut table = Outputs::new(&start);
     let nodes = Arc::new(Mutex::new(start.assembled.nodes.clone()));
     let build = Build {
@@ -85,6 +101,9 @@ pub fn integrate(arguments: &Integrate) -> Outcome<()> {
         let until = (point as f64 * arguments.every).min(arguments.stop_time);
         let model = Model::new(system, inputs, &mut work, &state);
         let mut probe = Probe::new(model, watches.then(|| nodes.clone()));
+        if partitioned {
+            probe = probe.partitioned(&state);
+        }
         let started = ThreadTime::now();
         let (counts, outcome) = match arguments.step {
             Some(step) => fixed(
@@ -189,6 +208,15 @@ fn whole(
         }
     }
     Ok(())
+}
+
+/// Errors as the product measures them.
+pub fn tolerance(start: &mut Start, relative: f64) -> Tolerance {
+    Tolerance {
+        relative,
+        position: start.assembled.system.scale(),
+        time: 1.0 / rate(start),
+    }
 }
 
 /// How fast the scene moves, 1/s, as the product has it: by its motion at the start, by gravity; where

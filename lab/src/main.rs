@@ -2,6 +2,8 @@
 //! `cargo xtask chart` calls this program as it calls `flexbody`; nothing here is in an FMU.
 
 mod accelerate;
+#[cfg(test)]
+mod cases;
 mod elements;
 mod failures;
 mod formulations;

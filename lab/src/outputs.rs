@@ -6,7 +6,7 @@ use flexbody::system::{Evaluation, State, Work};
 
 use crate::scene::Start;
 
-/// Positions of markers that the scene reads, energies and momenta, as CSV.
+/// Positions of markers that the scene reads, energies, momenta and residuals, as CSV.
 pub struct Outputs {
     markers: Vec<Marker>,
     evaluation: Evaluation,
@@ -32,6 +32,7 @@ impl Outputs {
         let rest = ["kinetic", "strain", "gravity"].map(|kind| format!("energy.{kind}"));
         header.extend(rest);
         header.extend(["momentum[1]", "momentum[2]", "angular_momentum"].map(str::to_owned));
+        header.extend(["residual.position", "residual.velocity"].map(str::to_owned));
         Self {
             markers: (read.iter())
                 .map(|marker| *start.assembled.marker(marker.id))
@@ -55,6 +56,7 @@ impl Outputs {
         row.push(values.gravity_energy(system));
         let (momentum, angular) = values.momentum(system);
         row.extend([momentum[0], momentum[1], angular]);
+        row.extend(values.residuals(system));
         let words: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();
         self.text += &(words.join(",") + "\n");
     }

@@ -5,13 +5,16 @@ use std::time::Duration;
 
 use clap::Args;
 use cpu_time::ThreadTime;
+use flexbody::elements::cable::Inertia;
 use serde_json::json;
 
-use crate::formulations::{Formulation, System, uniform};
+use crate::formulations::{Element, Formulation, System, uniform};
 use crate::space;
 
 /// Largest stable step of the classical method of Runge and Kutta times the largest frequency.
 const STABLE: f64 = 2.828;
+/// Step over the largest that is stable at rest, where nothing else is said.
+pub const COURANT: f64 = 0.7;
 /// Iterations for the largest frequency.
 const ITERATIONS: usize = 300;
 /// Largest coordinate, m, beyond which a run is given up.
@@ -29,8 +32,11 @@ pub struct Swing {
     /// Number of elements.
     #[arg(long)]
     elements: usize,
+    /// The consistent mass, as in the report, in place of the product's.
+    #[arg(long)]
+    consistent: bool,
     /// Step over the largest that is stable at rest.
-    #[arg(long, default_value_t = 0.7)]
+    #[arg(long, default_value_t = COURANT)]
     courant: f64,
     /// Time at which it ends, s.
     #[arg(long)]
@@ -40,52 +46,94 @@ pub struct Swing {
     every: f64,
 }
 
+/// What a rod did.
+pub struct Fall {
+    /// Times (s) and positions of the tip, m.
+    pub path: Vec<[f64; 3]>,
+    /// Largest gap between elements that meet, and the one in the middle, at these times, m.
+    pub gaps: Vec<[f64; 2]>,
+    /// Distances from the pin at these times, m.
+    pub pins: Vec<f64>,
+    ended: Option<f64>,
+    steps: usize,
+    spent: Duration,
+}
+
 /// Lets a rod fall.
 pub fn swing(arguments: &Swing) -> Result<(), String> {
     let problem = space::read(&arguments.scene)?;
-    let elements = || uniform(problem.cable(), arguments.elements);
-    let exact = System::new(Formulation::Cholesky, elements(), problem.gravity)?;
-    let longest = arguments.courant * STABLE / largest_frequency(exact);
-    let mut system = System::new(arguments.formulation, elements(), problem.gravity)?;
+    let mut cable = problem.cable();
+    if arguments.consistent {
+        cable.inertia = Inertia::Consistent;
+    }
+    let rod = (uniform(cable, arguments.elements), problem.gravity);
+    let times = [arguments.every, arguments.stop_time];
+    let found = fall(arguments.formulation, rod, arguments.courant, times)?;
+    let report = json!({
+        "path": found.path,
+        "gap": found.gaps.iter().fold(0.0_f64, |most, gap| most.max(gap[0])),
+        "pin": found.pins.iter().fold(0.0_f64, |most, pin| most.max(*pin)),
+        "middle": found.gaps.iter().map(|gap| gap[1]).collect::<Vec<_>>(),
+        "pins": found.pins,
+        "lost_at": found.ended,
+        "steps": found.steps,
+        "cpu_time": found.spent.as_secs_f64(),
+    });
+    println!("{report}");
+    Ok(())
+}
+
+/// Lets elements in a row fall under gravity, in steps of a part of the largest that is stable; `every` so much
+/// time, to the last, it is looked at.
+pub fn fall(
+    formulation: Formulation,
+    (elements, gravity): (Vec<Element>, [f64; 2]),
+    courant: f64,
+    [every, stop]: [f64; 2],
+) -> Result<Fall, String> {
+    let exact = System::new(Formulation::Cholesky, elements.clone(), gravity)?;
+    let longest = courant * STABLE / largest_frequency(exact);
+    let mut system = System::new(formulation, elements, gravity)?;
     let n = system.transformation.coordinates();
-    let points = (arguments.stop_time / arguments.every).round() as usize;
-    let steps = (arguments.every / longest).ceil().max(1.0) as usize;
-    let step = arguments.every / steps as f64;
+    let points = (stop / every).round() as usize;
+    let steps = (every / longest).ceil().max(1.0) as usize;
+    let step = every / steps as f64;
     let mut motion = Motion {
         q: vec![0.0; n],
         v: vec![0.0; n],
         scratch: [(); 5].map(|()| vec![0.0; n]),
     };
-    let (mut path, mut gap, mut pin, mut ended) = (Vec::new(), 0.0_f64, 0.0_f64, None);
-    let mut spent = Duration::ZERO;
+    let mut found = Fall {
+        path: Vec::new(),
+        gaps: Vec::new(),
+        pins: Vec::new(),
+        ended: None,
+        steps: points * steps,
+        spent: Duration::ZERO,
+    };
     for point in 0..=points {
-        let time = point as f64 * arguments.every;
+        let time = point as f64 * every;
         let x = system.nodes(&motion.q).to_vec();
         if !x.iter().flatten().all(|value| value.abs() < LOST) {
-            ended = Some(time);
+            found.ended = Some(time);
             break;
         }
-        path.push([time, x[x.len() - 1][0], x[x.len() - 1][1]]);
-        if !system.rod.connected {
-            gap = gap.max(system.rod.gap(&x));
-        }
-        pin = pin.max(x[0][0].hypot(x[0][1]));
+        found
+            .path
+            .push([time, x[x.len() - 1][0], x[x.len() - 1][1]]);
+        let rod = &system.rod;
+        found.gaps.push(match rod.count() {
+            1 => [0.0; 2],
+            count => [rod.gap(&x), rod.gap_before(count / 2, &x)],
+        });
+        found.pins.push(x[0][0].hypot(x[0][1]));
         let started = ThreadTime::now();
         for _ in 0..steps.min((points - point) * steps) {
             motion.step(&mut system, step);
         }
-        spent += started.elapsed();
+        found.spent += started.elapsed();
     }
-    let report = json!({
-        "path": path,
-        "gap": gap,
-        "pin": pin,
-        "lost_at": ended,
-        "steps": points * steps,
-        "cpu_time": spent.as_secs_f64(),
-    });
-    println!("{report}");
-    Ok(())
+    Ok(found)
 }
 
 struct Motion {

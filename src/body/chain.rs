@@ -18,8 +18,6 @@ pub struct Chain<E: Element<D>, const D: usize, const B: usize> {
     elements: Vec<E>,
     packs: Vec<Pack<E::Pack>>,
     first: usize,
-    /// Nodes from one element to the next: 1 where they share one, 2 where they do not.
-    stride: usize,
     is_damped: bool,
 }
 
@@ -46,16 +44,14 @@ fn packs<E: Element<D>, const D: usize>(elements: &[E]) -> Vec<Pack<E::Pack>> {
 }
 
 impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
-    /// A chain from node `first` on. Elements that are not `connected` have both their nodes for
-    /// themselves: as many rows of `Phi` must connect them.
-    pub fn new(elements: Vec<E>, first: usize, connected: bool) -> Self {
+    /// A chain from node `first` on.
+    pub fn new(elements: Vec<E>, first: usize) -> Self {
         assert!(B == 2 * D);
         Self {
             is_damped: elements.iter().any(Element::is_damped),
             packs: packs(&elements),
             elements,
             first,
-            stride: if connected { 1 } else { 2 },
         }
     }
 
@@ -103,7 +99,7 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 
     /// Nodes of element `j`.
     pub fn nodes(&self, j: usize) -> [usize; 2] {
-        let node = self.first + j * self.stride;
+        let node = self.first + j;
         [node, node + 1]
     }
 
@@ -167,12 +163,12 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 
     /// Coordinates of element `j`, or rates or forces.
     pub fn element<N: Number>(&self, j: usize, x: &[Node<B, N>]) -> Nodal<D, N> {
-        let node = self.first + j * self.stride;
+        let node = self.first + j;
         Nodal::from_column_slice(x[node..node + 2].as_flattened())
     }
 
     fn add_to<N: Number>(&self, j: usize, f: &Nodal<D, N>, force: &mut [Node<B, N>]) {
-        let node = self.first + j * self.stride;
+        let node = self.first + j;
         let force = force[node..node + 2].as_flattened_mut();
         for (sum, f) in force.iter_mut().zip(f.as_slice()) {
             *sum += *f;
@@ -276,9 +272,9 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     /// Copies coordinates of the elements of a pack, or rates.
     #[inline(always)]
     fn read(&self, pack: &Pack<E::Pack>, x: &[Node<B>], e: &mut NodalPack<D>) {
-        let first = self.first + pack.elements.start * self.stride;
+        let first = self.first + pack.elements.start;
         for lane in 0..pack.elements.len() {
-            let ends = &x[first + lane * self.stride..][..2];
+            let ends = &x[first + lane..][..2];
             for k in 0..B {
                 e[k / D][k % D][lane] = ends[0][k];
                 e[2 + k / D][k % D][lane] = ends[1][k];
@@ -330,9 +326,9 @@ impl<E: Element<D>, const D: usize, const B: usize> Work for AddForce<'_, E, D, 
             } else {
                 E::pack_force(simd, &pack.kernel, (&e, None), &mut f);
             }
-            let first = chain.first + pack.elements.start * chain.stride;
+            let first = chain.first + pack.elements.start;
             for lane in 0..pack.elements.len() {
-                let ends = &mut self.force[first + lane * chain.stride..][..2];
+                let ends = &mut self.force[first + lane..][..2];
                 for k in 0..B {
                     ends[0][k] += f[k / D][k % D][lane];
                     ends[1][k] += f[2 + k / D][k % D][lane];

@@ -13,7 +13,7 @@ mod tangent;
 pub use assembly::{Assembly, NodeBlock};
 pub use chain::Chain;
 pub use connectivity::{Cluster, Dependent, Node, RANK_TOLERANCE, Row};
-pub use elimination::{Elimination, Formulation};
+pub use elimination::Elimination;
 pub use marker::{Marker, left};
 pub use stages::STAGES;
 pub use tangent::Tangent;

@@ -7,7 +7,7 @@ use super::logger::Category;
 use super::model_description::limits;
 use super::number::number;
 use super::parts::parts;
-use crate::scene::{Body, Constraints, Formulation, InitialState, Integrator, Scene, Strain};
+use crate::scene::{Body, InitialState, Integrator, Scene, Strain};
 use crate::simulation::{Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
@@ -108,16 +108,8 @@ fn body_in_words(body: &Body) -> String {
 }
 
 fn model(scene: &Scene) -> String {
-    let formulation = match scene.method.formulation {
-        Formulation::MassWeighted => {
-            "joints that are linear in the coordinates are eliminated by QR factorizations and the \
-             mass by its Cholesky factor: they hold exactly, and the inertia is the identity"
-        }
-        Formulation::AsPrinted => {
-            "report MBS97-2-UIC, Eqs. 23 to 34, as printed; for comparison only, because it does \
-             not hold the elements together"
-        }
-    };
+    let formulation = "joints that are linear in the coordinates are eliminated by QR factorizations and the \
+                       mass by its Cholesky factor: they hold exactly, and the inertia is the identity";
     let integrator = match scene.method.integrator {
         Integrator::Auto => "chosen from the stiffness of the scene and the tolerance",
         Integrator::Radau => "Radau IIA of order 5, implicit",
@@ -134,16 +126,8 @@ fn model(scene: &Scene) -> String {
         }
         InitialState::Steady => "the equilibrium in the steady motion that all bodies start with",
     };
-    let constraints = match scene.method.constraints {
-        Constraints::Projection => {
-            "multipliers for those that are not linear; positions and velocities are projected \
-             after every step"
-        }
-        Constraints::Partitioning => {
-            "independent coordinates are integrated, the others follow (report MBS97-2-UIC, \
-             Section 7)"
-        }
-    };
+    let constraints = "multipliers for those that are not linear; positions and velocities are projected \
+                       after every step";
     let mut strains: Vec<&str> = Vec::new();
     for cable in scene.bodies.iter().filter_map(Body::cable) {
         let strain = strain_in_words(cable.strain);

@@ -20,9 +20,8 @@ use serde::Deserialize;
 
 pub use assemble::{Assembled, assemble};
 pub use description::{
-    About, Accuracy, Body, CableBody, Constraints, Experiment, Formulation, Initial, InitialMotion,
-    InitialState, Integrator, Interpolation, Material, Method, RigidBody, Scene, Section, Shape,
-    Strain, Table, Value,
+    About, Accuracy, Body, CableBody, Experiment, Initial, InitialMotion, InitialState, Integrator,
+    Interpolation, Material, Method, RigidBody, Scene, Section, Shape, Strain, Table, Value,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Holder,

@@ -10,8 +10,8 @@ use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, Vie
 use super::loads::{Load, coupling};
 use super::motion::quadrature::Source;
 use super::signal::Drive;
-use super::{Constraints, DrivenRow, PlanarChain, System};
-use crate::body::{Assembly, Dependent, Elimination, Formulation, Marker, Node, Row};
+use super::{DrivenRow, PlanarChain, System};
+use crate::body::{Assembly, Dependent, Elimination, Marker, Node, Row};
 use crate::math::sparse::Matrix;
 use crate::math::vector::dot;
 
@@ -56,10 +56,6 @@ pub struct Parts {
     pub gravity: Vector2<f64>,
     /// Rate at which the frame turns about the origin, rad/s.
     pub rotation: f64,
-    /// How linear constraints are eliminated.
-    pub formulation: Formulation,
-    /// How non-linear constraints are kept.
-    pub constraints: Constraints,
     /// Whether work is to be integrated.
     pub tracks_work: bool,
 }
@@ -83,18 +79,10 @@ impl System {
         let (linear, nonlinear) = constraints(&parts);
         let rows: Vec<Row<4>> = linear.iter().map(|linear| linear.row.clone()).collect();
         let links = links(&parts, &nonlinear);
-        let printed = parts.formulation == Formulation::AsPrinted;
-        let eliminated: &[Row<4>] = if printed { &[] } else { &rows };
-        let (assembly, dependent) = Assembly::new(parts.nodes.len(), eliminated, &links);
+        let (assembly, dependent) = Assembly::new(parts.nodes.len(), &rows, &links);
         let redundant = redundant(&linear, &dependent)?;
         let mass = mass(&parts, &assembly);
-        let elimination = if printed {
-            let rows = printed_rows(&parts, &assembly, &rows);
-            Elimination::as_printed(assembly, mass, &rows)
-        } else {
-            Elimination::new(assembly, mass)
-        };
-        let elimination = elimination.ok_or(BuildError::Massless)?;
+        let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
         let chains_damped = parts.chains.iter().any(PlanarChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let mut system = Self {
@@ -126,7 +114,6 @@ impl System {
             gravity: parts.gravity,
             weight: Vec::new(),
             rotation: parts.rotation,
-            method: parts.constraints,
             tracks_work: parts.tracks_work,
         };
         let has_breaks = system.functions().any(|(_, f)| f.has_breaks());
@@ -363,31 +350,6 @@ fn mass(parts: &Parts, assembly: &Assembly<4>) -> Matrix<f64> {
         }
     }
     mass
-}
-
-/// Rows of `Phi`, connectivity and joints, over the free coordinates of elements that stand alone.
-fn printed_rows(parts: &Parts, assembly: &Assembly<4>, joints: &[Row<4>]) -> Vec<Vec<f64>> {
-    let n = assembly.pattern().len();
-    let mut rows = Vec::new();
-    for chain in &parts.chains {
-        for j in 1..chain.elements().len() {
-            for axis in 0..4 {
-                let unit = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
-                let mut row = vec![0.0; n];
-                assembly.gather_node(chain.nodes(j - 1)[1], &unit, 0, &mut row);
-                assembly.gather_node(chain.nodes(j)[0], &unit.map(|u| -u), 0, &mut row);
-                rows.push(row);
-            }
-        }
-    }
-    for joint in joints {
-        let mut row = vec![0.0; n];
-        for (node, coefficients) in &joint.terms {
-            assembly.gather_node(*node, coefficients, 0, &mut row);
-        }
-        rows.push(row);
-    }
-    rows
 }
 
 /// Nodes that something besides rows ties to the ground.

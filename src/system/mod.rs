@@ -19,6 +19,7 @@ pub use end::{Angle, End};
 pub use instant::Instant;
 pub use motion::breaks::Follower;
 pub use motion::dynamics::{Accepted, Dynamics, Model, STAGES};
+pub use motion::multipliers::ConstraintRow;
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
 pub use signal::{Course, Drive, Signal, moved};
@@ -44,17 +45,6 @@ use motion::quadrature::Source;
 
 /// Flexible bodies of a planar system.
 pub type PlanarChain = Chain<Cable<2, 1>, 2, 4>;
-
-/// How non-linear constraints are kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Constraints {
-    /// Multipliers for accelerations; positions and velocities projected after every step, orthogonal
-    /// in the mass norm.
-    Projection,
-    /// Independent coordinates are integrated, dependent ones follow (report section 7), selected anew
-    /// by pivoting after every step.
-    Partitioning,
-}
 
 /// Everything about a system that does not change in time.
 #[derive(Clone, Debug)]
@@ -91,7 +81,6 @@ pub struct System {
     weight: Vec<Node<4>>,
     /// Rate at which the frame turns, rad/s.
     rotation: f64,
-    method: Constraints,
     is_damped: bool,
     /// Whether anything reads rates besides damping.
     needs_rates: bool,

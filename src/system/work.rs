@@ -19,9 +19,7 @@ pub struct Work {
     pub(super) supply: Vec<Node<4>>,
     /// A vector of free coordinates.
     pub(super) y: Vec<f64>,
-    /// Coordinates, rates and accelerations.
-    pub(super) q: Vec<f64>,
-    pub(super) u: Vec<f64>,
+    /// Accelerations.
     pub(super) a: Vec<f64>,
     /// Driven coordinates with two derivatives, and the courses of those that inputs drive.
     pub(super) drives: Vec<[f64; 3]>,
@@ -50,7 +48,6 @@ impl Work {
             let first = chain.nodes(0)[0];
             elastic[first..first + chain.node_count()].fill(true);
         }
-        let vector = vec![0.0; system.coordinates()];
         Self {
             x: nodes.clone(),
             v: nodes.clone(),
@@ -58,9 +55,7 @@ impl Work {
             other: nodes.clone(),
             supply: nodes,
             y: vec![0.0; system.elimination.scratch()],
-            q: vector.clone(),
-            u: vector.clone(),
-            a: vector,
+            a: vec![0.0; system.coordinates()],
             drives: vec![[0.0; 3]; system.drives.len()],
             courses: vec![Course::default(); system.courses().count()],
             stretch: None,

@@ -7,27 +7,32 @@ use std::path::Path;
 use super::Measured;
 use super::claim::{Claim, Critical, Drift, Given, Kind, Order, Series, Values};
 use super::records::{Demand, Record};
-use super::run::SAME_TIME;
+use super::run::{Method, SAME_TIME};
 
 /// Below this relative error the order of convergence drowns in roundoff.
 const ROUNDOFF: f64 = 1e-10;
 /// Steps that a root search may take.
 const MOST_SECANTS: usize = 40;
 
+/// Where a claim is checked.
+pub struct Place<'a> {
+    /// The folder of its case.
+    pub folder: &'a Path,
+    /// The scene that it is about.
+    pub scene: &'a Path,
+    /// What takes the steps.
+    pub method: &'a Method,
+}
+
 /// Checks one claim of the case in a folder, off the run that it asks for if it asks for one.
 /// `Err` is a claim that could not be measured.
-pub fn check(
-    claim: &Claim,
-    folder: &Path,
-    scene: &Path,
-    record: Option<&Record>,
-) -> Result<Measured, String> {
+pub fn check(claim: &Claim, at: &Place, record: Option<&Record>) -> Result<Measured, String> {
     let run = || record.ok_or_else(|| "expected a run, found none".to_owned());
     match &claim.kind {
-        Kind::Series(series) => check_series(series, folder, run()?),
+        Kind::Series(series) => check_series(series, at.folder, run()?),
         Kind::Values(values) => check_values(values, run()?),
-        Kind::Order(order) => check_order(order, scene, &claim.values),
-        Kind::Critical(critical) => check_critical(critical, scene, &claim.values),
+        Kind::Order(order) => check_order(order, at, &claim.values),
+        Kind::Critical(critical) => check_critical(critical, at, &claim.values),
         Kind::Drift(drift) => check_drift(drift, run()?),
     }
 }
@@ -130,12 +135,12 @@ fn check_values(values: &Values, record: &Record) -> Result<Measured, String> {
         .ok_or_else(|| "values: expected at least one, found none".into())
 }
 
-fn check_order(order: &Order, scene: &Path, given: &Given) -> Result<Measured, String> {
+fn check_order(order: &Order, at: &Place, given: &Given) -> Result<Measured, String> {
     let mut errors = Vec::new();
     for number in &order.over {
         let mut start = given.clone();
         start.set.insert(order.vary.clone(), *number);
-        let value = value_at(scene, &start, order.time, order.step, &order.variable)?;
+        let value = value_at(at, &start, order.time, order.step, &order.variable)?;
         let scale = if order.value == 0.0 {
             1.0
         } else {
@@ -175,11 +180,11 @@ fn check_order(order: &Order, scene: &Path, given: &Given) -> Result<Measured, S
     })
 }
 
-fn check_critical(critical: &Critical, scene: &Path, given: &Given) -> Result<Measured, String> {
+fn check_critical(critical: &Critical, at: &Place, given: &Given) -> Result<Measured, String> {
     let indicator = |start: f64| {
         let mut changed = given.clone();
         changed.set.insert(critical.vary.clone(), start);
-        let frequency = value_at(scene, &changed, 0.0, None, &critical.indicator)?;
+        let frequency = value_at(at, &changed, 0.0, None, &critical.indicator)?;
         // The eigenvalue itself crosses zero smoothly; its signed root does not.
         Ok(frequency * frequency.abs())
     };
@@ -231,7 +236,7 @@ fn check_drift(drift: &Drift, record: &Record) -> Result<Measured, String> {
 
 /// Value of a variable at a time.
 fn value_at(
-    scene: &Path,
+    at: &Place,
     given: &Given,
     time: f64,
     step: Option<f64>,
@@ -245,7 +250,9 @@ fn value_at(
         step: step.unwrap_or(1.0),
         names: vec![name],
     };
-    let mut rows = demand.record(scene, given)?.until(time, [name])?;
+    let mut rows = demand
+        .record(at.scene, given, at.method)?
+        .until(time, [name])?;
     let last = rows.pop().and_then(|(_, values)| values.first().copied());
     last.ok_or_else(|| format!("{name}: expected a value, found none"))
 }

@@ -14,8 +14,11 @@ use std::time::Instant;
 
 use serde::Deserialize;
 
+use checks::Place;
 use claim::Claim;
 use records::Demand;
+
+pub use run::{Method, Step};
 
 /// A case as read.
 pub struct Case {
@@ -84,13 +87,12 @@ impl Case {
     }
 }
 
-/// All cases with `filter` in their name, in order.
-pub fn find(filter: &str) -> Result<Vec<Case>, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+/// All cases in a folder with `filter` in their name, in order.
+pub fn find(root: &Path, filter: &str) -> Result<Vec<Case>, String> {
     let at = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
     let mut folders = Vec::new();
-    for entry in fs::read_dir(&root).map_err(|error| at(&root, error))? {
-        let folder = entry.map_err(|error| at(&root, error))?.path();
+    for entry in fs::read_dir(root).map_err(|error| at(root, error))? {
+        let folder = entry.map_err(|error| at(root, error))?.path();
         if folder.is_dir() {
             folders.push(folder);
         }
@@ -122,7 +124,7 @@ struct Job<'a> {
 }
 
 /// Checks all claims on all cores, in the order of the cases.
-pub fn check_all(cases: &[Case]) -> Vec<Verdict> {
+pub fn check_all(cases: &[Case], method: &Method) -> Vec<Verdict> {
     let jobs: Vec<Job> = cases.iter().flat_map(jobs).collect();
     let next = AtomicUsize::new(0);
     let verdicts = Mutex::new(Vec::new());
@@ -131,7 +133,7 @@ pub fn check_all(cases: &[Case]) -> Vec<Verdict> {
         for _ in 0..threads.min(jobs.len()) {
             scope.spawn(|| {
                 while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let found = check(job);
+                    let found = check(job, method);
                     let mut verdicts = verdicts.lock().expect("no panic while locked");
                     verdicts.extend(found);
                 }
@@ -180,17 +182,22 @@ fn jobs(case: &Case) -> Vec<Job<'_>> {
 
 /// Verdicts on the claims of a job, each with the name of the case and its number to sort by. The time
 /// of a run counts for the first claim that it decides.
-fn check<'a>(job: &Job<'a>) -> Vec<((&'a str, usize), Verdict)> {
+fn check<'a>(job: &Job<'a>, method: &Method) -> Vec<((&'a str, usize), Verdict)> {
     let mut started = Instant::now();
     let case = job.case;
     let run = match (&job.demand, &case.claims[job.claims[0]]) {
-        (Some(demand), Ok(claim)) => demand.record(&job.scene, &claim.values).map(Some),
+        (Some(demand), Ok(claim)) => demand.record(&job.scene, &claim.values, method).map(Some),
         _ => Ok(None),
+    };
+    let at = Place {
+        folder: &case.folder,
+        scene: &job.scene,
+        method,
     };
     let mut verdicts = Vec::new();
     for &index in &job.claims {
         let outcome = match (&case.claims[index], &run) {
-            (Ok(claim), Ok(run)) => checks::check(claim, &case.folder, &job.scene, run.as_ref()),
+            (Ok(claim), Ok(run)) => checks::check(claim, &at, run.as_ref()),
             (Err(message), _) | (_, Err(message)) => Err(message.clone()),
         };
         let kind = case.claims[index]

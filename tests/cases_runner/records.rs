@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::claim::{Claim, Given, Kind};
-use super::run::{Run, SAME_TIME};
+use super::run::{Method, Run, SAME_TIME};
 
 /// What a claim asks of a run.
 pub struct Demand<'a> {
@@ -62,8 +62,8 @@ impl<'a> Demand<'a> {
     }
 
     /// Runs the scene as far as asked. `Err` is a run that did not start.
-    pub fn record(&self, scene: &Path, given: &Given) -> Result<Record, String> {
-        let mut run = Run::start(scene, given)?;
+    pub fn record(&self, scene: &Path, given: &Given, method: &Method) -> Result<Record, String> {
+        let mut run = Run::start(scene, given, method)?;
         let mut record = Record {
             rows: Vec::new(),
             unknown: BTreeMap::new(),

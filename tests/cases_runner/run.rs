@@ -1,4 +1,6 @@
 //! A scene in simulation, driven the way the tests of the packaged FMU drive theirs.
+//!
+//! What takes the steps is given: the product, or a method of the lab whose states the product reads.
 
 use std::fs;
 use std::path::Path;
@@ -11,35 +13,50 @@ use super::claim::{Change, Given};
 /// Two times nearer than this, relative to the later, are the same communication point.
 pub const SAME_TIME: f64 = 1e-9;
 
-/// A simulation by variable names, and the inputs that will change.
-pub struct Run(Simulation, Vec<Change>);
+/// Steps a simulation to a time.
+pub type Step = Box<dyn FnMut(&mut Simulation, f64) -> Result<(), String>>;
+/// Makes what steps a simulation of the scene in a file, once it has started.
+pub type Method = dyn Fn(&Path, &Simulation) -> Result<Step, String> + Sync;
+
+/// A simulation by variable names.
+pub struct Run {
+    simulation: Simulation,
+    step: Step,
+    /// Inputs that will change.
+    changes: Vec<Change>,
+}
 
 impl Run {
     /// A simulation ready for steps: parameters are set before initialization, inputs during it.
-    pub fn start(path: &Path, given: &Given) -> Result<Self, String> {
+    pub fn start(path: &Path, given: &Given, method: &Method) -> Result<Self, String> {
         let at = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = fs::read_to_string(path).map_err(|error| at(&error))?;
         let scene = Scene::from_json(&text).map_err(|error| at(&error))?;
-        let mut run = Self(Simulation::new(scene), given.changes.clone());
+        let mut run = Self {
+            simulation: Simulation::new(scene),
+            step: Box::new(|_, _| Ok(())),
+            changes: given.changes.clone(),
+        };
         let mut inputs = Vec::new();
         for (name, value) in &given.set {
             let index = run.index(name)?;
-            if matches!(run.0.variables()[index].source, Source::Input(..)) {
+            if matches!(run.simulation.variables()[index].source, Source::Input(..)) {
                 inputs.push((index, *value));
             } else {
                 run.set(index, *value)?;
             }
         }
-        run.0.initialize(0.0).map_err(|error| at(&error))?;
+        run.simulation.initialize(0.0).map_err(|error| at(&error))?;
         for (index, value) in inputs {
             run.set(index, value)?;
         }
-        run.0.start().map_err(|error| at(&error))?;
+        run.simulation.start().map_err(|error| at(&error))?;
+        run.step = method(path, &run.simulation)?;
         Ok(run)
     }
 
     fn index(&self, name: &str) -> Result<usize, String> {
-        let variables = self.0.variables();
+        let variables = self.simulation.variables();
         variables
             .iter()
             .position(|v| v.name == name)
@@ -53,9 +70,12 @@ impl Run {
     }
 
     fn set(&mut self, index: usize, value: f64) -> Result<(), String> {
-        let variable = &self.0.variables()[index];
+        let variable = &self.simulation.variables()[index];
         if !variable.is_integer() {
-            return self.0.set_real(index, value).map_err(|e| e.to_string());
+            return self
+                .simulation
+                .set_real(index, value)
+                .map_err(|e| e.to_string());
         }
         let integer = value as i32;
         if f64::from(integer) != value {
@@ -64,7 +84,7 @@ impl Run {
                 variable.name
             ));
         }
-        self.0
+        self.simulation
             .set_integer(index, integer)
             .map_err(|e| e.to_string())
     }
@@ -76,7 +96,9 @@ impl Run {
     ) -> Result<Vec<f64>, String> {
         let value = |name: &String| {
             let index = self.index(name)?;
-            self.0.real(index).map_err(|error| error.to_string())
+            self.simulation
+                .real(index)
+                .map_err(|error| error.to_string())
         };
         names.into_iter().map(value).collect()
     }
@@ -101,9 +123,7 @@ impl Run {
             if stop_time - following < 1e-9 * step {
                 following = stop_time;
             }
-            self.0
-                .step(following)
-                .map_err(|failure| failure.to_string())?;
+            (self.step)(&mut self.simulation, following)?;
             time = following;
             visit(self, time)?;
             self.change(time)?;
@@ -114,8 +134,8 @@ impl Run {
     /// Changes the inputs that are due at a communication point.
     fn change(&mut self, time: f64) -> Result<(), String> {
         let due = |change: &Change| change.time <= time + SAME_TIME * time.max(1.0);
-        while self.1.first().is_some_and(due) {
-            for (name, value) in self.1.remove(0).set {
+        while self.changes.first().is_some_and(due) {
+            for (name, value) in self.changes.remove(0).set {
                 let index = self.index(&name)?;
                 self.set(index, value)?;
             }

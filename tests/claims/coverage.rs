@@ -21,12 +21,7 @@ const SINGLE: [&str; 4] = [
 /// What stands in the schema and is refused.
 const REFUSED: [&str; 2] = ["initial.state=as_shaped", "initial.loads{spring_damper}"];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`.
-const OWN: [&str; 4] = [
-    "about.",
-    "method.constraints",
-    "method.formulation",
-    "method.work_limit",
-];
+const OWN: [&str; 2] = ["about.", "method.work_limit"];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.
 const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];
 const TABLES: [&str; 2] = ["loads{force}.value[0]", "motions{displacement}.value."];

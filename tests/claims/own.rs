@@ -154,58 +154,6 @@ fn outputs_that_the_tolerance_does_not_reach_are_told_of() {
     assert_eq!(told(0.5, 0.3, 16.0), [""; 0]);
 }
 
-/// `method.constraints`: both ways keep a bead on its link, which goes round at constant speed; they are
-/// not the same.
-#[test]
-fn both_ways_to_keep_constraints_go_round() {
-    let scene = |constraints: Value| {
-        let mut scene = json!({
-            "name": "sling", "dimension": 2, "accuracy": {"relative_tolerance": 1e-9},
-            "bodies": [{"element": "rigid", "name": "bead", "mass": 0.5, "inertia": 0.0, "position": [0.8, 0.0],
-                        "motion": {"velocity": [0.0, 1.2]}, "markers": {"c": [0.0, 0.0]}}],
-            "joints": [{"name": "link", "kind": "distance", "markers": ["ground", "bead.c"], "point": [0.0, 0.0]}],
-            "outputs": [{"kind": "position", "marker": "bead.c"}],
-            "method": {"integrator": "rk4", "constraints": constraints}});
-        if constraints.is_null() {
-            scene["method"] = json!({"integrator": "rk4"});
-        }
-        scene
-    };
-    let ends = [json!("projection"), json!("partitioning"), Value::Null].map(|constraints| {
-        let mut simulation = started(&scene(constraints));
-        simulation.step(2.0).expect("a step");
-        [1, 2].map(|axis| read(&mut simulation, &format!("bead.c.position[{axis}]")))
-    });
-    let turn: f64 = 1.2 / 0.8 * 2.0;
-    for end in ends {
-        let off = (end[0] - 0.8 * turn.cos()).hypot(end[1] - 0.8 * turn.sin());
-        assert!(off < 1e-7, "{end:?} is {off:e} m off");
-    }
-    assert_ne!(ends[0], ends[1]);
-    // The first is what a scene takes that does not say.
-    assert_eq!(ends[0], ends[2]);
-}
-
-/// `method.formulation`: a beam falls about its pin, which stays; as printed it falls off (the law tests say
-/// by how much and why).
-#[test]
-fn as_printed_a_beam_falls_off_its_pin() {
-    let at_the_pin = |formulation: &str| {
-        let mut simulation = started(&json!({
-            "name": "falling", "dimension": 2, "gravity": [0.0, -9.0],
-            "bodies": [{"element": "cable", "name": "beam", "elements": 2,
-                        "material": {"youngs_modulus": 1e6, "density": 1000.0},
-                        "section": {"area": 1e-3, "second_moment": 1e-7},
-                        "shape": {"line": {"from": [0.0, 0.0], "to": [1.2, 0.0]}}, "markers": {"root": 0.0}}],
-            "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "beam.root"]}],
-            "outputs": [{"kind": "acceleration", "marker": "beam.root"}],
-            "method": {"integrator": "rk4", "formulation": formulation}}));
-        read(&mut simulation, "beam.root.acceleration[2]").abs()
-    };
-    assert!(at_the_pin("mass_weighted") < 1e-12);
-    assert!(at_the_pin("as_printed") > 1.0);
-}
-
 /// A cantilever of 1 m under a dead force across it at its tip, `F L^2 / EI = share`, `EA L^2 / EI = 100`.
 fn pulled_down(share: f64, elements: u32) -> Value {
     json!({

@@ -79,7 +79,8 @@ fn every_scene_survives_being_written_and_read() {
 #[test]
 fn every_case_is_whole_and_has_its_source() {
     let mut complaints = Vec::new();
-    for path in files("tests/cases") {
+    let cases = ["tests/cases", "lab/cases"].map(files);
+    for path in cases.into_iter().flatten() {
         if path.file_name().is_none_or(|file| file != "case.json") {
             continue;
         }

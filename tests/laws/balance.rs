@@ -3,12 +3,11 @@
 use std::cell::Cell;
 
 use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
-use flexbody::system::{Constraints, Evaluation, Model, Parts, System, fastest};
+use flexbody::system::{Evaluation, Model, System, fastest};
 use proptest::prelude::*;
 
-use crate::built::Moving;
+use crate::built::{Moving, moving};
 use crate::differences::{Outcome, check, within};
-use crate::mechanics::moving;
 use crate::mechanism::Mechanism;
 use crate::random::{ALL, mechanisms};
 
@@ -67,55 +66,6 @@ fn balance(mechanism: &Mechanism, explicit: bool, seen: &Cell<u32>) -> Outcome {
     within("residual of rates", velocity, 1e-9)?;
     let x = mechanism.apart(&values.x);
     within("positions", mechanism.missing(0.05, &x).amax(), 1e-11)
-}
-
-/// The same mechanism by both ways to keep constraints, from the same state.
-fn both_ways(mechanism: &Mechanism, seen: &Cell<u32>) -> Outcome {
-    let Some(mut projected) = moving(mechanism, 0.0)? else {
-        return Ok(());
-    };
-    let parts = Parts {
-        constraints: Constraints::Partitioning,
-        ..mechanism.parts()
-    };
-    let system = System::new(parts).map_err(|e| TestCaseError::fail(format!("{e:?}")))?;
-    let started = mechanism.started(system);
-    let mut partitioned = started.map_err(|e| TestCaseError::fail(format!("{e:?}")))?;
-    if partitioned.system.constraints() == 0 {
-        return Ok(());
-    }
-    partitioned.state.copy_from(&projected.state);
-    let [a, b] = [projected.evaluated(), partitioned.evaluated()];
-    let [a, b] = [a, b].map(|values| mechanism.apart(&values.acceleration));
-    within("acceleration", (&a - &b).amax() / (1.0 + a.amax()), 1e-9)?;
-    let mut ends = Vec::new();
-    for moving in [&mut projected, &mut partitioned] {
-        let mut method = method(moving, true);
-        let tolerance = Tolerance {
-            relative: 1e-8,
-            position: moving.system.scale(),
-            time: 0.1,
-        };
-        let mut state = moving.state.clone();
-        let mut model = Model::new(&moving.system, &[], &mut moving.work, &state);
-        let (_, result) = advance(&mut *method, &mut model, &mut state, 0.03, &tolerance);
-        if result.is_err() {
-            return Ok(());
-        }
-        moving.state = state;
-        ends.push(mechanism.apart(&moving.evaluated().x));
-    }
-    seen.set(seen.get() + 1);
-    within("positions", (&ends[0] - &ends[1]).amax(), 1e-6)
-}
-
-#[test]
-fn partitioning_moves_as_projection_does() {
-    let seen = Cell::new(0);
-    check(CASES, mechanisms(ALL), |mechanism| {
-        both_ways(&mechanism, &seen)
-    });
-    assert!(seen.get() > CASES / 4, "{} cases", seen.get());
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! Laws of the elimination: constraints hold, inertia is the identity, nothing is lost.
 
-use flexbody::body::Formulation;
 use flexbody::elements::Element;
 use flexbody::system::Evaluation;
 use nalgebra::{DMatrix, DVector};
@@ -46,7 +45,7 @@ fn gaps(chain: &Chain, t: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// Largest entry of a column of gaps, relative to the largest displacement in the same column.
-pub fn worst_gap(chain: &Chain, t: &DMatrix<f64>) -> f64 {
+fn worst_gap(chain: &Chain, t: &DMatrix<f64>) -> f64 {
     let gaps = gaps(chain, t);
     (0..t.ncols())
         .map(|column| gaps.column(column).amax() / t.column(column).amax())
@@ -69,7 +68,7 @@ fn rank(chain: &Chain) -> usize {
 
 /// Promises of the elimination, in roundoff times `allowed`.
 fn elimination(chain: &Chain, allowed: f64) -> Outcome {
-    let system = chain.system(Formulation::MassWeighted);
+    let system = chain.system();
     let t = expansion(&system);
     within("constraints", worst_gap(chain, &t), allowed)?;
     let inertia = t.transpose() * chain.mass() * &t;
@@ -103,7 +102,7 @@ fn so_they_do_at_a_mass_ratio_of_a_million() {
 #[test]
 fn joints_that_repeat_others_are_named() {
     check(CASES, chains(ORDINARY), |chain| {
-        let system = chain.system(Formulation::MassWeighted);
+        let system = chain.system();
         let repeats = rank(&chain) < chain.constraints().len();
         prop_assert_eq!(!system.redundant().is_empty(), repeats);
         for named in system.redundant() {
@@ -130,7 +129,7 @@ fn redundant_joints_are_among_the_cases() {
 #[test]
 fn projecting_rates_that_constraints_allow_changes_nothing() {
     check(CASES, chains(ORDINARY), |chain| {
-        let system = chain.system(Formulation::MassWeighted);
+        let system = chain.system();
         let q: Vec<f64> = (0..system.coordinates())
             .map(|i| chain.noise[i / 8 % 13].as_slice()[i % 8])
             .collect();
@@ -164,7 +163,7 @@ fn projecting_rates_that_constraints_allow_changes_nothing() {
 #[test]
 fn reference_positions_and_total_mass_are_those_given() {
     check(CASES, chains(ORDINARY), |chain| {
-        let system = chain.system(Formulation::MassWeighted);
+        let system = chain.system();
         for (x, [p, s]) in system.reference().iter().zip(&chain.nodes) {
             let given = [p.x, p.y, s.x, s.y];
             let pairs = x.iter().zip(given);

@@ -1,13 +1,14 @@
 //! From the description of a mechanism to the product's system.
 
-use flexbody::body::{Formulation, Marker};
+use flexbody::body::Marker;
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::loads::{Distributed, Force, Load, Moment, Rotational, Spring};
 use flexbody::system::{
-    Accepted, Angle, BuildError, Constraints, Drive, End, Evaluation, Lump, Model, NotAssembled,
-    Parts, PlanarChain, Signal, State, System, Work,
+    Accepted, Angle, BuildError, Drive, End, Evaluation, Lump, Model, NotAssembled, Parts,
+    PlanarChain, Signal, State, System, Work,
 };
 use nalgebra::Vector2;
+use proptest::test_runner::TestCaseError;
 
 use crate::chain::project;
 use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
@@ -24,7 +25,7 @@ impl Mechanism {
         let bodies = self.bodies.iter().zip(&self.firsts);
         bodies
             .filter_map(|(body, first)| match body {
-                Body::Cable(elements) => Some(PlanarChain::new(elements.clone(), *first, true)),
+                Body::Cable(elements) => Some(PlanarChain::new(elements.clone(), *first)),
                 _ => None,
             })
             .collect()
@@ -169,8 +170,6 @@ impl Mechanism {
             angles,
             gravity: self.gravity,
             rotation: self.rotation,
-            formulation: Formulation::MassWeighted,
-            constraints: Constraints::Projection,
             tracks_work: true,
         }
     }
@@ -254,4 +253,22 @@ impl Moving {
             .map(|joint| values.reaction(&self.system, joint))
             .collect()
     }
+}
+
+/// The mechanism in a random state, where it can move at all and motions agree with joints.
+pub fn moving(mechanism: &Mechanism, size: f64) -> Result<Option<Moving>, TestCaseError> {
+    let system = match mechanism.system() {
+        Ok(system) => system,
+        Err(BuildError::Determined(_)) => return Ok(None),
+        Err(error) => return Err(TestCaseError::fail(format!("{error:?}"))),
+    };
+    let started = mechanism.started(system);
+    let mut moving = started.map_err(|e| TestCaseError::fail(format!("{e:?}")))?;
+    let n = moving.system.coordinates();
+    let disturbed = moving.disturb(mechanism, size);
+    if n == 0 || !disturbed {
+        return Ok(None);
+    }
+    let x = mechanism.apart(&moving.evaluated().x);
+    Ok((mechanism.contradiction(0.0, &x) < 1e-6).then_some(moving))
 }

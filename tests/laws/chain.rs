@@ -3,12 +3,12 @@
 
 use std::f64::consts::PI;
 
-use flexbody::body::{Formulation, Marker, Node};
+use flexbody::body::{Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::loads::Load;
-use flexbody::system::{Constraints, End, Parts, PlanarChain, State, System, Work};
+use flexbody::system::{End, Parts, PlanarChain, State, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -128,9 +128,8 @@ fn build(
 
 impl Chain {
     /// The flexible body.
-    pub fn flexible(&self, formulation: Formulation) -> PlanarChain {
-        let connected = formulation == Formulation::MassWeighted;
-        PlanarChain::new(self.elements.clone(), 0, connected)
+    pub fn flexible(&self) -> PlanarChain {
+        PlanarChain::new(self.elements.clone(), 0)
     }
 
     /// The element that a node belongs to, the last for the last two, and which end it is.
@@ -140,12 +139,12 @@ impl Chain {
     }
 
     /// A node as a point of the body.
-    pub fn marker(&self, formulation: Formulation, node: usize) -> Marker {
+    pub fn marker(&self, node: usize) -> Marker {
         let (element, end) = self.place(node);
-        Marker::inside(0, &self.flexible(formulation), element, end as f64)
+        Marker::inside(0, &self.flexible(), element, end as f64)
     }
 
-    fn joint(&self, formulation: Formulation, held: &Held) -> Joint {
+    fn joint(&self, held: &Held) -> Joint {
         let [position, slope] = self.nodes[held.node];
         let angle = slope.y.atan2(slope.x);
         let kind = match held.hold {
@@ -154,7 +153,7 @@ impl Chain {
             Hold::Slider(along) => JointKind::Slider(along),
             Hold::Orientation => JointKind::Orientation(angle),
         };
-        let second = End::Body(self.marker(formulation, held.node));
+        let second = End::Body(self.marker(held.node));
         Joint {
             kind,
             ends: [End::Ground(position), second],
@@ -163,42 +162,37 @@ impl Chain {
     }
 
     /// What the system is made of.
-    pub fn parts(&self, formulation: Formulation) -> Parts {
+    pub fn parts(&self) -> Parts {
         let node = |[p, s]: &[Vector2<f64>; 2]| [p.x, p.y, s.x, s.y];
-        let nodes: Vec<Node<4>> = match formulation {
-            Formulation::MassWeighted => self.nodes.iter().map(node).collect(),
-            Formulation::AsPrinted => self.nodes.windows(2).flatten().map(node).collect(),
-        };
+        let nodes: Vec<Node<4>> = self.nodes.iter().map(node).collect();
         let joints = self.joints.iter();
         Parts {
             bodies: std::iter::once(0..nodes.len()).collect(),
             nodes,
-            chains: vec![self.flexible(formulation)],
+            chains: vec![self.flexible()],
             lumps: Vec::new(),
             rigid: Vec::new(),
-            joints: joints.map(|held| self.joint(formulation, held)).collect(),
+            joints: joints.map(|held| self.joint(held)).collect(),
             drives: Vec::new(),
             loads: Vec::new(),
             initial_loads: Vec::new(),
             angles: Vec::new(),
             gravity: Vector2::zeros(),
             rotation: 0.0,
-            formulation,
-            constraints: Constraints::Projection,
             tracks_work: false,
         }
     }
 
     /// The system, without gravity.
-    pub fn system(&self, formulation: Formulation) -> System {
-        System::new(self.parts(formulation)).expect("a body with mass")
+    pub fn system(&self) -> System {
+        System::new(self.parts()).expect("a body with mass")
     }
 
     /// The system under loads.
     pub fn loaded(&self, loads: Vec<Load>) -> System {
         let parts = Parts {
             loads,
-            ..self.parts(Formulation::MassWeighted)
+            ..self.parts()
         };
         System::new(parts).expect("a body with mass")
     }

@@ -8,9 +8,8 @@ use flexbody::system::{Model, fastest, natural_frequencies};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 
-use crate::built::Moving;
+use crate::built::{Moving, moving};
 use crate::differences::{check, within};
-use crate::mechanics::moving;
 use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
 use crate::random::{ALL, Scope, mechanisms};
 

@@ -3,33 +3,12 @@
 
 use std::cell::Cell;
 
-use flexbody::system::BuildError;
-use proptest::prelude::*;
-
-use crate::built::Moving;
+use crate::built::moving;
 use crate::differences::{Outcome, check, within};
 use crate::mechanism::Mechanism;
 use crate::random::{ALL, Scope, mechanisms};
 
 const CASES: u32 = 300;
-
-/// The mechanism in a random state, where it can move at all and motions agree with joints.
-pub fn moving(mechanism: &Mechanism, size: f64) -> Result<Option<Moving>, TestCaseError> {
-    let system = match mechanism.system() {
-        Ok(system) => system,
-        Err(BuildError::Determined(_)) => return Ok(None),
-        Err(error) => return Err(TestCaseError::fail(format!("{error:?}"))),
-    };
-    let started = mechanism.started(system);
-    let mut moving = started.map_err(|e| TestCaseError::fail(format!("{e:?}")))?;
-    let n = moving.system.coordinates();
-    let disturbed = moving.disturb(mechanism, size);
-    if n == 0 || !disturbed {
-        return Ok(None);
-    }
-    let x = mechanism.apart(&moving.evaluated().x);
-    Ok((mechanism.contradiction(0.0, &x) < 1e-6).then_some(moving))
-}
 
 fn agrees(mechanism: &Mechanism, seen: &Cell<[u32; 3]>) -> Outcome {
     let Some(mut moving) = moving(mechanism, 0.05)? else {

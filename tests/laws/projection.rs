@@ -5,10 +5,9 @@ use flexbody::system::{Model, NotAssembled};
 use nalgebra::{Rotation2, Vector2};
 use proptest::prelude::*;
 
-use crate::built::Moving;
+use crate::built::{Moving, moving};
 use crate::chain::{expand, project};
 use crate::differences::{Outcome, check, within};
-use crate::mechanics::moving;
 use crate::mechanism::{At, Body, Hold, Kind, Mechanism, Place, Point};
 use crate::random::{ALL, mechanisms};
 

@@ -1,6 +1,5 @@
 //! Forces of connectivity and joints, against the augmented equations with multipliers.
 
-use flexbody::body::Formulation;
 use flexbody::elements::{Element, Nodal};
 use flexbody::system::loads::{Force, Load, Moment};
 use flexbody::system::{End, Evaluation, Parts, Signal, State, System, Work};
@@ -53,7 +52,7 @@ fn case(chain: &Chain) -> Case {
     let numbers = &chain.noise[12];
     let place = |x: f64| ((0.5 + 0.5 * x) * chain.nodes.len() as f64) as usize;
     let places = [place(numbers[0]), place(numbers[1])];
-    let marker = |node: usize| chain.marker(Formulation::MassWeighted, node);
+    let marker = |node: usize| chain.marker(node);
     let loads = vec![
         Load::Force(Force {
             marker: marker(places[0]),
@@ -68,7 +67,7 @@ fn case(chain: &Chain) -> Case {
     let parts = Parts {
         loads,
         gravity: Vector2::new(numbers[5], -9.81),
-        ..chain.parts(Formulation::MassWeighted)
+        ..chain.parts()
     };
     let system = System::new(parts).expect("a body with mass");
     let (q, v) = (
@@ -128,7 +127,7 @@ fn agrees_with_augmented(chain: &Chain, allowed: f64) -> Outcome {
     let sizes = multipliers.iter().map(|(_, _, l)| l.abs());
     let size = sizes.fold(1.0, f64::max);
     for interface in 1..chain.elements.len() {
-        let marker = chain.marker(Formulation::MassWeighted, interface);
+        let marker = chain.marker(interface);
         let found = values.connectivity_force(system, &marker);
         for axis in 0..2 {
             let exact = multipliers[4 * (interface - 1) + axis].2;

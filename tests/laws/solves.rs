@@ -1,6 +1,6 @@
 //! Solves with the tangent in the coordinates `q`, against dense matrices and differences.
 
-use flexbody::body::{Formulation, Tangent};
+use flexbody::body::Tangent;
 use flexbody::elements::{Element, Nodal};
 use flexbody::system::loads::{Force, Load, Moment};
 use flexbody::system::{Dynamics, End, Model, Signal, System, fastest};
@@ -220,14 +220,14 @@ fn solves_of_turned_stages_turn_along() {
 fn model_tangent(chain: &Chain) -> Outcome {
     let last = chain.elements.len();
     let moment = |node: usize, input: usize| {
-        let end = End::Body(chain.marker(Formulation::MassWeighted, node));
+        let end = End::Body(chain.marker(node));
         Load::Moment(Moment {
             ends: [End::Ground(Vector2::zeros()), end],
             size: Signal::Input(input),
         })
     };
     let force = Load::Force(Force {
-        marker: chain.marker(Formulation::MassWeighted, 0),
+        marker: chain.marker(0),
         follower: false,
         components: [Signal::Input(1), Signal::Input(2)],
     });
@@ -271,7 +271,7 @@ fn model_tangent(chain: &Chain) -> Outcome {
 
 /// Cases without any freedom left have nothing to solve for.
 fn free(chain: &Chain) -> bool {
-    chain.system(Formulation::MassWeighted).coordinates() > 0
+    chain.system().coordinates() > 0
 }
 
 #[test]

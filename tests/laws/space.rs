@@ -50,7 +50,7 @@ fn case((elements, joints, noise): Numbers) -> Case {
         };
         Cable::new(parameters, None)
     };
-    let chain = Spatial::new(elements.iter().map(cable).collect(), 0, true);
+    let chain = Spatial::new(elements.iter().map(cable).collect(), 0);
     let (mut x, mut at) = (Vec::new(), Vector3::zeros());
     for node in 0..chain.node_count() {
         let (p, s) = (noise[node].column(0) * 0.02, noise[node].column(1) * 0.1);

@@ -8,10 +8,10 @@ use flexbody::system::{Dynamics, Evaluation, Model, System, linearized};
 use nalgebra::{Complex, DMatrix, DVector};
 use proptest::prelude::*;
 
+use crate::built::moving;
 use crate::chain::expand;
 use crate::dense::{Orthogonal, orthogonal};
 use crate::differences::{Outcome, check, derivative, within};
-use crate::mechanics::moving;
 use crate::mechanism::Mechanism;
 use crate::random::{ALL, Scope, mechanisms};
 

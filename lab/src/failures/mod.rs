@@ -15,6 +15,8 @@ use serde_json::{Value, json};
 
 use crate::scene::Outcome;
 use support::Row;
+#[cfg(test)]
+pub use support::named;
 
 /// What to measure.
 #[derive(clap::Args)]

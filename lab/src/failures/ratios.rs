@@ -1,10 +1,10 @@
 //! Neighbours of very different mass and length.
 
-use flexbody::body::{Formulation, Marker, Node};
+use flexbody::body::{Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};
 use flexbody::system::joints::{Joint, JointKind};
-use flexbody::system::{Constraints, End, Evaluation, Parts, PlanarChain, System, Work};
+use flexbody::system::{End, Evaluation, Parts, PlanarChain, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::support::{Row, figure, short};
@@ -45,7 +45,7 @@ fn product(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
         at += cable.length();
         nodes.push([at, 0.0, 1.0, 0.0]);
     }
-    let chain = PlanarChain::new(cables.to_vec(), 0, true);
+    let chain = PlanarChain::new(cables.to_vec(), 0);
     let pin = Joint {
         kind: JointKind::Revolute,
         ends: [
@@ -67,8 +67,6 @@ fn product(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
         angles: Vec::new(),
         gravity: Vector2::new(0.0, -1.0),
         rotation: 0.0,
-        formulation: Formulation::MassWeighted,
-        constraints: Constraints::Projection,
         tracks_work: false,
     });
     let system = system.map_err(|error| format!("{error:?}"))?;

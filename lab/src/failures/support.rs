@@ -9,7 +9,7 @@ use flexbody::system::{Accepted, Dynamics, Evaluation, Model, State, Work};
 use nalgebra::{DMatrix, DVector};
 use serde_json::Value;
 
-use crate::integrators::{Build, build};
+use crate::integrators::{Build, Probe, build};
 use crate::scene::{Outcome, Start};
 
 /// Something measured: the number that a test holds to its limit, and what the table says.
@@ -122,10 +122,10 @@ impl Product {
 /// What happens to a state after a step of a method.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum After {
-    /// What the product does: projection, selection of coordinates.
+    /// What the product does.
     All,
-    /// Projection alone: coordinates stay as selected at the start.
-    Projection,
+    /// Dependent coordinates follow, chosen once at the start.
+    Dependent,
     /// Nothing.
     Nothing,
 }
@@ -164,7 +164,11 @@ impl March<'_> {
             position: system.scale(),
             time: 1e-2,
         };
-        let mut model = Model::new(system, &self.start.inputs, &mut work, &state);
+        let model = Model::new(system, &self.start.inputs, &mut work, &state);
+        let mut model = Probe::new(model, None);
+        if self.after == After::Dependent {
+            model = model.partitioned(&state);
+        }
         let method = &mut self.method;
         method.begin(&mut model, 0.0, &state.coordinates, &state.rates);
         let [step, stop] = self.times;
@@ -186,7 +190,7 @@ impl March<'_> {
             }
             let stands = match self.after {
                 After::Nothing => true,
-                After::Projection => model.project(&mut state),
+                After::Dependent => model.project(&mut state),
                 After::All => model.accepted(&mut state) != Accepted::Broken,
             };
             if !stands {

@@ -21,7 +21,7 @@ mod tests;
 
 use clap::ValueEnum;
 
-pub use rod::{Node, Rod, uniform};
+pub use rod::{Element, Node, Rod, uniform};
 
 /// How accelerations follow from forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -89,7 +89,7 @@ impl System {
     /// Elements in a row along the first axis.
     pub fn new(
         formulation: Formulation,
-        elements: Vec<rod::Element>,
+        elements: Vec<Element>,
         gravity: [f64; 2],
     ) -> Result<Self, String> {
         let rod = Rod::new(elements, formulation.is_connected(), gravity);

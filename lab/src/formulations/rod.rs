@@ -3,6 +3,7 @@
 use flexbody::body::Chain;
 use flexbody::elements::Element as _;
 use flexbody::elements::cable::{Cable, Parameters};
+use flexbody::math::lanes::{PACK, Simd, Work, vectorized};
 use nalgebra::{Matrix4, Vector2};
 
 /// The product's cable.
@@ -12,10 +13,15 @@ pub type Node = [f64; 4];
 /// Scalar mass of an element.
 pub type Mass = [[f64; 4]; 4];
 
+/// Elements that are computed together.
+type Pack = <Element as flexbody::elements::Element<2>>::Pack;
+
 /// A chain along the first axis, its start pinned to the origin.
 pub struct Rod {
-    /// The elements.
+    /// The elements, as neighbours that share a node.
     pub chain: Chain<Element, 2, 4>,
+    /// Elements that have both their nodes for themselves are computed in these packs.
+    packs: Vec<Pack>,
     /// Whether neighbours share a node.
     pub connected: bool,
     /// Coordinates of the straight chain.
@@ -46,23 +52,37 @@ pub fn uniform(parameters: Parameters, count: usize) -> Vec<Element> {
 impl Rod {
     /// From elements in a row.
     pub fn new(elements: Vec<Element>, connected: bool, gravity: [f64; 2]) -> Self {
-        let chain = Chain::new(elements, 0, connected);
-        let mut reference = vec![[0.0; 4]; chain.node_count()];
+        let packs = elements.chunks(PACK).map(Cable::pack).collect();
+        let mut rod = Self {
+            chain: Chain::new(elements, 0),
+            packs,
+            connected,
+            reference: Vec::new(),
+            weight: Vec::new(),
+        };
+        let count = rod.nodes(rod.count() - 1)[1] + 1;
+        let (mut reference, mut weight) = (vec![[0.0; 4]; count], vec![[0.0; 4]; count]);
         let mut start = 0.0;
-        for (j, element) in chain.elements().iter().enumerate() {
-            let [first, second] = chain.nodes(j);
+        for (j, element) in rod.chain.elements().iter().enumerate() {
+            let [first, second] = rod.nodes(j);
             reference[first] = [start, 0.0, 1.0, 0.0];
             start += element.length();
             reference[second] = [start, 0.0, 1.0, 0.0];
+            let force = Vector2::from(gravity) * element.weight().transpose();
+            for (node, column) in [(first, 0), (second, 2)] {
+                for k in 0..4 {
+                    weight[node][k] += force[(k % 2, column + k / 2)];
+                }
+            }
         }
-        let mut weight = vec![[0.0; 4]; reference.len()];
-        chain.add_weight(&Vector2::from(gravity), &mut weight);
-        Self {
-            chain,
-            connected,
-            reference,
-            weight,
-        }
+        (rod.reference, rod.weight) = (reference, weight);
+        rod
+    }
+
+    /// Nodes of element `j`.
+    pub fn nodes(&self, j: usize) -> [usize; 2] {
+        let first = if self.connected { j } else { 2 * j };
+        [first, first + 1]
     }
 
     /// Number of elements.
@@ -73,7 +93,10 @@ impl Rod {
     /// Elastic forces and gravity.
     pub fn force(&self, x: &[Node], f: &mut [Node]) {
         f.copy_from_slice(&self.weight);
-        self.chain.add_force(x, x, f);
+        match self.connected {
+            true => self.chain.add_force(x, x, f),
+            false => vectorized(AddForce { rod: self, x, f }),
+        }
     }
 
     /// Scalar masses of the elements.
@@ -87,11 +110,45 @@ impl Rod {
 
     /// Largest distance between the ends of elements that meet, m.
     pub fn gap(&self, x: &[Node]) -> f64 {
-        let pairs = (1..self.count()).map(|j| {
-            let (before, after) = (x[self.chain.nodes(j - 1)[1]], x[self.chain.nodes(j)[0]]);
-            (before[0] - after[0]).hypot(before[1] - after[1])
-        });
-        pairs.fold(0.0, f64::max)
+        let gaps = (1..self.count()).map(|j| self.gap_before(j, x));
+        gaps.fold(0.0, f64::max)
+    }
+
+    /// Distance between the start of an element and the end of the one before it, m.
+    pub fn gap_before(&self, j: usize, x: &[Node]) -> f64 {
+        let (before, after) = (x[self.nodes(j - 1)[1]], x[self.nodes(j)[0]]);
+        (before[0] - after[0]).hypot(before[1] - after[1])
+    }
+}
+
+/// [`Rod::force`] of elements that stand alone.
+struct AddForce<'a> {
+    rod: &'a Rod,
+    x: &'a [Node],
+    f: &'a mut [Node],
+}
+
+impl Work for AddForce<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        // Coordinates that any element can be evaluated at, for lanes without one.
+        let (mut e, mut f) = ([[[1.0; PACK]; 2]; 4], [[[1.0; PACK]; 2]; 4]);
+        let nodes = self.x.chunks(2 * PACK).zip(self.f.chunks_mut(2 * PACK));
+        for (pack, (x, force)) in self.rod.packs.iter().zip(nodes) {
+            for (lane, ends) in x.as_chunks::<2>().0.iter().enumerate() {
+                for k in 0..4 {
+                    e[k / 2][k % 2][lane] = ends[0][k];
+                    e[2 + k / 2][k % 2][lane] = ends[1][k];
+                }
+            }
+            Cable::pack_force(simd, pack, (&e, None), &mut f);
+            for (lane, ends) in force.as_chunks_mut::<2>().0.iter_mut().enumerate() {
+                for k in 0..4 {
+                    ends[0][k] += f[k / 2][k % 2][lane];
+                    ends[1][k] += f[2 + k / 2][k % 2][lane];
+                }
+            }
+        }
     }
 }
 

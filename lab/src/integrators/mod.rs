@@ -7,7 +7,6 @@
 //! | `rk4` | the product's, here also at a fixed step |
 //! | `dopri5` | Dormand and Prince 5(4) |
 //! | `rkn43`, `rkn64` | Nystrom pairs of Dormand, El-Mikkawy and Prince |
-//! | `srkn4` | symplectic splitting of Blanes and Moan |
 //! | `gauss6` | Gauss, three stages |
 //! | `radau` | the product's, here also at a fixed step |
 //! | `alpha_1.0`, `alpha_0.8`, `alpha_0.6` | generalized-alpha by its spectral radius |
@@ -24,8 +23,8 @@ mod newton;
 mod nystrom;
 #[cfg(test)]
 mod order;
+mod partitioning;
 mod probe;
-mod splitting;
 mod verlet;
 
 use std::sync::{Arc, Mutex};
@@ -75,10 +74,6 @@ pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
             };
             // No frequency, no limit: how far they go is what the chart shows.
             Box::new(Nystrom::new(tableau, n, 0.0))
-        }
-        "srkn4" => {
-            only_positions()?;
-            Box::new(splitting::Splitting::new(n))
         }
         "gauss6" => Box::new(gauss::Gauss::new(n)),
         "radau" => Box::new(Radau::new(n)),

@@ -82,7 +82,6 @@ fn errors_shrink_with_the_order_of_the_method() {
         ("dopri5", 5.0, 200),
         ("rkn43", 4.0, 300),
         ("rkn64", 6.0, 75),
-        ("srkn4", 4.0, 60),
         ("gauss6", 6.0, 20),
         ("radau", 5.0, 40),
         ("alpha_1.0", 2.0, 300),

@@ -1,10 +1,13 @@
-//! A system that counts what integrators ask of it.
+//! A system that counts what integrators ask of it, and that keeps its constraints as the product does or by
+//! coordinate partitioning.
 
 use std::sync::{Arc, Mutex};
 
 use flexbody::body::Node;
 use flexbody::system::{Accepted, Dynamics, Model, State};
 use nalgebra::Complex;
+
+use super::partitioning::Partition;
 
 /// What was asked.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,6 +36,7 @@ impl Tally {
 pub struct Probe<'a> {
     model: Model<'a>,
     nodes: Option<Arc<Mutex<Vec<Node<4>>>>>,
+    partition: Option<Partition>,
     /// What was asked so far.
     pub tally: Tally,
 }
@@ -44,7 +48,23 @@ impl<'a> Probe<'a> {
         Self {
             model,
             nodes,
+            partition: None,
             tally,
+        }
+    }
+
+    /// With constraints kept by coordinate partitioning, chosen at a state. For explicit methods: tangents are
+    /// those of projection.
+    pub fn partitioned(mut self, state: &State) -> Self {
+        self.partition = Some(Partition::new(&mut self.model, state));
+        self
+    }
+
+    /// Brings a state onto the constraints, dependent coordinates chosen as before; false where that fails.
+    pub fn project(&mut self, state: &mut State) -> bool {
+        match &mut self.partition {
+            Some(partition) => partition.project(&mut self.model, state),
+            None => self.model.project(state),
         }
     }
 }
@@ -52,7 +72,13 @@ impl<'a> Probe<'a> {
 impl Dynamics for Probe<'_> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         self.tally.accelerations += 1;
-        self.model.acceleration(time, q, v, a);
+        let model = &mut self.model;
+        match &mut self.partition {
+            Some(partition) => partition.completed(model, (time, q, v), |model, q, v| {
+                model.acceleration(time, q, v, a);
+            }),
+            None => model.acceleration(time, q, v, a),
+        }
         if let Some(nodes) = &self.nodes
             && let Ok(mut nodes) = nodes.lock()
         {
@@ -114,7 +140,18 @@ impl Dynamics for Probe<'_> {
     }
 
     fn accepted(&mut self, state: &mut State) -> Accepted {
-        self.model.accepted(state)
+        let model = &mut self.model;
+        let Some(partition) = &mut self.partition else {
+            return model.accepted(state);
+        };
+        if !partition.project(model, state) {
+            return Accepted::Broken;
+        }
+        partition.choose(model, state);
+        match model.count(state) {
+            Accepted::AsIs => Accepted::Moved,
+            other => other,
+        }
     }
 
     fn is_exhausted(&self) -> bool {

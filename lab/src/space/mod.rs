@@ -16,7 +16,7 @@ use serde_json::json;
 use crate::elements::rod::{Rod, Vector};
 use discretization::Discretization;
 use motion::{Motion, STABLE};
-use problem::Problem;
+pub use problem::Problem;
 use statics::Loads;
 
 /// Iterations of Newton's method that are timed together.

@@ -12,16 +12,14 @@ use super::resolved::{
     self, Action, BodyReference, CouplingId, Ends, First, InputKind, JointKind, LoadKind, MarkerId,
     Output, Place, Resolved, Spring, Turning,
 };
-use super::{CableBody, Constraints, Error, Formulation, Scene, Strain};
-use crate::body::{self, Marker, Node};
+use super::{CableBody, Error, Scene, Strain};
+use crate::body::{Marker, Node};
 use crate::elements::cable::{self, Inertia};
 use crate::elements::{self, Nodal};
 use crate::math::function::Function;
 use crate::system::joints::{self, Joint};
 use crate::system::loads::{self, Load};
-use crate::system::{
-    Angle, BuildError, Constraints as Method, End, Lump, Parts, PlanarChain, Signal, System,
-};
+use crate::system::{Angle, BuildError, End, Lump, Parts, PlanarChain, Signal, System};
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
 const BYTES: usize = 5000;
@@ -123,14 +121,6 @@ impl Resolved<'_> {
             angles: Vec::new(),
             gravity: scene.gravity.into(),
             rotation: scene.rotation,
-            formulation: match scene.method.formulation {
-                Formulation::MassWeighted => body::Formulation::MassWeighted,
-                Formulation::AsPrinted => body::Formulation::AsPrinted,
-            },
-            constraints: match scene.method.constraints {
-                Constraints::Projection => Method::Projection,
-                Constraints::Partitioning => Method::Partitioning,
-            },
             tracks_work: self.outputs.iter().any(|o| matches!(o, Output::Work)),
         }
     }
@@ -177,23 +167,12 @@ impl<'a> Builder<'a> {
             BodyReference::Cable(reference) => {
                 let cable = reference.body;
                 let mesh = self.resolved.nodes(reference)?;
-                let (connected, inertia) = match self.resolved.scene.method.formulation {
-                    Formulation::MassWeighted => (true, Inertia::Corrected),
-                    Formulation::AsPrinted => (false, Inertia::Consistent),
-                };
-                let chain =
-                    PlanarChain::new(build_elements(cable, &mesh, inertia), first, connected);
+                let chain = PlanarChain::new(build_elements(cable, &mesh), first);
                 let node = |s: &f64| {
                     let (p, d) = (cable.shape.point(*s), cable.shape.tangent(*s));
                     [p[0], p[1], d[0], d[1]]
                 };
-                let count = mesh.len();
-                for (i, s) in mesh.iter().enumerate() {
-                    self.parts.nodes.push(node(s));
-                    if !connected && i > 0 && i + 1 < count {
-                        self.parts.nodes.push(node(s));
-                    }
-                }
+                self.parts.nodes.extend(mesh.iter().map(node));
                 self.parts.chains.push(chain);
             }
             BodyReference::Rigid(rigid) => {
@@ -435,7 +414,7 @@ fn unit(direction: [f64; 2]) -> Vector2<f64> {
     Vector2::from(direction).normalize()
 }
 
-fn build_elements(body: &CableBody, nodes: &[f64], inertia: Inertia) -> Vec<cable::Cable<2, 1>> {
+fn build_elements(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<2, 1>> {
     let (material, section) = (&body.material, &body.section);
     let strain = match body.strain {
         Strain::ThetaPrime => elements::Strain::ThetaPrime,
@@ -451,7 +430,7 @@ fn build_elements(body: &CableBody, nodes: &[f64], inertia: Inertia) -> Vec<cabl
             line_density: material.density * section.area,
             damping_time: material.damping_time,
             strain,
-            inertia,
+            inertia: Inertia::Corrected,
         };
         let [a, b]: [[Vector2<f64>; 2]; 2] = [end(s[0]), end(s[1])];
         let e = Nodal::from_columns(&[a[0], a[1], b[0], b[1]]);

@@ -71,7 +71,7 @@ pub struct Scene {
     /// What accuracy is asked for.
     #[serde(default)]
     pub accuracy: Accuracy,
-    /// Formulation, constraints and integrator, where the automatic choice is not wanted.
+    /// Integrator, where the automatic choice is not wanted.
     #[serde(default)]
     pub method: Method,
     /// Default experiment of the FMU.
@@ -99,16 +99,10 @@ impl Scene {
     }
 }
 
-/// Formulation, constraints and integrator.
+/// Integrator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Method {
-    /// How connectivity and linear joints are eliminated.
-    #[serde(default)]
-    pub formulation: Formulation,
-    /// How constraints that are not linear are kept.
-    #[serde(default)]
-    pub constraints: Constraints,
     /// Integrator.
     #[serde(default)]
     pub integrator: Integrator,
@@ -122,8 +116,6 @@ pub struct Method {
 impl Default for Method {
     fn default() -> Self {
         Self {
-            formulation: Formulation::default(),
-            constraints: Constraints::default(),
             integrator: Integrator::default(),
             work_limit: work_limit(),
         }
@@ -132,28 +124,6 @@ impl Default for Method {
 
 fn work_limit() -> f64 {
     1e9
-}
-
-/// Formulations by name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Formulation {
-    /// QR elimination weighted by the square root of the mass: exact connectivity, identity inertia.
-    #[default]
-    MassWeighted,
-    /// Report MBS97-2-UIC, Eqs. 23-34, as printed. It tears the elements apart; for charts only.
-    AsPrinted,
-}
-
-/// Ways to keep constraints that are not linear, by name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Constraints {
-    /// Multipliers, and a projection of positions and velocities after every step.
-    #[default]
-    Projection,
-    /// Report MBS97-2-UIC, Section 7: independent coordinates are integrated, the others follow.
-    Partitioning,
 }
 
 /// Integrators by name.

@@ -5,7 +5,6 @@ mod checks;
 mod inputs;
 mod joints;
 mod loads;
-mod method;
 mod motions;
 mod outputs;
 mod ports;
@@ -61,7 +60,11 @@ impl Scene {
         }
         positive("experiment.stop_time", "s", self.experiment.stop_time)?;
         positive("experiment.step", "s", self.experiment.step)?;
-        self.validate_method()?;
+        positive(
+            "method.work_limit",
+            "evaluations times parts",
+            self.method.work_limit,
+        )?;
         Ok(resolved)
     }
 

@@ -8,7 +8,7 @@ use crate::elements::Element;
 use crate::system::instant::Instant;
 use crate::system::joints::ConstraintKind;
 use crate::system::signal::{Course, moved};
-use crate::system::{Constraints, State, System, Work};
+use crate::system::{State, System, Work};
 
 /// Most stages that a method may solve for together.
 pub const STAGES: usize = crate::body::STAGES;
@@ -124,11 +124,6 @@ impl<'a> Model<'a> {
         }
         if !system.slides.is_empty() {
             work.before.copy_from(state);
-        }
-        if system.method == Constraints::Partitioning {
-            // From the state alone, so that one restored goes on with the same bits.
-            system.place(state.time, &state.coordinates, None, work);
-            system.select(work);
         }
         Self {
             system,
@@ -300,19 +295,7 @@ impl Dynamics for Model<'_> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         self.operations += 1;
         let system = self.system;
-        if system.method == Constraints::Partitioning && !system.constraints.is_empty() {
-            let mut p = std::mem::take(&mut self.work.q);
-            let mut u = std::mem::take(&mut self.work.u);
-            p.copy_from_slice(q);
-            u.copy_from_slice(v);
-            system.project_positions(time, &mut p, self.work);
-            system.project_velocities(&mut u, self.work);
-            self.place(time, &p, &u);
-            self.work.q = p;
-            self.work.u = u;
-        } else {
-            self.place(time, q, v);
-        }
+        self.place(time, q, v);
         system.forces(time, self.work);
         system.reduce(self.work, a);
         if !system.constraints.is_empty() {
@@ -412,9 +395,6 @@ impl Dynamics for Model<'_> {
         }
         if !self.project(state) {
             return Accepted::Broken;
-        }
-        if self.system.method == Constraints::Partitioning {
-            self.system.select(self.work);
         }
         match self.count(state) {
             Accepted::AsIs => Accepted::Moved,

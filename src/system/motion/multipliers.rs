@@ -28,8 +28,6 @@ const ITERATIONS: usize = 20;
 /// in between (docs/decisions/0009-constraints.md).
 const RANK: f64 = 1e-4;
 const PROJECTED_RANK: f64 = 1e-5;
-/// Pivot, relative to the first, at which the rest of the rows depends on those before.
-const PIVOT: f64 = 1e-9;
 /// Residual at which positions are on the constraints.
 const EXACT: f64 = 2e-15;
 
@@ -43,10 +41,30 @@ pub(in crate::system) struct Group {
     pub(in crate::system) rows: RowSpace,
     right: Vec<f64>,
     pub(in crate::system) lambda: Vec<f64>,
-    /// Dependent coordinates, under partitioning, and the rows that determine them (first).
-    pub(in crate::system) dependent: Vec<usize>,
-    chosen: Vec<usize>,
-    square: Vec<f64>,
+}
+
+/// A non-linear constraint `g(q, t) = 0` at a time, coordinates and rates.
+pub struct ConstraintRow<'a> {
+    constraint: &'a crate::system::Constraint,
+    view: &'a View<'a>,
+    /// Its size, which residuals are relative to.
+    pub size: f64,
+    /// The coordinates of its component of the system.
+    pub coordinates: Range<usize>,
+    /// Its derivatives by them, a row of `J`.
+    pub gradient: &'a [f64],
+}
+
+impl ConstraintRow<'_> {
+    /// `g`.
+    pub fn value(&self) -> f64 {
+        self.constraint.value(self.view)
+    }
+
+    /// `dg/dt`.
+    pub fn rate(&self) -> f64 {
+        constraint_rate(self.constraint, self.view)
+    }
 }
 
 impl Group {
@@ -64,9 +82,6 @@ impl Group {
                 constraints,
                 right: vec![0.0; *count],
                 lambda: vec![0.0; *count],
-                dependent: Vec::with_capacity(*count),
-                chosen: (0..*count).collect(),
-                square: vec![0.0; count * (count + 1)],
             }
         });
         groups.collect()
@@ -95,6 +110,32 @@ impl System {
             }
         }
         work.groups = groups;
+    }
+
+    /// Shows every non-linear constraint at a time, coordinates and, where its rate is read, rates.
+    pub fn visit_constraints(
+        &self,
+        time: f64,
+        q: &[f64],
+        v: Option<&[f64]>,
+        work: &mut Work,
+        mut visit: impl FnMut(ConstraintRow<'_>),
+    ) {
+        self.place(time, q, v, work);
+        self.jacobians(work);
+        let view = self.view(work);
+        for group in &work.groups {
+            let constraints = self.constraints[group.constraints.clone()].iter();
+            for (i, constraint) in constraints.enumerate() {
+                visit(ConstraintRow {
+                    constraint,
+                    view: &view,
+                    size: constraint.size(&self.chains),
+                    coordinates: group.coordinates.clone(),
+                    gradient: group.rows.unit(i),
+                });
+            }
+        }
     }
 
     /// The state in `work` as constraints see it.
@@ -182,24 +223,10 @@ impl System {
                 *right = -missing(constraint, &view);
             }
             let q = &mut q[group.coordinates.clone()];
-            if self.method == crate::system::Constraints::Partitioning
-                && !group.dependent.is_empty()
-            {
-                group.move_dependent(q);
-            } else {
-                group.rows.factor(PROJECTED_RANK);
-                group.rows.add_least(&group.right, q);
-            }
+            group.rows.factor(PROJECTED_RANK);
+            group.rows.add_least(&group.right, q);
         }
         work.groups = groups;
-    }
-
-    /// Selects dependent coordinates by pivoting, at the positions in `work`.
-    pub(in crate::system) fn select(&self, work: &mut Work) {
-        self.jacobians(work);
-        for group in &mut work.groups {
-            group.select();
-        }
     }
 
     /// Largest residual of positions, relative to the size of the constraint.
@@ -277,80 +304,6 @@ impl Group {
     ) -> impl Iterator<Item = (&'a crate::system::Constraint, f64)> {
         let own = &constraints[self.constraints.clone()];
         own.iter().zip(self.lambda.iter().copied())
-    }
-
-    /// Selects as many coordinates as there are independent rows, by elimination with complete
-    /// pivoting.
-    fn select(&mut self) {
-        let (m, n) = (self.rows.count(), self.coordinates.len());
-        self.dependent.clear();
-        self.chosen.iter_mut().enumerate().for_each(|(i, c)| *c = i);
-        let mut largest = 0.0;
-        for k in 0..m {
-            let (mut best, mut size) = ((k, 0), 0.0);
-            for i in k..m {
-                for (j, value) in self.rows.unit(i).iter().enumerate() {
-                    if value.abs() > size && !self.dependent.contains(&j) {
-                        (best, size) = ((i, j), value.abs());
-                    }
-                }
-            }
-            let (pivot_row, column) = best;
-            if k == 0 {
-                largest = size;
-            }
-            if size <= PIVOT * largest {
-                return;
-            }
-            self.chosen.swap(k, pivot_row);
-            for j in 0..n {
-                let value = self.rows.unit(k)[j];
-                self.rows.row_mut(k)[j] = self.rows.unit(pivot_row)[j];
-                self.rows.row_mut(pivot_row)[j] = value;
-            }
-            self.dependent.push(column);
-            for i in k + 1..m {
-                let factor = self.rows.unit(i)[column] / self.rows.unit(k)[column];
-                for j in 0..n {
-                    let part = factor * self.rows.unit(k)[j];
-                    self.rows.row_mut(i)[j] -= part;
-                }
-            }
-        }
-    }
-
-    /// Moves dependent coordinates alone so that the rows come to the right-hand sides: Gaussian
-    /// elimination with row pivoting.
-    fn move_dependent(&mut self, q: &mut [f64]) {
-        let m = self.dependent.len();
-        let w = m + 1;
-        for i in 0..m {
-            for (k, column) in self.dependent.iter().enumerate() {
-                self.square[i * w + k] = self.rows.unit(self.chosen[i])[*column];
-            }
-            self.square[i * w + m] = self.right[self.chosen[i]];
-        }
-        let a = &mut self.square;
-        for k in 0..m {
-            let size = |i: &usize| a[i * w + k].abs();
-            let pivot = (k..m)
-                .max_by(|i, j| size(i).total_cmp(&size(j)))
-                .unwrap_or(k);
-            for c in 0..w {
-                a.swap(k * w + c, pivot * w + c);
-            }
-            for i in k + 1..m {
-                let factor = a[i * w + k] / a[k * w + k];
-                for c in k..w {
-                    a[i * w + c] -= factor * a[k * w + c];
-                }
-            }
-        }
-        for k in (0..m).rev() {
-            let later: f64 = (k + 1..m).map(|c| a[k * w + c] * a[c * w + m]).sum();
-            a[k * w + m] = (a[k * w + m] - later) / a[k * w + k];
-            q[self.dependent[k]] += a[k * w + m];
-        }
     }
 }
 

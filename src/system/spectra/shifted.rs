@@ -74,7 +74,7 @@ impl<'a> Linearization<'a> {
                         to.for_each(|(to, c)| *to += factor * c);
                     }
                 }
-                self.elimination.project(&mut product, &mut out);
+                self.elimination.project(&product, &mut out);
                 for (i, left) in columns.iter().enumerate() {
                     projected[which][(i, k)] = dot(left, &out);
                 }

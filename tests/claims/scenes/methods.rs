@@ -7,8 +7,8 @@ use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     let mut all: Vec<Specimen> = ["radau", "rk4", "verlet", "rkn43"].map(thrown).into();
-    all.extend([element("mass_weighted"), element("")]);
     all.extend([
+        element(),
         automatic(),
         settled(),
         unsettled(),
@@ -54,8 +54,8 @@ fn automatic() -> Specimen {
 /// The slowest bending of one free element, in which the curvature is uniform and the velocity a Legendre
 /// polynomial of degree 2: `w^2 = 720 EI / (rho A L^4)` with the consistent mass, half of it with the
 /// corrected one, in which this part counts twice (docs/decisions/0012-mass-against-dispersion.md).
-fn element(formulation: &'static str) -> Specimen {
-    let mut scene = json!({
+fn element() -> Specimen {
+    let scene = json!({
         "name": "element", "dimension": 2,
         "bodies": [{"element": "cable", "name": "rod", "elements": 1,
                     "material": {"youngs_modulus": 1e6, "density": 500.0},
@@ -63,17 +63,9 @@ fn element(formulation: &'static str) -> Specimen {
                     "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}}}],
         "outputs": [{"kind": "natural_frequency", "count": 4}],
         "method": {"integrator": "rk4"}});
-    if !formulation.is_empty() {
-        scene["method"]["formulation"] = json!(formulation);
-    }
-    let name = if formulation.is_empty() {
-        "element"
-    } else {
-        formulation
-    };
     // After three rigid motions.
     let exact: f64 = 360.0 * 1.0 / 2.0;
-    Specimen::new(name, scene).claim("natural_frequency[4]", "rad/s", exact.sqrt())
+    Specimen::new("element", scene).claim("natural_frequency[4]", "rad/s", exact.sqrt())
 }
 
 fn lever(initial: &str) -> Value {

@@ -33,6 +33,8 @@ pub struct Run {
     settings: Vec<(String, f64)>,
     stop_time: f64,
     step: f64,
+    /// Options of `lab integrate`, where that takes the steps.
+    lab: Option<Vec<String>>,
 }
 
 impl Run {
@@ -43,6 +45,7 @@ impl Run {
             settings: Vec::new(),
             stop_time,
             step,
+            lab: None,
         }
     }
 
@@ -75,6 +78,12 @@ impl Run {
     /// With an integrator by name.
     pub fn integrator(self, name: &str) -> Self {
         self.method(json!({ "integrator": name }))
+    }
+
+    /// By the lab, with these options.
+    pub fn by_lab(mut self, options: &[&str]) -> Self {
+        self.lab = Some(options.iter().map(|option| (*option).to_owned()).collect());
+        self
     }
 
     /// With a method as scenes have it.
@@ -243,10 +252,19 @@ impl<'a> Bench<'a> {
         let (scene, outputs, report) = (file("scene.json")?, file("csv")?, file("report.json")?);
         std::fs::write(&scene, run.scene.to_string())
             .with_context(|| format!("cannot write {}", shown(&scene)))?;
-        let mut command = Command::new(&self.program);
-        command.arg("simulate").arg(&scene);
+        let mut command = match &run.lab {
+            None => Command::new(&self.program),
+            Some(_) => Command::new(&self.lab),
+        };
+        let step = match &run.lab {
+            None => command.arg("simulate").arg(&scene).arg("--step"),
+            Some(options) => {
+                let command = command.arg("integrate").arg(&scene);
+                command.args(options).arg("--every")
+            }
+        };
+        step.arg(run.step.to_string());
         command.arg("--stop-time").arg(run.stop_time.to_string());
-        command.arg("--step").arg(run.step.to_string());
         command.arg("--output").arg(&outputs);
         command.arg("--report").arg(&report);
         for (name, value) in &run.settings {

@@ -9,7 +9,7 @@ use super::super::plot::{Axis, Line, Mark, Panel, draw};
 use super::{ERRORS, Measured};
 
 /// Name in settings, name on the page, colour, mark; dashed where the step adapts.
-const NAMES: [(&str, &str, usize, Mark); 25] = [
+const NAMES: [(&str, &str, usize, Mark); 24] = [
     ("product_auto", "auto (product)", 6, Mark::Dot),
     ("product_rk4", "RK4 (product)", 0, Mark::Ring),
     ("product_radau", "Radau IIA 5 (product)", 1, Mark::Ring),
@@ -26,7 +26,6 @@ const NAMES: [(&str, &str, usize, Mark); 25] = [
     ("rkn43_adaptive", "Nystrom 4(3), adaptive", 0, Mark::Cross),
     ("rkn64", "Nystrom 6(4)", 5, Mark::Triangle),
     ("rkn64_adaptive", "Nystrom 6(4), adaptive", 5, Mark::Cross),
-    ("srkn4", "symplectic splitting 4", 3, Mark::Triangle),
     ("dopri5", "Dormand-Prince 5", 4, Mark::Triangle),
     (
         "dopri5_adaptive",

@@ -1,0 +1,86 @@
+//! Coordinate partitioning on the random mechanisms of the law tests: it moves as projection does.
+#![expect(dead_code, reason = "the law tests use more of what they share")]
+
+#[path = "../../tests/laws/built.rs"]
+mod built;
+#[path = "../../tests/laws/chain.rs"]
+mod chain;
+#[path = "../../tests/laws/dense.rs"]
+mod dense;
+#[path = "../../tests/laws/differences.rs"]
+mod differences;
+#[path = "../../tests/laws/mechanism.rs"]
+mod mechanism;
+#[path = "../src/integrators/partitioning.rs"]
+mod partitioning;
+#[path = "../src/integrators/probe.rs"]
+mod probe;
+#[path = "../../tests/laws/random.rs"]
+mod random;
+#[path = "../../tests/laws/specimen.rs"]
+mod specimen;
+
+use std::cell::Cell;
+
+use flexbody::integrators::{Rk4, Tolerance, advance};
+use flexbody::system::{Dynamics, Model, fastest};
+
+use built::moving;
+use differences::{Outcome, check, within};
+use mechanism::Mechanism;
+use probe::Probe;
+use random::{ALL, mechanisms};
+
+const CASES: u32 = 60;
+
+/// The same mechanism by both ways to keep constraints, from the same state.
+fn both_ways(mechanism: &Mechanism, seen: &Cell<u32>) -> Outcome {
+    let Some(mut moving) = moving(mechanism, 0.0)? else {
+        return Ok(());
+    };
+    if moving.system.constraints() == 0 {
+        return Ok(());
+    }
+    let n = moving.system.coordinates();
+    let (frequency, decay) = fastest(&moving.system, &[], &mut moving.work, &moving.state);
+    let tolerance = Tolerance {
+        relative: 1e-8,
+        position: moving.system.scale(),
+        time: 0.1,
+    };
+    let start = moving.state.clone();
+    let (mut accelerations, mut ends) = (Vec::new(), Vec::new());
+    for partitioned in [false, true] {
+        let mut state = start.clone();
+        let model = Model::new(&moving.system, &[], &mut moving.work, &state);
+        let mut probe = Probe::new(model, None);
+        if partitioned {
+            probe = probe.partitioned(&state);
+        }
+        let mut a = vec![0.0; n];
+        probe.acceleration(state.time, &state.coordinates, &state.rates, &mut a);
+        accelerations.push(a);
+        let mut method = Rk4::new(n, frequency, decay);
+        let (_, result) = advance(&mut method, &mut probe, &mut state, 0.03, &tolerance);
+        if result.is_err() {
+            return Ok(());
+        }
+        moving.state = state;
+        ends.push(mechanism.apart(&moving.evaluated().x));
+    }
+    let (a, b) = (&accelerations[0], &accelerations[1]);
+    let size = a.iter().fold(1.0, |most, a| a.abs().max(most));
+    let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs() / size);
+    within("acceleration", apart.fold(0.0, f64::max), 1e-9)?;
+    seen.set(seen.get() + 1);
+    within("positions", (&ends[0] - &ends[1]).amax(), 1e-6)
+}
+
+#[test]
+fn partitioning_moves_as_projection_does() {
+    let seen = Cell::new(0);
+    check(CASES, mechanisms(ALL), |mechanism| {
+        both_ways(&mechanism, &seen)
+    });
+    assert!(seen.get() > CASES / 4, "{} cases", seen.get());
+}
