@@ -452,7 +452,7 @@ mod tests {
 
     #[test]
     fn after_a_panic_the_instance_answers_fatal_for_ever() {
-        let simulation = Simulation::new(crate::fmi2::example());
+        let simulation = Simulation::new(scene::example());
         let request = Request {
             name: "panics",
             co_simulation: true,

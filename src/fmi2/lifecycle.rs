@@ -2,7 +2,7 @@
 //! standard (FMI 2.0.5, section 4.2.4) for a co-simulation unit that never runs a step in the
 //! background, so that `stepInProgress` and `stepCanceled` do not exist.
 
-use crate::simulation::{Source, Variable};
+use crate::simulation::Causality;
 
 /// State of an instance, one bit each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,58 +140,25 @@ impl Function {
     }
 }
 
-/// Causality of a variable: what the XML states and what decides when it may be set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Causality {
-    /// Time.
-    Independent,
-    /// Fixed when initialization ends.
-    Parameter,
-    /// Set by the master at every communication point.
-    Input,
-    /// Read by the master.
-    Output,
-    /// Follows from parameters.
-    CalculatedParameter,
+/// States in which a variable may be set. Inputs are open before initialization too: the
+/// standard's table leaves them out there, yet masters, FMPy among them, set their start
+/// values at that moment, and refusing would help nobody.
+pub fn settable_states(causality: Causality) -> u8 {
+    match causality {
+        Causality::Parameter => I | M,
+        Causality::Input => I | M | C,
+        Causality::Independent | Causality::Output | Causality::CalculatedParameter => 0,
+    }
 }
 
-impl Causality {
-    /// The causality of a variable.
-    pub fn of(variable: &Variable) -> Self {
-        match variable.source {
-            Source::Time => Self::Independent,
-            Source::Parameter(_) => Self::Parameter,
-            Source::Input(..) => Self::Input,
-            Source::Output(_) => Self::Output,
-            Source::NaturalFrequency(_) | Source::Eigenvalue(..) => Self::CalculatedParameter,
-        }
-    }
-
-    /// States in which a variable may be set. Inputs are open before initialization too: the
-    /// standard's table leaves them out there, yet masters, FMPy among them, set their start
-    /// values at that moment, and refusing would help nobody.
-    pub fn settable_states(self) -> u8 {
-        match self {
-            Self::Parameter => I | M,
-            Self::Input => I | M | C,
-            Self::Independent | Self::Output | Self::CalculatedParameter => 0,
-        }
-    }
-
-    /// Whether a variable may be set in `state`.
-    pub fn settable_in(self, state: State) -> bool {
-        self.settable_states() & state as u8 != 0
-    }
-
-    /// When a variable may be set, for messages.
-    pub fn rule(self) -> &'static str {
-        match self {
-            Self::Parameter => "a parameter may be set until initialization ends",
-            Self::Input => "an input may be set until the unit is terminated",
-            Self::Independent => "time may not be set",
-            Self::Output => "an output may not be set",
-            Self::CalculatedParameter => "a calculated parameter may not be set",
-        }
+/// When a variable may be set, for messages.
+pub fn rule(causality: Causality) -> &'static str {
+    match causality {
+        Causality::Parameter => "a parameter may be set until initialization ends",
+        Causality::Input => "an input may be set until the unit is terminated",
+        Causality::Independent => "time may not be set",
+        Causality::Output => "an output may not be set",
+        Causality::CalculatedParameter => "a calculated parameter may not be set",
     }
 }
 
@@ -234,10 +201,10 @@ mod tests {
     #[test]
     fn setting_needs_a_state_in_which_the_function_is_allowed() {
         for causality in [Causality::Parameter, Causality::Input, Causality::Output] {
-            assert_eq!(causality.settable_states() & !Function::SetReal.states(), 0);
+            assert_eq!(settable_states(causality) & !Function::SetReal.states(), 0);
         }
-        assert!(!Causality::Parameter.settable_in(State::StepComplete));
-        assert!(Causality::Input.settable_in(State::StepComplete));
+        assert!(settable_states(Causality::Parameter) & C == 0);
+        assert!(settable_states(Causality::Input) & C != 0);
     }
 
     #[test]

@@ -5,9 +5,8 @@ use std::io;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
-use super::lifecycle::Causality;
 use crate::scene::{Port, PortKind, Resolved, Scene};
-use crate::simulation::{Variable, variables};
+use crate::simulation::{Causality, Variable, variables};
 
 type Xml = Writer<Vec<u8>>;
 
@@ -85,7 +84,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::fmi2::example;
+    use crate::scene::example;
 
     #[test]
     fn ports_of_both_kinds_have_the_same_members() {

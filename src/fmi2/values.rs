@@ -3,9 +3,9 @@
 use std::mem::MaybeUninit;
 
 use super::instance::Instance;
-use super::lifecycle::{Causality, State};
+use super::lifecycle::{State, rule, settable_states};
 use super::status::Fault;
-use crate::simulation::Variable;
+use crate::simulation::{Causality, Variable};
 
 const REAL: &str = "Real";
 const INTEGER: &str = "Integer";
@@ -202,10 +202,10 @@ impl Instance {
     fn settable(&self, reference: u32, asked: &'static str) -> Result<&Variable, Fault> {
         let variable = self.variable(reference, asked)?;
         let causality = Causality::of(variable);
-        if causality.settable_in(self.state) {
+        if settable_states(causality) & self.state as u8 != 0 {
             return Ok(variable);
         }
-        let (name, reason, state) = (variable.name.clone(), causality.rule(), self.state.name());
+        let (name, reason, state) = (variable.name.clone(), rule(causality), self.state.name());
         Err(Fault::NotSettable {
             name,
             reason,
