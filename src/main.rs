@@ -1,4 +1,4 @@
-//! Floor 9. The headless runner: describes a scene for packaging, simulates it without FMI, and
+//! Floor 10. The headless runner: describes a scene for packaging, simulates it without FMI, and
 //! prints the schema of scenes.
 
 use std::fs;

@@ -1,6 +1,6 @@
 //! The page of a unit in the words of FMI 2.0.
 
-use super::logger::Category;
+use crate::fmi::Category;
 use crate::page::{self, Interface};
 use crate::scene::Scene;
 
