@@ -1,12 +1,11 @@
-//! Floor 8. What a run of the headless program writes: outputs, and what pictures are drawn from.
+//! Floor 10. What a run of the headless program writes: outputs, and what pictures are drawn from.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-use flexbody::fmi2::Causality;
 use flexbody::scene::{Body, Scene};
-use flexbody::simulation::Simulation;
+use flexbody::simulation::{Causality, Simulation};
 
 use crate::{Outcome, at};
 

@@ -12,13 +12,17 @@
 //! | 4 | [`integrators`] | time stepping with error control |
 //! | 5 | [`scene`] | JSON to a validated scene to a system |
 //! | 6 | [`simulation`] | a scene with parameters and inputs, stepped in time |
-//! | 7 | [`fmi2`] | model description, documentation and C interface |
+//! | 7 | [`page`] | drawing of a scene, and the page that comes with a unit |
+//! | 8 | [`fmi`] | what all versions of FMI share: instance, lifecycle, states, logger |
+//! | 9 | [`fmi2`] | model description and C interface of FMI 2.0 |
 
 pub mod body;
 pub mod elements;
+pub mod fmi;
 pub mod fmi2;
 pub mod integrators;
 pub mod math;
+pub mod page;
 pub mod scene;
 pub mod simulation;
 pub mod system;

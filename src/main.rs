@@ -1,4 +1,4 @@
-//! Floor 8. The headless runner: describes a scene for packaging, simulates it without FMI, and
+//! Floor 10. The headless runner: describes a scene for packaging, simulates it without FMI, and
 //! prints the schema of scenes.
 
 use std::fs;
@@ -9,9 +9,9 @@ use std::time::Duration;
 
 use clap::{Parser, Subcommand};
 use cpu_time::ThreadTime;
-use flexbody::fmi2::{self, Causality};
+use flexbody::fmi2;
 use flexbody::scene::{Scene, assemble};
-use flexbody::simulation::{Report, SignalError, Signals, Simulation};
+use flexbody::simulation::{Causality, Report, SignalError, Signals, Simulation};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use files::{Shapes, Sink, Table};

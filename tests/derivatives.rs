@@ -21,7 +21,7 @@ fn scenes() -> Vec<PathBuf> {
         .filter(|path| !path.to_string_lossy().contains("schema"))
         .collect();
     let others = [
-        "src/fmi2/example.json",
+        "src/scene/example.json",
         "tests/cases/coupled_mass/driven.json",
         "tests/cases/coupled_mass/scene.json",
         "tests/fmpy/mechanism.json",

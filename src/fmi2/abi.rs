@@ -1,8 +1,8 @@
-//! The C interface of FMI 2.0 for co-simulation: the only unsafe code beside [`Environment`].
+//! The C interface of FMI 2.0 for co-simulation.
 //!
 //! Every function does three things: it borrows what the master lends for the call, passes one
 //! guard (NULL instance, floating-point environment, lifecycle, panic), and leaves the work to safe
-//! code in the rest of this folder.
+//! code in `fmi/`.
 //!
 //! # Safety
 //! All functions rely on what the standard asks of a master: pointers are NULL or valid for the
@@ -16,23 +16,31 @@
     reason = "one contract for all, stated above"
 )]
 
-use std::ffi::{CStr, CString};
+use std::ffi::CString;
 use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
-use std::slice;
 use std::sync::atomic::{AtomicPtr, Ordering};
 
 use libc::{c_char, c_int, c_uint, c_void, size_t};
 
-use super::float::Environment;
-use super::instance::{Instance, Request};
+use super::instantiation::{Request, instantiate};
 use super::lifecycle::Function;
-use super::logger::{Logger, Sink};
-use super::state::SavedState;
-use super::status::Fault;
-pub use super::status::Status;
-use super::status::{CO_SIMULATION, LAST_SUCCESSFUL_TIME, TERMINATED};
+use crate::fmi::{
+    Environment, Fault, Instance, Logger, SavedState, Sink, Status, guard, lent, lent_mut, place,
+    saved, text,
+};
+
+/// `fmi2CoSimulation` of `fmi2Type`.
+const CO_SIMULATION: c_int = 1;
+/// `fmi2LastSuccessfulTime` of `fmi2StatusKind`.
+const LAST_SUCCESSFUL_TIME: c_int = 2;
+/// `fmi2Terminated` of `fmi2StatusKind`.
+const TERMINATED: c_int = 3;
+/// Why most statuses are not answered.
+const NO_STATUS: Fault = Fault::NoAnswer(
+    "this status exists only while a step runs in the background, which never happens here",
+);
 
 /// `fmi2Component`.
 pub type Component = *mut c_void;
@@ -62,71 +70,6 @@ pub struct CallbackFunctions {
     pub step_finished: Option<unsafe extern "C" fn(*mut c_void, Status)>,
     /// Passed back to the logger as it is.
     pub component_environment: *mut c_void,
-}
-
-/// The guard of every function on an instance.
-unsafe fn guard(
-    c: Component,
-    function: Function,
-    body: impl FnOnce(&mut Instance) -> Result<(), Fault>,
-) -> Status {
-    let _environment = Environment::standard();
-    // SAFETY: NULL, or an instance that no other call uses (module contract).
-    match unsafe { c.cast::<Instance>().as_mut() } {
-        Some(instance) => instance.call(function, body),
-        None => Status::Error,
-    }
-}
-
-/// Whether a pointer may stand for an array of `count` entries.
-fn usable<T>(data: *const T, count: usize) -> bool {
-    !data.is_null() && count <= isize::MAX as usize / size_of::<T>()
-}
-
-/// An array that the master lends for reading.
-unsafe fn lent<'a, T>(name: &'static str, data: *const T, count: usize) -> Result<&'a [T], Fault> {
-    match count {
-        0 => Ok(&[]),
-        _ if !usable(data, count) => Err(Fault::Pointer(name)),
-        // SAFETY: not NULL, and valid for `count` entries (module contract).
-        _ => Ok(unsafe { slice::from_raw_parts(data, count) }),
-    }
-}
-
-/// An array that the master lends for writing; nobody says that it holds values yet.
-unsafe fn lent_mut<'a, T>(
-    name: &'static str,
-    data: *mut T,
-    count: usize,
-) -> Result<&'a mut [MaybeUninit<T>], Fault> {
-    match count {
-        0 => Ok(&mut []),
-        _ if !usable(data, count) => Err(Fault::Pointer(name)),
-        // SAFETY: not NULL, and valid for `count` entries (module contract).
-        _ => Ok(unsafe { slice::from_raw_parts_mut(data.cast(), count) }),
-    }
-}
-
-/// A place that the master lends for one result.
-unsafe fn place<'a, T>(name: &'static str, data: *mut T) -> Result<&'a mut MaybeUninit<T>, Fault> {
-    // SAFETY: NULL, or valid for one value (module contract).
-    unsafe { data.cast::<MaybeUninit<T>>().as_mut() }.ok_or(Fault::Pointer(name))
-}
-
-/// A text that the master lends; `None` for NULL.
-unsafe fn text<'a>(name: &'static str, data: *const c_char) -> Result<Option<&'a str>, Fault> {
-    if data.is_null() {
-        return Ok(None);
-    }
-    // SAFETY: not NULL, and a C string (module contract).
-    let bytes = unsafe { CStr::from_ptr(data) };
-    bytes.to_str().map(Some).map_err(|_| Fault::Text(name))
-}
-
-/// A saved state that the master holds.
-unsafe fn saved<'a>(state: FmuState) -> Result<&'a SavedState, Fault> {
-    // SAFETY: NULL, or a state of this library (module contract).
-    unsafe { state.cast::<SavedState>().as_ref() }.ok_or(Fault::Pointer("FMUstate"))
 }
 
 /// The master's logger as a safe function.
@@ -167,7 +110,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
     loggingOn: c_int,
 ) -> Component {
     let _environment = Environment::standard();
-    let instantiate = || {
+    let made = || {
         // SAFETY: all are NULL or valid for the call (module contract); the callbacks are copied,
         // because they may be gone afterwards. Bytes that are not UTF-8 cannot be right anywhere
         // and are treated like a missing text.
@@ -184,10 +127,10 @@ pub unsafe extern "C" fn fmi2Instantiate(
                 guid: read("fmuGUID", fmuGUID).unwrap_or_default(),
                 location: text("fmuResourceLocation", fmuResourceLocation).unwrap_or(Some("")),
             };
-            Instance::instantiate(&request, Logger::new(sink?, loggingOn != 0))
+            instantiate(&request, Logger::new(sink?, loggingOn != 0))
         }
     };
-    match catch_unwind(instantiate) {
+    match catch_unwind(made) {
         Ok(Some(instance)) => Box::into_raw(Box::new(instance)).cast(),
         _ => ptr::null_mut(),
     }
@@ -215,7 +158,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 ) -> Status {
     // SAFETY: module contract, for all three.
     unsafe {
-        guard(c, Function::SetDebugLogging, |instance| {
+        guard(c, Function::SetDebugLogging.call(), |instance| {
             let category = |data: &*const c_char| {
                 text("categories", *data)?.ok_or(Fault::Pointer("categories"))
             };
@@ -241,7 +184,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     let stop = (stopTimeDefined != 0).then_some(stopTime);
     let body = |instance: &mut Instance| instance.set_up_experiment(tolerance, startTime, stop);
     // SAFETY: module contract.
-    unsafe { guard(c, Function::SetupExperiment, body) }
+    unsafe { guard(c, Function::SetupExperiment.call(), body) }
 }
 
 /// Functions that take nothing but the instance.
@@ -251,7 +194,7 @@ macro_rules! transitions {
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(c: Component) -> Status {
             // SAFETY: module contract.
-            unsafe { guard(c, Function::$function, $body) }
+            unsafe { guard(c, Function::$function.call(), $body) }
         }
     )*};
 }
@@ -279,7 +222,7 @@ macro_rules! accessors {
             // SAFETY: module contract, for both arrays and the instance.
             unsafe {
                 let (vr, value) = (lent("vr", vr, nvr), $lent("value", value, nvr));
-                guard(c, Function::$function, |instance| body(instance, vr?, value?))
+                guard(c, Function::$function.call(), |instance| body(instance, vr?, value?))
             }
         }
     )*};
@@ -306,7 +249,7 @@ accessors! {
 pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
     // SAFETY: module contract; `*FMUstate` is NULL or a state of this library, which is reused.
     unsafe {
-        guard(c, Function::GetFMUstate, |instance| {
+        guard(c, Function::GetFMUstate.call(), |instance| {
             let place = FMUstate.as_mut().ok_or(Fault::Pointer("FMUstate"))?;
             let state = instance.save();
             match place.cast::<SavedState>().as_mut() {
@@ -323,8 +266,8 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: Component, FMUstate: *mut FmuState) 
 pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SetFMUstate, |instance| {
-            instance.restore(saved(FMUstate)?)
+        guard(c, Function::SetFMUstate.call(), |instance| {
+            instance.restore(saved("FMUstate", FMUstate)?)
         })
     }
 }
@@ -334,7 +277,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: Component, FMUstate: FmuState) -> St
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: Component, FMUstate: *mut FmuState) -> Status {
     // SAFETY: module contract; a state was made by `Box::into_raw`, and NULL takes its place.
     unsafe {
-        guard(c, Function::FreeFMUstate, |_| {
+        guard(c, Function::FreeFMUstate.call(), |_| {
             if let Some(place) = FMUstate.as_mut()
                 && !place.is_null()
             {
@@ -355,8 +298,8 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SerializedFMUstateSize, |_| {
-            place("size", size)?.write(saved(FMUstate)?.size());
+        guard(c, Function::SerializedFMUstateSize.call(), |_| {
+            place("size", size)?.write(saved("FMUstate", FMUstate)?.size());
             Ok(())
         })
     }
@@ -372,9 +315,9 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 ) -> Status {
     // SAFETY: module contract.
     unsafe {
-        guard(c, Function::SerializeFMUstate, |_| {
+        guard(c, Function::SerializeFMUstate.call(), |_| {
             let target = lent_mut("serializedState", serializedState.cast::<u8>(), size)?;
-            saved(FMUstate)?.write_to(target)
+            saved("FMUstate", FMUstate)?.write_to(target)
         })
     }
 }
@@ -390,7 +333,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     // SAFETY: module contract. A state that `*FMUstate` already holds stays the master's to free:
     // the standard speaks of reuse only for `fmi2GetFMUstate`.
     unsafe {
-        guard(c, Function::DeSerializeFMUstate, |instance| {
+        guard(c, Function::DeSerializeFMUstate.call(), |instance| {
             let place = place("FMUstate", FMUstate)?;
             let bytes = lent("serializedState", serializedState.cast::<u8>(), size)?;
             place.write(Box::into_raw(Box::new(instance.deserialize(bytes)?)).cast());
@@ -412,7 +355,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> Status {
     // SAFETY: module contract, for all arrays and the instance.
     unsafe {
-        guard(c, Function::GetDirectionalDerivative, |instance| {
+        guard(c, Function::GetDirectionalDerivative.call(), |instance| {
             let unknowns = lent("vUnknown_ref", vUnknown_ref, nUnknown)?;
             let knowns = lent("vKnown_ref", vKnown_ref, nKnown)?;
             let seeds = lent("dvKnown", dvKnown, nKnown)?;
@@ -438,7 +381,7 @@ macro_rules! derivatives {
             unsafe {
                 let (vr, order) = (lent("vr", vr, nvr), lent("order", order, nvr));
                 let value = $lent("value", value, nvr);
-                guard(c, Function::$function, |instance| $body(instance, vr?, order?, value?))
+                guard(c, Function::$function.call(), |instance| $body(instance, vr?, order?, value?))
             }
         }
     )*};
@@ -462,7 +405,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     let (current, step) = (currentCommunicationPoint, communicationStepSize);
     let body = |instance: &mut Instance| instance.do_step(current, step);
     // SAFETY: module contract.
-    unsafe { guard(c, Function::DoStep, body) }
+    unsafe { guard(c, Function::DoStep.call(), body) }
 }
 
 /// Functions that ask for a status of one type.
@@ -474,9 +417,9 @@ macro_rules! statuses {
             let body: fn(&Instance, c_int) -> Option<$type> = $body;
             // SAFETY: module contract.
             unsafe {
-                guard(c, Function::$function, |instance| {
+                guard(c, Function::$function.call(), |instance| {
                     let value = place("value", value)?;
-                    value.write(body(instance, s).ok_or(Fault::NoSuchStatus)?);
+                    value.write(body(instance, s).ok_or(NO_STATUS)?);
                     Ok(())
                 })
             }

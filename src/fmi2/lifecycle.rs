@@ -1,63 +1,19 @@
-//! Which function may be called in which state, and which variable may be set: the tables of the
-//! standard (FMI 2.0.5, section 4.2.4) for a co-simulation unit that never runs a step in the
-//! background, so that `stepInProgress` and `stepCanceled` do not exist.
+//! Which function may be called in which state: the table of the standard (FMI 2.0.5, section 4.2.4) for a
+//! co-simulation unit that never runs a step in the background, so that `stepInProgress` and `stepCanceled` do not exist.
 
-use crate::simulation::{Source, Variable};
+use crate::fmi::{Call, State};
 
-/// State of an instance, one bit each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum State {
-    /// After `fmi2Instantiate` or `fmi2Reset`: parameters are set here.
-    Instantiated = 1,
-    /// Between `fmi2EnterInitializationMode` and `fmi2ExitInitializationMode`.
-    Initialization = 2,
-    /// At a communication point, ready for a step.
-    StepComplete = 4,
-    /// After a step that could be done only in part.
-    StepFailed = 8,
-    /// After `fmi2Terminate`.
-    Terminated = 16,
-    /// After a computation that failed; a saved state or `fmi2Reset` leads out.
-    Error = 32,
-    /// After `fmi2Instantiate` without resources: only a saved state, which brings its scene, leads out.
-    Bare = 64,
-    /// After a defect of the library; nothing leads out.
-    Fatal = 128,
-}
-
-impl State {
-    /// All states.
-    pub const ALL: [Self; 8] = [
-        Self::Instantiated,
-        Self::Initialization,
-        Self::StepComplete,
-        Self::StepFailed,
-        Self::Terminated,
-        Self::Error,
-        Self::Bare,
-        Self::Fatal,
-    ];
-
-    /// Name for messages, as in the standard.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Instantiated => "instantiated",
-            Self::Initialization => "initializationMode",
-            Self::StepComplete => "stepComplete",
-            Self::StepFailed => "stepFailed",
-            Self::Terminated => "terminated",
-            Self::Error => "error",
-            Self::Bare => {
-                "instantiated without fmuResourceLocation (only a saved state can follow)"
-            }
-            Self::Fatal => "fatal",
-        }
-    }
-
-    /// The state with this bit.
-    pub fn from_bit(bit: u8) -> Option<Self> {
-        Self::ALL.into_iter().find(|state| *state as u8 == bit)
+/// Name of a state for messages, as in the standard.
+pub fn state_name(state: State) -> &'static str {
+    match state {
+        State::Instantiated => "instantiated",
+        State::Initialization => "initializationMode",
+        State::StepComplete => "stepComplete",
+        State::StepFailed => "stepFailed",
+        State::Terminated => "terminated",
+        State::Error => "error",
+        State::Bare => "instantiated without fmuResourceLocation (only a saved state can follow)",
+        State::Fatal => "fatal",
     }
 }
 
@@ -87,14 +43,11 @@ macro_rules! functions {
             /// All functions.
             pub const ALL: &[Self] = &[$(Self::$name,)*];
 
-            /// Name in the standard.
-            pub fn name(self) -> &'static str {
-                match self { $(Self::$name => concat!("fmi2", stringify!($name)),)* }
-            }
-
-            /// Bits of the states in which the function may be called.
-            pub fn states(self) -> u8 {
-                match self { $(Self::$name => $states,)* }
+            /// Its name, and the states in which it may be called.
+            pub fn call(self) -> Call {
+                match self {
+                    $(Self::$name => Call { name: concat!("fmi2", stringify!($name)), states: $states },)*
+                }
             }
         }
     };
@@ -134,70 +87,22 @@ functions! {
 }
 
 impl Function {
+    /// Name in the standard.
+    pub fn name(self) -> &'static str {
+        self.call().name
+    }
+
     /// Whether the function may be called in `state`.
     pub fn allowed_in(self, state: State) -> bool {
-        self.states() & state as u8 != 0
-    }
-}
-
-/// Causality of a variable: what the XML states and what decides when it may be set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Causality {
-    /// Time.
-    Independent,
-    /// Fixed when initialization ends.
-    Parameter,
-    /// Set by the master at every communication point.
-    Input,
-    /// Read by the master.
-    Output,
-    /// Follows from parameters.
-    CalculatedParameter,
-}
-
-impl Causality {
-    /// The causality of a variable.
-    pub fn of(variable: &Variable) -> Self {
-        match variable.source {
-            Source::Time => Self::Independent,
-            Source::Parameter(_) => Self::Parameter,
-            Source::Input(..) => Self::Input,
-            Source::Output(_) => Self::Output,
-            Source::NaturalFrequency(_) | Source::Eigenvalue(..) => Self::CalculatedParameter,
-        }
-    }
-
-    /// States in which a variable may be set. Inputs are open before initialization too: the
-    /// standard's table leaves them out there, yet masters, FMPy among them, set their start
-    /// values at that moment, and refusing would help nobody.
-    pub fn settable_states(self) -> u8 {
-        match self {
-            Self::Parameter => I | M,
-            Self::Input => I | M | C,
-            Self::Independent | Self::Output | Self::CalculatedParameter => 0,
-        }
-    }
-
-    /// Whether a variable may be set in `state`.
-    pub fn settable_in(self, state: State) -> bool {
-        self.settable_states() & state as u8 != 0
-    }
-
-    /// When a variable may be set, for messages.
-    pub fn rule(self) -> &'static str {
-        match self {
-            Self::Parameter => "a parameter may be set until initialization ends",
-            Self::Input => "an input may be set until the unit is terminated",
-            Self::Independent => "time may not be set",
-            Self::Output => "an output may not be set",
-            Self::CalculatedParameter => "a calculated parameter may not be set",
-        }
+        self.call().allowed_in(state)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fmi::settable_states;
+    use crate::simulation::Causality;
 
     #[test]
     fn nothing_is_allowed_after_a_fatal_error() {
@@ -234,18 +139,12 @@ mod tests {
     #[test]
     fn setting_needs_a_state_in_which_the_function_is_allowed() {
         for causality in [Causality::Parameter, Causality::Input, Causality::Output] {
-            assert_eq!(causality.settable_states() & !Function::SetReal.states(), 0);
+            assert_eq!(
+                settable_states(causality) & !Function::SetReal.call().states,
+                0
+            );
         }
-        assert!(!Causality::Parameter.settable_in(State::StepComplete));
-        assert!(Causality::Input.settable_in(State::StepComplete));
-    }
-
-    #[test]
-    fn a_state_survives_as_its_bit() {
-        for state in State::ALL {
-            assert_eq!(State::from_bit(state as u8), Some(state));
-        }
-        assert_eq!(State::from_bit(0), None);
-        assert_eq!(State::from_bit(3), None);
+        assert!(settable_states(Causality::Parameter) & C == 0);
+        assert!(settable_states(Causality::Input) & C != 0);
     }
 }

@@ -1,11 +1,6 @@
-//! `fmuResourceLocation`: from the URI that a master passes to a directory, and to the text of a file in it.
+//! `fmuResourceLocation`: from the URI that a master passes to a directory.
 
-use std::fs::{File, metadata};
-use std::io::{self, Read};
-use std::path::{Path, PathBuf};
-
-/// Largest file that is read, bytes: room for a million numbers in tables.
-const MOST_BYTES: u64 = 1 << 26;
+use std::path::PathBuf;
 
 /// What is wrong with a resource location.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -44,35 +39,6 @@ pub fn directory(uri: &str) -> Result<PathBuf, LocationError> {
     };
     let path = decode(path).ok_or_else(|| LocationError::Encoding(uri.into()))?;
     Ok(PathBuf::from(local(&path)))
-}
-
-/// The text of a regular file of bounded size. Anything else might never end: it is refused unopened.
-///
-/// # Errors
-/// What the operating system says; no regular file, one that is too large, or bytes that are not UTF-8.
-pub fn text(path: &Path) -> io::Result<String> {
-    let refused = |found: &str| {
-        let message =
-            format!("expected a regular file of at most {MOST_BYTES} bytes, found {found}");
-        Err(io::Error::new(io::ErrorKind::InvalidData, message))
-    };
-    let status = metadata(path)?;
-    if status.is_dir() {
-        return refused("a folder");
-    }
-    if !status.is_file() {
-        return refused("a device or a pipe");
-    }
-    let mut text = String::new();
-    // It may grow while it is read.
-    if status.len() <= MOST_BYTES {
-        let mut file = File::open(path)?.take(MOST_BYTES + 1);
-        file.read_to_string(&mut text)?;
-    }
-    match status.len().max(text.len() as u64) {
-        length if length > MOST_BYTES => refused(&format!("{length}")),
-        _ => Ok(text),
-    }
 }
 
 /// The path without the slash that a URI puts before a Windows drive letter.

@@ -2,57 +2,29 @@
 
 use std::io;
 
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, Event};
-
-use super::MODEL_IDENTIFIER;
-use super::guid::guid;
-use super::lifecycle::Causality;
-use super::logger::Category;
-use super::number::number;
-use crate::scene::{ELEMENTS, Scene, TOLERANCE};
-use crate::simulation::{Parameter, Source, Unit, Variable, variables};
-
-type Xml = Writer<Vec<u8>>;
-
-/// The terms of the library in every unit, and where it says more.
-const LICENSE: &str = concat!(
-    "library: ",
-    env!("CARGO_PKG_LICENSE"),
-    ", see documentation/licenses"
-);
+use crate::fmi::xml::{
+    TOOL, Xml, about, default_experiment, document, kind, log_categories, units,
+};
+use crate::fmi::{MODEL_IDENTIFIER, guid};
+use crate::page::number;
+use crate::scene::Scene;
+use crate::simulation::{Causality, Variable, variables};
 
 /// The model description of a scene. No date, no path: the same scene gives the same bytes.
 pub fn model_description(scene: &Scene) -> String {
-    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    write_all(&mut xml, scene).expect("writing into memory cannot fail");
-    let mut bytes = xml.into_inner();
-    bytes.push(b'\n');
-    String::from_utf8(bytes).expect("written from texts")
+    document(|xml| write_all(xml, scene))
 }
 
 fn write_all(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     let variables = variables(scene);
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let guid = guid(scene, &variables);
-    // What a model says of itself goes before what holds of every one.
-    let own = scene.about.texts().map(|(key, text)| match key {
-        "license" => (key, format!("{text}; {LICENSE}")),
-        _ => (key, text.to_owned()),
-    });
-    let mut about: Vec<(&str, String)> = own.collect();
-    if scene.about.license.is_none() {
-        about.push(("license", LICENSE.into()));
-    }
+    let about = about(scene);
     xml.create_element("fmiModelDescription")
         .with_attribute(("fmiVersion", "2.0"))
         .with_attribute(("modelName", scene.name.as_str()))
         .with_attribute(("guid", guid.as_str()))
         .with_attributes(about.iter().map(|(key, text)| (*key, text.as_str())))
-        .with_attribute((
-            "generationTool",
-            concat!("Flexbody ", env!("CARGO_PKG_VERSION")),
-        ))
+        .with_attribute(("generationTool", TOOL))
         .with_attribute(("variableNamingConvention", "structured"))
         .write_inner_content(|xml| {
             co_simulation(xml)?;
@@ -82,66 +54,6 @@ fn co_simulation(xml: &mut Xml) -> io::Result<()> {
     ];
     xml.create_element("CoSimulation")
         .with_attributes(flags)
-        .write_empty()?;
-    Ok(())
-}
-
-fn units(xml: &mut Xml, variables: &[Variable]) -> io::Result<()> {
-    let mut used: Vec<Unit> = Vec::new();
-    for unit in variables.iter().filter_map(|variable| variable.unit) {
-        if !used.contains(&unit) {
-            used.push(unit);
-        }
-    }
-    xml.create_element("UnitDefinitions")
-        .write_inner_content(|xml| used.iter().try_for_each(|unit| write_unit(xml, unit)))?;
-    Ok(())
-}
-
-fn write_unit(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
-    let bases = ["kg", "m", "s", "rad"].into_iter().zip(unit.exponents);
-    let exponents: Vec<(&str, String)> = bases
-        .filter(|(_, exponent)| *exponent != 0)
-        .map(|(base, exponent)| (base, exponent.to_string()))
-        .collect();
-    let attributes = exponents
-        .iter()
-        .map(|(base, exponent)| (*base, exponent.as_str()));
-    xml.create_element("Unit")
-        .with_attribute(("name", unit.name))
-        .write_inner_content(|xml| {
-            xml.create_element("BaseUnit")
-                .with_attributes(attributes)
-                .write_empty()?;
-            Ok(())
-        })?;
-    Ok(())
-}
-
-fn log_categories(xml: &mut Xml) -> io::Result<()> {
-    xml.create_element("LogCategories")
-        .write_inner_content(|xml| {
-            for category in Category::ALL {
-                xml.create_element("Category")
-                    .with_attribute(("name", category.name().to_str().unwrap_or_default()))
-                    .with_attribute(("description", category.description()))
-                    .write_empty()?;
-            }
-            Ok(())
-        })?;
-    Ok(())
-}
-
-fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
-    let values = [
-        ("startTime", 0.0),
-        ("stopTime", scene.experiment.stop_time),
-        ("tolerance", scene.relative_tolerance()),
-        ("stepSize", scene.experiment.step),
-    ];
-    let texts = values.map(|(name, value)| (name, number(value)));
-    xml.create_element("DefaultExperiment")
-        .with_attributes(texts.iter().map(|(name, text)| (*name, text.as_str())))
         .write_empty()?;
     Ok(())
 }
@@ -183,7 +95,7 @@ fn write_type(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     if let Some(unit) = variable.unit {
         element = element.with_attribute(("unit", unit.name));
     }
-    let (min, max) = limits(variable);
+    let (min, max) = variable.limits();
     for (name, value) in [("min", min), ("max", max), ("start", variable.start)] {
         if let Some(value) = value {
             element = element.with_attribute((name, number(value).as_str()));
@@ -191,34 +103,6 @@ fn write_type(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     }
     element.write_empty()?;
     Ok(())
-}
-
-/// Causality, variability and initial of a variable.
-fn kind(variable: &Variable) -> (&'static str, &'static str, Option<&'static str>) {
-    match Causality::of(variable) {
-        Causality::Independent => ("independent", "continuous", None),
-        Causality::Parameter => ("parameter", "fixed", Some("exact")),
-        Causality::Input => ("input", "continuous", None),
-        Causality::Output => ("output", "continuous", Some("calculated")),
-        Causality::CalculatedParameter => ("calculatedParameter", "fixed", Some("calculated")),
-    }
-}
-
-/// Least and greatest value of a parameter, as far as the XML can say it: where zero itself is
-/// refused, setting the parameter says so.
-pub(super) fn limits(variable: &Variable) -> (Option<f64>, Option<f64>) {
-    let Source::Parameter(parameter) = variable.source else {
-        return (None, None);
-    };
-    match parameter {
-        Parameter::Gravity(_) | Parameter::Rotation => (None, None),
-        Parameter::Elements(_) => (
-            Some(f64::from(*ELEMENTS.start())),
-            Some(f64::from(*ELEMENTS.end())),
-        ),
-        Parameter::RelativeTolerance => (Some(*TOLERANCE.start()), Some(*TOLERANCE.end())),
-        _ => (Some(0.0), None),
-    }
 }
 
 /// Outputs with what they depend on: state-like ones on no input, so that masters see no loop
@@ -281,7 +165,7 @@ fn list(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fmi2::example;
+    use crate::scene::example;
 
     #[test]
     fn the_same_scene_gives_the_same_bytes() {
@@ -322,16 +206,6 @@ mod tests {
                 reference + 1
             );
             assert!(text.contains(&line), "{}: {line}", variable.name);
-        }
-    }
-
-    #[test]
-    fn limits_admit_every_start_value() {
-        for variable in variables(&example()) {
-            let (min, max) = limits(&variable);
-            let start = variable.start.unwrap_or(0.0);
-            assert!(min.is_none_or(|min| min <= start), "{}", variable.name);
-            assert!(max.is_none_or(|max| start <= max), "{}", variable.name);
         }
     }
 }

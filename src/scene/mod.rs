@@ -32,6 +32,12 @@ pub use resolved::{
 pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};
 
+/// A scene with something of everything, for the tests of the floors above.
+#[cfg(test)]
+pub fn example() -> Scene {
+    Scene::from_json(include_str!("example.json")).expect("a valid scene")
+}
+
 /// What is wrong with a scene, and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{path}: {message}")]

@@ -16,7 +16,7 @@ mod watch;
 
 pub use signals::{SignalError, Signals};
 pub use snapshot::{Snapshot, Spectra};
-pub use variables::{Parameter, Quantity, Source, Unit, Variable, variables};
+pub use variables::{Causality, Parameter, Quantity, Source, Unit, Variable, variables};
 
 use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;

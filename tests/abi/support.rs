@@ -8,8 +8,8 @@ use std::ptr;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+pub use flexbody::fmi::{State, Status};
 use flexbody::fmi2::abi::{CallbackFunctions, Component, FmuState, LoggerCallback};
-pub use flexbody::fmi2::{State, Status};
 use flexbody::scene::Scene;
 use flexbody::simulation::{Variable, variables};
 
@@ -54,7 +54,7 @@ impl Unit {
     pub fn at(folder: PathBuf, scene: &str) -> Self {
         let scene = Scene::from_json(scene).expect("a valid scene");
         let variables = variables(&scene);
-        let guid = flexbody::fmi2::guid(&scene, &variables);
+        let guid = flexbody::fmi::guid(&scene, &variables);
         let location = format!("file://{}", folder.display());
         Self {
             folder,

@@ -4,8 +4,8 @@ use std::ffi::CString;
 use std::path::PathBuf;
 use std::ptr;
 
+use flexbody::fmi::{Status, guid};
 use flexbody::fmi2::abi::{self, CallbackFunctions, Component, FmuState};
-use flexbody::fmi2::{Status, guid};
 use flexbody::scene::Scene;
 use flexbody::simulation::{Source, variables};
 

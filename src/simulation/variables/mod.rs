@@ -1,6 +1,7 @@
 //! The one list of variables that a scene gives rise to. A variable's index is its FMI value
 //! reference; the XML, get and set, axis labels, the GUID and the documentation derive from it.
 
+mod causality;
 mod inputs;
 mod outputs;
 mod parameters;
@@ -8,6 +9,7 @@ mod parameters;
 mod tests;
 mod unit;
 
+pub use causality::Causality;
 pub(super) use outputs::sets_springs;
 pub use unit::Unit;
 

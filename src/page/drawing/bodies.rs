@@ -1,7 +1,7 @@
 //! Bodies, their markers and masses.
 
-use super::{BODY, INK, INSIDE, Picture};
-use crate::fmi2::canvas::{Point, Style};
+use super::picture::{BODY, INK, INSIDE, Picture};
+use crate::page::canvas::{Point, Style};
 use crate::scene::{BodyReference, Cable, CableBody, RigidBody};
 
 /// Parts of the polyline that stands for a cable.

@@ -1,8 +1,7 @@
 //! Joints, motions, loads, ports and masses of a scene in words, as tables of the documentation.
 
-use super::canvas::escape;
-use super::documentation::{row, table};
 use super::number::number;
+use super::table::{code, row, table};
 use crate::scene::{
     Action, Ends, First, Joint, JointKind, Load, LoadKind, Motion, MotionKind, Port, PortKind,
     Scene, Turning, Value,
@@ -105,10 +104,6 @@ fn crosses(port: &Port<'_>) -> String {
             )
         }
     }
-}
-
-fn code(text: &str) -> String {
-    format!("<code>{}</code>", escape(text))
 }
 
 fn ends_in_words(ends: &Ends<'_>) -> String {

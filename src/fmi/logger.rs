@@ -67,7 +67,7 @@ impl Logger {
         Self { sink, enabled }
     }
 
-    /// `fmi2SetDebugLogging`: only the named categories, all when none is named, none when off.
+    /// Enables only the named categories, all when none is named, none when off.
     ///
     /// # Errors
     /// An unknown category; nothing changes then.
@@ -101,7 +101,7 @@ impl Logger {
         }
     }
 
-    /// Passes a message on even when logging is off: only for a failed `fmi2Instantiate`, for
+    /// Passes a message on even when logging is off: only where no instance could be made, for
     /// which the standard promises the reason.
     pub fn report(&self, status: Status, category: Category, message: fmt::Arguments<'_>) {
         let Some(sink) = &self.sink else { return };

@@ -1,8 +1,8 @@
 //! Loads and inputs: what acts, where and which way.
 
-use super::Picture;
-use crate::fmi2::canvas::{Point, direction, moved};
-use crate::fmi2::symbols;
+use super::picture::Picture;
+use crate::page::canvas::{Point, direction, moved};
+use crate::page::symbols;
 use crate::scene::{Action as Kind, Cable, InputKind, LoadKind, Marker, PortKind, Resolved};
 use crate::system::Signal;
 

@@ -2,14 +2,8 @@
 
 use crate::simulation::{self, StepFailure};
 
-/// `fmi2CoSimulation` of `fmi2Type`.
-pub(super) const CO_SIMULATION: i32 = 1;
-/// `fmi2LastSuccessfulTime` of `fmi2StatusKind`.
-pub(super) const LAST_SUCCESSFUL_TIME: i32 = 2;
-/// `fmi2Terminated` of `fmi2StatusKind`.
-pub(super) const TERMINATED: i32 = 3;
-
-/// `fmi2Status`.
+/// Status of a call, with the numbers that FMI 2.0 and 3.0 give to it. Another one of 2.0, `fmi2Pending`, is never
+/// answered, because no step runs in the background.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub enum Status {
@@ -23,8 +17,6 @@ pub enum Status {
     Error,
     /// The instance is of no more use.
     Fatal,
-    /// Still computing; never answered, because no step runs in the background.
-    Pending,
 }
 
 /// Why a call was not answered with [`Status::Ok`].
@@ -93,12 +85,14 @@ pub enum Fault {
         found: f64,
     },
     /// A step past the stop time.
-    #[error("the step would end at {until}, past the stop time {stop} of fmi2SetupExperiment")]
+    #[error("the step would end at {until}, past the stop time {stop} of {experiment}")]
     StopTime {
         /// End of the step.
         until: f64,
         /// Stop time.
         stop: f64,
+        /// The function that it was given to.
+        experiment: &'static str,
     },
     /// A category that the model description does not list.
     #[error(
@@ -108,11 +102,9 @@ pub enum Fault {
     /// Derivatives that are not to be had now.
     #[error("{0}")]
     NotNow(&'static str),
-    /// A status that cannot be asked for, because no step runs in the background.
-    #[error(
-        "this status exists only while a step runs in the background, which never happens here"
-    )]
-    NoSuchStatus,
+    /// A question that has no answer.
+    #[error("{0}")]
+    NoAnswer(&'static str),
     /// A saved state that cannot be used.
     #[error("saved state: {0}")]
     SavedState(String),
@@ -132,7 +124,7 @@ impl Fault {
     pub fn status(&self) -> Status {
         match self {
             Self::Remark(_) => Status::Warning,
-            Self::Step(_) | Self::NoSuchStatus => Status::Discard,
+            Self::Step(_) | Self::NoAnswer(_) => Status::Discard,
             _ => Status::Error,
         }
     }

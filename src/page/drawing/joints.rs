@@ -1,8 +1,8 @@
 //! Joints, springs, driven motions, and ports that motions come into.
 
-use super::{Picture, Place};
-use crate::fmi2::canvas::{Point, direction, moved};
-use crate::fmi2::symbols;
+use super::picture::{Picture, Place};
+use crate::page::canvas::{Point, direction, moved};
+use crate::page::symbols;
 use crate::scene::{Ends, Joint, JointKind, LoadKind, MotionKind, Place as On, PortKind};
 
 /// The way out of a body at a marker: at the first half of a cable backwards.

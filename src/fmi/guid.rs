@@ -36,7 +36,7 @@ pub fn guid(scene: &Scene, variables: &[Variable]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fmi2::example;
+    use crate::scene::example;
     use crate::simulation::variables;
 
     #[test]

@@ -2,9 +2,9 @@
 
 use super::actions::actions;
 use super::bodies::rigid_outline;
-use super::{BODY, FAINT, INK, Picture};
-use crate::fmi2::canvas::{LINE, Point, direction, moved};
-use crate::fmi2::symbols;
+use super::picture::{BODY, FAINT, INK, Picture};
+use crate::page::canvas::{LINE, Point, direction, moved};
+use crate::page::symbols;
 use crate::scene::{
     Action as Kind, BodyReference, CableBody, Ends, JointKind, LoadKind, Place as On, PortKind,
     RigidBody,

@@ -1,17 +1,17 @@
-//! An instance of the unit: what the functions of the standard do, in safe code.
+//! An instance of the unit: what the functions of a standard do, in safe code.
 
 use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::fmt::Display;
+use std::panic::{AssertUnwindSafe, UnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use super::guid::guid;
-use super::lifecycle::{Function, State};
-use super::location::{LocationError, directory, text};
+use super::lifecycle::{Call, State};
 use super::logger::{Category, Logger};
+use super::names::Names;
 use super::state::SavedState;
 use super::status::{Fault, Status};
-use crate::scene::{self, Scene};
+use crate::scene::Scene;
 use crate::simulation::{self, Simulation};
 
 /// Relative difference up to which two times are the same; masters add up their time in many ways.
@@ -27,6 +27,7 @@ const LIBRARY: &str = concat!(
 
 /// One simulated scene in the hands of a master.
 pub struct Instance {
+    pub(super) names: &'static Names,
     pub(super) logger: Logger,
     pub(super) simulation: Simulation,
     pub(super) state: State,
@@ -45,98 +46,31 @@ const _: () = {
     may_move_between_threads::<Instance>();
 };
 
-/// Arguments of `fmi2Instantiate`.
-pub struct Request<'a> {
-    /// Name of the instance.
-    pub name: &'a str,
-    /// Whether the master asks for co-simulation.
-    pub co_simulation: bool,
-    /// GUID of the model description that the master has read.
-    pub guid: &'a str,
-    /// URI of the directory `resources`; none where a saved state will bring the scene.
-    pub location: Option<&'a str>,
-}
-
-/// Why an instance could not be made.
-#[derive(Debug, thiserror::Error)]
-pub enum Refusal {
-    /// An argument that must be given.
-    #[error("{0}: expected a text that is not empty")]
-    Missing(&'static str),
-    /// Model exchange.
-    #[error("fmuType: expected fmi2CoSimulation, the only kind that this unit offers")]
-    Kind,
-    /// A bad resource location.
-    #[error(transparent)]
-    Location(#[from] LocationError),
-    /// A scene file that cannot be read.
-    #[error("{path}: {error}", path = path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// What the operating system says.
-        error: std::io::Error,
-    },
-    /// A bad scene.
-    #[error("{path}: {error}", path = path.display())]
-    Scene {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        error: scene::Error,
-    },
-    /// A description of another model.
-    #[error("fmuGUID: expected {expected}, which resources/scene.json stands for, found {found}")]
-    Guid {
-        /// GUID of the scene.
-        expected: String,
-        /// GUID that the master stated.
-        found: String,
-    },
-}
-
 impl Instance {
-    /// `fmi2Instantiate`. A refusal is logged even when logging is off.
-    pub fn instantiate(request: &Request<'_>, logger: Logger) -> Option<Self> {
-        let reason = match catch_unwind(|| Self::build(request)) {
-            Ok(Ok(simulation)) => return Some(Self::new(simulation, request, logger)),
+    /// An instance of the simulation that `open` finds, or of one that a saved state will bring. A refusal is
+    /// logged even when logging is off.
+    pub fn instantiate<E: Display>(
+        names: &'static Names,
+        token: &str,
+        logger: Logger,
+        open: impl FnOnce() -> Result<Option<Simulation>, E> + UnwindSafe,
+    ) -> Option<Self> {
+        let reason = match catch_unwind(open) {
+            Ok(Ok(simulation)) => return Some(Self::new(names, token, logger, simulation)),
             Ok(Err(refusal)) => refusal.to_string(),
             Err(panic) => format!("defect of the library: {}", words(&*panic)),
         };
-        let message = format_args!("fmi2Instantiate: {reason}");
+        let message = format_args!("{}: {reason}", names.instantiate);
         logger.report(Status::Error, Category::Error, message);
         None
     }
 
-    fn build(request: &Request<'_>) -> Result<Option<Simulation>, Refusal> {
-        if request.name.trim().is_empty() {
-            return Err(Refusal::Missing("instanceName"));
-        }
-        if !request.co_simulation {
-            return Err(Refusal::Kind);
-        }
-        if request.guid.is_empty() {
-            return Err(Refusal::Missing("fmuGUID"));
-        }
-        let Some(location) = request.location else {
-            return Ok(None);
-        };
-        let path = directory(location)?.join("scene.json");
-        let text = text(&path).map_err(|error| Refusal::Unreadable {
-            path: path.clone(),
-            error,
-        })?;
-        let scene = Scene::from_json(&text).map_err(|error| Refusal::Scene { path, error })?;
-        let simulation = Simulation::new(scene);
-        let expected = guid(simulation.scene(), simulation.variables());
-        if request.guid != expected {
-            let found = request.guid.into();
-            return Err(Refusal::Guid { expected, found });
-        }
-        Ok(Some(simulation))
-    }
-
-    fn new(simulation: Option<Simulation>, request: &Request<'_>, logger: Logger) -> Self {
+    fn new(
+        names: &'static Names,
+        token: &str,
+        logger: Logger,
+        simulation: Option<Simulation>,
+    ) -> Self {
         let state = match &simulation {
             Some(simulation) => {
                 let name = &simulation.scene().name;
@@ -155,12 +89,13 @@ impl Instance {
         // A set call names few variables twice: it allocates nothing.
         let before = Vec::with_capacity(simulation.variables().len());
         Self {
+            names,
             logger,
             scene: simulation.scene().to_json().into(),
             simulation,
             state,
             before,
-            guid: request.guid.into(),
+            guid: token.into(),
             start_time: 0.0,
             stop_time: None,
         }
@@ -169,15 +104,15 @@ impl Instance {
     /// The guard around every function: lifecycle, then the panic boundary.
     pub fn call(
         &mut self,
-        function: Function,
+        call: Call,
         body: impl FnOnce(&mut Self) -> Result<(), Fault>,
     ) -> Status {
         if self.state == State::Fatal {
             return Status::Fatal;
         }
-        let name = function.name();
-        if !function.allowed_in(self.state) {
-            let state = self.state.name();
+        let name = call.name;
+        if !call.allowed_in(self.state) {
+            let state = (self.names.state)(self.state);
             let message = format_args!("{name}: not allowed in state {state}");
             self.logger.log(Status::Error, Category::Error, message);
             return Status::Error;
@@ -198,8 +133,8 @@ impl Instance {
         }
     }
 
-    /// `fmi2SetupExperiment`.
-    pub(super) fn set_up_experiment(
+    /// Keeps what holds for the whole run.
+    pub fn set_up_experiment(
         &mut self,
         tolerance: Option<f64>,
         start_time: f64,
@@ -224,14 +159,14 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2EnterInitializationMode`.
-    pub(super) fn enter_initialization_mode(&mut self) -> Result<(), Fault> {
+    /// From here on values exist.
+    pub fn enter_initialization_mode(&mut self) -> Result<(), Fault> {
         let outcome = self.simulation.initialize(self.start_time);
         self.passed_on(outcome, State::Initialization)
     }
 
-    /// `fmi2ExitInitializationMode`.
-    pub(super) fn exit_initialization_mode(&mut self) -> Result<(), Fault> {
+    /// To the first communication point.
+    pub fn exit_initialization_mode(&mut self) -> Result<(), Fault> {
         let outcome = self.simulation.start();
         self.passed_on(outcome, State::StepComplete)?;
         let time = self.simulation.time();
@@ -266,16 +201,16 @@ impl Instance {
         outcome.map_err(Fault::from)
     }
 
-    /// `fmi2Terminate`.
-    pub(super) fn terminate(&mut self) -> Result<(), Fault> {
+    /// To the end.
+    pub fn terminate(&mut self) -> Result<(), Fault> {
         self.state = State::Terminated;
         let time = self.simulation.time();
         self.log_event(format_args!("terminated at time {time} s"));
         Ok(())
     }
 
-    /// `fmi2Reset`.
-    pub(super) fn reset(&mut self) -> Result<(), Fault> {
+    /// Back to a life as new.
+    pub fn reset(&mut self) -> Result<(), Fault> {
         self.simulation = Simulation::new(self.simulation.scene().clone());
         self.state = State::Instantiated;
         self.start_time = 0.0;
@@ -284,8 +219,8 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2DoStep`.
-    pub(super) fn do_step(&mut self, current: f64, step: f64) -> Result<(), Fault> {
+    /// To the next communication point.
+    pub fn do_step(&mut self, current: f64, step: f64) -> Result<(), Fault> {
         let until = self.end_of_step(current, step)?;
         let outcome = self.simulation.step(until);
         let report = self.simulation.report();
@@ -340,19 +275,24 @@ impl Instance {
         }
         match self.stop_time {
             Some(stop) if until > stop && !same_time(until, stop, step) => {
-                Err(Fault::StopTime { until, stop })
+                let experiment = self.names.experiment;
+                Err(Fault::StopTime {
+                    until,
+                    stop,
+                    experiment,
+                })
             }
             _ => Ok(until),
         }
     }
 
-    /// `fmi2GetRealStatus(fmi2LastSuccessfulTime)`.
-    pub(super) fn last_successful_time(&self) -> f64 {
+    /// Where the last step ended.
+    pub fn last_successful_time(&self) -> f64 {
         self.simulation.time()
     }
 
-    /// `fmi2GetFMUstate`.
-    pub(super) fn save(&self) -> SavedState {
+    /// All that the instance is.
+    pub fn save(&self) -> SavedState {
         SavedState {
             guid: self.guid.clone(),
             scene: self.scene.clone(),
@@ -363,8 +303,8 @@ impl Instance {
         }
     }
 
-    /// `fmi2SetFMUstate`.
-    pub(super) fn restore(&mut self, saved: &SavedState) -> Result<(), Fault> {
+    /// Goes on from a saved state.
+    pub fn restore(&mut self, saved: &SavedState) -> Result<(), Fault> {
         if saved.guid != self.guid {
             let reason = format!(
                 "expected one of the model {}, found {}",
@@ -402,13 +342,13 @@ impl Instance {
         Ok(simulation)
     }
 
-    /// `fmi2DeSerializeFMUstate`.
-    pub(super) fn deserialize(&self, bytes: &[u8]) -> Result<SavedState, Fault> {
+    /// A saved state from its bytes.
+    pub fn deserialize(&self, bytes: &[u8]) -> Result<SavedState, Fault> {
         SavedState::from_bytes(bytes, &self.guid)
     }
 
-    /// `fmi2SetDebugLogging`.
-    pub(super) fn set_debug_logging<'a>(
+    /// Chooses what is logged.
+    pub fn set_debug_logging<'a>(
         &mut self,
         on: bool,
         categories: impl Iterator<Item = Result<&'a str, Fault>>,
@@ -450,22 +390,32 @@ fn words(panic: &(dyn Any + Send)) -> &str {
 mod tests {
     use super::*;
 
+    static NAMES: Names = Names {
+        instantiate: "instantiate",
+        token: "token",
+        experiment: "experiment",
+        seeds: "seeds",
+        real: "real",
+        integer: "integer",
+        state: |_| "state",
+    };
+
     #[test]
     fn after_a_panic_the_instance_answers_fatal_for_ever() {
-        let simulation = Simulation::new(crate::fmi2::example());
-        let request = Request {
-            name: "panics",
-            co_simulation: true,
-            guid: "{0}",
-            location: None,
-        };
+        let simulation = Simulation::new(crate::scene::example());
         let logger = Logger::new(None, false);
-        let mut instance = Instance::new(Some(simulation), &request, logger);
-        let panicked = instance.call(Function::SetReal, |_| panic!("planted"));
+        let mut instance = Instance::new(&NAMES, "{0}", logger, Some(simulation));
+        let call = |states| Call {
+            name: "call",
+            states,
+        };
+        let panicked = instance.call(call(State::Instantiated as u8), |_| panic!("planted"));
         assert_eq!(panicked, Status::Fatal);
-        for function in Function::ALL {
-            let answer = instance.call(*function, |_| unreachable!("the body of a poisoned call"));
-            assert_eq!(answer, Status::Fatal, "{}", function.name());
+        for states in 0..=u8::MAX {
+            let answer = instance.call(call(states), |_| {
+                unreachable!("the body of a poisoned call")
+            });
+            assert_eq!(answer, Status::Fatal, "{states}");
         }
     }
 

@@ -2,14 +2,9 @@
 
 use std::io;
 
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, Event};
-
-use super::lifecycle::Causality;
+use super::xml::{Xml, document};
 use crate::scene::{Port, PortKind, Resolved, Scene};
-use crate::simulation::{Variable, variables};
-
-type Xml = Writer<Vec<u8>>;
+use crate::simulation::{Causality, Variable, variables};
 
 /// The terminals of a scene; nothing where it has no ports.
 pub fn terminals(scene: &Scene) -> Option<String> {
@@ -17,16 +12,11 @@ pub fn terminals(scene: &Scene) -> Option<String> {
     if resolved.ports.is_empty() {
         return None;
     }
-    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    write_all(&mut xml, &resolved).expect("writing into memory cannot fail");
-    let mut bytes = xml.into_inner();
-    bytes.push(b'\n');
-    Some(String::from_utf8(bytes).expect("written from texts"))
+    Some(document(|xml| write_all(xml, &resolved)))
 }
 
 fn write_all(xml: &mut Xml, resolved: &Resolved<'_>) -> io::Result<()> {
     let variables = variables(resolved.scene);
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     // FMI 2.0.4 takes the file as FMI 3.0 defines it, with its schema.
     xml.create_element("fmiTerminalsAndIcons")
         .with_attribute(("fmiVersion", "3.0"))
@@ -65,7 +55,7 @@ fn write_terminal(xml: &mut Xml, port: &Port<'_>, variables: &[Variable]) -> io:
 }
 
 /// Inputs and outputs of a port, and what they are called in every port.
-pub(super) fn members<'a>(
+fn members<'a>(
     port: &'a str,
     variables: &'a [Variable],
 ) -> impl Iterator<Item = (&'a Variable, String)> {
@@ -85,7 +75,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::fmi2::example;
+    use crate::scene::example;
 
     #[test]
     fn ports_of_both_kinds_have_the_same_members() {

@@ -3,22 +3,19 @@
 use std::mem::MaybeUninit;
 
 use super::instance::Instance;
-use super::lifecycle::{Causality, State};
+use super::lifecycle::{State, rule, settable_states};
 use super::status::Fault;
-use crate::simulation::Variable;
-
-const REAL: &str = "Real";
-const INTEGER: &str = "Integer";
+use crate::simulation::{Causality, Variable};
 
 impl Instance {
-    /// `fmi2GetReal`; a number that is not finite is no answer.
-    pub(super) fn get_real(
+    /// Real numbers; a number that is not finite is no answer.
+    pub fn get_real(
         &mut self,
         references: &[u32],
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Fault> {
         for reference in references {
-            self.variable(*reference, REAL)?;
+            self.variable(*reference, self.names.real)?;
         }
         for (reference, value) in references.iter().zip(values) {
             let found = self.simulation.real(*reference as usize)?;
@@ -27,14 +24,14 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2GetInteger`.
-    pub(super) fn get_integer(
+    /// Integers.
+    pub fn get_integer(
         &mut self,
         references: &[u32],
         values: &mut [MaybeUninit<i32>],
     ) -> Result<(), Fault> {
         for reference in references {
-            self.variable(*reference, INTEGER)?;
+            self.variable(*reference, self.names.integer)?;
         }
         for (reference, value) in references.iter().zip(values) {
             value.write(self.simulation.integer(*reference as usize)?);
@@ -42,10 +39,10 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2SetReal`: all values or none.
-    pub(super) fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Fault> {
+    /// Sets real numbers: all or none.
+    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Result<(), Fault> {
         for (reference, value) in references.iter().zip(values) {
-            let variable = self.settable(*reference, REAL)?;
+            let variable = self.settable(*reference, self.names.real)?;
             if !value.is_finite() {
                 let reason = format!("expected a finite number, found {value}");
                 return Err(Fault::Value {
@@ -65,10 +62,10 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2SetInteger`: all values or none.
-    pub(super) fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Fault> {
+    /// Sets integers: all or none.
+    pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Result<(), Fault> {
         for reference in references {
-            self.settable(*reference, INTEGER)?;
+            self.settable(*reference, self.names.integer)?;
         }
         let current = self.remember(references);
         for (done, (reference, value)) in references.iter().zip(values).enumerate() {
@@ -81,15 +78,15 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2SetRealInputDerivatives`: all or none.
-    pub(super) fn set_input_derivatives(
+    /// Sets derivatives of inputs in time: all or none.
+    pub fn set_input_derivatives(
         &mut self,
         references: &[u32],
         orders: &[i32],
         values: &[f64],
     ) -> Result<(), Fault> {
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
-            self.variable(*reference, REAL)?;
+            self.variable(*reference, self.names.real)?;
             let index = *reference as usize;
             self.simulation
                 .check_input_derivative(index, *order, *value)?;
@@ -102,15 +99,15 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2GetRealOutputDerivatives`.
-    pub(super) fn get_output_derivatives(
+    /// Derivatives of outputs in time.
+    pub fn get_output_derivatives(
         &mut self,
         references: &[u32],
         orders: &[i32],
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Fault> {
         for (reference, order) in references.iter().zip(orders) {
-            self.variable(*reference, REAL)?;
+            self.variable(*reference, self.names.real)?;
             self.simulation
                 .check_output_derivative(*reference as usize, *order)?;
         }
@@ -122,15 +119,15 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2GetDirectionalDerivative`.
-    pub(super) fn directional_derivative(
+    /// Changes of unknowns with changes of knowns.
+    pub fn directional_derivative(
         &mut self,
         (knowns, seeds): (&[u32], &[f64]),
         unknowns: &[u32],
         changes: &mut [MaybeUninit<f64>],
     ) -> Result<(), Fault> {
         for reference in knowns.iter().chain(unknowns) {
-            self.variable(*reference, REAL)?;
+            self.variable(*reference, self.names.real)?;
         }
         if self.state == State::Initialization {
             let indices = knowns.iter().map(|reference| *reference as usize);
@@ -143,7 +140,7 @@ impl Instance {
         }
         if let Some(found) = seeds.iter().copied().find(|seed| !seed.is_finite()) {
             return Err(Fault::Argument {
-                name: "dvKnown",
+                name: self.names.seeds,
                 expected: "finite numbers",
                 found,
             });
@@ -160,11 +157,7 @@ impl Instance {
     }
 
     /// Functions for a type that no variable has: nothing to do for no references.
-    pub(super) fn no_such_type(
-        &self,
-        references: &[u32],
-        asked: &'static str,
-    ) -> Result<(), Fault> {
+    pub fn no_such_type(&self, references: &[u32], asked: &'static str) -> Result<(), Fault> {
         references
             .iter()
             .try_for_each(|reference| self.variable(*reference, asked).map(drop))
@@ -175,7 +168,7 @@ impl Instance {
         if found.is_finite() {
             return Ok(found);
         }
-        let name = self.variable(reference, REAL)?.name.clone();
+        let name = self.variable(reference, self.names.real)?.name.clone();
         let reason = format!("expected a finite number, found {found}: an input is too large");
         Err(Fault::Value { name, reason })
     }
@@ -187,7 +180,11 @@ impl Instance {
         let Some(variable) = variables.get(reference as usize) else {
             return Err(Fault::Reference { reference, count });
         };
-        let actual = if variable.is_integer() { INTEGER } else { REAL };
+        let actual = if variable.is_integer() {
+            self.names.integer
+        } else {
+            self.names.real
+        };
         if actual != asked {
             return Err(Fault::Type {
                 name: variable.name.clone(),
@@ -202,10 +199,14 @@ impl Instance {
     fn settable(&self, reference: u32, asked: &'static str) -> Result<&Variable, Fault> {
         let variable = self.variable(reference, asked)?;
         let causality = Causality::of(variable);
-        if causality.settable_in(self.state) {
+        if settable_states(causality) & self.state as u8 != 0 {
             return Ok(variable);
         }
-        let (name, reason, state) = (variable.name.clone(), causality.rule(), self.state.name());
+        let (name, reason, state) = (
+            variable.name.clone(),
+            rule(causality),
+            (self.names.state)(self.state),
+        );
         Err(Fault::NotSettable {
             name,
             reason,

@@ -1,0 +1,65 @@
+//! `fmi2Instantiate`: from its arguments to an instance, or to the reason why there is none.
+
+use super::lifecycle::state_name;
+use super::location::{LocationError, directory};
+use crate::fmi::{self, Instance, Logger, Names, open};
+use crate::simulation::Simulation;
+
+/// What FMI 2.0 calls things.
+static NAMES: Names = Names {
+    instantiate: "fmi2Instantiate",
+    token: "fmuGUID",
+    experiment: "fmi2SetupExperiment",
+    seeds: "dvKnown",
+    real: "Real",
+    integer: "Integer",
+    state: state_name,
+};
+
+/// Arguments of `fmi2Instantiate`.
+pub struct Request<'a> {
+    /// Name of the instance.
+    pub name: &'a str,
+    /// Whether the master asks for co-simulation.
+    pub co_simulation: bool,
+    /// GUID of the model description that the master has read.
+    pub guid: &'a str,
+    /// URI of the directory `resources`; none where a saved state will bring the scene.
+    pub location: Option<&'a str>,
+}
+
+/// Why an instance could not be made.
+#[derive(Debug, thiserror::Error)]
+enum Refusal {
+    /// Model exchange.
+    #[error("fmuType: expected fmi2CoSimulation, the only kind that this unit offers")]
+    Kind,
+    /// A bad resource location.
+    #[error(transparent)]
+    Location(#[from] LocationError),
+    /// What any version refuses.
+    #[error(transparent)]
+    Shared(#[from] fmi::Refusal),
+}
+
+/// The instance that is asked for. A refusal is logged even when logging is off.
+pub fn instantiate(request: &Request<'_>, logger: Logger) -> Option<Instance> {
+    Instance::instantiate(&NAMES, request.guid, logger, || simulation(request))
+}
+
+/// The simulation of the unit; nothing where a saved state will bring the scene.
+fn simulation(request: &Request<'_>) -> Result<Option<Simulation>, Refusal> {
+    if request.name.trim().is_empty() {
+        return Err(fmi::Refusal::Missing("instanceName").into());
+    }
+    if !request.co_simulation {
+        return Err(Refusal::Kind);
+    }
+    if request.guid.is_empty() {
+        return Err(fmi::Refusal::Missing(NAMES.token).into());
+    }
+    let Some(location) = request.location else {
+        return Ok(None);
+    };
+    Ok(Some(open(&directory(location)?, &NAMES, request.guid)?))
+}

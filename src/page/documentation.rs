@@ -1,0 +1,347 @@
+//! The page that comes with a unit: what it simulates, its interface, and how to use it.
+
+use super::canvas::escape;
+use super::drawing::drawing;
+use super::number::number;
+use super::parts::parts;
+use super::table::{code, row, table};
+use crate::scene::{Body, InitialState, Integrator, Scene, Strain};
+use crate::simulation::{Causality, Variable, variables};
+
+const STYLE: &str = include_str!("documentation.css");
+
+/// What the page says in the words of a standard. Texts are HTML.
+pub struct Interface<'a> {
+    /// Name and version of the standard.
+    pub standard: &'a str,
+    /// How an input moves during a step, where the standard can say more than its value.
+    pub inputs: &'a str,
+    /// The function that takes a tolerance.
+    pub tolerance: &'a str,
+    /// What can fail: status, meaning, what to do.
+    pub failures: &'a [[&'a str; 3]],
+    /// Log categories: name, what is logged.
+    pub categories: &'a [[&'a str; 2]],
+}
+
+/// The documentation of a scene as one HTML page. The same scene gives the same bytes.
+pub fn documentation(scene: &Scene, interface: &Interface<'_>) -> String {
+    let variables = variables(scene);
+    let sections = [
+        summary(scene, interface.standard),
+        format!("<figure>\n{}</figure>\n", drawing(scene)),
+        model(scene),
+        parts(scene),
+        parameters(&variables),
+        inputs(&variables, interface.inputs),
+        outputs(&variables),
+        usage(scene, interface.tolerance),
+        statuses(interface.failures),
+        categories(interface.categories),
+        format!(
+            "<h2>Scene</h2>\n<pre>{}</pre>\n",
+            escape(scene.to_json().trim_end())
+        ),
+    ];
+    let title = escape(&scene.name);
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{}\
+         <footer>Written by Flexbody {}; \
+         <a href=\"licenses/license.txt\">licenses</a> of what this FMU holds.</footer>\n</main>\n</body>\n</html>\n",
+        sections.concat(),
+        env!("CARGO_PKG_VERSION")
+    )
+}
+
+fn summary(scene: &Scene, standard: &str) -> String {
+    let shown = scene.bodies.iter().take(MOST_BODIES).map(body_in_words);
+    let mut bodies: Vec<String> = shown.collect();
+    if let Some(others @ 1..) = scene.bodies.len().checked_sub(MOST_BODIES) {
+        bodies.push(format!("and {others} more"));
+    }
+    let frame = match scene.rotation {
+        0.0 => String::new(),
+        rate => format!(
+            " The frame turns about the origin at {} rad/s; everything is seen from it.",
+            number(rate)
+        ),
+    };
+    format!(
+        "<h1>{}</h1>\n<p>A co-simulation unit ({standard}) of a planar scene: {}. All quantities are \
+         in SI units, angles in rad, vectors in global axes, x to the right and y upwards.{frame}\
+         </p>\n",
+        escape(&scene.name),
+        bodies.join("; ")
+    ) + &about(scene)
+}
+
+/// Whose model it is, where the scene says so.
+fn about(scene: &Scene) -> String {
+    let rows = scene.about.texts();
+    let rows: Vec<String> = rows
+        .map(|(key, text)| format!("<b>{key}</b> {}", escape(text)))
+        .collect();
+    match rows.is_empty() {
+        true => String::new(),
+        false => format!("<p>{}</p>\n", rows.join("<br>\n")),
+    }
+}
+
+/// Most bodies that are told one by one.
+const MOST_BODIES: usize = 12;
+
+fn body_in_words(body: &Body) -> String {
+    let name = escape(body.name());
+    match body {
+        Body::Cable(cable) => {
+            let plural = if cable.elements == 1 {
+                "element"
+            } else {
+                "elements"
+            };
+            format!(
+                "the flexible body <em>{name}</em>, {} m long, of {} cable {plural}",
+                // A length along an arc need not be a short number; four digits are enough to read.
+                number((cable.shape.length() * 1e4).round() / 1e4),
+                cable.elements
+            )
+        }
+        Body::Rigid(rigid) => {
+            let kind = if rigid.inertia > 0.0 {
+                "rigid body"
+            } else {
+                "particle"
+            };
+            format!("the {kind} <em>{name}</em> of {} kg", number(rigid.mass))
+        }
+    }
+}
+
+fn model(scene: &Scene) -> String {
+    let formulation = "joints that are linear in the coordinates are eliminated by QR factorizations and the \
+                       mass by its Cholesky factor: they hold exactly, and the inertia is the identity";
+    let integrator = match scene.method.integrator {
+        Integrator::Auto => "chosen from the stiffness of the scene and the tolerance",
+        Integrator::Radau => "Radau IIA of order 5, implicit",
+        Integrator::Rk4 => "Runge-Kutta of order 4, explicit",
+        Integrator::Verlet => "velocity Verlet of order 2, explicit",
+        Integrator::Rkn43 => "Runge-Kutta-Nystrom of order 4, explicit",
+    };
+    let initial = match scene.initial.state() {
+        InitialState::AsShaped => {
+            "the bodies as described, moved and deformed as far as their joints ask for"
+        }
+        InitialState::StaticEquilibrium => {
+            "the equilibrium under gravity, loads and the inputs of initialization"
+        }
+        InitialState::Steady => "the equilibrium in the steady motion that all bodies start with",
+    };
+    let constraints = "multipliers for those that are not linear; positions and velocities are projected \
+                       after every step";
+    let mut strains: Vec<&str> = Vec::new();
+    for cable in scene.bodies.iter().filter_map(Body::cable) {
+        let strain = strain_in_words(cable.strain);
+        if !strains.contains(&strain) {
+            strains.push(strain);
+        }
+    }
+    let mut rows = vec![
+        row(&[
+            "Coordinates",
+            "of cables absolute nodal ones: positions and slopes, no rotations; of rigid bodies \
+             natural ones: the centre of mass and a unit vector",
+        ]),
+        row(&["Formulation", formulation]),
+        row(&["Constraints", constraints]),
+        row(&["Integrator", integrator]),
+        row(&["Start", initial]),
+    ];
+    rows.extend(
+        strains
+            .iter()
+            .map(|strain| row(&["Strain measure", strain])),
+    );
+    format!(
+        "<h2>Model</h2>\n<table class=\"facts\">\n{}</table>\n",
+        rows.concat()
+    )
+}
+
+fn strain_in_words(strain: Strain) -> &'static str {
+    match strain {
+        Strain::ThetaPrime => {
+            "thetaPrime: stretch |r'| - 1 and rotation per reference length, as in geometrically \
+             exact beam theory"
+        }
+        Strain::GreenLagrangeFrenetKappa => {
+            "GreenLagrange_FrenetKappa: Green-Lagrange axial strain and curvature of the deformed \
+             line"
+        }
+        Strain::EngStrainFrenetKappa => {
+            "engStrain_FrenetKappa: stretch |r'| - 1 and curvature of the deformed line"
+        }
+    }
+}
+
+fn parameters(variables: &[Variable]) -> String {
+    let rows = of(variables, Causality::Parameter).map(|variable| {
+        let start = variable.start.map(number).unwrap_or_default();
+        row(&[
+            &code(&variable.name),
+            unit(variable),
+            &start,
+            &range(variable),
+            &meaning(variable),
+        ])
+    });
+    let heads = ["Name", "Unit", "Start", "Range", "Meaning"];
+    table("Parameters", "", &heads, rows.collect())
+}
+
+fn inputs(variables: &[Variable], course: &str) -> String {
+    let rows = of(variables, Causality::Input).map(|variable| {
+        let start = variable.start.map(number).unwrap_or_default();
+        row(&[
+            &code(&variable.name),
+            unit(variable),
+            &start,
+            &meaning(variable),
+        ])
+    });
+    let is_motion = |variable: &Variable| !variable.acts_at_once();
+    let motions = if of(variables, Causality::Input).any(is_motion) {
+        " A driven motion never jumps: during a step it moves smoothly from where it is to where \
+         its inputs, continued with the derivatives given, are at the end of the step."
+    } else {
+        ""
+    };
+    let note = format!(
+        "<p>An input keeps its value during a communication step and may jump between two. \
+         {course}{motions}</p>\n"
+    );
+    table(
+        "Inputs",
+        &note,
+        &["Name", "Unit", "Start", "Meaning"],
+        rows.collect(),
+    )
+}
+
+fn outputs(variables: &[Variable]) -> String {
+    let follows_inputs = |output: &Variable| variables.iter().any(|v| output.depends_on(v));
+    let rows = variables.iter().filter_map(|variable| {
+        let follows = match (Causality::of(variable), follows_inputs(variable)) {
+            (Causality::Output, true) => "state and inputs",
+            (Causality::Output, false) => "state",
+            (Causality::CalculatedParameter, _) => "parameters",
+            _ => return None,
+        };
+        Some(row(&[
+            &code(&variable.name),
+            unit(variable),
+            follows,
+            &meaning(variable),
+        ]))
+    });
+    table(
+        "Outputs",
+        "",
+        &["Name", "Unit", "Follows from", "Meaning"],
+        rows.collect(),
+    )
+}
+
+fn usage(scene: &Scene, takes_tolerance: &str) -> String {
+    let tolerance = number(scene.relative_tolerance());
+    let (stop, step) = (
+        number(scene.experiment.stop_time),
+        number(scene.experiment.step),
+    );
+    format!(
+        "<h2>How to use it</h2>\n<ul>\n\
+         <li><strong>Accuracy is set by a tolerance, not by the step.</strong> \
+         <code>relative_tolerance</code> (here {tolerance}) bounds the error in time of a step of \
+         the solver, relative to the size of the scene. A tolerance in \
+         <code>{takes_tolerance}</code> replaces it. The error of the mesh is another matter: it \
+         falls with <code>elements</code>.</li>\n\
+         <li><strong>A communication step may have any positive length.</strong> Within it the \
+         solver takes the steps that the tolerance asks for. The default experiment is {stop} s \
+         in steps of {step} s.</li>\n\
+         <li><strong>Parameters</strong> may be set until initialization ends, the number of \
+         elements included. <strong>Inputs</strong> may be set then and between steps; outputs \
+         answer to new inputs at once.</li>\n\
+         <li><strong>Derivatives</strong> of outputs in time, of order 1 and 2, and directional \
+         derivatives of outputs by inputs are exact at every communication point and disturb \
+         nothing. Higher orders are answered by zero.</li>\n\
+         <li><strong>A state</strong> can be saved, restored and serialized at any time between \
+         two calls; the simulation goes on from it bit for bit. Bytes that are damaged, or of \
+         another model, are refused.</li>\n\
+         <li><strong>Instances</strong> are independent of each other: many of them may run in \
+         one process, each in a thread of its own.</li>\n</ul>\n"
+    )
+}
+
+fn statuses(failures: &[[&str; 3]]) -> String {
+    let heads = ["Status", "Meaning", "What to do"];
+    let rows = failures.iter().map(|cells| row(cells));
+    table("When something fails", "", &heads, rows.collect())
+}
+
+fn categories(categories: &[[&str; 2]]) -> String {
+    let rows = categories
+        .iter()
+        .map(|[name, messages]| row(&[&code(name), messages]));
+    table("Log categories", "", &["Name", "Messages"], rows.collect())
+}
+
+fn of(variables: &[Variable], causality: Causality) -> impl Iterator<Item = &Variable> {
+    variables
+        .iter()
+        .filter(move |variable| Causality::of(variable) == causality)
+}
+
+fn unit(variable: &Variable) -> &'static str {
+    variable.unit.map_or("", |unit| unit.name)
+}
+
+fn meaning(variable: &Variable) -> String {
+    escape(&variable.description)
+}
+
+fn range(variable: &Variable) -> String {
+    match variable.limits() {
+        (Some(min), Some(max)) => format!("{} to {}", number(min), number(max)),
+        (Some(min), None) => format!("from {}", number(min)),
+        _ => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::example;
+
+    const INTERFACE: Interface<'_> = Interface {
+        standard: "FMI",
+        inputs: "It keeps it.",
+        tolerance: "setUp",
+        failures: &[["Error", "a call out of order", "correct it"]],
+        categories: &[["logEvents", "course of the simulation"]],
+    };
+
+    #[test]
+    fn the_page_names_every_variable_and_shows_the_scene() {
+        let scene = example();
+        let page = documentation(&scene, &INTERFACE);
+        for variable in variables(&scene)
+            .iter()
+            .filter(|variable| variable.name != "time")
+        {
+            assert!(page.contains(&code(&variable.name)), "{}", variable.name);
+        }
+        assert!(page.contains("<svg") && page.contains("&quot;name&quot;: &quot;example&quot;"));
+        assert_eq!(page, documentation(&scene, &INTERFACE));
+    }
+}

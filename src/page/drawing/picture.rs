@@ -1,0 +1,109 @@
+//! The image that a scene is drawn into: where its points are in there, and the colours of all parts.
+
+use crate::page::canvas::{Canvas, Point, Style, direction, moved};
+use crate::scene::{Ends, Marker, Place as On, Resolved, Scene};
+
+/// Colour of bodies.
+pub(super) const BODY: &str = "#2b5c8a";
+/// Colour of the inside of bodies.
+pub(super) const INSIDE: &str = "#dce6f0";
+/// Colour of names.
+pub(super) const INK: &str = "#24292f";
+/// Colour of what is only for orientation.
+pub(super) const FAINT: &str = "#8a929b";
+
+/// A marker in the image.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    pub(super) on: On<'a>,
+    /// Where it is, pixels.
+    pub(super) point: Point,
+    /// Its direction, y downwards.
+    pub(super) direction: Point,
+}
+
+/// A scene that is being drawn.
+pub(super) struct Picture<'a> {
+    pub(super) resolved: &'a Resolved<'a>,
+    pub(super) scene: &'a Scene,
+    pub(super) canvas: Canvas,
+    /// Pixels a metre.
+    scale: f64,
+    /// The point of the scene in the middle of the image, m.
+    middle: [f64; 2],
+    /// The middle of the image, pixels.
+    centre: Point,
+    /// Size of symbols, pixels.
+    pub(super) unit: f64,
+    /// Whether names are written.
+    pub(super) names: bool,
+}
+
+impl<'a> Picture<'a> {
+    /// An empty image of a scene between two corners, m.
+    pub(super) fn new(
+        resolved: &'a Resolved<'a>,
+        [low, high]: [[f64; 2]; 2],
+        size: Point,
+        margin: f64,
+        unit: f64,
+        names: bool,
+    ) -> Self {
+        let scene = resolved.scene;
+        let room = |axis: usize| (size[axis] - 2.0 * margin) / (high[axis] - low[axis]);
+        Self {
+            resolved,
+            scene,
+            canvas: Canvas::new(size[0], size[1]),
+            // One extent of a straight line is zero and asks for no room; the other is not.
+            scale: room(0).min(room(1)),
+            middle: [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])],
+            centre: [0.5 * size[0], 0.5 * size[1]],
+            unit,
+            names,
+        }
+    }
+
+    /// From metres to pixels.
+    pub(super) fn at(&self, point: [f64; 2]) -> Point {
+        [
+            self.centre[0] + self.scale * (point[0] - self.middle[0]),
+            self.centre[1] - self.scale * (point[1] - self.middle[1]),
+        ]
+    }
+
+    /// A marker in the image.
+    pub(super) fn place(&self, marker: Marker<'a>) -> Place<'a> {
+        let [x, y] = marker.direction;
+        Place {
+            on: marker.place,
+            point: self.at(marker.position),
+            direction: [x, -y],
+        }
+    }
+
+    /// Where the two ends of a joint or spring are.
+    pub(super) fn ends(&self, ends: &Ends<'_>) -> [Point; 2] {
+        ends.points().map(|point| self.at(point))
+    }
+
+    /// An arrow in the upper right corner, where no body is drawn.
+    pub(super) fn gravity(&mut self) {
+        let [x, y] = self.scene.gravity;
+        if x == 0.0 && y == 0.0 {
+            return;
+        }
+        let style = Style {
+            stroke: FAINT,
+            width: 0.2 * self.unit,
+            fill: "none",
+        };
+        let corner = [self.canvas.width() - 2.6 * self.unit, 2.6 * self.unit];
+        let along = direction([x, -y]);
+        let ends = [-1.7, 1.7].map(|end| moved(corner, along, end * self.unit));
+        self.canvas.arrow(ends[0], ends[1], 0.7 * self.unit, style);
+        let side = [-along[1].abs(), along[0].abs()];
+        let at = moved(corner, side, 0.8 * self.unit);
+        self.canvas.texts(at, side, &[("g", FAINT)]);
+    }
+}

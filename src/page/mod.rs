@@ -1,0 +1,14 @@
+//! Floor 7. What a scene looks like on paper: its drawing, and the page that comes with a unit. The words of
+//! a standard are given to the page ([`Interface`]); nothing else of FMI is known here.
+
+mod canvas;
+mod documentation;
+mod drawing;
+mod number;
+mod parts;
+mod symbols;
+mod table;
+
+pub use documentation::{Interface, documentation};
+pub use drawing::{drawing, icon};
+pub use number::number;
