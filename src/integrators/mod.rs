@@ -34,16 +34,6 @@ impl Tolerance {
         // Not f64::max, which would hide a NaN.
         (if p > v { p } else { v + 0.0 * p }) / (self.position * self.relative)
     }
-
-    /// Size of the error that steps of any length leave in the time in which an error of velocity counts, where
-    /// each integrates accelerations of this size with this relative error.
-    pub fn of_quadrature(&self, relative: f64, accelerations: [&[f64]; 2]) -> f64 {
-        if relative == 0.0 {
-            return 0.0;
-        }
-        let [a, b] = accelerations.map(size);
-        relative * (a + b) * self.time * self.time / (self.position * self.relative)
-    }
 }
 
 fn size(x: &[f64]) -> f64 {

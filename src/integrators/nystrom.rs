@@ -169,12 +169,10 @@ impl Method for Nystrom {
         self.error_v.fill(0.0);
         add(&mut self.error_q, h * h, position, &self.a);
         add(&mut self.error_v, h, velocity, &self.a);
-        let error = tolerance.norm(&self.error_q, &self.error_v);
-        let missed =
-            dynamics.quadrature_error([time, h], [tableau.c, tableau.rates], tolerance.time);
-        let ends = [&self.a[0][..], &self.a[tableau.c.len() - 1]];
-        let error = error + tolerance.of_quadrature(missed, ends);
-        Attempt::Done(rescaled(error, tableau.power))
+        Attempt::Done(rescaled(
+            tolerance.norm(&self.error_q, &self.error_v) * dynamics.steps_in(tolerance.time, h),
+            tableau.power,
+        ))
     }
 
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {

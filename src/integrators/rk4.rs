@@ -12,8 +12,6 @@ use crate::system::Dynamics;
 /// Part of the stability limit that is used: the bound on the frequency is that of the reference
 /// configuration.
 const MARGIN: f64 = 0.9;
-/// How the method integrates a function of time: times as parts of the step, and weights.
-const SIMPSON: [&[f64]; 2] = [&[0.0, 0.5, 1.0], &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]];
 
 /// Scratch of the method.
 #[derive(Clone, Debug)]
@@ -129,9 +127,9 @@ impl Method for Rk4 {
             self.stage_v[i] = h / 6.0 * (self.stage_v[i] - self.sum_v[i]);
             self.stage_a[i] = h / 6.0 * (self.stage_a[i] - self.end[i]);
         }
-        let error = tolerance.norm(&self.stage_v, &self.stage_a);
-        let missed = dynamics.quadrature_error([time, h], SIMPSON, tolerance.time);
-        Attempt::Done(error + tolerance.of_quadrature(missed, [&self.a, &self.end]))
+        Attempt::Done(
+            tolerance.norm(&self.stage_v, &self.stage_a) * dynamics.steps_in(tolerance.time, h),
+        )
     }
 
     fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {

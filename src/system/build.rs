@@ -8,10 +8,10 @@ use nalgebra::{Matrix2, Vector2};
 use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
 use super::loads::{Load, coupling};
-use super::motion::quadrature::Source;
 use super::signal::Drive;
 use super::{DrivenRow, PlanarChain, System};
 use crate::body::{Assembly, Dependent, Elimination, Marker, Node, Row};
+use crate::math::function::Function;
 use crate::math::sparse::Matrix;
 use crate::math::vector::dot;
 
@@ -87,9 +87,7 @@ impl System {
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let mut system = Self {
             reference: parts.nodes,
-            sources: Vec::new(),
-            mass: 0.0,
-            size: 0.0,
+            is_driven_by_time: false,
             has_breaks: false,
             grounded: grounded(&parts.loads, &nonlinear, parts.rotation, &parts.bodies),
             is_damped: chains_damped || loads_damped,
@@ -117,10 +115,11 @@ impl System {
             tracks_work: parts.tracks_work,
         };
         let has_breaks = system.functions().any(|(_, f)| f.has_breaks());
-        system.has_breaks = has_breaks;
+        // Tables are smooth between their points.
+        let is_expression = |f: &Function| matches!(f, Function::Expression(_));
+        let is_driven_by_time = system.functions().any(|(_, f)| is_expression(f));
+        (system.has_breaks, system.is_driven_by_time) = (has_breaks, is_driven_by_time);
         system.settle();
-        (system.mass, system.size) = (system.total_mass(), system.extent());
-        system.sources = Source::all(&system);
         system.weigh();
         system.group(nonlinear);
         system.needs_rates |= !system.constraints.is_empty();

@@ -41,7 +41,6 @@ use crate::body::{Chain, Elimination, Node};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
-use motion::quadrature::Source;
 
 /// Flexible bodies of a planar system.
 pub type PlanarChain = Chain<Cable<2, 1>, 2, 4>;
@@ -86,11 +85,8 @@ pub struct System {
     needs_rates: bool,
     /// Whether work is integrated.
     tracks_work: bool,
-    /// Expressions of time that move or load it.
-    sources: Vec<Source>,
-    /// Mass, kg, and size, m.
-    mass: f64,
-    size: f64,
+    /// Whether functions of time move or load it.
+    is_driven_by_time: bool,
     /// Whether a function of time may have a kink or a jump.
     has_breaks: bool,
     grounded: Vec<usize>,
@@ -117,10 +113,6 @@ impl System {
 
     /// Size: the length of the longest cable, or the largest distance of two nodes if that is more, m.
     pub fn size(&self) -> f64 {
-        self.size
-    }
-
-    fn extent(&self) -> f64 {
         let longest = self
             .chains
             .iter()
@@ -193,10 +185,6 @@ impl System {
 
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
-        self.mass
-    }
-
-    fn total_mass(&self) -> f64 {
         let chains: f64 = self.chains.iter().map(PlanarChain::mass).sum();
         chains + self.lumps.iter().map(|lump| lump.mass).sum::<f64>()
     }

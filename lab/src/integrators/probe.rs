@@ -90,8 +90,8 @@ impl Dynamics for Probe<'_> {
         self.model.power()
     }
 
-    fn quadrature_error(&self, step: [f64; 2], rule: [&[f64]; 2], natural: f64) -> f64 {
-        self.model.quadrature_error(step, rule, natural)
+    fn steps_in(&self, time: f64, h: f64) -> f64 {
+        self.model.steps_in(time, h)
     }
 
     fn dissipates(&self) -> bool {

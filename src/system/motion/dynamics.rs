@@ -20,11 +20,11 @@ pub trait Dynamics {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]);
     /// Power that came in from outside and that was dissipated at the last acceleration, W.
     fn power(&self) -> [f64; 2];
-    /// How far a quadrature rule is off over a step, given by its beginning and length (s), where functions of time
-    /// drive the system: the largest error of any of them over its size, or over the size that belongs to motions
-    /// in the time `natural` (s) if that is more. The rule has its times as parts of the step, and their weights.
-    fn quadrature_error(&self, _step: [f64; 2], _rule: [&[f64]; 2], _natural: f64) -> f64 {
-        0.0
+    /// How many steps of length `h` (s) add up in a time (s), at least 1, where functions of time drive the
+    /// system; 1 elsewhere. Explicit methods see the error of integrating a function of time in one step, but
+    /// hardly in its acceleration: faster than the rest of the scene, it takes many steps that err alike.
+    fn steps_in(&self, _time: f64, _h: f64) -> f64 {
+        1.0
     }
     /// Whether anything dissipates, and the power is read.
     fn dissipates(&self) -> bool {
@@ -310,8 +310,12 @@ impl Dynamics for Model<'_> {
         self.work.power
     }
 
-    fn quadrature_error(&self, step: [f64; 2], rule: [&[f64]; 2], natural: f64) -> f64 {
-        self.missed(step, rule, natural)
+    fn steps_in(&self, time: f64, h: f64) -> f64 {
+        if self.system.is_driven_by_time {
+            (time / h).max(1.0)
+        } else {
+            1.0
+        }
     }
 
     fn dissipates(&self) -> bool {
