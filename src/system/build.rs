@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::end::{Angle, End};
+use super::end::{Angle, End, coupling};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
-use super::loads::{Load, coupling};
+use super::loads::Load;
 use super::signal::Drive;
 use super::{DrivenRow, PlanarChain, System};
 use crate::body::{Assembly, Dependent, Elimination, Marker, Node, Row};

@@ -1,8 +1,8 @@
 //! What joints and loads are fixed to: the ground or a body.
 
-use nalgebra::Vector2;
+use nalgebra::{Matrix2, Vector2};
 
-use crate::body::{Marker, Node, Row, left};
+use crate::body::{Marker, Node, NodeBlock, Row, left};
 use crate::math::jet::Number;
 
 /// A point of the ground or of a body.
@@ -133,5 +133,59 @@ impl Angle {
     pub fn rate<N: Number>(&self, x: &[Node<4, N>], v: &[Node<4, N>]) -> N {
         let [a, b] = self.ends.map(|end| end.lift().spin(x, v));
         b - a
+    }
+}
+
+/// Adds a block times a factor to a matrix over nodes: row node, column node, block.
+pub type Add<'a> = &'a mut dyn FnMut(usize, usize, &NodeBlock<4>);
+
+/// Stiffness of a potential whose second derivative by the way between two ends is `k` times the
+/// identity.
+pub fn isotropic(ends: &[End; 2], k: f64, add: Add<'_>) {
+    between(ends, Matrix2::identity() * k, 0, add);
+}
+
+/// Stiffness `k` between the positions (`part` 0) or directions (1) of two ends.
+pub fn between(ends: &[End; 2], k: Matrix2<f64>, part: usize, add: Add<'_>) {
+    coupling(ends, [[k, -k], [-k, k]], part, add);
+}
+
+/// Adds the symmetric matrix `k` over positions (`part` 0) or directions (1) of two ends.
+pub fn coupling(ends: &[End; 2], k: [[Matrix2<f64>; 2]; 2], part: usize, add: Add<'_>) {
+    let none = (usize::MAX, [Matrix2::zeros(); 2]);
+    let mut terms = [none; 4];
+    for (i, end) in ends.iter().enumerate() {
+        if let End::Body(marker) = end {
+            let jacobian = marker.jacobian(part);
+            terms[2 * i] = jacobian[0];
+            if !marker.is_nodal() {
+                terms[2 * i + 1] = jacobian[1];
+            }
+        }
+    }
+    for (i, (a, of_a)) in terms.iter().enumerate() {
+        for (j, (b, of_b)) in terms.iter().enumerate() {
+            // Each pair of nodes once; a node that both ends share in full.
+            if *a == usize::MAX || *b == usize::MAX || a > b || (a == b && i > j) {
+                continue;
+            }
+            let k = k[i / 2][j / 2];
+            let mut block = [[0.0; 4]; 4];
+            for (p, left) in of_a.iter().enumerate() {
+                for (q, right) in of_b.iter().enumerate() {
+                    let mut part = left.transpose() * k * right;
+                    if a == b && i != j {
+                        let other = of_b[p].transpose() * k.transpose() * of_a[q];
+                        part += other;
+                    }
+                    for r in 0..2 {
+                        for c in 0..2 {
+                            block[2 * p + r][2 * q + c] = part[(r, c)];
+                        }
+                    }
+                }
+            }
+            add(*a, *b, &block);
+        }
     }
 }

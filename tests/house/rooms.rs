@@ -126,18 +126,23 @@ fn inside_the_system_too_a_file_imports_lower_rooms_or_its_own() {
     let mut complaints = Vec::new();
     for source in sources(&["src/system"]) {
         let inside = source.inside().unwrap_or_default();
-        let mut parts = inside.trim_start_matches("system/").split('/');
-        let own = parts
-            .next()
-            .and_then(|room| INNER.iter().position(|name| *name == room));
-        let Some(own) = own else { continue };
-        for (line, name) in segments(&source, "crate::system::") {
+        let parts: Vec<&str> = inside.split('/').collect();
+        let [_, room, file, ..] = parts[..] else {
+            continue;
+        };
+        let Some(own) = INNER.iter().position(|name| *name == room) else {
+            continue;
+        };
+        let mut paths = segments(&source, "crate::system::");
+        if file == "mod.rs" {
+            // Above a room is the system itself.
+            paths.extend(segments(&source, "super::"));
+        }
+        for (line, name) in paths {
             let room = INNER.iter().position(|room| *room == name);
             let through = || {
-                handed_on
-                    .iter()
-                    .find(|(handed, _)| *handed == name)
-                    .map(|(_, room)| *room)
+                let mut named = handed_on.iter().filter(|(handed, _)| *handed == name);
+                named.next().map(|(_, room)| *room)
             };
             if room.or_else(through).is_some_and(|room| room > own) {
                 complaints.push(format!(

@@ -6,7 +6,7 @@ use super::{Gradient, View};
 use crate::body::NodeBlock;
 use crate::math::jet::Number;
 use crate::system::end::End;
-use crate::system::loads::isotropic;
+use crate::system::end::isotropic;
 
 /// Two ends at a fixed distance.
 #[derive(Clone, Debug)]

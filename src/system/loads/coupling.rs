@@ -52,9 +52,9 @@ impl Coupling {
 
     pub(super) fn add_tangent(&self, stiffness: Add<'_>, damping: Add<'_>) {
         let ends = [End::Ground(Vector2::zeros()), End::Body(self.marker)];
-        super::isotropic(&ends, self.stiffness, stiffness);
+        crate::system::end::isotropic(&ends, self.stiffness, stiffness);
         if self.damping > 0.0 {
-            super::isotropic(&ends, self.damping, damping);
+            crate::system::end::isotropic(&ends, self.damping, damping);
         }
     }
 
@@ -130,9 +130,9 @@ impl Turning {
         let ends = [end, End::Ground(Vector2::zeros())];
         let alone = |k: Matrix2<f64>| [[k, Matrix2::zeros()], [Matrix2::zeros(); 2]];
         let k = outer * self.stiffness - super::moment::curl(&end, at.x) * self.moment(at);
-        super::coupling(&ends, alone(k), 1, stiffness);
+        crate::system::end::coupling(&ends, alone(k), 1, stiffness);
         if self.damping > 0.0 {
-            super::coupling(&ends, alone(outer * self.damping), 1, damping);
+            crate::system::end::coupling(&ends, alone(outer * self.damping), 1, damping);
         }
     }
 

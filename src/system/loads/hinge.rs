@@ -55,9 +55,9 @@ impl Rotational {
         let mut k = outer(self.stiffness);
         k[0][0] -= super::moment::curl(&self.ends[0], at.x) * moment;
         k[1][1] += super::moment::curl(&self.ends[1], at.x) * moment;
-        super::coupling(&self.ends, k, 1, stiffness);
+        crate::system::end::coupling(&self.ends, k, 1, stiffness);
         if self.damping > 0.0 {
-            super::coupling(&self.ends, outer(self.damping), 1, damping);
+            crate::system::end::coupling(&self.ends, outer(self.damping), 1, damping);
         }
     }
 

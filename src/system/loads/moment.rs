@@ -32,7 +32,7 @@ impl Moment {
                 let k = curl(end, at.x) * size;
                 let zero = Matrix2::zeros();
                 let ground = End::Ground(nalgebra::Vector2::zeros());
-                super::coupling(&[*end, ground], [[k, zero], [zero, zero]], 1, add);
+                crate::system::end::coupling(&[*end, ground], [[k, zero], [zero, zero]], 1, add);
             }
         }
     }

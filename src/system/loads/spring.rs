@@ -73,9 +73,9 @@ impl Spring {
             false => 0.0,
         };
         let k = along * self.stiffness + (Matrix2::identity() - along) * turn;
-        super::between(&self.ends, k, 0, stiffness);
+        crate::system::end::between(&self.ends, k, 0, stiffness);
         if self.damping > 0.0 {
-            super::between(&self.ends, along * self.damping, 0, damping);
+            crate::system::end::between(&self.ends, along * self.damping, 0, damping);
         }
     }
 
