@@ -145,6 +145,19 @@ fn joint_in_words(joint: &Joint<'_>) -> (&'static str, String, String) {
             let holds = format!("the position on a line along {along}{point}");
             ("slider", ends_in_words(&ends), holds)
         }
+        JointKind::Prismatic {
+            ends,
+            direction,
+            angle,
+        } => {
+            let (along, angle) = (vector(*direction), given(" at", *angle, "rad"));
+            let line = format!(
+                "the position on a line along {along} of the first{}",
+                at_point(ends)
+            );
+            let holds = format!("{line} and the direction{angle}");
+            ("prismatic", ends_in_words(ends), holds)
+        }
         JointKind::Orientation(ends, angle) => {
             let holds = format!("the direction{}", given(" at", *angle, "rad"));
             ("orientation", ends_in_words(ends), holds)

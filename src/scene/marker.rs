@@ -237,6 +237,7 @@ impl<'a> Joint<'a> {
             | JointKind::Weld(ends, _)
             | JointKind::Orientation(ends, _)
             | JointKind::Distance(ends, _)
+            | JointKind::Prismatic { ends, .. }
             | JointKind::Hinge { ends, .. } => ends.second,
             JointKind::Slider(slider) => slider.marker,
             JointKind::Along { marker, .. } => marker,
@@ -250,6 +251,7 @@ impl<'a> Joint<'a> {
             | JointKind::Weld(ends, _)
             | JointKind::Orientation(ends, _)
             | JointKind::Distance(ends, _)
+            | JointKind::Prismatic { ends, .. }
             | JointKind::Hinge { ends, .. } => Some(ends),
             JointKind::Slider(slider) => Some(slider.ends()),
             JointKind::Along { .. } => None,

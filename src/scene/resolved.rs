@@ -179,6 +179,15 @@ pub enum JointKind<'a> {
     Weld(Ends<'a>, Option<f64>),
     /// The marker on a fixed line.
     Slider(Slider<'a>),
+    /// The marker on a line through the first end, and the direction at an angle from that end's.
+    Prismatic {
+        /// What it joins.
+        ends: Ends<'a>,
+        /// Direction of the line in the axes of the first end, of any length.
+        direction: [f64; 2],
+        /// The angle.
+        angle: Option<f64>,
+    },
     /// The direction at this angle from that of the first end.
     Orientation(Ends<'a>, Option<f64>),
     /// This distance.

@@ -189,3 +189,33 @@ pub fn coupling(ends: &[End; 2], k: [[Matrix2<f64>; 2]; 2], part: usize, add: Ad
         }
     }
 }
+
+/// Adds the second derivatives of a product `p . k q` of positions (part 0) or directions (part 1) of two markers.
+pub fn bilinear(parts: [(&Marker, usize); 2], k: Matrix2<f64>, add: Add<'_>) {
+    let [of_first, of_second] = parts.map(|(marker, part)| marker.jacobian(part));
+    for (a, of_a) in of_first {
+        for (b, of_b) in of_second {
+            let mut block = [[0.0; 4]; 4];
+            for (i, p) in of_a.iter().enumerate() {
+                for (j, q) in of_b.iter().enumerate() {
+                    let part = p.transpose() * k * q;
+                    for r in 0..2 {
+                        for c in 0..2 {
+                            block[2 * i + r][2 * j + c] = part[(r, c)];
+                        }
+                    }
+                }
+            }
+            if a == b {
+                // Both on one node: the symmetric part.
+                let copy = block;
+                for r in 0..4 {
+                    for c in 0..4 {
+                        block[r][c] = copy[r][c] + copy[c][r];
+                    }
+                }
+            }
+            add(a, b, &block);
+        }
+    }
+}

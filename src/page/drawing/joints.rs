@@ -3,7 +3,7 @@
 use super::picture::{Picture, Place};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
-use crate::scene::{Ends, Joint, JointKind, LoadKind, MotionKind, Place as On, PortKind};
+use crate::scene::{Ends, First, Joint, JointKind, LoadKind, MotionKind, Place as On, PortKind};
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
 fn outward(place: &Place<'_>) -> [f64; 2] {
@@ -38,6 +38,17 @@ impl Picture<'_> {
             }
             JointKind::Slider(slider) => {
                 let along = in_image(slider.direction);
+                symbols::slider(&mut self.canvas, second, along, unit);
+            }
+            JointKind::Prismatic {
+                ends, direction, ..
+            } => {
+                let [a, b] = in_image(*direction);
+                let [x, y] = match ends.first {
+                    First::Ground(_) => [1.0, 0.0],
+                    First::Marker(first) => self.place(first).direction,
+                };
+                let along = [a * x - b * y, a * y + b * x];
                 symbols::slider(&mut self.canvas, second, along, unit);
             }
             JointKind::Orientation(..) => {

@@ -302,6 +302,19 @@ impl<'a> Builder<'a> {
                 let kind = joints::JointKind::Orientation(angle(self, ends, given));
                 self.hold(kind, ends);
             }
+            JointKind::Prismatic {
+                ends,
+                direction,
+                angle: given,
+            } => {
+                let ends = self.ends(ends);
+                let kind = joints::JointKind::Prismatic {
+                    along: unit(direction),
+                    angle: angle(self, ends, given),
+                    size: self.distance_at_start(&ends),
+                };
+                self.hold(kind, ends);
+            }
             JointKind::Slider(slider) => {
                 let kind = joints::JointKind::Slider(unit(slider.direction));
                 self.hold(kind, self.ends(slider.ends()));

@@ -19,10 +19,11 @@ pub struct Joint {
     /// With `ground` only: where on the ground, m; where the second marker is at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<[f64; 2]>,
-    /// `slider` only: direction of the line along which the marker may move.
+    /// `slider`: direction of the line along which the marker may move. `prismatic`: the same in the axes of the
+    /// first marker (of ground: the global ones), by default its own direction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 2]>,
-    /// `weld`, `orientation`: direction of the second marker less that of the first (of ground: 0),
+    /// `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
     /// rad; as at the start by default. `hinge`: the same at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
@@ -47,6 +48,8 @@ pub enum JointKind {
     Weld,
     /// Holds the marker on a fixed line.
     Slider,
+    /// Holds the marker on a line of the first one, and the direction.
+    Prismatic,
     /// Holds the direction.
     Orientation,
     /// Holds the distance.

@@ -20,6 +20,7 @@ impl Joint {
             JointKind::Revolute => (&[], &["point"]),
             JointKind::Weld => (&[], &["point", "angle"]),
             JointKind::Slider => (&["direction"], &["point"]),
+            JointKind::Prismatic => (&[], &["point", "direction", "angle"]),
             JointKind::Orientation => (&[], &["angle"]),
             JointKind::Distance => (&[], &["point", "length"]),
             JointKind::Hinge => (&[], &["point", "angle", "stiffness", "damping"]),
@@ -89,8 +90,8 @@ impl<'a> Resolved<'a> {
             return Err(expected(&first, "\"ground\"", quoted(a)));
         }
         let ends = self.require_pair(path, &joint.markers, joint.point)?;
-        use JointKind::{Hinge, Orientation, Weld};
-        if matches!(joint.kind, Weld | Orientation | Hinge) {
+        use JointKind::{Hinge, Orientation, Prismatic, Weld};
+        if matches!(joint.kind, Weld | Orientation | Hinge | Prismatic) {
             if a != GROUND {
                 self.require_turning(&first, a)?;
             }
@@ -116,6 +117,11 @@ impl<'a> Resolved<'a> {
                 marker: ends()?.second,
                 direction: needed(path, "direction", "a direction [x, y]", joint.direction)?,
             }),
+            JointKind::Prismatic => Kind::Prismatic {
+                ends: ends()?,
+                direction: joint.direction.unwrap_or([1.0, 0.0]),
+                angle: joint.angle,
+            },
             JointKind::Orientation => Kind::Orientation(ends()?, joint.angle),
             JointKind::Distance => {
                 let ends = ends()?;

@@ -169,7 +169,10 @@ impl<'a> Resolved<'a> {
             ),
             (true, kind) => (
                 "a joint that transmits a moment",
-                matches!(kind, JointKind::Weld(..) | JointKind::Orientation(..)),
+                matches!(
+                    kind,
+                    JointKind::Weld(..) | JointKind::Orientation(..) | JointKind::Prismatic { .. }
+                ),
             ),
         };
         if !offered {

@@ -1,6 +1,7 @@
 //! Joints and motions: one file a kind. What is linear in nodal coordinates becomes rows of `Phi`; the
 //! rest becomes constraints with multipliers.
 
+mod across;
 mod along;
 mod distance;
 mod motion;
@@ -10,6 +11,7 @@ mod slider;
 mod unit;
 mod weld;
 
+pub use across::Across;
 pub use along::Along;
 
 pub use distance::Distance;
@@ -32,6 +34,15 @@ pub enum JointKind {
     Weld(f64),
     /// The position across this unit direction (first end: ground).
     Slider(Vector2<f64>),
+    /// The position across a line through the first end, and the direction.
+    Prismatic {
+        /// Unit direction of the line in the axes of the first end.
+        along: Vector2<f64>,
+        /// Angle of the direction from that of the first end, rad.
+        angle: f64,
+        /// Distance of the ends at the start, m.
+        size: f64,
+    },
     /// The direction, at this angle from that of the first end (rad).
     Orientation(f64),
     /// The distance, m.
@@ -156,6 +167,8 @@ pub enum ConstraintKind {
     Parallel(Parallel),
     /// A distance.
     Distance(Distance),
+    /// A point on a line of a body.
+    Across(Across),
     /// A point on a chain.
     Along(Along),
 }
@@ -166,12 +179,22 @@ macro_rules! each {
             ConstraintKind::Unit($c) => $call,
             ConstraintKind::Parallel($c) => $call,
             ConstraintKind::Distance($c) => $call,
+            ConstraintKind::Across($c) => $call,
             ConstraintKind::Along($c) => $call,
         }
     };
 }
 
 impl Constraint {
+    /// That of a joint, by its index.
+    fn of(joint: usize, kind: ConstraintKind) -> Self {
+        Self {
+            joint: Some(joint),
+            kind,
+            offset: 0.0,
+        }
+    }
+
     /// `g`.
     pub fn value<N: Number>(&self, view: &View<'_, N>) -> N {
         let value = each!(self, c => c.value(view));
@@ -207,6 +230,7 @@ impl Constraint {
             ConstraintKind::Unit(c) => c.stiffness(lambda, add),
             ConstraintKind::Parallel(c) => c.stiffness(lambda, view, add),
             ConstraintKind::Distance(c) => c.stiffness(lambda, add),
+            ConstraintKind::Across(c) => c.stiffness(lambda, add),
             // Small beside inertia, and the blocks move with the point.
             ConstraintKind::Along(_) => {}
         }
@@ -217,6 +241,7 @@ impl Constraint {
         match &self.kind {
             ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
             ConstraintKind::Distance(c) => c.length,
+            ConstraintKind::Across(c) => c.size,
             ConstraintKind::Along(c) => chains[c.chain].length(),
         }
     }
@@ -227,6 +252,7 @@ impl Constraint {
             ConstraintKind::Unit(c) => vec![c.node],
             ConstraintKind::Parallel(c) => c.ends.iter().flat_map(End::nodes).collect(),
             ConstraintKind::Distance(c) => c.ends.iter().flat_map(End::nodes).collect(),
+            ConstraintKind::Across(c) => c.ends.iter().flat_map(End::nodes).collect(),
             ConstraintKind::Along(c) => {
                 let chain = chains[c.chain].nodes(0)[0];
                 c.end.nodes().chain([chain]).collect()
@@ -241,6 +267,7 @@ impl Constraint {
             ConstraintKind::Unit(_) => false,
             ConstraintKind::Parallel(c) => c.ends.iter().any(ground),
             ConstraintKind::Distance(c) => c.ends.iter().any(ground),
+            ConstraintKind::Across(c) => c.ends.iter().any(ground),
             ConstraintKind::Along(c) => ground(&c.end),
         }
     }
@@ -285,6 +312,11 @@ impl Joint {
             JointKind::Revolute => return revolute::hold(&mut rows),
             JointKind::Weld(angle) => weld::hold(&mut rows, *angle),
             JointKind::Slider(along) => return slider::hold(&mut rows, *along),
+            JointKind::Prismatic { along, angle, size } => {
+                let held = orientation::hold(&mut rows, *angle);
+                nonlinear.extend(held.map(|kind| Constraint::of(index, kind)));
+                across::hold(&mut rows, *along, *size)
+            }
             JointKind::Orientation(angle) => orientation::hold(&mut rows, *angle),
             JointKind::Distance(length) => Some(ConstraintKind::Distance(Distance {
                 ends: self.ends,
@@ -303,11 +335,7 @@ impl Joint {
             JointKind::DrivenPosition(drives) => return motion::position(&mut rows, *drives),
             JointKind::DrivenWay(along, drive) => return motion::way(&mut rows, *along, *drive),
         };
-        nonlinear.extend(kind.map(|kind| Constraint {
-            joint: Some(index),
-            kind,
-            offset: 0.0,
-        }));
+        nonlinear.extend(kind.map(|kind| Constraint::of(index, kind)));
     }
 }
 

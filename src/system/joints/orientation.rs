@@ -10,7 +10,7 @@ use nalgebra::{Rotation2, Vector2};
 use super::{ConstraintKind, Gradient, Rows, Target, View};
 use crate::body::{NodeBlock, left};
 use crate::math::jet::Number;
-use crate::system::end::End;
+use crate::system::end::{End, bilinear};
 
 /// A direction at an angle from another: `(R(angle) u1) x u2 = 0`.
 #[derive(Clone, Debug)]
@@ -114,30 +114,6 @@ impl Parallel {
         // d^2 g = (R du1) x du2 = du1 . (-R^T left) du2
         let turn = Rotation2::new(-self.angle - theta).into_inner();
         let cross = -turn * nalgebra::Matrix2::new(0.0, -1.0, 1.0, 0.0) * lambda;
-        for (a, of_a) in first.jacobian(1) {
-            for (b, of_b) in second.jacobian(1) {
-                let mut block = [[0.0; 4]; 4];
-                for (i, p) in of_a.iter().enumerate() {
-                    for (j, q) in of_b.iter().enumerate() {
-                        let part = p.transpose() * cross * q;
-                        for r in 0..2 {
-                            for c in 0..2 {
-                                block[2 * i + r][2 * j + c] = part[(r, c)];
-                            }
-                        }
-                    }
-                }
-                if a == b {
-                    // Both ends on one node: the symmetric part.
-                    let copy = block;
-                    for r in 0..4 {
-                        for c in 0..4 {
-                            block[r][c] = copy[r][c] + copy[c][r];
-                        }
-                    }
-                }
-                add(a, b, &block);
-            }
-        }
+        bilinear([(first, 1), (second, 1)], cross, add);
     }
 }

@@ -432,7 +432,7 @@ fn linear_size(linear: &crate::system::Linear, size: f64) -> f64 {
 fn constraint_size(constraint: &Constraint, size: f64) -> f64 {
     match constraint.kind {
         ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
-        ConstraintKind::Distance(_) | ConstraintKind::Along(_) => size,
+        ConstraintKind::Distance(_) | ConstraintKind::Across(_) | ConstraintKind::Along(_) => size,
     }
 }
 

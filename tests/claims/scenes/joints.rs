@@ -15,6 +15,8 @@ pub fn all() -> Vec<Specimen> {
         hinges(),
         hinged_pair(),
         angle_of_a_joint(),
+        telescope(),
+        rams(),
     ]
 }
 
@@ -233,4 +235,68 @@ fn angle_of_a_joint() -> Specimen {
         .claim_within("b.tip.angle", "rad", 8.9, 1e-6)
         .claim_within("pin.angle", "rad", 9.4, 1e-6)
         .claim_within("a.c.angle", "rad", -0.5, 1e-6)
+}
+
+/// A block slides on a line of an arm that is turned at a steady rate: away from the pivot as a hyperbolic cosine.
+fn telescope() -> Specimen {
+    let (m, a0, w, r0, t) = (1.3, 0.2, 1.5, 0.4, 0.6);
+    let along = |angle: f64, r: f64| turned(angle, [0.6 * r, 0.8 * r]);
+    let start = along(a0, r0);
+    let scene = json!({
+        "name": "telescope", "dimension": 2,
+        "bodies": [{"element": "rigid", "name": "arm", "mass": 2.0, "inertia": 0.5, "position": [0.0, 0.0],
+                    "angle": a0, "motion": {"spin": w}, "markers": {"root": [0.0, 0.0]}},
+                   {"element": "rigid", "name": "block", "mass": m, "inertia": 0.2, "position": start,
+                    "angle": a0 + 0.3, "motion": {"velocity": times(w, left(start)), "spin": w},
+                    "markers": {"c": [0.0, 0.0]}}],
+        "joints": [{"name": "pivot", "kind": "revolute", "markers": ["ground", "arm.root"]},
+                   {"name": "rail", "kind": "prismatic", "markers": ["arm.root", "block.c"],
+                    "direction": [0.6, 0.8], "angle": 0.3}],
+        "motions": [{"name": "turn", "kind": "angle", "joint": "pivot", "value": format!("{a0} + {w}*t")}],
+        "accuracy": {"relative_tolerance": 1e-9},
+        "outputs": [{"kind": "position", "marker": "block.c"}, {"kind": "angle", "marker": "block.c"},
+                    {"kind": "reaction", "joint": "rail"}, {"kind": "residual"}]});
+    let (angle, r, rate) = (a0 + w * t, r0 * (w * t).cosh(), r0 * w * (w * t).sinh());
+    Specimen::new("telescope", scene)
+        .at(t)
+        .vector_within("block.c.position", "m", along(angle, r), 1e-6)
+        .claim_within("block.c.angle", "rad", angle + 0.3, 1e-6)
+        .vector_within(
+            "rail.reaction",
+            "N",
+            times(2.0 * m * w * rate, left(along(angle, 1.0))),
+            1e-5,
+        )
+        .claim("residual.position", "", 0.0)
+}
+
+/// Bodies that fall along lines: of a body that is held, in its own direction, and of the ground, to which one is moved.
+fn rams() -> Specimen {
+    let (g, m, tilt) = ([0.6, -9.0], 1.5, 0.2);
+    let (axis, line) = (turned(tilt, [1.0, 0.0]), [0.8, -0.6]);
+    let scene = json!({
+        "name": "rams", "dimension": 2, "gravity": g,
+        "bodies": [body("base", [2.0, 0.5], [0.0, 0.0], tilt, 0.0), body("ram", [m, 0.4], times(2.0, axis), 0.7, 0.0),
+                   body("cart", [0.8, 0.3], [0.5, 3.0], 0.4, 0.0)],
+        "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "base.c"]},
+                   {"name": "bore", "kind": "prismatic", "markers": ["base.c", "ram.tip"]},
+                   {"name": "track", "kind": "prismatic", "markers": ["ground", "cart.c"], "direction": [1.6, -1.2],
+                    "point": [0.0, 3.0], "angle": 0.45}],
+        "outputs": [{"kind": "acceleration", "marker": "ram.c"}, {"kind": "reaction", "joint": "bore"},
+                    {"kind": "reaction_moment", "joint": "bore"}, {"kind": "angle", "marker": "ram.c"},
+                    {"kind": "acceleration", "marker": "cart.c"}, {"kind": "position", "marker": "cart.c"},
+                    {"kind": "angle", "marker": "cart.c"}]});
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+    // The tip of the ram comes onto the axis, along the shortest way.
+    let held = sum(times(m * dot(g, axis), axis), times(-m, g));
+    let way = turned(0.7, [0.6, 0.0]);
+    let foot = sum([0.0, 3.0], times(dot([0.5, 0.0], line), line));
+    Specimen::new("rams", scene)
+        .vector("ram.c.acceleration", "m/s2", times(dot(g, axis), axis))
+        .vector("bore.reaction", "N", held)
+        .claim("bore.reaction_moment", "N.m", -cross(way, held))
+        .claim("ram.c.angle", "rad", 0.7)
+        .vector("cart.c.acceleration", "m/s2", times(dot(g, line), line))
+        .vector("cart.c.position", "m", foot)
+        .claim("cart.c.angle", "rad", 0.45)
 }
