@@ -195,7 +195,9 @@ impl Schema {
         };
         let mut sample = json!({});
         for (key, node) in properties {
-            if let Some(value) = self.samples(node).pop() {
+            // A limit of the work stays at its default: below it there would be no step.
+            let limit = node["default"].as_f64().filter(|value| *value != 0.0);
+            if let Some(value) = limit.map(Value::from).or_else(|| self.samples(node).pop()) {
                 sample[key] = value;
             }
         }

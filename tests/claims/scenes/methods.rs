@@ -10,6 +10,7 @@ pub fn all() -> Vec<Specimen> {
     all.extend([
         element(),
         automatic(),
+        loose(),
         settled(),
         unsettled(),
         frequencies(),
@@ -49,6 +50,16 @@ fn automatic() -> Specimen {
         .at(0.5)
         .claim("stone.c.position[2]", "m", 0.2 + 2.5 - 9.0 * 0.125)
         .fact("method", "rkn43")
+}
+
+/// At a loose tolerance it takes the one of order 2.
+fn loose() -> Specimen {
+    let mut scene = stone([0.0, -9.0]);
+    scene["accuracy"] = json!({"relative_tolerance": 0.01});
+    Specimen::new("loose", scene)
+        .at(0.5)
+        .claim("stone.c.position[2]", "m", 0.2 + 2.5 - 9.0 * 0.125)
+        .fact("method", "verlet")
 }
 
 /// The slowest bending of one free element, in which the curvature is uniform and the velocity a Legendre
