@@ -277,15 +277,17 @@ fn rams() -> Specimen {
     let scene = json!({
         "name": "rams", "dimension": 2, "gravity": g,
         "bodies": [body("base", [2.0, 0.5], [0.0, 0.0], tilt, 0.0), body("ram", [m, 0.4], times(2.0, axis), 0.7, 0.0),
-                   body("cart", [0.8, 0.3], [0.5, 3.0], 0.4, 0.0)],
+                   body("cart", [0.8, 0.3], [0.5, 3.0], 0.4, 0.0), body("bead", [0.8, 0.3], [3.0, 3.0], 0.1, 0.0)],
+        "loads": [{"name": "twist", "kind": "moment", "marker": "bead.c", "value": 1.2}],
         "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "base.c"]},
                    {"name": "bore", "kind": "prismatic", "markers": ["base.c", "ram.tip"]},
                    {"name": "track", "kind": "prismatic", "markers": ["ground", "cart.c"], "direction": [1.6, -1.2],
-                    "point": [0.0, 3.0], "angle": 0.45}],
+                    "point": [0.0, 3.0], "angle": 0.45},
+                   {"name": "wire", "kind": "slider", "markers": ["ground", "bead.c"], "direction": [1.6, -1.2]}],
         "outputs": [{"kind": "acceleration", "marker": "ram.c"}, {"kind": "reaction", "joint": "bore"},
                     {"kind": "reaction_moment", "joint": "bore"}, {"kind": "angle", "marker": "ram.c"},
                     {"kind": "acceleration", "marker": "cart.c"}, {"kind": "position", "marker": "cart.c"},
-                    {"kind": "angle", "marker": "cart.c"}]});
+                    {"kind": "angle", "marker": "cart.c"}, {"kind": "angular_acceleration", "marker": "bead.c"}]});
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
     // The tip of the ram comes onto the axis, along the shortest way.
     let held = sum(times(m * dot(g, axis), axis), times(-m, g));
@@ -299,4 +301,6 @@ fn rams() -> Specimen {
         .vector("cart.c.acceleration", "m/s2", times(dot(g, line), line))
         .vector("cart.c.position", "m", foot)
         .claim("cart.c.angle", "rad", 0.45)
+        // A slider leaves the turn free.
+        .claim("bead.c.angular_acceleration", "rad/s2", 1.2 / 0.3)
 }
