@@ -65,6 +65,11 @@ impl Mechanism {
             Kind::Weld(angle) => JointKind::Weld(*angle),
             Kind::Slider(along) => JointKind::Slider(*along),
             Kind::Orientation(angle) => JointKind::Orientation(*angle),
+            Kind::Prismatic(along, angle) => JointKind::Prismatic {
+                along: *along,
+                angle: *angle,
+                size: 1.0,
+            },
             Kind::Distance(length) => JointKind::Distance(*length),
             Kind::Along => {
                 let Point::On(place) = hold.ends[0] else {

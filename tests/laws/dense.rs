@@ -34,6 +34,10 @@ fn gaps(kind: &Kind, t: f64, [[p, d], [q, e]]: Ends) -> Vec<f64> {
         Kind::Weld(angle) => vec![way.x, way.y, turned(*angle)],
         Kind::Slider(along) => vec![along.perp(&way)],
         Kind::Orientation(angle) => vec![turned(*angle)],
+        Kind::Prismatic(along, angle) => {
+            let line = d * along.x + left(d) * along.y;
+            vec![line.perp(&way), turned(*angle)]
+        }
         Kind::Distance(length) => vec![way.norm_squared() - length * length],
         Kind::Along => vec![d.perp(&way) / d.norm()],
         Kind::DrivenAngle(wave) => vec![turned(wave.value(t))],

@@ -148,6 +148,11 @@ fn holds(made: &Mechanism) -> Vec<Hold> {
         if turning {
             holds.push((Kind::Weld(3.0 * made.noise[6]), ends));
             holds.push((Kind::Orientation(3.0 * made.noise[7]), ends));
+            let (y, x) = (2.0 * made.noise[8]).sin_cos();
+            holds.push((
+                Kind::Prismatic(Vector2::new(x, y), 3.0 * made.noise[6]),
+                ends,
+            ));
             holds.push((Kind::DrivenAngle(wave(made, 8)), ends));
         }
     }

@@ -77,6 +77,8 @@ pub enum Kind {
     /// Along this unit direction of the ground.
     Slider(Vector2<f64>),
     Orientation(f64),
+    /// On a line through the first end, along this unit direction in its axes, and at an angle.
+    Prismatic(Vector2<f64>, f64),
     Distance(f64),
     /// The second on the cable of the first.
     Along,

@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
+use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave, left};
 
 /// What may be part of a mechanism.
 #[derive(Clone, Copy)]
@@ -284,7 +284,17 @@ impl Builder {
         };
         match wanted {
             0 => {}
-            3 if turns => self.hold(Kind::Orientation(self.angle(ends)), ends),
+            3 if turns && self.dice.pick(2) == 0 => {
+                self.hold(Kind::Orientation(self.angle(ends)), ends);
+            }
+            3 if turns => {
+                let (y, x) = self.dice.between(-PI, PI).sin_cos();
+                let axis = self.end(first)[1].normalize();
+                let line = axis * x + left(axis) * y;
+                let way = line * self.dice.between(0.2, 1.0);
+                self.shift(second, to + way);
+                self.hold(Kind::Prismatic(Vector2::new(x, y), self.angle(ends)), ends);
+            }
             4 => {
                 let way = self.dice.between(0.0, TAU);
                 let length = self.dice.between(0.3, 1.0);
