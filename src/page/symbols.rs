@@ -132,15 +132,9 @@ pub fn weld(canvas: &mut Canvas, at: Point, outward: Point, unit: f64) {
     ground(canvas, at, across, outward, 1.7 * unit, unit);
 }
 
-/// A pin between two rails.
+/// A pin between two rails on the ground.
 pub fn slider(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
-    // Of the two normals the one that points down the page.
-    let sign = if along[0] >= 0.0 { 1.0 } else { -1.0 };
-    let below = [-sign * along[1], sign * along[0]];
-    let rails = [-0.6, 0.6].map(|side| moved(at, below, side * unit));
-    let ends = [-2.4, 2.4].map(|end| moved(rails[0], along, end * unit));
-    canvas.polyline(&ends, false, line(0.16 * unit));
-    ground(canvas, rails[1], along, below, 2.4 * unit, unit);
+    rails(canvas, at, along, true, unit);
     canvas.circle(
         at,
         0.42 * unit,
@@ -149,6 +143,28 @@ pub fn slider(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
             ..line(0.16 * unit)
         },
     );
+}
+
+/// A block between two rails, of the ground or of a body.
+pub fn prismatic(canvas: &mut Canvas, at: Point, along: Point, is_grounded: bool, unit: f64) {
+    rails(canvas, at, along, is_grounded, unit);
+    orientation(canvas, at, along, 0.6 * unit);
+}
+
+fn rails(canvas: &mut Canvas, at: Point, along: Point, is_grounded: bool, unit: f64) {
+    // Of the two normals the one that points down the page.
+    let sign = if along[0] >= 0.0 { 1.0 } else { -1.0 };
+    let below = [-sign * along[1], sign * along[0]];
+    let [above, under] = [-0.6, 0.6].map(|side| moved(at, below, side * unit));
+    let rail = |canvas: &mut Canvas, middle: Point| {
+        let ends = [-2.4, 2.4].map(|end| moved(middle, along, end * unit));
+        canvas.polyline(&ends, false, line(0.16 * unit));
+    };
+    rail(canvas, above);
+    match is_grounded {
+        true => ground(canvas, under, along, below, 2.4 * unit, unit),
+        false => rail(canvas, under),
+    }
 }
 
 /// A block that may move but not turn.

@@ -49,7 +49,7 @@ impl Picture<'_> {
                     First::Marker(first) => self.place(first).direction,
                 };
                 let along = [a * x - b * y, a * y + b * x];
-                symbols::slider(&mut self.canvas, second, along, unit);
+                symbols::prismatic(&mut self.canvas, second, along, ends.is_grounded(), unit);
             }
             JointKind::Orientation(..) => {
                 symbols::orientation(&mut self.canvas, second, place.direction, unit);
