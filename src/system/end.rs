@@ -169,21 +169,9 @@ pub fn coupling(ends: &[End; 2], k: [[Matrix2<f64>; 2]; 2], part: usize, add: Ad
             if *a == usize::MAX || *b == usize::MAX || a > b || (a == b && i > j) {
                 continue;
             }
-            let k = k[i / 2][j / 2];
-            let mut block = [[0.0; 4]; 4];
-            for (p, left) in of_a.iter().enumerate() {
-                for (q, right) in of_b.iter().enumerate() {
-                    let mut part = left.transpose() * k * right;
-                    if a == b && i != j {
-                        let other = of_b[p].transpose() * k.transpose() * of_a[q];
-                        part += other;
-                    }
-                    for r in 0..2 {
-                        for c in 0..2 {
-                            block[2 * p + r][2 * q + c] = part[(r, c)];
-                        }
-                    }
-                }
+            let mut block = product(of_a, of_b, &k[i / 2][j / 2]);
+            if a == b && i != j {
+                add_transposed(&mut block);
             }
             add(*a, *b, &block);
         }
@@ -195,27 +183,37 @@ pub fn bilinear(parts: [(&Marker, usize); 2], k: Matrix2<f64>, add: Add<'_>) {
     let [of_first, of_second] = parts.map(|(marker, part)| marker.jacobian(part));
     for (a, of_a) in of_first {
         for (b, of_b) in of_second {
-            let mut block = [[0.0; 4]; 4];
-            for (i, p) in of_a.iter().enumerate() {
-                for (j, q) in of_b.iter().enumerate() {
-                    let part = p.transpose() * k * q;
-                    for r in 0..2 {
-                        for c in 0..2 {
-                            block[2 * i + r][2 * j + c] = part[(r, c)];
-                        }
-                    }
-                }
-            }
+            let mut block = product(&of_a, &of_b, &k);
             if a == b {
-                // Both on one node: the symmetric part.
-                let copy = block;
-                for r in 0..4 {
-                    for c in 0..4 {
-                        block[r][c] = copy[r][c] + copy[c][r];
-                    }
-                }
+                add_transposed(&mut block);
             }
             add(a, b, &block);
+        }
+    }
+}
+
+/// `p^T k q` of the derivatives of two vectors by position and direction of a node each.
+fn product(p: &[Matrix2<f64>; 2], q: &[Matrix2<f64>; 2], k: &Matrix2<f64>) -> NodeBlock<4> {
+    let mut block = [[0.0; 4]; 4];
+    for (i, p) in p.iter().enumerate() {
+        for (j, q) in q.iter().enumerate() {
+            let part = p.transpose() * k * q;
+            for r in 0..2 {
+                for c in 0..2 {
+                    block[2 * i + r][2 * j + c] = part[(r, c)];
+                }
+            }
+        }
+    }
+    block
+}
+
+/// A pair of vectors on one node counts both ways.
+fn add_transposed(block: &mut NodeBlock<4>) {
+    let copy = *block;
+    for r in 0..4 {
+        for c in 0..4 {
+            block[r][c] = copy[r][c] + copy[c][r];
         }
     }
 }

@@ -18,7 +18,7 @@ pub use build::{BuildError, Lump, Parts};
 pub use end::{Angle, End};
 pub use instant::Instant;
 pub use motion::breaks::Follower;
-pub use motion::dynamics::{Accepted, Dynamics, Model, STAGES};
+pub use motion::dynamics::{Accepted, Dynamics, Model};
 pub use motion::multipliers::ConstraintRow;
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;

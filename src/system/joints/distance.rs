@@ -5,8 +5,7 @@ use nalgebra::Vector2;
 use super::{Gradient, View};
 use crate::body::NodeBlock;
 use crate::math::jet::Number;
-use crate::system::end::End;
-use crate::system::end::isotropic;
+use crate::system::end::{End, isotropic};
 
 /// Two ends at a fixed distance.
 #[derive(Clone, Debug)]

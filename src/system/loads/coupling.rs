@@ -6,7 +6,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::{Add, Instant};
 use crate::body::{Marker, Node, left};
 use crate::math::jet::Number;
-use crate::system::end::End;
+use crate::system::end::{End, coupling, isotropic};
 use crate::system::signal::Signal;
 
 /// A spring and a damper in parallel between a marker and a point.
@@ -52,9 +52,9 @@ impl Coupling {
 
     pub(super) fn add_tangent(&self, stiffness: Add<'_>, damping: Add<'_>) {
         let ends = [End::Ground(Vector2::zeros()), End::Body(self.marker)];
-        crate::system::end::isotropic(&ends, self.stiffness, stiffness);
+        isotropic(&ends, self.stiffness, stiffness);
         if self.damping > 0.0 {
-            crate::system::end::isotropic(&ends, self.damping, damping);
+            isotropic(&ends, self.damping, damping);
         }
     }
 
@@ -130,9 +130,9 @@ impl Turning {
         let ends = [end, End::Ground(Vector2::zeros())];
         let alone = |k: Matrix2<f64>| [[k, Matrix2::zeros()], [Matrix2::zeros(); 2]];
         let k = outer * self.stiffness - super::moment::curl(&end, at.x) * self.moment(at);
-        crate::system::end::coupling(&ends, alone(k), 1, stiffness);
+        coupling(&ends, alone(k), 1, stiffness);
         if self.damping > 0.0 {
-            crate::system::end::coupling(&ends, alone(outer * self.damping), 1, damping);
+            coupling(&ends, alone(outer * self.damping), 1, damping);
         }
     }
 

@@ -3,7 +3,7 @@
 use super::{Add, Instant};
 use crate::body::{Node, left};
 use crate::math::jet::Number;
-use crate::system::end::End;
+use crate::system::end::{End, coupling};
 
 /// A rotational spring and a damper in parallel between two directions.
 #[derive(Clone, Debug)]
@@ -55,9 +55,9 @@ impl Rotational {
         let mut k = outer(self.stiffness);
         k[0][0] -= super::moment::curl(&self.ends[0], at.x) * moment;
         k[1][1] += super::moment::curl(&self.ends[1], at.x) * moment;
-        crate::system::end::coupling(&self.ends, k, 1, stiffness);
+        coupling(&self.ends, k, 1, stiffness);
         if self.damping > 0.0 {
-            crate::system::end::coupling(&self.ends, outer(self.damping), 1, damping);
+            coupling(&self.ends, outer(self.damping), 1, damping);
         }
     }
 

@@ -6,7 +6,7 @@ use nalgebra::Matrix2;
 use super::{Add, Instant};
 use crate::body::{Node, left};
 use crate::math::jet::Number;
-use crate::system::end::End;
+use crate::system::end::{End, coupling};
 use crate::system::signal::Signal;
 
 /// A moment.
@@ -32,7 +32,7 @@ impl Moment {
                 let k = curl(end, at.x) * size;
                 let zero = Matrix2::zeros();
                 let ground = End::Ground(nalgebra::Vector2::zeros());
-                crate::system::end::coupling(&[*end, ground], [[k, zero], [zero, zero]], 1, add);
+                coupling(&[*end, ground], [[k, zero], [zero, zero]], 1, add);
             }
         }
     }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Vector2};
 use super::{Add, Instant};
 use crate::body::Node;
 use crate::math::jet::Number;
-use crate::system::end::End;
+use crate::system::end::{End, between};
 use crate::system::signal::Signal;
 
 /// A spring and a damper in parallel between two points.
@@ -73,9 +73,9 @@ impl Spring {
             false => 0.0,
         };
         let k = along * self.stiffness + (Matrix2::identity() - along) * turn;
-        crate::system::end::between(&self.ends, k, 0, stiffness);
+        between(&self.ends, k, 0, stiffness);
         if self.damping > 0.0 {
-            crate::system::end::between(&self.ends, along * self.damping, 0, damping);
+            between(&self.ends, along * self.damping, 0, damping);
         }
     }
 

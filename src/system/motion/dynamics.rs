@@ -10,9 +10,6 @@ use crate::system::joints::ConstraintKind;
 use crate::system::signal::{Course, moved};
 use crate::system::{State, System, Work};
 
-/// Most stages that a method may solve for together.
-pub const STAGES: usize = crate::body::STAGES;
-
 /// A second-order system with identity inertia, `q'' = a(t, q, q')`, with `K = -da/dq` and
 /// `R = -da/dq'`.
 pub trait Dynamics {
@@ -39,7 +36,7 @@ pub trait Dynamics {
     fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool;
     /// Solves in place with the real factors.
     fn solve(&mut self, x: &mut [f64]);
-    /// Remembers the configuration of the last acceleration as that of a stage, at most [`STAGES`].
+    /// Remembers the configuration of the last acceleration as that of a stage, at most [`STAGES`](crate::body::STAGES).
     fn set_stage(&mut self, stage: usize);
     /// Solves for the first stages in place, as many as there are vectors. `forward`, a square matrix by rows, takes
     /// the right-hand sides to one for the real factors, where their number is odd, then to real and imaginary part
