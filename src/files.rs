@@ -128,8 +128,10 @@ impl Shapes {
 
     /// Writes a line; with points along bodies where it is `whole`: a cable's, or a rigid body's centre of mass and markers.
     pub fn row(&mut self, simulation: &mut Simulation, is_whole: bool) -> Outcome<()> {
-        let list = |points: &[[f64; 2]]| {
-            let points: Vec<String> = points.iter().map(|point| format!("{point:?}")).collect();
+        let dimension = simulation.scene().dimension;
+        let list = |points: &[[f64; 3]]| {
+            let points = points.iter().map(|point| &point[..dimension]);
+            let points: Vec<String> = points.map(|point| format!("{point:?}")).collect();
             format!("[{}]", points.join(", "))
         };
         let markers = simulation.markers().map_err(|error| error.to_string())?;

@@ -10,8 +10,8 @@ use std::time::Duration;
 use clap::{Parser, Subcommand};
 use cpu_time::ThreadTime;
 use flexbody::fmi2;
-use flexbody::scene::{Scene, assemble};
-use flexbody::simulation::{Causality, Report, SignalError, Signals, Simulation};
+use flexbody::scene::Scene;
+use flexbody::simulation::{Causality, Report, SignalError, Signals, Simulation, check};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use files::{Shapes, Sink, Table};
@@ -156,7 +156,7 @@ fn print_schema() -> Outcome<()> {
 fn describe(scene: &Path, output: &Path) -> Outcome<()> {
     let (place, scene) = (scene, read(scene)?);
     // What contradicts itself is told here, not by the first master that runs it.
-    assemble(&scene).map_err(|error| at(place, error))?;
+    check(&scene).map_err(|error| at(place, error))?;
     for (name, text) in fmi2::describe(&scene) {
         let path = output.join(name);
         if let Some(directory) = path.parent() {

@@ -192,7 +192,7 @@ fn a_port_that_drives_what_a_joint_holds_is_refused_before_a_start() {
         "ports": [{"name": "plug", "marker": "p.c", "kind": "motion"}]
     }));
     let scene = Scene::from_json(&scene.to_string()).expect("a scene");
-    let told = assemble(&scene).expect_err("held already").to_string();
+    let told = assemble::<2>(&scene).expect_err("held already").to_string();
     assert!(
         told.starts_with("ports[0]: expected a motion of what joints"),
         "{told}"

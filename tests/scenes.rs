@@ -8,7 +8,7 @@ const SCENE: &str = include_str!("../scenes/cantilever.json");
 const FOUR_BAR: &str = include_str!("../scenes/four_bar.json");
 
 /// Where, what stands there instead, and how the message begins.
-const BAD: [(&str, &str, &str); 27] = [
+const BAD: [(&str, &str, &str); 28] = [
     (
         "/dimension",
         "2.0",
@@ -118,9 +118,18 @@ const BAD: [(&str, &str, &str); 27] = [
     (
         "/gravity",
         "[0, 0, -9.81]",
-        "gravity: expected a list of 2, found 3",
+        "gravity: expected 2 components [x, y], found 3",
     ),
-    ("/dimension", "3", "dimension: expected 2 (planar), found 3"),
+    (
+        "/dimension",
+        "4",
+        "dimension: expected 2 (the plane) or 3 (space), found 4",
+    ),
+    (
+        "/dimension",
+        "3",
+        "gravity: expected 3 components [x, y, z], found 2",
+    ),
     (
         "/accuracy/relative_tolerance",
         "0",

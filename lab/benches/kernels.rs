@@ -4,6 +4,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use flexbody::body::no_node;
 use flexbody::math::eigen;
 use flexbody::scene::{Scene, assemble};
 use flexbody::system::{Dynamics, Model, State, System, Work};
@@ -71,7 +72,7 @@ fn kernels(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("{elements} elements"));
         group.throughput(Throughput::Elements(u64::from(elements)));
         let nodes = bench.system.reference().to_vec();
-        let (rest, mut force) = (vec![[0.0; 4]; nodes.len()], vec![[0.0; 4]; nodes.len()]);
+        let (rest, mut force) = (vec![no_node(); nodes.len()], vec![no_node(); nodes.len()]);
         group.bench_function("force", |b| {
             b.iter(|| bench.system.chains()[0].add_force(black_box(&nodes), &rest, &mut force));
         });

@@ -54,7 +54,7 @@ impl Outputs {
         row.push(values.kinetic_energy(system));
         row.push(values.strain_energy(system));
         row.push(values.gravity_energy(system));
-        let (momentum, angular) = values.momentum(system);
+        let (momentum, [.., angular]) = values.momentum(system);
         row.extend([momentum[0], momentum[1], angular]);
         row.extend(values.residuals(system));
         let words: Vec<String> = row.iter().map(|value| format!("{value:?}")).collect();

@@ -114,19 +114,18 @@ pub fn fall(
     for point in 0..=points {
         let time = point as f64 * every;
         let x = system.nodes(&motion.q).to_vec();
-        if !x.iter().flatten().all(|value| value.abs() < LOST) {
+        if !x.iter().flatten().flatten().all(|value| value.abs() < LOST) {
             found.ended = Some(time);
             break;
         }
-        found
-            .path
-            .push([time, x[x.len() - 1][0], x[x.len() - 1][1]]);
+        let [tip, _] = x[x.len() - 1];
+        found.path.push([time, tip[0], tip[1]]);
         let rod = &system.rod;
         found.gaps.push(match rod.count() {
             1 => [0.0; 2],
             count => [rod.gap(&x), rod.gap_before(count / 2, &x)],
         });
-        found.pins.push(x[0][0].hypot(x[0][1]));
+        found.pins.push(x[0][0][0].hypot(x[0][0][1]));
         let started = ThreadTime::now();
         for _ in 0..steps.min((points - point) * steps) {
             motion.step(&mut system, step);

@@ -5,8 +5,13 @@ use std::ops::Range;
 use super::connectivity::{Cluster, Dependent, Node, Row, clusters};
 use crate::math::sparse::{Component, General, Matrix, Pattern, Slot};
 
-/// A matrix over two nodes.
-pub type NodeBlock<const B: usize> = [[f64; B]; B];
+/// A matrix over two nodes: by vector and axis of the one, then of the other.
+pub type NodeBlock<const D: usize> = [[[[f64; D]; 2]; D]; 2];
+
+/// A matrix over two nodes that is zero.
+pub const fn no_block<const D: usize>() -> NodeBlock<D> {
+    [[[[0.0; D]; 2]; D]; 2]
+}
 
 /// Where the coordinates of a node are.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +24,7 @@ enum Place {
 
 /// How nodal coordinates follow from free ones.
 #[derive(Clone, Debug)]
-pub struct Assembly<const B: usize> {
+pub struct Assembly<const D: usize = 2> {
     pattern: Pattern,
     places: Vec<Place>,
     vertices: Vec<usize>,
@@ -32,15 +37,15 @@ pub struct Assembly<const B: usize> {
     next: Vec<Option<Slot>>,
 }
 
-impl<const B: usize> Assembly<B> {
+impl<const D: usize> Assembly<D> {
     /// For nodes under these rows, with matrices that couple the nodes of every link. Also says which
     /// rows depend on others.
-    pub fn new(nodes: usize, rows: &[Row<B>], links: &[(usize, usize)]) -> (Self, Vec<Dependent>) {
+    pub fn new(nodes: usize, rows: &[Row<D>], links: &[(usize, usize)]) -> (Self, Vec<Dependent>) {
         let (clusters, dependent) = clusters(nodes, rows);
         let mut tied = vec![None; nodes];
         for (index, cluster) in clusters.iter().enumerate() {
             for (row, node) in cluster.nodes.iter().enumerate() {
-                tied[*node] = Some((index, row * B));
+                tied[*node] = Some((index, row * 2 * D));
             }
         }
         // Vertices in the order of their first node, so that chains stay in order.
@@ -49,7 +54,7 @@ impl<const B: usize> Assembly<B> {
         for node in 0..nodes {
             vertices[node] = match tied[node] {
                 None => {
-                    sizes.push(B);
+                    sizes.push(2 * D);
                     sizes.len() - 1
                 }
                 Some((index, _)) => *of_cluster[index].get_or_insert_with(|| {
@@ -125,40 +130,45 @@ impl<const B: usize> Assembly<B> {
     }
 
     /// `x = N y`.
-    pub fn spread(&self, y: &[f64], x: &mut [Node<B>]) {
+    pub fn spread(&self, y: &[f64], x: &mut [Node<D>]) {
         for (place, x) in self.places.iter().zip(x.iter_mut()) {
             if let Place::Alone(start) = place {
-                x.copy_from_slice(&y[*start..start + B]);
+                x.as_flattened_mut()
+                    .copy_from_slice(&y[*start..start + 2 * D]);
             }
         }
         for (cluster, range) in self.clusters.iter().zip(&self.ranges) {
             let y = &y[range.clone()];
             for (i, node) in cluster.nodes.iter().enumerate() {
-                for k in 0..B {
-                    let row = cluster.basis.row(i * B + k);
-                    x[*node][k] = row.iter().zip(y).map(|(n, y)| n * y).sum();
+                for (k, x) in x[*node].as_flattened_mut().iter_mut().enumerate() {
+                    let row = cluster.basis.row(i * 2 * D + k);
+                    *x = row.iter().zip(y).map(|(n, y)| n * y).sum();
                 }
             }
         }
     }
 
     /// `y = N^T f`.
-    pub fn gather(&self, f: &[Node<B>], y: &mut [f64]) {
+    pub fn gather(&self, f: &[Node<D>], y: &mut [f64]) {
         for (place, f) in self.places.iter().zip(f) {
             if let Place::Alone(start) = place {
-                y[*start..start + B].copy_from_slice(f);
+                y[*start..start + 2 * D].copy_from_slice(f.as_flattened());
             }
         }
         for (cluster, range) in self.clusters.iter().zip(&self.ranges) {
             for (y, column) in y[range.clone()].iter_mut().zip(cluster.basis.column_iter()) {
-                let nodes = cluster.nodes.iter().flat_map(|node| &f[*node]);
+                let nodes = cluster
+                    .nodes
+                    .iter()
+                    .flat_map(|node| f[*node].as_flattened());
                 *y = nodes.zip(column.iter()).map(|(f, n)| n * f).sum();
             }
         }
     }
 
     /// Adds to `y`, of which `first` is the first number, what a force on one node gathers to.
-    pub fn gather_node(&self, node: usize, f: &Node<B>, first: usize, y: &mut [f64]) {
+    pub fn gather_node(&self, node: usize, f: &Node<D>, first: usize, y: &mut [f64]) {
+        let f = f.as_flattened();
         match self.places[node] {
             Place::Alone(start) => {
                 let y = &mut y[start - first..];
@@ -170,7 +180,7 @@ impl<const B: usize> Assembly<B> {
                     return;
                 }
                 let range = self.ranges[index].start - first..self.ranges[index].end - first;
-                let rows = self.clusters[index].basis.rows(row, B);
+                let rows = self.clusters[index].basis.rows(row, 2 * D);
                 for (y, column) in y[range].iter_mut().zip(rows.column_iter()) {
                     *y += column.iter().zip(f).map(|(n, f)| n * f).sum::<f64>();
                 }
@@ -181,7 +191,7 @@ impl<const B: usize> Assembly<B> {
     /// Adds a block over the nodes `a` and `b` to a symmetric matrix, and its transpose over `b` and
     /// `a` where they differ.
     #[inline(always)]
-    pub fn add(&self, a: usize, b: usize, block: &NodeBlock<B>, matrix: &mut Matrix<f64>) {
+    pub fn add(&self, a: usize, b: usize, block: &NodeBlock<D>, matrix: &mut Matrix<f64>) {
         let slot = if a == b {
             self.diagonal[a]
         } else if b == a + 1 {
@@ -194,22 +204,25 @@ impl<const B: usize> Assembly<B> {
         let Some(slot) = slot else {
             return self.add_apart(a, b, block, matrix);
         };
-        let values = &mut matrix.values[slot.at..slot.at + B * B];
-        let rows = values.as_chunks_mut::<B>().0;
-        for r in 0..B {
-            for c in 0..B {
-                rows[r][c] += if slot.transposed {
-                    block[c][r]
-                } else {
-                    block[r][c]
-                };
+        let values = &mut matrix.values[slot.at..slot.at + 4 * D * D];
+        let values = values.as_chunks_mut::<D>().0.as_chunks_mut::<2>().0;
+        let values = values.as_chunks_mut::<D>().0;
+        for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            for r in 0..D {
+                for c in 0..D {
+                    values[p][r][q][c] += if slot.transposed {
+                        block[q][c][p][r]
+                    } else {
+                        block[p][r][q][c]
+                    };
+                }
             }
         }
     }
 
     /// [`Self::add`] where nodes are tied to others or do not follow each other.
     #[inline(never)]
-    fn add_apart(&self, a: usize, b: usize, block: &NodeBlock<B>, matrix: &mut Matrix<f64>) {
+    fn add_apart(&self, a: usize, b: usize, block: &NodeBlock<D>, matrix: &mut Matrix<f64>) {
         let alone = |node: usize| matches!(self.places[node], Place::Alone(_));
         if !(alone(a) && alone(b)) {
             return self.add_tied(a, b, block, matrix);
@@ -217,20 +230,21 @@ impl<const B: usize> Assembly<B> {
         let Some(slot) = self.pattern.slot(self.vertices[a], self.vertices[b]) else {
             return;
         };
-        let values = &mut matrix.values[slot.at..slot.at + B * B];
-        for (r, row) in block.iter().enumerate() {
-            for (c, value) in row.iter().enumerate() {
+        let size = 2 * D;
+        let values = &mut matrix.values[slot.at..slot.at + size * size];
+        for (r, row) in block.as_flattened().iter().enumerate() {
+            for (c, value) in row.as_flattened().iter().enumerate() {
                 let at = if slot.transposed {
-                    c * B + r
+                    c * size + r
                 } else {
-                    r * B + c
+                    r * size + c
                 };
                 values[at] += value;
             }
         }
     }
 
-    fn add_tied(&self, a: usize, b: usize, block: &NodeBlock<B>, matrix: &mut Matrix<f64>) {
+    fn add_tied(&self, a: usize, b: usize, block: &NodeBlock<D>, matrix: &mut Matrix<f64>) {
         let (va, vb) = (self.vertices[a], self.vertices[b]);
         let Some(slot) = self.pattern.slot(va, vb) else {
             return;
@@ -239,10 +253,11 @@ impl<const B: usize> Assembly<B> {
         for r in 0..m {
             for c in 0..n {
                 let mut value = 0.0;
-                for (i, row) in block.iter().enumerate() {
+                for (i, row) in block.as_flattened().iter().enumerate() {
                     let left = self.weight(a, i, r);
                     if left != 0.0 {
                         let sum = row
+                            .as_flattened()
                             .iter()
                             .enumerate()
                             .map(|(j, k)| k * self.weight(b, j, c));
@@ -267,7 +282,7 @@ impl<const B: usize> Assembly<B> {
     pub fn add_block(
         &self,
         (a, b): (usize, usize),
-        block: &NodeBlock<B>,
+        block: &NodeBlock<D>,
         matrix: &mut General<f64>,
         elsewhere: &mut dyn FnMut(usize, usize, f64),
     ) {
@@ -276,10 +291,11 @@ impl<const B: usize> Assembly<B> {
         for r in 0..of_a.len() {
             for c in 0..of_b.len() {
                 let mut value = 0.0;
-                for (i, row) in block.iter().enumerate() {
+                for (i, row) in block.as_flattened().iter().enumerate() {
                     let left = self.weight(a, i, r);
                     if left != 0.0 {
                         let sum = row
+                            .as_flattened()
                             .iter()
                             .enumerate()
                             .map(|(j, k)| k * self.weight(b, j, c));

@@ -4,17 +4,16 @@ use std::ops::Range;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::assembly::{Assembly, NodeBlock};
+use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::Node;
 use crate::elements::{BlockPack, Element, Nodal, NodalPack, shape};
 use crate::math::jet::Number;
 use crate::math::lanes::{PACK, Simd, Work, vectorized};
 use crate::math::sparse::Matrix;
 
-/// A chain of elements in `D` dimensions; its nodes have `B = 2 D` coordinates (position, slope) and
-/// stand in a row in those of the system.
+/// A chain of elements in `D` dimensions; its nodes stand in a row in those of the system.
 #[derive(Clone, Debug)]
-pub struct Chain<E: Element<D>, const D: usize, const B: usize> {
+pub struct Chain<E: Element<D>, const D: usize> {
     elements: Vec<E>,
     packs: Vec<Pack<E::Pack>>,
     first: usize,
@@ -43,10 +42,9 @@ fn packs<E: Element<D>, const D: usize>(elements: &[E]) -> Vec<Pack<E::Pack>> {
     packs
 }
 
-impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
+impl<E: Element<D>, const D: usize> Chain<E, D> {
     /// A chain from node `first` on.
     pub fn new(elements: Vec<E>, first: usize) -> Self {
-        assert!(B == 2 * D);
         Self {
             is_damped: elements.iter().any(Element::is_damped),
             packs: packs(&elements),
@@ -57,7 +55,7 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 
     /// Tells the first and the last element whether something is joined to the ends of the chain, or acts there;
     /// `shape` are nodal coordinates of the unstressed shape.
-    pub fn set_free_ends(&mut self, free: [bool; 2], shape: &[Node<B>]) {
+    pub fn set_free_ends(&mut self, free: [bool; 2], shape: &[Node<D>]) {
         let last = self.elements.len() - 1;
         for j in [0, last] {
             let own = [j == 0 && free[0], j == last && free[1]];
@@ -68,7 +66,7 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 
     /// Gives elements without bending stiffness one (N m^2), from the shape with these nodal
     /// coordinates on.
-    pub fn stiffen(&mut self, stiffness: f64, shape: &[Node<B>]) {
+    pub fn stiffen(&mut self, stiffness: f64, shape: &[Node<D>]) {
         for j in 0..self.elements.len() {
             self.elements[j] = self.elements[j].with_bending(&self.element(j, shape), stiffness);
         }
@@ -76,7 +74,7 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     }
 
     /// Mean of the axial strain in the middle of the elements.
-    pub fn mean_strain(&self, x: &[Node<B>]) -> f64 {
+    pub fn mean_strain(&self, x: &[Node<D>]) -> f64 {
         let elements = self.elements.iter().enumerate();
         let of = |(j, e): (usize, &E)| e.length() * e.strain(&self.element(j, x), 0.5).0;
         elements.map(of).sum::<f64>() / self.length()
@@ -140,12 +138,12 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     }
 
     /// Second derivative of the curve by its length inside element `j`, `xi` in [0, 1], 1/m.
-    pub fn bend<N: Number>(&self, j: usize, xi: N, x: &[Node<B, N>]) -> SVector<N, D> {
+    pub fn bend<N: Number>(&self, j: usize, xi: N, x: &[Node<D, N>]) -> SVector<N, D> {
         self.element(j, x) * shape::curvatures(xi, self.elements[j].length())
     }
 
     /// Length along the chain to the nearest of a few points of every element, m.
-    pub fn near(&self, point: &SVector<f64, D>, x: &[Node<B>]) -> f64 {
+    pub fn near(&self, point: &SVector<f64, D>, x: &[Node<D>]) -> f64 {
         let (mut best, mut distance, mut start) = (0.0, f64::INFINITY, 0.0);
         for (j, element) in self.elements.iter().enumerate() {
             let (e, length) = (self.element(j, x), element.length());
@@ -162,21 +160,21 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     }
 
     /// Coordinates of element `j`, or rates or forces.
-    pub fn element<N: Number>(&self, j: usize, x: &[Node<B, N>]) -> Nodal<D, N> {
+    pub fn element<N: Number>(&self, j: usize, x: &[Node<D, N>]) -> Nodal<D, N> {
         let node = self.first + j;
-        Nodal::from_column_slice(x[node..node + 2].as_flattened())
+        Nodal::from_column_slice(x[node..node + 2].as_flattened().as_flattened())
     }
 
-    fn add_to<N: Number>(&self, j: usize, f: &Nodal<D, N>, force: &mut [Node<B, N>]) {
+    fn add_to<N: Number>(&self, j: usize, f: &Nodal<D, N>, force: &mut [Node<D, N>]) {
         let node = self.first + j;
         let force = force[node..node + 2].as_flattened_mut();
-        for (sum, f) in force.iter_mut().zip(f.as_slice()) {
+        for (sum, f) in force.as_flattened_mut().iter_mut().zip(f.as_slice()) {
             *sum += *f;
         }
     }
 
     /// Adds elastic and damping forces.
-    pub fn add_force(&self, x: &[Node<B>], rate: &[Node<B>], force: &mut [Node<B>]) {
+    pub fn add_force(&self, x: &[Node<D>], rate: &[Node<D>], force: &mut [Node<D>]) {
         let chain = self;
         vectorized(AddForce {
             chain,
@@ -189,9 +187,9 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     /// Adds elastic and damping forces of numbers of any kind, element by element.
     pub fn add_force_of<N: Number>(
         &self,
-        x: &[Node<B, N>],
-        rate: &[Node<B, N>],
-        force: &mut [Node<B, N>],
+        x: &[Node<D, N>],
+        rate: &[Node<D, N>],
+        force: &mut [Node<D, N>],
     ) {
         for (j, element) in self.elements.iter().enumerate() {
             let f = element.force(&self.element(j, x), &self.element(j, rate));
@@ -200,14 +198,14 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     }
 
     /// Strain energy, J.
-    pub fn strain_energy<N: Number>(&self, x: &[Node<B, N>]) -> N {
+    pub fn strain_energy<N: Number>(&self, x: &[Node<D, N>]) -> N {
         let elements = self.elements.iter().enumerate();
         let energies = elements.map(|(j, e)| e.energy(&self.element(j, x)));
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
     /// Power that damping takes out, W.
-    pub fn dissipation<N: Number>(&self, x: &[Node<B, N>], rate: &[Node<B, N>]) -> N {
+    pub fn dissipation<N: Number>(&self, x: &[Node<D, N>], rate: &[Node<D, N>]) -> N {
         if !self.is_damped {
             return N::of(0.0);
         }
@@ -220,7 +218,7 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     }
 
     /// `f += s M a`.
-    pub fn add_inertia(&self, s: f64, a: &[Node<B>], f: &mut [Node<B>]) {
+    pub fn add_inertia(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
         for (j, element) in self.elements.iter().enumerate() {
             self.add_to(j, &(self.element(j, a) * element.mass() * s), f);
         }
@@ -228,24 +226,24 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 
     /// Adds the forces of an acceleration of space that is the same everywhere, or of any other load
     /// in proportion to mass.
-    pub fn add_weight(&self, acceleration: &SMatrix<f64, D, 1>, force: &mut [Node<B>]) {
+    pub fn add_weight(&self, acceleration: &SMatrix<f64, D, 1>, force: &mut [Node<D>]) {
         for (j, element) in self.elements.iter().enumerate() {
             self.add_to(j, &(acceleration * element.weight().transpose()), force);
         }
     }
 
     /// Adds the mass to that of the system.
-    pub fn add_mass(&self, assembly: &Assembly<B>, matrix: &mut Matrix<f64>) {
+    pub fn add_mass(&self, assembly: &Assembly<D>, matrix: &mut Matrix<f64>) {
         for (j, element) in self.elements.iter().enumerate() {
             let m = element.mass();
             let [a, b] = self.nodes(j);
             for (row, column, at) in [(a, a, (0, 0)), (b, a, (2, 0)), (b, b, (2, 2))] {
-                let of = |r: usize, c: usize| match r % D == c % D {
-                    true => m[(at.0 + r / D, at.1 + c / D)],
-                    false => 0.0,
-                };
-                let block: NodeBlock<B> =
-                    std::array::from_fn(|r| std::array::from_fn(|c| of(r, c)));
+                let mut block: NodeBlock<D> = no_block();
+                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    for d in 0..D {
+                        block[p][d][q][d] = m[(at.0 + p, at.1 + q)];
+                    }
+                }
                 assembly.add(row, column, &block, matrix);
             }
         }
@@ -254,8 +252,8 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
     /// Adds the tangent stiffness, and damping where there is any.
     pub fn add_tangent(
         &self,
-        (x, rate): (&[Node<B>], &[Node<B>]),
-        assembly: &Assembly<B>,
+        (x, rate): (&[Node<D>], &[Node<D>]),
+        assembly: &Assembly<D>,
         stiffness: &mut Matrix<f64>,
         damping: &mut Matrix<f64>,
     ) {
@@ -271,13 +269,15 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 
     /// Copies coordinates of the elements of a pack, or rates.
     #[inline(always)]
-    fn read(&self, pack: &Pack<E::Pack>, x: &[Node<B>], e: &mut NodalPack<D>) {
+    fn read(&self, pack: &Pack<E::Pack>, x: &[Node<D>], e: &mut NodalPack<D>) {
         let first = self.first + pack.elements.start;
         for lane in 0..pack.elements.len() {
             let ends = &x[first + lane..][..2];
-            for k in 0..B {
-                e[k / D][k % D][lane] = ends[0][k];
-                e[2 + k / D][k % D][lane] = ends[1][k];
+            for p in 0..2 {
+                for d in 0..D {
+                    e[p][d][lane] = ends[0][p][d];
+                    e[2 + p][d][lane] = ends[1][p][d];
+                }
             }
         }
     }
@@ -287,16 +287,18 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
         &self,
         pack: &Pack<E::Pack>,
         blocks: &BlockPack<D>,
-        assembly: &Assembly<B>,
+        assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
         for (lane, j) in pack.elements.clone().enumerate() {
             let [a, b] = self.nodes(j);
             for (part, (row, column)) in [(a, a), (b, a), (b, b)].into_iter().enumerate() {
-                let mut block = [[0.0; B]; B];
-                for r in 0..B {
-                    for c in 0..B {
-                        block[r][c] = blocks[part][r / D][c / D][r % D][c % D][lane];
+                let mut block = [[[[0.0; D]; 2]; D]; 2];
+                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    for r in 0..D {
+                        for c in 0..D {
+                            block[p][r][q][c] = blocks[part][p][q][r][c][lane];
+                        }
                     }
                 }
                 assembly.add(row, column, &block, matrix);
@@ -306,14 +308,14 @@ impl<E: Element<D>, const D: usize, const B: usize> Chain<E, D, B> {
 }
 
 /// [`Chain::add_force`].
-struct AddForce<'a, E: Element<D>, const D: usize, const B: usize> {
-    chain: &'a Chain<E, D, B>,
-    x: &'a [Node<B>],
-    rate: &'a [Node<B>],
-    force: &'a mut [Node<B>],
+struct AddForce<'a, E: Element<D>, const D: usize> {
+    chain: &'a Chain<E, D>,
+    x: &'a [Node<D>],
+    rate: &'a [Node<D>],
+    force: &'a mut [Node<D>],
 }
 
-impl<E: Element<D>, const D: usize, const B: usize> Work for AddForce<'_, E, D, B> {
+impl<E: Element<D>, const D: usize> Work for AddForce<'_, E, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let chain = self.chain;
@@ -329,9 +331,11 @@ impl<E: Element<D>, const D: usize, const B: usize> Work for AddForce<'_, E, D, 
             let first = chain.first + pack.elements.start;
             for lane in 0..pack.elements.len() {
                 let ends = &mut self.force[first + lane..][..2];
-                for k in 0..B {
-                    ends[0][k] += f[k / D][k % D][lane];
-                    ends[1][k] += f[2 + k / D][k % D][lane];
+                for p in 0..2 {
+                    for d in 0..D {
+                        ends[0][p][d] += f[p][d][lane];
+                        ends[1][p][d] += f[2 + p][d][lane];
+                    }
                 }
             }
         }
@@ -339,16 +343,16 @@ impl<E: Element<D>, const D: usize, const B: usize> Work for AddForce<'_, E, D, 
 }
 
 /// [`Chain::add_tangent`].
-struct AddTangent<'a, E: Element<D>, const D: usize, const B: usize> {
-    chain: &'a Chain<E, D, B>,
-    x: &'a [Node<B>],
-    rate: &'a [Node<B>],
-    assembly: &'a Assembly<B>,
+struct AddTangent<'a, E: Element<D>, const D: usize> {
+    chain: &'a Chain<E, D>,
+    x: &'a [Node<D>],
+    rate: &'a [Node<D>],
+    assembly: &'a Assembly<D>,
     /// Stiffness and damping.
     matrices: (&'a mut Matrix<f64>, &'a mut Matrix<f64>),
 }
 
-impl<E: Element<D>, const D: usize, const B: usize> Work for AddTangent<'_, E, D, B> {
+impl<E: Element<D>, const D: usize> Work for AddTangent<'_, E, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (chain, (stiffness, damping)) = (self.chain, self.matrices);

@@ -11,20 +11,49 @@
 use nalgebra::DMatrix;
 
 use crate::math::householder::{reflect, reflector};
-use crate::math::vector::norm;
+use crate::math::space::left;
+use crate::math::vector::{dot, norm};
 
-/// Coordinates of a node: position, then direction (the slope of a cable, the unit vector of a rigid
-/// body). Also rates of them, or forces on them.
-pub type Node<const B: usize, N = f64> = [N; B];
+/// Coordinates of a node in `D` dimensions: position, then direction (the slope of a cable, the unit vector of a
+/// rigid body). Also rates of them, or forces on them.
+pub type Node<const D: usize = 2, N = f64> = [[N; D]; 2];
+
+/// A nodal vector that is zero.
+pub const fn no_node<const D: usize>() -> Node<D> {
+    [[0.0; D]; 2]
+}
+
+/// Inner product of nodal vectors.
+pub fn product<const D: usize>(a: &Node<D>, b: &Node<D>) -> f64 {
+    dot(a.as_flattened(), b.as_flattened())
+}
+
+/// Adds a multiple of a nodal vector to another.
+pub fn add_node<const D: usize>(to: &mut Node<D>, factor: f64, node: &Node<D>) {
+    let node = node.as_flattened().iter();
+    for (to, node) in to.as_flattened_mut().iter_mut().zip(node) {
+        *to += factor * node;
+    }
+}
+
+/// A nodal vector turned left by a right angle, in the plane.
+pub fn left_node<const D: usize>(node: &Node<D>) -> Node<D> {
+    node.map(|vector| left(vector.into()).into())
+}
+
+/// A nodal vector of numbers made one by one.
+pub fn map_node<const D: usize, A: Copy, B>(node: &Node<D, A>, of: impl Fn(A) -> B) -> Node<D, B> {
+    node.map(|vector| vector.map(&of))
+}
 
 /// Part of a row, relative to its size, below which it depends on the rows before.
 pub const RANK_TOLERANCE: f64 = 1e-10;
 
 /// A linear constraint `sum over terms of coefficients . x = c`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row<const B: usize> {
+pub struct Row<const D: usize = 2> {
     /// Nodes and their coefficients.
-    pub terms: Vec<(usize, Node<B>)>,
+    pub terms: Vec<(usize, Node<D>)>,
     /// Whether `c` changes in time.
     pub is_driven: bool,
 }
@@ -55,7 +84,7 @@ pub struct Cluster {
 /// Ties nodes together.
 ///
 /// Returns the clusters, and rows that depend on others.
-pub fn clusters<const B: usize>(nodes: usize, rows: &[Row<B>]) -> (Vec<Cluster>, Vec<Dependent>) {
+pub fn clusters<const D: usize>(nodes: usize, rows: &[Row<D>]) -> (Vec<Cluster>, Vec<Dependent>) {
     let mut groups = Groups::new(nodes);
     for row in rows {
         for pair in row.terms.windows(2) {
@@ -86,14 +115,14 @@ pub fn clusters<const B: usize>(nodes: usize, rows: &[Row<B>]) -> (Vec<Cluster>,
     (clusters, dependent)
 }
 
-fn factor<const B: usize>(
+fn factor<const D: usize>(
     nodes: Vec<usize>,
     own: &[usize],
-    rows: &[Row<B>],
+    rows: &[Row<D>],
     dependent: &mut Vec<Dependent>,
 ) -> Cluster {
-    let size = nodes.len() * B;
-    let place = |node: usize| nodes.binary_search(&node).unwrap_or(0) * B;
+    let size = nodes.len() * 2 * D;
+    let place = |node: usize| nodes.binary_search(&node).unwrap_or(0) * 2 * D;
     let mut reflectors: Vec<(Vec<f64>, f64)> = Vec::new();
     // Columns of R.
     let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -105,7 +134,7 @@ fn factor<const B: usize>(
         let mut plain = vec![0.0; size];
         for (node, coefficients) in &rows[*index].terms {
             let at = place(*node);
-            for (value, coefficient) in plain[at..].iter_mut().zip(coefficients) {
+            for (value, coefficient) in plain[at..].iter_mut().zip(coefficients.as_flattened()) {
                 *value += coefficient;
             }
         }

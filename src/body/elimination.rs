@@ -15,18 +15,18 @@ use crate::math::sparse::{Cholesky, Matrix};
 
 /// The transformation `T`.
 #[derive(Clone, Debug)]
-pub struct Elimination<const B: usize> {
+pub struct Elimination<const D: usize = 2> {
     /// Nodal coordinates from free ones.
-    pub assembly: Assembly<B>,
+    pub assembly: Assembly<D>,
     /// Mass over the free coordinates, kg.
     pub mass: Matrix<f64>,
     /// `W`.
     factor: Cholesky,
 }
 
-impl<const B: usize> Elimination<B> {
+impl<const D: usize> Elimination<D> {
     /// With this mass over the free coordinates. `None` where it is not positive definite.
-    pub fn new(assembly: Assembly<B>, mass: Matrix<f64>) -> Option<Self> {
+    pub fn new(assembly: Assembly<D>, mass: Matrix<f64>) -> Option<Self> {
         let factor = Cholesky::new(assembly.pattern(), &mass)?;
         Some(Self {
             assembly,
@@ -46,13 +46,13 @@ impl<const B: usize> Elimination<B> {
     }
 
     /// `x = T q`, for rates and increments alike.
-    pub fn expand(&self, q: &[f64], y: &mut [f64], x: &mut [Node<B>]) {
+    pub fn expand(&self, q: &[f64], y: &mut [f64], x: &mut [Node<D>]) {
         self.displacements(q, y);
         self.assembly.spread(y, x);
     }
 
     /// `q = T^T f`.
-    pub fn reduce(&self, f: &[Node<B>], y: &mut [f64], q: &mut [f64]) {
+    pub fn reduce(&self, f: &[Node<D>], y: &mut [f64], q: &mut [f64]) {
         self.assembly.gather(f, y);
         self.project(y, q);
     }

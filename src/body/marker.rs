@@ -1,11 +1,12 @@
-//! Points of planar bodies: their position and direction are linear in the coordinates of one or two
-//! nodes.
+//! Points of bodies: their position and direction are linear in the coordinates of one or two nodes.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::SMatrix;
 
-use super::connectivity::{Node, Row};
+use super::Chain;
+use super::connectivity::{Node, Row, add_node};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
+use crate::math::space::{Vector, axis, left};
 
 /// A point of a body, with a direction: the slope of a cable, the unit vector of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,19 +19,22 @@ pub struct Marker<N = f64> {
     values: [N; 4],
     /// Their weights in the direction.
     slopes: [N; 4],
-    /// Weight, in the position, of the first node's direction turned left by a right angle, m.
+    /// Weight, in the position, of the first node's direction turned left by a right angle, m; planar bodies.
     across: N,
     /// Element of a cable and the place inside it, in [0, 1].
     pub element: Option<(usize, f64)>,
 }
 
-/// The vector turned left by a right angle.
-pub fn left<N: Number>(v: Vector2<N>) -> Vector2<N> {
-    Vector2::new(-v.y, v.x)
+/// Derivatives of a vector by position and direction of a node.
+pub type Partial<const D: usize> = [SMatrix<f64, D, D>; 2];
+
+/// Turns what is in the plane left by a right angle.
+fn turn<const D: usize>() -> SMatrix<f64, D, D> {
+    SMatrix::from_fn(|r, c| left(axis::<D, f64>(c))[r])
 }
 
 impl Marker {
-    /// The point of a rigid body at `(x, y)` in its frame, m.
+    /// The point of a planar rigid body at `(x, y)` in its frame, m, or a particle.
     pub fn rigid(body: usize, node: usize, point: [f64; 2]) -> Self {
         Self {
             body,
@@ -43,7 +47,11 @@ impl Marker {
     }
 
     /// The point of a cable at a length along it, m.
-    pub fn along<E: Element<2>>(body: usize, chain: &super::Chain<E, 2, 4>, length: f64) -> Self {
+    pub fn along<E: Element<D>, const D: usize>(
+        body: usize,
+        chain: &Chain<E, D>,
+        length: f64,
+    ) -> Self {
         let (element, xi) = chain.find(length);
         // A marker on a node must be on it exactly: joints and loads act there.
         let xi = if xi < 1e-9 {
@@ -57,9 +65,9 @@ impl Marker {
     }
 
     /// The point of a cable inside an element, `xi` in [0, 1].
-    pub fn inside<E: Element<2>>(
+    pub fn inside<E: Element<D>, const D: usize>(
         body: usize,
-        chain: &super::Chain<E, 2, 4>,
+        chain: &Chain<E, D>,
         element: usize,
         xi: f64,
     ) -> Self {
@@ -97,19 +105,18 @@ impl Marker {
     }
 
     /// Jacobian of position (`part` 0) or direction (1) by the coordinates of each node.
-    pub fn jacobian(&self, part: usize) -> [(usize, [Matrix2<f64>; 2]); 2] {
+    pub fn jacobian<const D: usize>(&self, part: usize) -> [(usize, Partial<D>); 2] {
         let weights = if part == 0 {
             &self.values
         } else {
             &self.slopes
         };
-        let turn = Matrix2::new(0.0, -1.0, 1.0, 0.0);
         let across = if part == 0 { self.across } else { 0.0 };
-        let one = Matrix2::identity();
+        let one = SMatrix::<f64, D, D>::identity();
         [
             (
                 self.nodes[0],
-                [one * weights[0], one * weights[1] + turn * across],
+                [one * weights[0], one * weights[1] + turn() * across],
             ),
             (self.nodes[1], [one * weights[2], one * weights[3]]),
         ]
@@ -117,11 +124,16 @@ impl Marker {
 
     /// Adds what a force along `position` on the position and along `direction` on the direction
     /// would do, as terms of a row.
-    pub fn add_terms(&self, position: Vector2<f64>, direction: Vector2<f64>, row: &mut Row<4>) {
+    pub fn add_terms<const D: usize>(
+        &self,
+        position: Vector<D>,
+        direction: Vector<D>,
+        row: &mut Row<D>,
+    ) {
         for (node, part) in self.forces(position, direction) {
             match row.terms.iter_mut().find(|(other, _)| *other == node) {
-                Some((_, sum)) => sum.iter_mut().zip(part).for_each(|(s, p)| *s += p),
-                None if part != [0.0; 4] => row.terms.push((node, part)),
+                Some((_, sum)) => add_node(sum, 1.0, &part),
+                None if part != [[0.0; D]; 2] => row.terms.push((node, part)),
                 None => {}
             }
         }
@@ -130,9 +142,9 @@ impl Marker {
 
 impl<N: Number> Marker<N> {
     /// The point of a cable inside an element, which may move along it: `xi` has derivatives then.
-    pub fn within<E: Element<2>>(
+    pub fn within<E: Element<D>, const D: usize>(
         body: usize,
-        chain: &super::Chain<E, 2, 4>,
+        chain: &Chain<E, D>,
         element: usize,
         xi: N,
     ) -> Self {
@@ -148,32 +160,36 @@ impl<N: Number> Marker<N> {
     }
 
     /// Position, or velocity or acceleration where `x` holds rates.
-    pub fn position(&self, x: &[Node<4, N>]) -> Vector2<N> {
+    #[inline(always)]
+    pub fn position<const D: usize>(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         let [a, b] = self.nodes.map(|node| &x[node]);
         let [p, s, q, t] = self.values;
-        Vector2::new(
-            p * a[0] + s * a[2] + q * b[0] + t * b[2] - self.across * a[3],
-            p * a[1] + s * a[3] + q * b[1] + t * b[3] + self.across * a[2],
-        )
+        let mut sum = Vector::from_fn(|k, _| p * a[0][k] + s * a[1][k] + q * b[0][k] + t * b[1][k]);
+        sum[0] -= self.across * a[1][1];
+        sum[1] += self.across * a[1][0];
+        sum
     }
 
     /// Direction (not of unit length on a cable), or its rate.
-    pub fn direction(&self, x: &[Node<4, N>]) -> Vector2<N> {
+    #[inline(always)]
+    pub fn direction<const D: usize>(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         let [a, b] = self.nodes.map(|node| &x[node]);
         let [p, s, q, t] = self.slopes;
-        Vector2::new(
-            p * a[0] + s * a[2] + q * b[0] + t * b[2],
-            p * a[1] + s * a[3] + q * b[1] + t * b[3],
-        )
+        Vector::from_fn(|k, _| p * a[0][k] + s * a[1][k] + q * b[0][k] + t * b[1][k])
     }
 
     /// Forces on the nodes of a force on the position and one on the direction.
-    pub fn forces(&self, position: Vector2<N>, direction: Vector2<N>) -> [(usize, Node<4, N>); 2] {
+    #[inline(always)]
+    pub fn forces<const D: usize>(
+        &self,
+        position: Vector<D, N>,
+        direction: Vector<D, N>,
+    ) -> [(usize, Node<D, N>); 2] {
         let part = |k: usize, across: N| {
             let at = position * self.values[2 * k] + direction * self.slopes[2 * k];
             let on = position * self.values[2 * k + 1] + direction * self.slopes[2 * k + 1]
                 - left(position) * across;
-            [at.x, at.y, on.x, on.y]
+            [at.into(), on.into()]
         };
         [
             (self.nodes[0], part(0, self.across)),
@@ -182,10 +198,17 @@ impl<N: Number> Marker<N> {
     }
 
     /// Adds such forces.
-    pub fn add_force(&self, position: Vector2<N>, direction: Vector2<N>, f: &mut [Node<4, N>]) {
+    #[inline(always)]
+    pub fn add_force<const D: usize>(
+        &self,
+        position: Vector<D, N>,
+        direction: Vector<D, N>,
+        f: &mut [Node<D, N>],
+    ) {
         for (node, part) in self.forces(position, direction) {
-            for (sum, part) in f[node].iter_mut().zip(part) {
-                *sum += part;
+            let sums = f[node].as_flattened_mut().iter_mut();
+            for (sum, part) in sums.zip(part.as_flattened()) {
+                *sum += *part;
             }
         }
     }

@@ -10,10 +10,12 @@ mod marker;
 mod stages;
 mod tangent;
 
-pub use assembly::{Assembly, NodeBlock};
+pub use assembly::{Assembly, NodeBlock, no_block};
 pub use chain::Chain;
-pub use connectivity::{Cluster, Dependent, Node, RANK_TOLERANCE, Row};
+pub use connectivity::{
+    Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, left_node, map_node, no_node, product,
+};
 pub use elimination::Elimination;
-pub use marker::{Marker, left};
+pub use marker::{Marker, Partial};
 pub use stages::STAGES;
 pub use tangent::Tangent;

@@ -21,7 +21,7 @@ use nalgebra::{Complex, SVector};
 
 use super::Tangent;
 use super::assembly::Assembly;
-use super::connectivity::{Cluster, Node};
+use super::connectivity::{Cluster, Node, no_node};
 use super::elimination::Elimination;
 
 /// Most stages: one real and one complex system.
@@ -29,8 +29,8 @@ pub const STAGES: usize = 3;
 
 /// Vectors of the stages and how far the directions of nodes have turned.
 #[derive(Clone, Debug)]
-pub struct Stages<const D: usize, const B: usize> {
-    nodes: Vec<Node<B>>,
+pub struct Stages<const D: usize> {
+    nodes: Vec<Node<D>>,
     /// Unit directions where the tangent was made.
     base: Vec<SVector<f64, D>>,
     /// Unit directions at the stages.
@@ -72,22 +72,22 @@ struct Floating {
     before: Vec<f64>,
 }
 
-impl<const D: usize, const B: usize> Stages<D, B> {
-    pub(super) fn new(elimination: &Elimination<B>, grounded: &[usize], elastic: &[bool]) -> Self {
+impl<const D: usize> Stages<D> {
+    pub(super) fn new(elimination: &Elimination<D>, grounded: &[usize], elastic: &[bool]) -> Self {
         let nodes = elimination.assembly.nodes();
         let directions = || vec![SVector::zeros(); nodes];
         Self {
-            floating: floating::<D, B>(elimination, grounded),
+            floating: floating::<D>(elimination, grounded),
             knots: knots(&elimination.assembly, elastic),
             elastic: elastic.to_vec(),
-            nodes: vec![[0.0; B]; nodes],
+            nodes: vec![no_node(); nodes],
             base: directions(),
             turned: [directions(), directions(), directions()],
         }
     }
 
     /// The tangent is made at this configuration.
-    pub fn set_base(&mut self, x: &[Node<B>]) {
+    pub fn set_base(&mut self, x: &[Node<D>]) {
         unit_directions(x, &mut self.base);
         for turned in &mut self.turned {
             turned.copy_from_slice(&self.base);
@@ -95,7 +95,7 @@ impl<const D: usize, const B: usize> Stages<D, B> {
     }
 
     /// Sets the configuration of a stage.
-    pub fn set(&mut self, assembly: &Assembly<B>, stage: usize, x: &[Node<B>]) {
+    pub fn set(&mut self, assembly: &Assembly<D>, stage: usize, x: &[Node<D>]) {
         unit_directions(x, &mut self.turned[stage]);
         let (base, turned) = (&self.base, &self.turned[stage]);
         for knot in &mut self.knots {
@@ -109,7 +109,7 @@ impl<const D: usize, const B: usize> Stages<D, B> {
     }
 
     /// Turns the forces on a stage back to where the tangent was made; their sum stays.
-    pub(super) fn turn_back(&mut self, assembly: &Assembly<B>, stage: usize, y: &mut [f64]) {
+    pub(super) fn turn_back(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
         for f in &mut self.floating {
             f.remember(|f| &f.translation, y);
         }
@@ -132,7 +132,7 @@ impl<const D: usize, const B: usize> Stages<D, B> {
     }
 
     /// Turns displacements forth to a stage; their mean translation stays.
-    pub(super) fn turn_forth(&mut self, assembly: &Assembly<B>, stage: usize, y: &mut [f64]) {
+    pub(super) fn turn_forth(&mut self, assembly: &Assembly<D>, stage: usize, y: &mut [f64]) {
         for f in &mut self.floating {
             f.remember(|f| &f.momentum, y);
         }
@@ -153,7 +153,7 @@ impl<const D: usize, const B: usize> Stages<D, B> {
     }
 }
 
-fn knots<const B: usize>(assembly: &Assembly<B>, elastic: &[bool]) -> Vec<Knot> {
+fn knots<const D: usize>(assembly: &Assembly<D>, elastic: &[bool]) -> Vec<Knot> {
     let clusters = assembly.clusters().iter().enumerate();
     // A single node turns as it is; without a cable nothing is stiff.
     let stiff = clusters.filter(|(_, c)| c.nodes.len() > 1 && c.nodes.iter().any(|n| elastic[*n]));
@@ -266,10 +266,7 @@ impl Floating {
 }
 
 /// Components that uniform translation of all their nodes does not strain.
-fn floating<const D: usize, const B: usize>(
-    elimination: &Elimination<B>,
-    grounded: &[usize],
-) -> Vec<Floating> {
+fn floating<const D: usize>(elimination: &Elimination<D>, grounded: &[usize]) -> Vec<Floating> {
     let assembly = &elimination.assembly;
     let n = elimination.scratch();
     let mut held = vec![false; assembly.components().len()];
@@ -278,14 +275,16 @@ fn floating<const D: usize, const B: usize>(
     }
     let (mut translation, mut momentum) = (Vec::new(), Vec::new());
     for axis in 0..D {
-        let unit: Node<B> = std::array::from_fn(|k| f64::from(u8::from(k == axis)));
+        let mut unit: Node<D> = no_node();
+        unit[0][axis] = 1.0;
         let x = vec![unit; assembly.nodes()];
         let (mut y, mut product) = (vec![0.0; n], vec![0.0; n]);
         assembly.gather(&x, &mut y);
         let mut back = x.clone();
         assembly.spread(&y, &mut back);
         for (node, (x, back)) in x.iter().zip(&back).enumerate() {
-            let change: f64 = x.iter().zip(back).map(|(a, b)| (a - b).abs()).sum();
+            let pairs = x.as_flattened().iter().zip(back.as_flattened());
+            let change: f64 = pairs.map(|(a, b)| (a - b).abs()).sum();
             if change > 1e-9 {
                 held[assembly.component(node)] = true;
             }
@@ -313,14 +312,14 @@ fn floating<const D: usize, const B: usize>(
         .collect()
 }
 
-impl<const D: usize, const B: usize> Tangent<D, B> {
+impl<const D: usize> Tangent<D> {
     /// Solves in place, in the coordinates `q`, for as many stages as there are vectors. `forward` and `back` are square
     /// matrices by rows: the first takes the right-hand sides to one for the real factors, where their number is
     /// odd, then to real and imaginary part of one for the complex factors; the other takes the solutions to the
     /// stages.
     pub fn solve_stages(
         &mut self,
-        elimination: &Elimination<B>,
+        elimination: &Elimination<D>,
         [forward, back]: [&[f64]; 2],
         q: &mut [Vec<f64>],
     ) {
@@ -350,7 +349,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     /// The solves themselves, over the free coordinates.
     fn solve_together<const S: usize>(
         &mut self,
-        assembly: &Assembly<B>,
+        assembly: &Assembly<D>,
         [forward, back]: [&[f64]; 2],
         q: &mut [Vec<f64>],
     ) {
@@ -410,16 +409,16 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     }
 }
 
-fn unit_directions<const D: usize, const B: usize>(x: &[Node<B>], units: &mut [SVector<f64, D>]) {
+fn unit_directions<const D: usize>(x: &[Node<D>], units: &mut [SVector<f64, D>]) {
     for (x, unit) in x.iter().zip(units) {
-        *unit = SVector::<f64, D>::from_column_slice(&x[D..]).normalize();
+        *unit = SVector::from(x[1]).normalize();
     }
 }
 
 /// Turns the vectors of every node.
-fn turn_all<const D: usize, const B: usize>(
-    assembly: &Assembly<B>,
-    nodes: &mut [Node<B>],
+fn turn_all<const D: usize>(
+    assembly: &Assembly<D>,
+    nodes: &mut [Node<D>],
     (from, to): (&[SVector<f64, D>], &[SVector<f64, D>]),
     y: &mut [f64],
 ) {
@@ -431,14 +430,9 @@ fn turn_all<const D: usize, const B: usize>(
 }
 
 /// Turns the vectors of a node by the smallest rotation that takes the unit vector `from` to `to`.
-fn turn<const D: usize, const B: usize>(
-    from: &SVector<f64, D>,
-    to: &SVector<f64, D>,
-    x: &mut Node<B>,
-) {
-    for vector in x.chunks_exact_mut(D) {
-        let v = SVector::<f64, D>::from_column_slice(vector);
-        vector.copy_from_slice(rotated(from, to, &v).as_slice());
+fn turn<const D: usize>(from: &SVector<f64, D>, to: &SVector<f64, D>, x: &mut Node<D>) {
+    for vector in x {
+        *vector = rotated(from, to, &SVector::from(*vector)).into();
     }
 }
 

@@ -11,7 +11,7 @@ use crate::math::sparse::{Matrix, Number};
 
 /// Stiffness and damping over the free coordinates, and the factors of a combination with the mass.
 #[derive(Clone, Debug)]
-pub struct Tangent<const D: usize, const B: usize> {
+pub struct Tangent<const D: usize> {
     /// Stiffness `K`.
     pub stiffness: Matrix<f64>,
     /// Damping `R`.
@@ -26,14 +26,14 @@ pub struct Tangent<const D: usize, const B: usize> {
     product: Vec<f64>,
     pub(super) z: Vec<Complex<f64>>,
     /// Stages of an implicit method.
-    pub stages: Stages<D, B>,
+    pub stages: Stages<D>,
 }
 
-impl<const D: usize, const B: usize> Tangent<D, B> {
+impl<const D: usize> Tangent<D> {
     /// Storage. `borders` lists, for components with non-linear constraints, how many; `grounded` are
     /// nodes that something else than rows ties to the ground; `elastic` says which belong to cables.
     pub fn new(
-        elimination: &Elimination<B>,
+        elimination: &Elimination<D>,
         is_damped: bool,
         borders: &[(usize, usize)],
         grounded: &[usize],
@@ -69,7 +69,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     }
 
     /// Takes over the Jacobian of the constraints of border `i`.
-    pub fn set_border(&mut self, elimination: &Elimination<B>, i: usize, rows: &RowSpace) {
+    pub fn set_border(&mut self, elimination: &Elimination<D>, i: usize, rows: &RowSpace) {
         let border = &mut self.borders[i];
         border.set_units(rows);
         let n = border.range.len();
@@ -82,13 +82,13 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
 
     /// Factors `m M + r R + K` for real weights `[m, r]`. False when it is not positive definite where the
     /// constraints leave freedom.
-    pub fn factor(&mut self, elimination: &Elimination<B>, weights: [f64; 2]) -> bool {
+    pub fn factor(&mut self, elimination: &Elimination<D>, weights: [f64; 2]) -> bool {
         self.inertia(elimination, weights) == Some(0)
     }
 
     /// Factors `m M + r R + K` for real weights `[m, r]`. The number of negative eigenvalues where the constraints
     /// leave freedom, by Sylvester's law of inertia; nothing at a vanishing pivot.
-    pub fn inertia(&mut self, elimination: &Elimination<B>, weights: [f64; 2]) -> Option<usize> {
+    pub fn inertia(&mut self, elimination: &Elimination<D>, weights: [f64; 2]) -> Option<usize> {
         self.inertia.0 = weights[0];
         let damping = self.is_damped.then_some(&self.damping);
         combine(
@@ -106,7 +106,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     ///
     /// Source: B. N. Parlett, The Symmetric Eigenvalue Problem (1998), section 3.3; of the border, as
     /// [`Border`]: theorem 3.1 there.
-    pub fn factor_below(&mut self, elimination: &Elimination<B>, shift: f64) -> Option<usize> {
+    pub fn factor_below(&mut self, elimination: &Elimination<D>, shift: f64) -> Option<usize> {
         // What is held does not move: inertia has no say.
         self.inertia.0 = f64::INFINITY;
         combine(
@@ -120,7 +120,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     }
 
     /// Factors what was combined; how many of its eigenvalues are negative where the constraints leave freedom.
-    fn factor_combined(&mut self, elimination: &Elimination<B>) -> Option<usize> {
+    fn factor_combined(&mut self, elimination: &Elimination<D>) -> Option<usize> {
         let pattern = elimination.assembly.pattern();
         let mut negative = self.real.factor(pattern)?;
         for border in &mut self.borders {
@@ -139,7 +139,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     /// Factors `m M + r R + K` for complex weights `[m, r]`. False at a vanishing pivot.
     pub fn factor_complex(
         &mut self,
-        elimination: &Elimination<B>,
+        elimination: &Elimination<D>,
         weights: [Complex<f64>; 2],
     ) -> bool {
         self.inertia.1 = weights[0];
@@ -172,7 +172,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     }
 
     /// Solves in place with the real factors, in the coordinates `q`.
-    pub fn solve(&mut self, elimination: &Elimination<B>, q: &mut [f64]) {
+    pub fn solve(&mut self, elimination: &Elimination<D>, q: &mut [f64]) {
         for border in &mut self.borders {
             border.set_normal(0, q);
         }
@@ -190,7 +190,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     }
 
     /// `T^T R T q`, in place; does nothing to an undamped system but set zero.
-    pub fn apply_damping(&mut self, elimination: &Elimination<B>, q: &mut [f64]) {
+    pub fn apply_damping(&mut self, elimination: &Elimination<D>, q: &mut [f64]) {
         if self.is_damped {
             apply(
                 &self.damping,
@@ -204,7 +204,7 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
     }
 
     /// `T^T K T q`, in place.
-    pub fn apply_stiffness(&mut self, elimination: &Elimination<B>, q: &mut [f64]) {
+    pub fn apply_stiffness(&mut self, elimination: &Elimination<D>, q: &mut [f64]) {
         apply(
             &self.stiffness,
             elimination,
@@ -215,9 +215,9 @@ impl<const D: usize, const B: usize> Tangent<D, B> {
 }
 
 /// `T^T A T q`, in place.
-fn apply<const B: usize>(
+fn apply<const D: usize>(
     matrix: &Matrix<f64>,
-    elimination: &Elimination<B>,
+    elimination: &Elimination<D>,
     (y, product): (&mut [f64], &mut [f64]),
     q: &mut [f64],
 ) {

@@ -7,7 +7,7 @@
 pub mod cable;
 pub mod shape;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, SMatrix, SVector};
 
 use crate::math::jet::Number;
 use crate::math::lanes::{PACK, Simd};
@@ -100,7 +100,7 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn pack_damping<S: Simd>(simd: S, pack: &Self::Pack, e: &NodalPack<D>, out: &mut BlockPack<D>);
 }
 
-/// The matrix of 2 x 2 blocks over the vectors of an element in the plane.
-pub fn whole(blocks: &Blocks<2>) -> SMatrix<f64, 8, 8> {
-    SMatrix::from_fn(|r, c| blocks[r / 2][c / 2][(r % 2, c % 2)])
+/// The matrix of blocks over the vectors of an element.
+pub fn whole<const D: usize>(blocks: &Blocks<D>) -> DMatrix<f64> {
+    DMatrix::from_fn(4 * D, 4 * D, |r, c| blocks[r / D][c / D][(r % D, c % D)])
 }

@@ -65,7 +65,9 @@ fn members<'a>(
             Causality::of(variable),
             Causality::Input | Causality::Output
         );
-        let member = key.replace("[1]", "_x").replace("[2]", "_y");
+        let axes = [("[1]", "_x"), ("[2]", "_y"), ("[3]", "_z")];
+        let named = |key: String, (axis, letter): (&str, &str)| key.replace(axis, letter);
+        let member = axes.into_iter().fold(key.to_owned(), named);
         (of == port && is_signal).then_some((variable, member))
     })
 }

@@ -74,6 +74,12 @@ impl Real for Jet {
     }
 }
 
+/// Numbers that change at these rates.
+pub fn moving<const D: usize>(x: &[[f64; D]; 2], rate: &[[f64; D]; 2]) -> [[Jet; D]; 2] {
+    let at = |p: usize, d: usize| Jet::new(x[p][d], rate[p][d], 0.0);
+    [0, 1].map(|p| std::array::from_fn(|d| at(p, d)))
+}
+
 /// The value (`order` 0) or a derivative of a number.
 pub fn part(of: Jet, order: usize) -> f64 {
     [of.re, of.v1, of.v2][order]

@@ -68,10 +68,16 @@ fn summary(scene: &Scene, standard: &str) -> String {
             number(rate)
         ),
     };
+    let (place, axes) = match scene.dimension {
+        2 => ("a planar scene", "x to the right and y upwards"),
+        _ => (
+            "a scene in space",
+            "drawn with x to the right and front, y to the right and back, z upwards",
+        ),
+    };
     format!(
-        "<h1>{}</h1>\n<p>A co-simulation unit ({standard}) of a planar scene: {}. All quantities are \
-         in SI units, angles in rad, vectors in global axes, x to the right and y upwards.{frame}\
-         </p>\n",
+        "<h1>{}</h1>\n<p>A co-simulation unit ({standard}) of {place}: {}. All quantities are \
+         in SI units, angles in rad, vectors in global axes, {axes}.{frame}</p>\n",
         escape(&scene.name),
         bodies.join("; ")
     ) + &about(scene)

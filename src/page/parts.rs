@@ -12,7 +12,7 @@ use crate::system::Drive;
 pub(super) fn parts(scene: &Scene) -> String {
     let resolved = scene.resolved();
     let joints = resolved.joints.iter().map(|joint| {
-        let (kind, between, holds) = joint_in_words(joint);
+        let (kind, between, holds) = joint_in_words(scene.dimension, joint);
         row(&[&code(joint.name), kind, &between, &holds])
     });
     let motions = resolved.motions.iter().map(|motion| {
@@ -20,7 +20,7 @@ pub(super) fn parts(scene: &Scene) -> String {
         row(&[&code(motion.name), &what, &course(motion)])
     });
     let loads = resolved.loads.iter().map(|load| {
-        let (acts, on, size) = load_in_words(load);
+        let (acts, on, size) = load_in_words(scene.dimension, load);
         row(&[&code(load.name), acts, &on, &size])
     });
     let ports = resolved.ports.iter();
@@ -115,9 +115,11 @@ fn ends_in_words(ends: &Ends<'_>) -> String {
 }
 
 /// The point of the ground, where one is given.
-fn at_point(ends: &Ends<'_>) -> String {
+fn at_point(dimension: usize, ends: &Ends<'_>) -> String {
     let point = ends.point();
-    point.map_or(String::new(), |point| format!(" at {}", vector(point)))
+    point.map_or(String::new(), |point| {
+        format!(" at {}", vector(dimension, point))
+    })
 }
 
 /// A number with words around it, where one is given.
@@ -128,20 +130,23 @@ fn given(before: &str, value: Option<f64>, unit: &str) -> String {
 }
 
 /// Kind of a joint, what it joins and what it holds.
-fn joint_in_words(joint: &Joint<'_>) -> (&'static str, String, String) {
+fn joint_in_words(dimension: usize, joint: &Joint<'_>) -> (&'static str, String, String) {
     match &joint.kind {
         JointKind::Revolute(ends) => {
-            let holds = format!("the position{}", at_point(ends));
+            let holds = format!("the position{}", at_point(dimension, ends));
             ("revolute", ends_in_words(ends), holds)
         }
         JointKind::Weld(ends, angle) => {
-            let (point, angle) = (at_point(ends), given(" at", *angle, "rad"));
+            let (point, angle) = (at_point(dimension, ends), given(" at", *angle, "rad"));
             let holds = format!("position{point} and direction{angle}");
             ("weld", ends_in_words(ends), holds)
         }
         JointKind::Slider(slider) => {
             let ends = slider.ends();
-            let (along, point) = (vector(slider.direction), at_point(&ends));
+            let (along, point) = (
+                vector(dimension, slider.direction),
+                at_point(dimension, &ends),
+            );
             let holds = format!("the position on a line along {along}{point}");
             ("slider", ends_in_words(&ends), holds)
         }
@@ -150,10 +155,10 @@ fn joint_in_words(joint: &Joint<'_>) -> (&'static str, String, String) {
             direction,
             angle,
         } => {
-            let (along, angle) = (vector(*direction), given(" at", *angle, "rad"));
+            let (along, angle) = (vector(dimension, *direction), given(" at", *angle, "rad"));
             let line = format!(
                 "the position on a line along {along} of the first{}",
-                at_point(ends)
+                at_point(dimension, ends)
             );
             let holds = format!("{line} and the direction{angle}");
             ("prismatic", ends_in_words(ends), holds)
@@ -164,7 +169,7 @@ fn joint_in_words(joint: &Joint<'_>) -> (&'static str, String, String) {
         }
         JointKind::Distance(ends, length) => {
             let length = given(" of", *length, "m");
-            let holds = format!("the distance{length}{}", at_point(ends));
+            let holds = format!("the distance{length}{}", at_point(dimension, ends));
             ("distance", ends_in_words(ends), holds)
         }
         JointKind::Hinge {
@@ -173,7 +178,10 @@ fn joint_in_words(joint: &Joint<'_>) -> (&'static str, String, String) {
             stiffness,
             damping,
         } => {
-            let (point, rest) = (at_point(ends), given(", at rest at", *rest, "rad"));
+            let (point, rest) = (
+                at_point(dimension, ends),
+                given(", at rest at", *rest, "rad"),
+            );
             let [k, c] = [*stiffness, *damping].map(number);
             let holds = format!(
                 "the position{point}; {k} N m/rad and {c} N m s/rad against rotation{rest}"
@@ -211,7 +219,7 @@ fn course(motion: &Motion<'_>) -> String {
 }
 
 /// What acts, on what, and its size.
-fn load_in_words(load: &Load<'_>) -> (&'static str, String, String) {
+fn load_in_words(dimension: usize, load: &Load<'_>) -> (&'static str, String, String) {
     match &load.kind {
         LoadKind::Action {
             action,
@@ -231,7 +239,10 @@ fn load_in_words(load: &Load<'_>) -> (&'static str, String, String) {
                 First::Ground(_) => code("ground"),
                 First::Marker(marker) => code(marker.name),
             };
-            let (point, second) = (at_point(&spring.ends), code(spring.ends.second.name));
+            let (point, second) = (
+                at_point(dimension, &spring.ends),
+                code(spring.ends.second.name),
+            );
             let [k, c] = [spring.stiffness, spring.damping].map(number);
             let length = spring.given.map_or(String::new(), |length| {
                 format!(", length at rest {} m", value(length))
@@ -246,8 +257,10 @@ fn load_in_words(load: &Load<'_>) -> (&'static str, String, String) {
     }
 }
 
-fn vector(point: [f64; 2]) -> String {
-    format!("({}, {})", number(point[0]), number(point[1]))
+/// A point or a direction, with as many components as there are dimensions.
+fn vector(dimension: usize, point: [f64; 3]) -> String {
+    let components: Vec<String> = point[..dimension].iter().map(|c| number(*c)).collect();
+    format!("({})", components.join(", "))
 }
 
 fn values(values: &[Value]) -> String {

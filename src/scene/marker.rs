@@ -5,7 +5,18 @@ use super::resolved::{
     MotionKind, Pivot, Place, Resolved, Rigid, RigidId, Slider, Turning,
 };
 use super::{Body, CableBody, RigidBody, Scene};
+use crate::math::vector::{dot, norm};
 use crate::system::Drive;
+
+/// From a point to another.
+pub(super) fn difference(to: [f64; 3], from: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| to[k] - from[k])
+}
+
+/// Length of a vector.
+pub(super) fn length(of: [f64; 3]) -> f64 {
+    norm(&of)
+}
 
 /// What stands for the ground where a marker is named.
 pub(super) const GROUND: &str = "ground";
@@ -111,7 +122,7 @@ impl<'a> BodyReference<'a> {
                 .map(|(name, s)| (name.as_str(), Place::Along(cable, *s)))
                 .collect(),
             Self::Rigid(rigid) => (rigid.body.markers.iter())
-                .map(|(name, point)| (name.as_str(), Place::Point(rigid, *point)))
+                .map(|(name, point)| (name.as_str(), Place::Point(rigid, point.full())))
                 .collect(),
         }
     }
@@ -143,7 +154,7 @@ impl<'a> Place<'a> {
     }
 
     /// Where it is as described, m.
-    fn position(self) -> [f64; 2] {
+    fn position(self) -> [f64; 3] {
         match self {
             Self::Along(cable, s) => cable.body.shape.point(s),
             Self::Point(rigid, point) => rigid.body.point(point),
@@ -151,28 +162,29 @@ impl<'a> Place<'a> {
     }
 
     /// Its direction as described.
-    fn direction(self) -> [f64; 2] {
+    fn direction(self) -> [f64; 3] {
         match self {
             Self::Along(cable, s) => cable.body.shape.tangent(s),
-            Self::Point(rigid, _) => [rigid.body.angle.cos(), rigid.body.angle.sin()],
+            Self::Point(rigid, _) => [rigid.body.angle.cos(), rigid.body.angle.sin(), 0.0],
         }
     }
 }
 
 impl RigidBody {
     /// Where a point of the body's frame is at the start, m.
-    pub fn point(&self, point: [f64; 2]) -> [f64; 2] {
+    pub fn point(&self, point: [f64; 3]) -> [f64; 3] {
         let (sin, cos) = self.angle.sin_cos();
         [
             self.position[0] + cos * point[0] - sin * point[1],
             self.position[1] + sin * point[0] + cos * point[1],
+            self.position[2] + point[2],
         ]
     }
 }
 
 impl<'a> Ends<'a> {
     /// Where both ends are as described, m.
-    pub fn points(&self) -> [[f64; 2]; 2] {
+    pub fn points(&self) -> [[f64; 3]; 2] {
         let second = self.second.position;
         let first = match self.first {
             First::Ground(point) => point.unwrap_or(second),
@@ -184,13 +196,13 @@ impl<'a> Ends<'a> {
     /// Distance between the ends as described, m.
     pub fn distance(&self) -> f64 {
         let [a, b] = self.points();
-        (b[0] - a[0]).hypot(b[1] - a[1])
+        length(difference(b, a))
     }
 
     /// Direction of the second end less that of the first as described, from -pi to pi, rad.
     pub fn angle(&self) -> f64 {
         let a = match self.first {
-            First::Ground(_) => [1.0, 0.0],
+            First::Ground(_) => [1.0, 0.0, 0.0],
             First::Marker(marker) => marker.direction,
         };
         let b = self.second.direction;
@@ -198,7 +210,7 @@ impl<'a> Ends<'a> {
     }
 
     /// The point of the ground, where one is given, m.
-    pub fn point(&self) -> Option<[f64; 2]> {
+    pub fn point(&self) -> Option<[f64; 3]> {
         match self.first {
             First::Ground(point) => point,
             First::Marker(_) => None,
@@ -259,7 +271,7 @@ impl<'a> Joint<'a> {
     }
 
     /// The point of the ground, where one is given, m.
-    pub fn point(&self) -> Option<[f64; 2]> {
+    pub fn point(&self) -> Option<[f64; 3]> {
         self.ends()?.point()
     }
 
@@ -319,15 +331,14 @@ impl<'a> MotionKind<'a> {
     pub fn start(&self) -> Vec<f64> {
         match self {
             Self::Angle(Turning::Marker(marker), _) => {
-                let [x, y] = marker.direction;
+                let [x, y, _] = marker.direction;
                 vec![y.atan2(x)]
             }
             Self::Angle(Turning::Pivot(pivot), _) => vec![pivot.ends.angle()],
-            Self::Position(marker, _) => marker.position.to_vec(),
+            Self::Position(marker, drives) => marker.position[..drives.len()].to_vec(),
             Self::Displacement(slider, _) => vec![slider.point.map_or(0.0, |point| {
-                let ([x, y], along) = (slider.marker.position, slider.direction);
-                let dot = (x - point[0]) * along[0] + (y - point[1]) * along[1];
-                dot / along[0].hypot(along[1])
+                let way = difference(slider.marker.position, point);
+                dot(&way, &slider.direction) / length(slider.direction)
             })],
         }
     }

@@ -21,7 +21,8 @@ use serde::Deserialize;
 pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, Body, CableBody, Experiment, Initial, InitialMotion, InitialState, Integrator,
-    Interpolation, Material, Method, RigidBody, Scene, Section, Shape, Strain, Table, Value,
+    Interpolation, Material, Method, RigidBody, Scene, Section, Shape, Spin, Strain, Table, Value,
+    Vector,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Holder,
@@ -91,7 +92,7 @@ impl Scene {
             };
             Error::new(path, wrong.message)
         })?;
-        scene.accuracy.relative_tolerance = Some(scene.relative_tolerance());
+        scene.write_out_defaults();
         scene.resolve()?;
         Ok(scene)
     }

@@ -79,10 +79,10 @@ pub enum Place<'a> {
     /// Material coordinate of a cable in [0, 1].
     Along(Cable<'a>, f64),
     /// Point in the frame of a rigid body, m.
-    Point(Rigid<'a>, [f64; 2]),
+    Point(Rigid<'a>, [f64; 3]),
 }
 
-/// A marker.
+/// A marker. Points and directions have three components, the third zero in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Marker<'a> {
     /// Which one.
@@ -92,16 +92,16 @@ pub struct Marker<'a> {
     /// Where it is on which body.
     pub place: Place<'a>,
     /// Where it is in the shapes and positions that the scene describes, m.
-    pub position: [f64; 2],
+    pub position: [f64; 3],
     /// Direction there: tangent of a cable, first axis of the frame of a rigid body; a unit vector.
-    pub direction: [f64; 2],
+    pub direction: [f64; 3],
 }
 
 /// The first of two ends.
 #[derive(Clone, Copy, Debug)]
 pub enum First<'a> {
     /// The ground at a point, m; where the second end is at the start if none is given.
-    Ground(Option<[f64; 2]>),
+    Ground(Option<[f64; 3]>),
     /// A marker.
     Marker(Marker<'a>),
 }
@@ -132,11 +132,11 @@ pub struct Slider<'a> {
     /// Name of the joint.
     pub name: &'a str,
     /// A point of the line, m; where the marker is at the start if none is given.
-    pub point: Option<[f64; 2]>,
+    pub point: Option<[f64; 3]>,
     /// What it holds.
     pub marker: Marker<'a>,
     /// Direction of the line, of any length.
-    pub direction: [f64; 2],
+    pub direction: [f64; 3],
 }
 
 /// What has a direction: a marker, or a joint between two.
@@ -184,7 +184,7 @@ pub enum JointKind<'a> {
         /// What it joins.
         ends: Ends<'a>,
         /// Direction of the line in the axes of the first end, of any length.
-        direction: [f64; 2],
+        direction: [f64; 3],
         /// The angle.
         angle: Option<f64>,
     },
@@ -233,7 +233,7 @@ pub enum MotionKind<'a> {
     /// An angle, rad.
     Angle(Turning<'a>, Drive),
     /// The position of a marker, m.
-    Position(Marker<'a>, [Drive; 2]),
+    Position(Marker<'a>, Vec<Drive>),
     /// The way along a slider from its point, m.
     Displacement(Slider<'a>, Drive),
 }
@@ -286,14 +286,14 @@ pub enum Action<'a> {
         /// Whether it turns with the marker.
         follower: bool,
         /// Its components.
-        components: [Signal; 2],
+        components: Vec<Signal>,
     },
     /// A moment at a marker, N m.
     Moment(Marker<'a>, Signal),
     /// A moment in a joint, N m.
     Torque(Pivot<'a>, Signal),
     /// A force per reference length of a cable, N/m.
-    Distributed(Cable<'a>, [Signal; 2]),
+    Distributed(Cable<'a>, Vec<Signal>),
 }
 
 /// An input.

@@ -1,46 +1,60 @@
 //! Geometry of unstressed shapes.
 
-use super::Shape;
+use super::marker::{difference, length};
+use super::{Shape, Vector};
+use crate::math::vector::dot;
+
+/// A sum of two vectors with factors, from a point on.
+fn sum(from: [f64; 3], [a, b]: [([f64; 3], f64); 2]) -> [f64; 3] {
+    std::array::from_fn(|k| from[k] + a.0[k] * a.1 + b.0[k] * b.1)
+}
+
+/// The unit vector along another.
+fn unit(of: [f64; 3]) -> [f64; 3] {
+    of.map(|part| part / length(of))
+}
 
 impl Shape {
+    /// First and last end.
+    pub fn ends(&self) -> [Vector; 2] {
+        let (Self::Line { from, to } | Self::Arc { from, to, .. }) = self;
+        [*from, *to]
+    }
+
+    /// Distance of the ends, m.
+    pub fn chord(&self) -> f64 {
+        let [from, to] = self.ends();
+        length(difference(to.full(), from.full()))
+    }
+
     /// Length along the shape, m.
     pub fn length(&self) -> f64 {
         match self {
-            Self::Line { from, to } => (to[0] - from[0]).hypot(to[1] - from[1]),
+            Self::Line { .. } => self.chord(),
             Self::Arc { length, .. } => *length,
         }
     }
 
     /// Point at `s` in [0, 1] of the length, m.
-    pub fn point(&self, s: f64) -> [f64; 2] {
-        let (Self::Line { from, to } | Self::Arc { from, to, .. }) = self;
+    pub fn point(&self, s: f64) -> [f64; 3] {
+        let [from, to] = self.ends().map(|end| end.full());
         match self.half_angle() {
             None => std::array::from_fn(|i| from[i] + s * (to[i] - from[i])),
-            Some(_) if s == 1.0 => *to,
+            Some(_) if s == 1.0 => to,
             Some(half) => {
                 let radius = self.length() / (2.0 * half);
-                let start = self.angle(0.0);
-                let angle = self.angle(s);
-                [
-                    from[0] + radius * (angle.sin() - start.sin()),
-                    from[1] - radius * (angle.cos() - start.cos()),
-                ]
+                let ([along, out], angle) = (self.axes(), half * (2.0 * s - 1.0));
+                let along = (along, radius * (angle.sin() + half.sin()));
+                sum(from, [along, (out, radius * (angle.cos() - half.cos()))])
             }
         }
     }
 
     /// Unit tangent at `s` in [0, 1] of the length.
-    pub fn tangent(&self, s: f64) -> [f64; 2] {
-        match self {
-            Self::Line { from, to } => {
-                let length = self.length();
-                std::array::from_fn(|i| (to[i] - from[i]) / length)
-            }
-            Self::Arc { .. } => {
-                let angle = self.angle(s);
-                [angle.cos(), angle.sin()]
-            }
-        }
+    pub fn tangent(&self, s: f64) -> [f64; 3] {
+        let ([along, out], half) = (self.axes(), self.half_angle().unwrap_or(0.0));
+        let angle = half * (2.0 * s - 1.0);
+        sum([0.0; 3], [(along, angle.cos()), (out, -angle.sin())])
     }
 
     /// Whether the shape is straight.
@@ -48,19 +62,28 @@ impl Shape {
         matches!(self, Self::Line { .. })
     }
 
-    /// Direction of the tangent: an arc that bulges to the right turns left all the way.
-    fn angle(&self, s: f64) -> f64 {
-        let (Self::Line { from, to } | Self::Arc { from, to, .. }) = self;
-        let chord = (to[1] - from[1]).atan2(to[0] - from[0]);
-        chord + self.half_angle().unwrap_or(0.0) * (2.0 * s - 1.0)
+    /// Unit vectors from end to end, and to the side that an arc bulges to: to the right in the plane, down in space.
+    /// The second is not finite where that is along the first.
+    fn axes(&self) -> [[f64; 3]; 2] {
+        let [from, to] = self.ends();
+        let along = unit(difference(to.full(), from.full()));
+        let out = match (self, to.given().len()) {
+            (Self::Line { .. }, _) => [0.0; 3],
+            (_, 2) => [along[1], -along[0], 0.0],
+            _ => {
+                let down = [0.0, 0.0, -1.0];
+                unit(sum(down, [(along, -dot(&down, &along)), (along, 0.0)]))
+            }
+        };
+        [along, out]
     }
 
     /// Half the angle of an arc: `sin(x) / x` is chord over length.
     fn half_angle(&self) -> Option<f64> {
-        let Self::Arc { from, to, length } = self else {
+        let Self::Arc { length, .. } = self else {
             return None;
         };
-        let ratio = (to[0] - from[0]).hypot(to[1] - from[1]) / length;
+        let ratio = self.chord() / length;
         let (mut low, mut high) = (0.0, std::f64::consts::PI);
         // Bisection to the last bit: once per scene, and nothing can go wrong.
         for _ in 0..64 {
@@ -82,11 +105,11 @@ mod tests {
     #[test]
     fn an_arc_has_its_length_and_ends_and_sags() {
         let arc = Shape::Arc {
-            from: [0.5, 1.0],
-            to: [1.5, 1.0],
+            from: [0.5, 1.0].into(),
+            to: [1.5, 1.0].into(),
             length: 1.4,
         };
-        assert_eq!(arc.point(0.0), [0.5, 1.0]);
+        assert_eq!(arc.point(0.0), [0.5, 1.0, 0.0]);
         let n = 20_000;
         let points: Vec<_> = (0..=n)
             .map(|i| arc.point(f64::from(i) / f64::from(n)))
@@ -102,5 +125,30 @@ mod tests {
         let tangent = arc.tangent(0.3);
         assert!(((b[0] - a[0]) / 1.4e-6 - tangent[0]).abs() < 1e-5);
         assert!(((b[1] - a[1]) / 1.4e-6 - tangent[1]).abs() < 1e-5);
+    }
+
+    #[test]
+    fn in_space_an_arc_sags_in_its_upright_plane() {
+        let (flat, tilted) = (
+            Shape::Arc {
+                from: [0.0, 0.0].into(),
+                to: [5.0, 1.0].into(),
+                length: 7.0,
+            },
+            Shape::Arc {
+                from: [1.0, 2.0, 3.0].into(),
+                to: [4.0, 6.0, 4.0].into(),
+                length: 7.0,
+            },
+        );
+        for s in [0.0, 0.2, 0.5, 0.9, 1.0] {
+            let turned = |[x, y, _]: [f64; 3]| [0.6 * x, 0.8 * x, y];
+            let ([a, b], from) = (
+                [flat.point(s), flat.tangent(s)].map(turned),
+                [1.0, 2.0, 3.0],
+            );
+            assert!(length(difference(tilted.point(s), sum(from, [(a, 1.0), (a, 0.0)]))) < 1e-14);
+            assert!(length(difference(tilted.tangent(s), b)) < 1e-14);
+        }
     }
 }

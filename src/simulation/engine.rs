@@ -31,7 +31,7 @@ pub(super) struct Inputs {
     pub moving: bool,
 }
 
-pub(super) struct Engine {
+pub(super) struct Engine<const D: usize> {
     initial: InitialState,
     /// Most work of one communication step.
     pub(super) most_work: f64,
@@ -42,13 +42,13 @@ pub(super) struct Engine {
     /// What the initial state was found with that a person should know.
     remarks: Remarks,
     pub(super) bodies: Vec<String>,
-    pub(super) assembled: Assembled,
-    pub(super) work: Work,
+    pub(super) assembled: Assembled<D>,
+    pub(super) work: Work<D>,
     pub(super) method: Box<dyn Method>,
     pub(super) tolerance: Tolerance,
-    evaluation: Evaluation,
+    evaluation: Evaluation<D>,
     evaluated: Evaluated,
-    derivatives: Option<Box<Derivatives>>,
+    derivatives: Option<Box<Derivatives<D>>>,
     derived: Derived,
     watch: Watch,
     /// Numbers of natural frequencies and of eigenvalues wanted.
@@ -108,10 +108,10 @@ fn kind_and_name(holder: &Holder<'_>) -> (&'static str, String) {
     (kind.unwrap_or("joint"), holder.name.to_owned())
 }
 
-impl Engine {
+impl<const D: usize> Engine<D> {
     /// Builds the system of a scene.
     pub(super) fn new(resolved: &Resolved<'_>, variables: &[Variable]) -> Result<Self, Error> {
-        let assembled = resolved.assemble()?;
+        let assembled: Assembled<D> = resolved.assemble()?;
         let system = &assembled.system;
         let (mut work, mut evaluation) = (Work::new(system), Evaluation::new(system));
         // From nothing but the scene, so that a restored state goes on with the same method.
@@ -385,7 +385,7 @@ impl Engine {
     }
 
     /// The system, and its nodes in a state.
-    pub(super) fn nodes(&mut self, state: &State, inputs: &[f64]) -> (&Assembled, &[Node<4>]) {
+    pub(super) fn nodes(&mut self, state: &State, inputs: &[f64]) -> (&Assembled<D>, &[Node<D>]) {
         self.evaluate(Evaluated::Kinematics, state, inputs);
         (&self.assembled, &self.evaluation.x)
     }
@@ -464,7 +464,7 @@ impl Engine {
     fn derived_value(
         &self,
         quantity: Quantity,
-        work: impl Fn(&Evaluation<Jet>, &System, [f64; 2]) -> [Jet; 2],
+        work: impl Fn(&Evaluation<D, Jet>, &System<D>, [f64; 2]) -> [Jet; 2],
         state: &State,
     ) -> Jet {
         let Some(derivatives) = &self.derivatives else {

@@ -19,9 +19,9 @@ const LOOSE: f64 = 1e-4;
 const LOOSEST: f64 = 5e-3;
 
 /// What a choice is made from.
-pub(super) struct Start<'a> {
+pub(super) struct Start<'a, const D: usize> {
     /// The system.
-    pub system: &'a System,
+    pub system: &'a System<D>,
     /// The state that it starts from.
     pub state: &'a State,
     /// Its kinetic energy, J.
@@ -34,10 +34,10 @@ pub(super) struct Start<'a> {
 ///
 /// # Errors
 /// When the integrator that the scene names cannot take this system.
-pub(super) fn choose(
+pub(super) fn choose<const D: usize>(
     resolved: &Resolved<'_>,
-    start: &Start<'_>,
-    work: &mut Work,
+    start: &Start<'_, D>,
+    work: &mut Work<D>,
 ) -> Result<(Tolerance, Box<dyn Method>), Error> {
     let (scene, system) = (resolved.scene, start.system);
     let rate = natural_rate(resolved, system, start.kinetic);
@@ -81,7 +81,7 @@ pub(super) fn choose(
 
 /// How fast the scene moves, 1/s: by gravity, by its motion at the start, by the turning of its frame;
 /// where it has none of them, by its slowest bending (or stretching) or by its springs.
-fn natural_rate(resolved: &Resolved<'_>, system: &System, kinetic: f64) -> f64 {
+fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kinetic: f64) -> f64 {
     let (size, mass) = (system.size(), system.mass());
     let by_motion = (2.0 * kinetic / mass).sqrt() / size;
     let by_gravity = (system.gravity().norm() / size).sqrt();

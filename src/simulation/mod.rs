@@ -2,6 +2,7 @@
 //! communication point. What an FMU does, without FMI.
 
 mod derivatives;
+mod dimension;
 mod engine;
 mod method;
 mod quantities;
@@ -14,13 +15,15 @@ mod tests;
 mod variables;
 mod watch;
 
+pub use dimension::check;
 pub use signals::{SignalError, Signals};
 pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Causality, Parameter, Quantity, Source, Unit, Variable, variables};
 
 use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;
-use engine::{Engine, Inputs};
+use dimension::AnyEngine;
+use engine::Inputs;
 use variables::start_inputs;
 
 /// Why a simulation cannot go on.
@@ -87,7 +90,7 @@ pub struct Simulation {
     inputs: Inputs,
     /// A direction of the inputs.
     direction: Vec<f64>,
-    engine: Option<Engine>,
+    engine: Option<AnyEngine>,
     state: State,
     spectra: Spectra,
     /// Initialization has ended: parameters are fixed.
@@ -183,7 +186,7 @@ impl Simulation {
     /// told of before: `body.marker.quantity`. Stiffness and fast vibrations magnify errors that the
     /// tolerance allows in the state.
     pub fn next_doubtful(&mut self) -> Option<&str> {
-        self.engine.as_mut().and_then(Engine::next_doubtful)
+        self.engine.as_mut().and_then(AnyEngine::next_doubtful)
     }
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
@@ -281,7 +284,7 @@ impl Simulation {
         let scene = self.parametrized();
         let resolved = scene.resolve()?;
         finite_at(&scene.timed(), start_time)?;
-        let mut engine = Engine::new(&resolved, &self.variables)?;
+        let mut engine = AnyEngine::new(&resolved, &self.variables)?;
         let (state, spectra) = engine.initial_state(start_time, &self.inputs.values)?;
         (self.engine, self.state, self.spectra) = (Some(engine), state, spectra);
         self.current = true;

@@ -15,10 +15,10 @@ pub(super) enum Evaluated {
 }
 
 /// Value of an output; `work` came in and was dissipated so far.
-pub(super) fn value<N: Number>(
+pub(super) fn value<const D: usize, N: Number>(
     quantity: Quantity,
-    values: &Evaluation<N>,
-    assembled: &Assembled,
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
     work: [N; 2],
 ) -> N {
     use Quantity::*;
@@ -31,30 +31,30 @@ pub(super) fn value<N: Number>(
         Velocity(id, axis) => on(id).position(&values.v)[axis],
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
         Angle(angle) => values.angles[angle.index()],
-        AngularVelocity(id) => End::Body(on(id)).spin(&values.x, &values.v),
+        AngularVelocity(id) => End::<D, N>::Body(on(id)).spin(&values.x, &values.v),
         JointVelocity(joint) => {
             let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
             b - a
         }
         AngularAcceleration(id) => {
-            End::Body(on(id)).spin_rate(&values.x, &values.v, &values.acceleration)
+            End::<D, N>::Body(on(id)).spin_rate(&values.x, &values.v, &values.acceleration)
         }
         JointAcceleration(joint) => {
             let rate =
-                |end: End| (end.lift()).spin_rate(&values.x, &values.v, &values.acceleration);
+                |end: End<D>| (end.lift()).spin_rate(&values.x, &values.v, &values.acceleration);
             let [a, b] = ends(joint).map(rate);
             b - a
         }
         Strain(id) => values.strain(system, at(id)).0,
         Curvature(id) => values.strain(system, at(id)).1,
         AxialForce(id) => values.section(system, at(id)).0,
-        BendingMoment(id) => values.section(system, at(id)).1,
+        BendingMoment(id, axis) => values.section(system, at(id)).1[axis],
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, axis) => values.reaction(system, joint.index()).0[axis],
-        ReactionMoment(joint) => values.reaction(system, joint.index()).1,
+        ReactionMoment(joint) => values.reaction(system, joint.index()).1[2],
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
-        MotionMoment(joint) => -values.reaction(system, joint.index()).1,
+        MotionMoment(joint) => -values.reaction(system, joint.index()).1[2],
         CouplingForce(id, axis) => values.coupling(system, assembled.coupling(id)).0[axis],
         CouplingMoment(id) => values.coupling(system, assembled.coupling(id)).1,
         KineticEnergy => values.kinetic_energy(system),
@@ -64,7 +64,7 @@ pub(super) fn value<N: Number>(
         Input => work[0],
         Dissipated => work[1],
         Momentum(axis) => values.momentum(system).0[axis],
-        AngularMomentum => values.momentum(system).1,
+        AngularMomentum(axis) => values.momentum(system).1[axis],
         CenterOfMass(axis) => values.center_of_mass(system)[axis],
         Residual(of) => N::of(values.residuals(system)[of]),
     }
@@ -79,7 +79,7 @@ pub(super) fn needs(quantity: Quantity) -> Evaluated {
         | JointAcceleration(_)
         | ConnectivityForce(..)
         | AxialForce(_)
-        | BendingMoment(_)
+        | BendingMoment(..)
         | Reaction(..)
         | ReactionMoment(_)
         | MotionForce(..)

@@ -1,51 +1,79 @@
 //! Where bodies are, for pictures.
 
+use super::engine::Engine;
 use super::{Error, Simulation};
 use crate::body::{Marker, Node};
-use crate::system::System;
+use crate::math::space::Vector;
+use crate::system::{State, System};
 
 impl Simulation {
-    /// Where all markers are now, m: body by body, in the order of their names.
+    /// Where all markers are now, m: body by body, in the order of their names; the third component is zero in the
+    /// plane.
     ///
     /// # Errors
     /// The initial state cannot be computed.
-    pub fn markers(&mut self) -> Result<Vec<[f64; 2]>, Error> {
+    pub fn markers(&mut self) -> Result<Vec<[f64; 3]>, Error> {
         self.refresh()?;
-        let Some(engine) = &mut self.engine else {
-            return Ok(Vec::new());
-        };
-        let (assembled, x) = engine.nodes(&self.state, &self.inputs.values);
-        let position = |marker: &Marker| marker.position(x).into();
-        Ok(assembled.markers().iter().map(position).collect())
+        let engine = self.engine.as_mut();
+        let markers = engine.map(|engine| engine.markers(&self.state, &self.inputs.values));
+        Ok(markers.unwrap_or_default())
     }
 
     /// Where points along every body are now, m: the ends of as many equal lengths of a cable as `parts` makes of its
-    /// number of elements, the centre of mass of a rigid body.
+    /// number of elements, the centre of mass of a rigid body; the third component is zero in the plane.
     ///
     /// # Errors
     /// The initial state cannot be computed.
-    pub fn outlines(&mut self, parts: impl Fn(usize) -> u32) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+    pub fn outlines(&mut self, parts: impl Fn(usize) -> u32) -> Result<Vec<Vec<[f64; 3]>>, Error> {
         self.refresh()?;
-        let Some(engine) = &mut self.engine else {
-            return Ok(Vec::new());
-        };
-        let (assembled, x) = engine.nodes(&self.state, &self.inputs.values);
-        Ok(outlines(&assembled.system, x, parts))
+        let engine = self.engine.as_mut();
+        let inputs = &self.inputs.values;
+        let outlines = engine.map(|engine| engine.outlines(&self.state, inputs, &parts));
+        Ok(outlines.unwrap_or_default())
     }
 }
 
-fn outlines(system: &System, x: &[Node<4>], parts: impl Fn(usize) -> u32) -> Vec<Vec<[f64; 2]>> {
+impl<const D: usize> Engine<D> {
+    /// Where all markers are.
+    pub(super) fn markers(&mut self, state: &State, inputs: &[f64]) -> Vec<[f64; 3]> {
+        let (assembled, x) = self.nodes(state, inputs);
+        let markers = assembled.markers().iter();
+        markers.map(|marker| point(marker.position(x))).collect()
+    }
+
+    /// Where points along every body are.
+    pub(super) fn outlines(
+        &mut self,
+        state: &State,
+        inputs: &[f64],
+        parts: &dyn Fn(usize) -> u32,
+    ) -> Vec<Vec<[f64; 3]>> {
+        let (assembled, x) = self.nodes(state, inputs);
+        outlines(&assembled.system, x, parts)
+    }
+}
+
+/// A point with three components.
+fn point<const D: usize>(at: Vector<D>) -> [f64; 3] {
+    std::array::from_fn(|k| if k < D { at[k] } else { 0.0 })
+}
+
+fn outlines<const D: usize>(
+    system: &System<D>,
+    x: &[Node<D>],
+    parts: &dyn Fn(usize) -> u32,
+) -> Vec<Vec<[f64; 3]>> {
     let first = |body: usize| system.bodies()[body].start;
-    let mut found: Vec<Vec<[f64; 2]>> = (0..system.bodies().len())
-        .map(|body| vec![[x[first(body)][0], x[first(body)][1]]])
+    let mut found: Vec<Vec<[f64; 3]>> = (0..system.bodies().len())
+        .map(|body| vec![point(x[first(body)][0].into())])
         .collect();
     for chain in system.chains() {
         let parts = parts(chain.elements().len());
         let along = |part: u32| chain.length() * f64::from(part) / f64::from(parts);
         let body = (0..found.len()).find(|body| first(*body) == chain.nodes(0)[0]);
         if let Some(body) = body {
-            let point = |part| Marker::along(body, chain, along(part)).position(x).into();
-            found[body] = (0..=parts).map(point).collect();
+            let place = |part| Marker::along(body, chain, along(part)).position(x);
+            found[body] = (0..=parts).map(|part| point(place(part))).collect();
         }
     }
     found

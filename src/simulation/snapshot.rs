@@ -1,6 +1,6 @@
 //! Snapshots: what a simulation needs to go on from a point in time.
 
-use super::engine::Engine;
+use super::dimension::AnyEngine;
 use super::{Error, Simulation, Source, Variable};
 use crate::system::State;
 
@@ -131,7 +131,7 @@ impl Simulation {
     }
 
     /// The engine that a snapshot needs, where the present one has other parameters.
-    fn engine_for(&self, snapshot: &Snapshot, before: &[f64]) -> Result<Option<Engine>, Error> {
+    fn engine_for(&self, snapshot: &Snapshot, before: &[f64]) -> Result<Option<AnyEngine>, Error> {
         if !snapshot.initialized {
             self.parametrized().resolve()?;
             return Ok(None);
@@ -141,7 +141,7 @@ impl Simulation {
             .all(|(variable, (a, b))| !is_parameter(variable) || a == b);
         let rebuilt = match &self.engine {
             Some(_) if same && self.current => None,
-            _ => Some(Engine::new(
+            _ => Some(AnyEngine::new(
                 &self.parametrized().resolve()?,
                 &self.variables,
             )?),

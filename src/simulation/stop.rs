@@ -11,7 +11,7 @@ const NEAR: f64 = 1e-2;
 /// Part of a communication step below which a sub-step comes to nothing.
 const CRAWL: f64 = 1e-5;
 
-impl Engine {
+impl<const D: usize> Engine<D> {
     /// What ended the way from `start` to `until` at a state.
     pub(super) fn explain(
         &mut self,

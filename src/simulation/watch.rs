@@ -47,9 +47,9 @@ pub(super) struct Watch {
 
 impl Watch {
     /// For these outputs.
-    pub(super) fn new<'a>(
+    pub(super) fn new<'a, const D: usize>(
         outputs: impl Iterator<Item = (Quantity, &'a str)>,
-        system: &System,
+        system: &System<D>,
         tolerance: &Tolerance,
     ) -> Self {
         let mut groups: Vec<Group> = Vec::new();
@@ -128,7 +128,11 @@ impl Watch {
 
 /// What an output is where the scene moves at its natural rate; nothing for sums over the whole run and for
 /// what is conserved or held.
-fn natural(quantity: Quantity, system: &System, tolerance: &Tolerance) -> Option<f64> {
+fn natural<const D: usize>(
+    quantity: Quantity,
+    system: &System<D>,
+    tolerance: &Tolerance,
+) -> Option<f64> {
     use Quantity::*;
     let (size, rate) = (system.size(), 1.0 / tolerance.time);
     let force = system.mass() * size * rate * rate;
@@ -142,13 +146,13 @@ fn natural(quantity: Quantity, system: &System, tolerance: &Tolerance) -> Option
         | Reaction(..)
         | MotionForce(..)
         | CouplingForce(..) => Some(force),
-        BendingMoment(_) | ReactionMoment(_) | MotionMoment(_) | CouplingMoment(_) => {
+        BendingMoment(..) | ReactionMoment(_) | MotionMoment(_) | CouplingMoment(_) => {
             Some(force * size)
         }
         KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => Some(force * size),
         Position(..) | CenterOfMass(_) | Travel(_) => Some(size),
         Angle(_) => Some(1.0),
         Strain(_) | Curvature(_) => Some(0.0),
-        Input | Dissipated | Momentum(_) | AngularMomentum | Residual(_) => None,
+        Input | Dissipated | Momentum(_) | AngularMomentum(_) | Residual(_) => None,
     }
 }

@@ -3,17 +3,19 @@
 
 use std::ops::Range;
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::SMatrix;
 
 use super::end::{Angle, End, coupling};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
 use super::loads::Load;
 use super::signal::Drive;
-use super::{DrivenRow, PlanarChain, System};
-use crate::body::{Assembly, Dependent, Elimination, Marker, Node, Row};
+use super::{CableChain, DrivenRow, System};
+use crate::body::{
+    Assembly, Dependent, Elimination, Marker, Node, Row, add_node, no_node, product,
+};
 use crate::math::function::Function;
+use crate::math::space::Vector;
 use crate::math::sparse::Matrix;
-use crate::math::vector::dot;
 
 /// Part of a gradient that counts as none.
 const NOTHING: f64 = 1e-12;
@@ -31,29 +33,29 @@ pub struct Lump {
 
 /// What a system is made of.
 #[derive(Clone, Debug)]
-pub struct Parts {
+pub struct Parts<const D: usize = 2> {
     /// Nodal coordinates as described; bodies need not fit together yet.
-    pub nodes: Vec<Node<4>>,
+    pub nodes: Vec<Node<D>>,
     /// Nodes of every body, in order.
     pub bodies: Vec<Range<usize>>,
     /// Flexible bodies.
-    pub chains: Vec<PlanarChain>,
+    pub chains: Vec<CableChain<D>>,
     /// Rigid bodies and point masses.
     pub lumps: Vec<Lump>,
     /// Nodes of rigid bodies, and whether they can turn.
     pub rigid: Vec<(usize, bool)>,
     /// Joints, then motions.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<Joint<D>>,
     /// Driven coordinates.
     pub drives: Vec<Drive>,
     /// Loads.
-    pub loads: Vec<Load>,
+    pub loads: Vec<Load<D>>,
     /// Loads that act only where the initial state is looked for.
-    pub initial_loads: Vec<Load>,
+    pub initial_loads: Vec<Load<D>>,
     /// Angles to count.
-    pub angles: Vec<Angle>,
+    pub angles: Vec<Angle<D>>,
     /// Gravitational acceleration, m/s^2.
-    pub gravity: Vector2<f64>,
+    pub gravity: Vector<D>,
     /// Rate at which the frame turns about the origin, rad/s.
     pub rotation: f64,
     /// Whether work is to be integrated.
@@ -69,21 +71,21 @@ pub enum BuildError {
     Massless,
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// Builds a system.
     ///
     /// # Errors
     /// Motions that contradict other constraints; bodies without mass.
-    pub fn new(mut parts: Parts) -> Result<Self, BuildError> {
+    pub fn new(mut parts: Parts<D>) -> Result<Self, BuildError> {
         free_ends(&mut parts);
         let (linear, nonlinear) = constraints(&parts);
-        let rows: Vec<Row<4>> = linear.iter().map(|linear| linear.row.clone()).collect();
+        let rows: Vec<Row<D>> = linear.iter().map(|linear| linear.row.clone()).collect();
         let links = links(&parts, &nonlinear);
         let (assembly, dependent) = Assembly::new(parts.nodes.len(), &rows, &links);
         let redundant = redundant(&linear, &dependent)?;
         let mass = mass(&parts, &assembly);
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
-        let chains_damped = parts.chains.iter().any(PlanarChain::is_damped);
+        let chains_damped = parts.chains.iter().any(CableChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let mut system = Self {
             reference: parts.nodes,
@@ -128,22 +130,26 @@ impl System {
 
     /// Moves the reference onto the fixed rows, and finds how nodes follow the driven ones.
     fn settle(&mut self) {
-        let mut moves: Vec<(usize, Node<4>)> = Vec::new();
+        let mut moves: Vec<(usize, Node<D>)> = Vec::new();
         for (c, cluster) in self.elimination.assembly.clusters().iter().enumerate() {
             for (k, row) in cluster.rows.iter().enumerate() {
                 self.holds[*row] = Some((c, k));
                 let linear = &self.linear[*row];
                 let value: f64 = (linear.row.terms.iter())
-                    .map(|(node, c)| dot(c, &self.reference[*node]))
+                    .map(|(node, c)| product(c, &self.reference[*node]))
                     .sum();
                 let column = cluster.multipliers.row(k);
-                let part = |i: usize| std::array::from_fn(|c| column[4 * i + c]);
+                let entry = |i: usize, p: usize, d: usize| column[(2 * i + p) * D + d];
+                let part = |i: usize| [0, 1].map(|p| std::array::from_fn(|d| entry(i, p, d)));
                 let nodes = cluster.nodes.iter().enumerate();
-                let follow: Vec<(usize, Node<4>)> = nodes.map(|(i, n)| (*n, part(i))).collect();
+                let follow: Vec<(usize, Node<D>)> = nodes.map(|(i, n)| (*n, part(i))).collect();
                 match linear.target {
                     Target::Fixed(target) => {
-                        let scaled =
-                            |(n, c): &(usize, Node<4>)| (*n, c.map(|c| c * (target - value)));
+                        let scaled = |(n, c): &(usize, Node<D>)| {
+                            let mut way = no_node();
+                            add_node(&mut way, target - value, c);
+                            (*n, way)
+                        };
                         moves.extend(follow.iter().map(scaled));
                     }
                     _ => self.driven.push(DrivenRow {
@@ -156,40 +162,39 @@ impl System {
             }
         }
         for (node, change) in moves {
-            let x = &mut self.reference[node];
-            x.iter_mut().zip(change).for_each(|(x, c)| *x += c);
+            add_node(&mut self.reference[node], 1.0, &change);
         }
     }
 
     /// Mass times a sparse nodal vector.
-    fn inertia_of(&self, follow: &[(usize, Node<4>)]) -> Vec<(usize, Node<4>)> {
-        let zero = vec![[0.0; 4]; self.reference.len()];
+    fn inertia_of(&self, follow: &[(usize, Node<D>)]) -> Vec<(usize, Node<D>)> {
+        let zero = vec![no_node(); self.reference.len()];
         let (mut a, mut f) = (zero.clone(), zero);
         for (node, value) in follow {
             a[*node] = *value;
         }
         self.add_inertia(1.0, &a, &mut f);
         let nodes = f.into_iter().enumerate();
-        nodes.filter(|(_, f)| *f != [0.0; 4]).collect()
+        nodes.filter(|(_, f)| *f != no_node()).collect()
     }
 
     fn weigh(&mut self) {
-        let mut weight = vec![[0.0; 4]; self.reference.len()];
+        let mut weight = vec![no_node(); self.reference.len()];
         for chain in &self.chains {
             chain.add_weight(&self.gravity, &mut weight);
         }
         for lump in &self.lumps {
             let force = self.gravity * lump.mass;
-            lump.marker.add_force(force, Vector2::zeros(), &mut weight);
+            lump.marker.add_force(force, Vector::zeros(), &mut weight);
         }
         self.weight = weight;
     }
 
     /// Sorts non-linear constraints by component. One that nothing free can violate drops out.
-    fn group(&mut self, nonlinear: Vec<Constraint>) {
+    fn group(&mut self, nonlinear: Vec<Constraint<D>>) {
         let assembly = &self.elimination.assembly;
         let slides = nonlinear.iter().filter_map(|c| match &c.kind {
-            ConstraintKind::Along(along) => {
+            ConstraintKind::Along(along) if c.is_slide() => {
                 Some(along.nearest(&self.chains[along.chain], &self.reference))
             }
             _ => None,
@@ -203,14 +208,14 @@ impl System {
             chains: &self.chains,
             travel: &travel,
         };
-        let mut sorted: Vec<(usize, Constraint)> = Vec::new();
+        let mut sorted: Vec<(usize, Constraint<D>)> = Vec::new();
         let mut y = vec![0.0; assembly.pattern().len()];
         for constraint in nonlinear {
             y.fill(0.0);
             let mut size = 0.0;
             constraint.gradient(&view).for_each(|node, term| {
                 assembly.gather_node(node, term, 0, &mut y);
-                size += dot(term, term);
+                size += product(term, term);
             });
             let left = y.iter().position(|y| y.abs() > NOTHING * f64::sqrt(size));
             let home = left.and_then(|at| {
@@ -245,7 +250,7 @@ impl System {
 }
 
 /// Tells cables which of their ends are free.
-fn free_ends(parts: &mut Parts) {
+fn free_ends<const D: usize>(parts: &mut Parts<D>) {
     let mut used = vec![false; parts.nodes.len()];
     let joints = parts.joints.iter().flat_map(|joint| joint.ends);
     let ends = joints.chain(parts.loads.iter().flat_map(Load::ends));
@@ -260,7 +265,7 @@ fn free_ends(parts: &mut Parts) {
     }
 }
 
-fn constraints(parts: &Parts) -> (Vec<Linear>, Vec<Constraint>) {
+fn constraints<const D: usize>(parts: &Parts<D>) -> (Vec<Linear<D>>, Vec<Constraint<D>>) {
     let (mut linear, mut nonlinear) = (Vec::new(), Vec::new());
     for (node, turns) in &parts.rigid {
         if *turns {
@@ -272,17 +277,17 @@ fn constraints(parts: &Parts) -> (Vec<Linear>, Vec<Constraint>) {
             continue;
         }
         // A particle has no direction of its own.
-        for axis in 2..4 {
-            let mut coefficients = [0.0; 4];
-            coefficients[axis] = 1.0;
+        for axis in 0..D {
+            let mut coefficients = no_node();
+            coefficients[1][axis] = 1.0;
             linear.push(Linear {
                 joint: None,
                 row: Row {
                     terms: vec![(*node, coefficients)],
                     is_driven: false,
                 },
-                target: Target::Fixed(parts.nodes[*node][axis]),
-                on_second: [Vector2::zeros(); 2],
+                target: Target::Fixed(parts.nodes[*node][1][axis]),
+                on_second: [Vector::zeros(); 2],
             });
         }
     }
@@ -293,7 +298,7 @@ fn constraints(parts: &Parts) -> (Vec<Linear>, Vec<Constraint>) {
 }
 
 /// Pairs of nodes that mass, stiffness or constraints couple.
-fn links(parts: &Parts, nonlinear: &[Constraint]) -> Vec<(usize, usize)> {
+fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Vec<(usize, usize)> {
     let mut links = Vec::new();
     for chain in &parts.chains {
         links.extend((0..chain.elements().len()).map(|j| <(usize, usize)>::from(chain.nodes(j))));
@@ -315,7 +320,10 @@ fn links(parts: &Parts, nonlinear: &[Constraint]) -> Vec<(usize, usize)> {
     links
 }
 
-fn redundant(linear: &[Linear], dependent: &[Dependent]) -> Result<Vec<usize>, BuildError> {
+fn redundant<const D: usize>(
+    linear: &[Linear<D>],
+    dependent: &[Dependent],
+) -> Result<Vec<usize>, BuildError> {
     let mut redundant = Vec::new();
     for found in dependent {
         let joint = linear[found.row].joint;
@@ -329,15 +337,15 @@ fn redundant(linear: &[Linear], dependent: &[Dependent]) -> Result<Vec<usize>, B
     Ok(redundant)
 }
 
-fn mass(parts: &Parts, assembly: &Assembly<4>) -> Matrix<f64> {
+fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64> {
     let mut mass = Matrix::zeros(assembly.pattern());
     for chain in &parts.chains {
         chain.add_mass(assembly, &mut mass);
     }
     for lump in &parts.lumps {
-        let ends = [End::Body(lump.marker), End::Ground(Vector2::zeros())];
+        let ends = [End::Body(lump.marker), End::Ground(Vector::zeros())];
         for (part, size) in [lump.mass, lump.inertia].into_iter().enumerate() {
-            let (k, zero) = (Matrix2::identity() * size, Matrix2::zeros());
+            let (k, zero) = (SMatrix::identity() * size, SMatrix::zeros());
             coupling(
                 &ends,
                 [[k, zero], [zero, zero]],
@@ -352,9 +360,9 @@ fn mass(parts: &Parts, assembly: &Assembly<4>) -> Matrix<f64> {
 }
 
 /// Nodes that something besides rows ties to the ground.
-fn grounded(
-    loads: &[Load],
-    nonlinear: &[Constraint],
+fn grounded<const D: usize>(
+    loads: &[Load<D>],
+    nonlinear: &[Constraint<D>],
     rotation: f64,
     bodies: &[Range<usize>],
 ) -> Vec<usize> {

@@ -1,22 +1,23 @@
 //! What joints and loads are fixed to: the ground or a body.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::SMatrix;
 
-use crate::body::{Marker, Node, NodeBlock, Row, left};
+use crate::body::{Marker, Node, NodeBlock, Partial, Row, no_block};
 use crate::math::jet::Number;
+use crate::math::space::{Vector, axis, cross, left};
 
 /// A point of the ground or of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End<N: Number = f64> {
+pub enum End<const D: usize = 2, N: Number = f64> {
     /// A fixed point, m. Its direction is the x axis.
-    Ground(Vector2<N>),
+    Ground(Vector<D, N>),
     /// A marker.
     Body(Marker<N>),
 }
 
-impl<N: Number> End<N> {
+impl<const D: usize, N: Number> End<D, N> {
     /// Position, m.
-    pub fn position(&self, x: &[Node<4, N>]) -> Vector2<N> {
+    pub fn position(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Ground(point) => *point,
             Self::Body(marker) => marker.position(x),
@@ -24,39 +25,39 @@ impl<N: Number> End<N> {
     }
 
     /// Velocity, m/s.
-    pub fn velocity(&self, v: &[Node<4, N>]) -> Vector2<N> {
+    pub fn velocity(&self, v: &[Node<D, N>]) -> Vector<D, N> {
         match self {
-            Self::Ground(_) => Vector2::zeros(),
+            Self::Ground(_) => Vector::zeros(),
             Self::Body(marker) => marker.position(v),
         }
     }
 
     /// Direction; its length is the stretch of a cable.
-    pub fn direction(&self, x: &[Node<4, N>]) -> Vector2<N> {
+    pub fn direction(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         match self {
-            Self::Ground(_) => Vector2::x(),
+            Self::Ground(_) => axis(0),
             Self::Body(marker) => marker.direction(x),
         }
     }
 
     /// Rate of the direction, 1/s.
-    pub fn direction_rate(&self, v: &[Node<4, N>]) -> Vector2<N> {
+    pub fn direction_rate(&self, v: &[Node<D, N>]) -> Vector<D, N> {
         match self {
-            Self::Ground(_) => Vector2::zeros(),
+            Self::Ground(_) => Vector::zeros(),
             Self::Body(marker) => marker.direction(v),
         }
     }
 
     /// Angular velocity of the direction, rad/s.
-    pub fn spin(&self, x: &[Node<4, N>], v: &[Node<4, N>]) -> N {
+    pub fn spin(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         let u = self.direction(x);
-        u.perp(&self.direction_rate(v)) / u.norm_squared()
+        cross(&u, &self.direction_rate(v)) / u.norm_squared()
     }
 
     /// Angular acceleration of the direction, rad/s^2, under nodal accelerations `a`.
-    pub fn spin_rate(&self, x: &[Node<4, N>], v: &[Node<4, N>], a: &[Node<4, N>]) -> N {
+    pub fn spin_rate(&self, x: &[Node<D, N>], v: &[Node<D, N>], a: &[Node<D, N>]) -> N {
         let (u, rate) = (self.direction(x), self.direction_rate(v));
-        let second = u.perp(&self.direction_rate(a));
+        let second = cross(&u, &self.direction_rate(a));
         (second - N::of(2.0) * u.dot(&rate) * self.spin(x, v)) / u.norm_squared()
     }
 
@@ -74,24 +75,24 @@ impl<N: Number> End<N> {
     }
 
     /// Adds forces on position and direction.
-    pub fn add_force(&self, position: Vector2<N>, direction: Vector2<N>, f: &mut [Node<4, N>]) {
+    pub fn add_force(&self, position: Vector<D, N>, direction: Vector<D, N>, f: &mut [Node<D, N>]) {
         if let Self::Body(marker) = self {
             marker.add_force(position, direction, f);
         }
     }
 
     /// Adds a moment, counter-clockwise: `M d(angle)` with `d(angle) = (u x du) / u.u`.
-    pub fn add_moment(&self, moment: N, x: &[Node<4, N>], f: &mut [Node<4, N>]) {
+    pub fn add_moment(&self, moment: N, x: &[Node<D, N>], f: &mut [Node<D, N>]) {
         let u = self.direction(x);
         let on_direction = left(u) * (moment / u.norm_squared());
-        self.add_force(Vector2::zeros(), on_direction, f);
+        self.add_force(Vector::zeros(), on_direction, f);
     }
 }
 
-impl End {
+impl<const D: usize> End<D> {
     /// The same end in another kind of numbers.
     #[inline(always)]
-    pub fn lift<N: Number>(&self) -> End<N> {
+    pub fn lift<N: Number>(&self) -> End<D, N> {
         match self {
             Self::Ground(point) => End::Ground(point.map(N::of)),
             Self::Body(marker) => End::Body(marker.lift()),
@@ -99,14 +100,14 @@ impl End {
     }
 
     /// Adds what forces on position and direction would do to a row.
-    pub fn add_terms(&self, position: Vector2<f64>, direction: Vector2<f64>, row: &mut Row<4>) {
+    pub fn add_terms(&self, position: Vector<D>, direction: Vector<D>, row: &mut Row<D>) {
         if let Self::Body(marker) = self {
             marker.add_terms(position, direction, row);
         }
     }
 
     /// Nodes that it depends on.
-    pub fn nodes(&self) -> impl Iterator<Item = usize> + use<> {
+    pub fn nodes(&self) -> impl Iterator<Item = usize> + use<D> {
         let nodes = self.marker().map(|marker| marker.nodes);
         nodes.into_iter().flatten()
     }
@@ -114,45 +115,55 @@ impl End {
 
 /// Relative direction of two ends, counted on over full turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Angle {
+pub struct Angle<const D: usize = 2> {
     /// From here to there.
-    pub ends: [End; 2],
+    pub ends: [End<D>; 2],
 }
 
-impl Angle {
+impl<const D: usize> Angle<D> {
     /// The angle that is nearest to `hint`, rad.
-    pub fn value<N: Number>(&self, x: &[Node<4, N>], hint: N) -> N {
+    pub fn value<N: Number>(&self, x: &[Node<D, N>], hint: N) -> N {
         let [a, b] = self.ends.map(|end| end.lift().direction(x));
-        let (along, across) = (a.dot(&b), a.perp(&b));
+        let (along, across) = (a.dot(&b), cross(&a, &b));
         let (sin, cos) = hint.sin_cos();
         // A step turns nothing by half a turn.
         hint + (cos * across - sin * along).atan2(cos * along + sin * across)
     }
 
     /// Its rate, rad/s.
-    pub fn rate<N: Number>(&self, x: &[Node<4, N>], v: &[Node<4, N>]) -> N {
+    pub fn rate<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         let [a, b] = self.ends.map(|end| end.lift().spin(x, v));
         b - a
     }
 }
 
 /// Adds a block times a factor to a matrix over nodes: row node, column node, block.
-pub type Add<'a> = &'a mut dyn FnMut(usize, usize, &NodeBlock<4>);
+pub type Add<'a, const D: usize> = &'a mut dyn FnMut(usize, usize, &NodeBlock<D>);
 
 /// Stiffness of a potential whose second derivative by the way between two ends is `k` times the
 /// identity.
-pub fn isotropic(ends: &[End; 2], k: f64, add: Add<'_>) {
-    between(ends, Matrix2::identity() * k, 0, add);
+pub fn isotropic<const D: usize>(ends: &[End<D>; 2], k: f64, add: Add<'_, D>) {
+    between(ends, SMatrix::identity() * k, 0, add);
 }
 
 /// Stiffness `k` between the positions (`part` 0) or directions (1) of two ends.
-pub fn between(ends: &[End; 2], k: Matrix2<f64>, part: usize, add: Add<'_>) {
+pub fn between<const D: usize>(
+    ends: &[End<D>; 2],
+    k: SMatrix<f64, D, D>,
+    part: usize,
+    add: Add<'_, D>,
+) {
     coupling(ends, [[k, -k], [-k, k]], part, add);
 }
 
 /// Adds the symmetric matrix `k` over positions (`part` 0) or directions (1) of two ends.
-pub fn coupling(ends: &[End; 2], k: [[Matrix2<f64>; 2]; 2], part: usize, add: Add<'_>) {
-    let none = (usize::MAX, [Matrix2::zeros(); 2]);
+pub fn coupling<const D: usize>(
+    ends: &[End<D>; 2],
+    k: [[SMatrix<f64, D, D>; 2]; 2],
+    part: usize,
+    add: Add<'_, D>,
+) {
+    let none = (usize::MAX, [SMatrix::zeros(); 2]);
     let mut terms = [none; 4];
     for (i, end) in ends.iter().enumerate() {
         if let End::Body(marker) = end {
@@ -179,7 +190,11 @@ pub fn coupling(ends: &[End; 2], k: [[Matrix2<f64>; 2]; 2], part: usize, add: Ad
 }
 
 /// Adds the second derivatives of a product `p . k q` of positions (part 0) or directions (part 1) of two markers.
-pub fn bilinear(parts: [(&Marker, usize); 2], k: Matrix2<f64>, add: Add<'_>) {
+pub fn bilinear<const D: usize>(
+    parts: [(&Marker, usize); 2],
+    k: SMatrix<f64, D, D>,
+    add: Add<'_, D>,
+) {
     let [of_first, of_second] = parts.map(|(marker, part)| marker.jacobian(part));
     for (a, of_a) in of_first {
         for (b, of_b) in of_second {
@@ -193,14 +208,14 @@ pub fn bilinear(parts: [(&Marker, usize); 2], k: Matrix2<f64>, add: Add<'_>) {
 }
 
 /// `p^T k q` of the derivatives of two vectors by position and direction of a node each.
-fn product(p: &[Matrix2<f64>; 2], q: &[Matrix2<f64>; 2], k: &Matrix2<f64>) -> NodeBlock<4> {
-    let mut block = [[0.0; 4]; 4];
+fn product<const D: usize>(p: &Partial<D>, q: &Partial<D>, k: &SMatrix<f64, D, D>) -> NodeBlock<D> {
+    let mut block = no_block();
     for (i, p) in p.iter().enumerate() {
         for (j, q) in q.iter().enumerate() {
             let part = p.transpose() * k * q;
-            for r in 0..2 {
-                for c in 0..2 {
-                    block[2 * i + r][2 * j + c] = part[(r, c)];
+            for r in 0..D {
+                for c in 0..D {
+                    block[i][r][j][c] = part[(r, c)];
                 }
             }
         }
@@ -209,11 +224,13 @@ fn product(p: &[Matrix2<f64>; 2], q: &[Matrix2<f64>; 2], k: &Matrix2<f64>) -> No
 }
 
 /// A pair of vectors on one node counts both ways.
-fn add_transposed(block: &mut NodeBlock<4>) {
+fn add_transposed<const D: usize>(block: &mut NodeBlock<D>) {
     let copy = *block;
-    for r in 0..4 {
-        for c in 0..4 {
-            block[r][c] = copy[r][c] + copy[c][r];
+    for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        for r in 0..D {
+            for c in 0..D {
+                block[p][r][q][c] = copy[p][r][q][c] + copy[q][c][p][r];
+            }
         }
     }
 }

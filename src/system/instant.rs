@@ -1,12 +1,12 @@
 //! A system at an instant, as loads see it.
 
-use super::PlanarChain;
+use super::CableChain;
 use super::end::Angle;
 use crate::body::Node;
 
 /// Time, inputs and state as loads see them.
 #[derive(Clone, Copy)]
-pub struct Instant<'a, N = f64> {
+pub struct Instant<'a, const D: usize, N = f64> {
     /// Time, s.
     pub time: N,
     /// Inputs at this time.
@@ -14,11 +14,11 @@ pub struct Instant<'a, N = f64> {
     /// Their rates.
     pub input_rates: &'a [N],
     /// Nodal coordinates.
-    pub x: &'a [Node<4, N>],
+    pub x: &'a [Node<D, N>],
     /// Their rates.
-    pub v: &'a [Node<4, N>],
+    pub v: &'a [Node<D, N>],
     /// Flexible bodies.
-    pub chains: &'a [PlanarChain],
+    pub chains: &'a [CableChain<D>],
     /// Counted angles of the system and their current values, rad.
-    pub angles: (&'a [Angle], &'a [N]),
+    pub angles: (&'a [Angle<D>], &'a [N]),
 }

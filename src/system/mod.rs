@@ -35,49 +35,49 @@ pub use work::Work;
 
 use std::ops::Range;
 
-use nalgebra::Vector2;
+use crate::math::space::Vector;
 
 use crate::body::{Chain, Elimination, Node};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
 
-/// Flexible bodies of a planar system.
-pub type PlanarChain = Chain<Cable<2, 1>, 2, 4>;
+/// Flexible bodies of a system.
+pub type CableChain<const D: usize = 2> = Chain<Cable<D>, D>;
 
 /// Everything about a system that does not change in time.
 #[derive(Clone, Debug)]
-pub struct System {
+pub struct System<const D: usize = 2> {
     /// Coordinates of the nodes where `q` and what drives them are zero.
-    reference: Vec<Node<4>>,
-    chains: Vec<PlanarChain>,
+    reference: Vec<Node<D>>,
+    chains: Vec<CableChain<D>>,
     lumps: Vec<Lump>,
     /// Nodes of every body.
     bodies: Vec<Range<usize>>,
-    elimination: Elimination<4>,
-    joints: Vec<Joint>,
-    linear: Vec<Linear>,
+    elimination: Elimination<D>,
+    joints: Vec<Joint<D>>,
+    linear: Vec<Linear<D>>,
     /// For every linear row, its cluster and place there, unless it repeats others.
     holds: Vec<Option<(usize, usize)>>,
-    driven: Vec<DrivenRow>,
+    driven: Vec<DrivenRow<D>>,
     /// Non-linear constraints, those of one component together.
-    constraints: Vec<Constraint>,
+    constraints: Vec<Constraint<D>>,
     /// Those that nothing free can violate, though a motion might.
-    settled: Vec<Constraint>,
+    settled: Vec<Constraint<D>>,
     /// Component and number of its constraints.
     groups: Vec<(usize, usize)>,
     /// Joints with a row that repeats others.
     redundant: Vec<usize>,
     drives: Vec<Drive>,
-    loads: Vec<Load>,
+    loads: Vec<Load<D>>,
     /// Loads that act only where the initial state is looked for.
-    initial_loads: Vec<Load>,
-    angles: Vec<Angle>,
+    initial_loads: Vec<Load<D>>,
+    angles: Vec<Angle<D>>,
     /// For every slide, its constraint.
     slides: Vec<usize>,
-    gravity: Vector2<f64>,
+    gravity: Vector<D>,
     /// Forces of gravity on the nodes, N.
-    weight: Vec<Node<4>>,
+    weight: Vec<Node<D>>,
     /// Rate at which the frame turns, rad/s.
     rotation: f64,
     is_damped: bool,
@@ -94,18 +94,18 @@ pub struct System {
 
 /// How the nodes follow a row of `Phi` that changes in time.
 #[derive(Clone, Debug)]
-struct DrivenRow {
+struct DrivenRow<const D: usize> {
     /// Index among the linear rows.
     row: usize,
     /// Value in the reference configuration.
     reference: f64,
     /// Nodal coordinates per unit.
-    follow: Vec<(usize, Node<4>)>,
+    follow: Vec<(usize, Node<D>)>,
     /// Mass times them.
-    inertia: Vec<(usize, Node<4>)>,
+    inertia: Vec<(usize, Node<D>)>,
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// Root of the mass times the size of the system, m sqrt(kg): what errors of `q` are measured by.
     pub fn scale(&self) -> f64 {
         self.mass().sqrt() * self.size()
@@ -116,7 +116,7 @@ impl System {
         let longest = self
             .chains
             .iter()
-            .map(PlanarChain::length)
+            .map(CableChain::length)
             .fold(0.0, f64::max);
         if self.chains.len() == 1 && self.bodies.len() == 1 {
             return longest;
@@ -135,22 +135,22 @@ impl System {
     }
 
     /// Flexible bodies.
-    pub fn chains(&self) -> &[PlanarChain] {
+    pub fn chains(&self) -> &[CableChain<D>] {
         &self.chains
     }
 
     /// Coordinates of the nodes where `q` and what drives them are zero.
-    pub fn reference(&self) -> &[Node<4>] {
+    pub fn reference(&self) -> &[Node<D>] {
         &self.reference
     }
 
     /// The transformation from `q` to the nodes.
-    pub fn elimination(&self) -> &Elimination<4> {
+    pub fn elimination(&self) -> &Elimination<D> {
         &self.elimination
     }
 
     /// Joints, then motions.
-    pub fn joints(&self) -> &[Joint] {
+    pub fn joints(&self) -> &[Joint<D>] {
         &self.joints
     }
 
@@ -172,7 +172,7 @@ impl System {
     }
 
     /// Gravitational acceleration, m/s^2.
-    pub fn gravity(&self) -> Vector2<f64> {
+    pub fn gravity(&self) -> Vector<D> {
         self.gravity
     }
 
@@ -185,7 +185,7 @@ impl System {
 
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
-        let chains: f64 = self.chains.iter().map(PlanarChain::mass).sum();
+        let chains: f64 = self.chains.iter().map(CableChain::mass).sum();
         chains + self.lumps.iter().map(|lump| lump.mass).sum::<f64>()
     }
 
@@ -218,12 +218,12 @@ impl System {
     }
 
     /// `f += s M a` over the nodes.
-    pub fn add_inertia(&self, s: f64, a: &[Node<4>], f: &mut [Node<4>]) {
+    pub fn add_inertia(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
         for chain in &self.chains {
             chain.add_inertia(s, a, f);
         }
         for lump in &self.lumps {
-            let at = lump.marker.position(a) * (s * lump.mass);
+            let at: Vector<D> = lump.marker.position(a) * (s * lump.mass);
             let on = lump.marker.direction(a) * (s * lump.inertia);
             lump.marker.add_force(at, on, f);
         }

@@ -15,7 +15,7 @@ pub enum Signal {
 
 impl Signal {
     /// Value.
-    pub fn value<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub fn value<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> N {
         match self {
             Self::Function(function) => {
                 (at.time).map(|t| function.value(t), |t| function.derivatives(t))
@@ -25,7 +25,7 @@ impl Signal {
     }
 
     /// Rate, 1/s.
-    pub fn rate<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub fn rate<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> N {
         match self {
             Self::Function(function) => {
                 let rates = |t: f64| {
@@ -39,7 +39,7 @@ impl Signal {
     }
 
     /// A fraction of what it is at an instant, from then on.
-    pub fn held(&self, at: Instant<'_>, fraction: f64) -> Self {
+    pub fn held<const D: usize>(&self, at: Instant<'_, D>, fraction: f64) -> Self {
         Self::Function(Function::constant(fraction * self.value(at)))
     }
 }

@@ -3,20 +3,20 @@
 use super::motion::multipliers::Group;
 use super::signal::Course;
 use super::{State, System};
-use crate::body::{Node, Tangent};
+use crate::body::{Node, Tangent, no_node};
 
 /// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
 #[derive(Clone, Debug)]
-pub struct Work {
+pub struct Work<const D: usize = 2> {
     /// Nodal coordinates, m.
-    pub x: Vec<Node<4>>,
+    pub x: Vec<Node<D>>,
     /// Their rates.
-    pub v: Vec<Node<4>>,
+    pub v: Vec<Node<D>>,
     /// Forces on them, N.
-    pub f: Vec<Node<4>>,
+    pub f: Vec<Node<D>>,
     /// Nodal accelerations, or another nodal vector; forces that linear constraints supply.
-    pub(super) other: Vec<Node<4>>,
-    pub(super) supply: Vec<Node<4>>,
+    pub(super) other: Vec<Node<D>>,
+    pub(super) supply: Vec<Node<D>>,
     /// A vector of free coordinates.
     pub(super) y: Vec<f64>,
     /// Accelerations.
@@ -34,15 +34,15 @@ pub struct Work {
     /// The state accepted last, to go back to from a step that leaves a cable.
     pub(super) before: State,
     pub(super) groups: Vec<Group>,
-    pub(super) tangent: Tangent<2, 4>,
+    pub(super) tangent: Tangent<D>,
     /// Power that comes in and that is dissipated at the last acceleration, W.
     pub(super) power: [f64; 2],
 }
 
-impl Work {
+impl<const D: usize> Work<D> {
     /// For a system.
-    pub fn new(system: &System) -> Self {
-        let nodes = vec![[0.0; 4]; system.reference.len()];
+    pub fn new(system: &System<D>) -> Self {
+        let nodes = vec![no_node(); system.reference.len()];
         let mut elastic = vec![false; nodes.len()];
         for chain in &system.chains {
             let first = chain.nodes(0)[0];

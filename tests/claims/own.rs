@@ -264,11 +264,8 @@ fn a_stretch_counts_as_a_turn() {
     let elimination = system.elimination();
     let mut turn = |slope: [f64; 2]| {
         let change = [slope[0] - 1.0, slope[1]];
-        let nodes = [
-            [0.0, 0.0, change[0], change[1]],
-            [change[0], change[1], change[0], change[1]],
-        ];
-        let mut forces = [[0.0; 4]; 2];
+        let nodes = [[[0.0; 2], change], [change, change]];
+        let mut forces = [[[0.0; 2]; 2]; 2];
         system.add_inertia(1.0, &nodes, &mut forces);
         let mut q = vec![0.0; elimination.coordinates()];
         let mut scratch = vec![0.0; elimination.scratch()];

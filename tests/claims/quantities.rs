@@ -30,7 +30,7 @@ named! { label, LABELS, Quantity:
     Angle(_) => "angle", AngularVelocity(_) => "angular velocity", JointVelocity(_) => "joint velocity",
     AngularAcceleration(_) => "angular acceleration", JointAcceleration(_) => "joint acceleration",
     Strain(_) => "strain", Curvature(_) => "curvature", AxialForce(_) => "axial force",
-    BendingMoment(_) => "bending moment",
+    BendingMoment(..) => "bending moment",
     ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(..) => "connectivity force y",
     Travel(_) => "travel", Reaction(_, 0) => "reaction x", Reaction(..) => "reaction y",
     ReactionMoment(_) => "reaction moment",
@@ -40,7 +40,7 @@ named! { label, LABELS, Quantity:
     CouplingMoment(_) => "coupling moment",
     KineticEnergy => "kinetic energy", StrainEnergy => "strain energy", GravityEnergy => "gravity energy",
     SpringEnergy => "spring energy", Input => "input", Dissipated => "dissipated",
-    Momentum(0) => "momentum x", Momentum(_) => "momentum y", AngularMomentum => "angular momentum",
+    Momentum(0) => "momentum x", Momentum(_) => "momentum y", AngularMomentum(_) => "angular momentum",
     CenterOfMass(0) => "center of mass x", CenterOfMass(_) => "center of mass y",
     Residual(0) => "residual of positions", Residual(_) => "residual of velocities",
 }

@@ -76,6 +76,14 @@ def read_table(path):
     return dict(zip(names, columns))
 
 
+def seen(points):
+    """Points of the plane as they are; points of space from the front, the right and above (isometric)."""
+    if points.shape[-1] != 3:
+        return points
+    x, y, z = np.moveaxis(points, -1, 0)
+    return np.stack([(x + y) * math.sqrt(0.75), 0.5 * (y - x) + z], axis=-1)
+
+
 class Shapes:
     """Where bodies and their markers were."""
 
@@ -84,12 +92,13 @@ class Shapes:
             header, *rows = map(json.loads, file)
         self.bodies = header["bodies"]
         self.time = np.array([row["time"] for row in rows])
-        places = np.array([row["markers"] for row in rows], dtype=float).reshape(len(rows), -1, 2)
+        count = len([marker for body in self.bodies for marker in body["markers"]])
+        places = seen(np.array([row["markers"] for row in rows], dtype=float).reshape(len(rows), count, -1))
         names = [f"{body['name']}.{marker}" for body in self.bodies for marker in body["markers"]]
         self.paths = {name: places[:, index] for index, name in enumerate(names)}
         # Time, and points along every body.
         self.snapshots = [
-            (row["time"], [np.array(points) for points in row["outlines"]]) for row in rows if "outlines" in row
+            (row["time"], [seen(np.array(points)) for points in row["outlines"]]) for row in rows if "outlines" in row
         ]
         everything = np.concatenate([places.reshape(-1, 2), *(o for _, outlines in self.snapshots for o in outlines)])
         self.size = float(np.linalg.norm(np.ptp(everything, axis=0))) or 1.0
@@ -190,7 +199,8 @@ def together(shapes):
 
 def reactions(run):
     """Columns of forces and of moments: name, label."""
-    forces = [(name, name.replace(".reaction[1]", " x").replace(".reaction[2]", " y")) for name in run if ".reaction[" in name]
+    axes = {".reaction[1]": " x", ".reaction[2]": " y", ".reaction[3]": " z"}
+    forces = [(name, name[:-12] + axes[name[-12:]]) for name in run if name[-12:] in axes]
     moments = [(name, name.removesuffix(".reaction_moment")) for name in run if name.endswith(".reaction_moment")]
     return forces, moments
 
@@ -201,7 +211,7 @@ def curves(axes, run, columns, words, energy):
     colours = {}
     for name, label in columns:
         colour = colours.setdefault(name.split(".")[0], CYCLE[len(colours) % len(CYCLE)])
-        dashes = (0, (4, 1.5)) if name.endswith("[2]") else "-"
+        dashes = {"[2]": (0, (4, 1.5)), "[3]": (0, (1, 1))}.get(name[-3:], "-")
         axes.plot(run["time"], run[name], color=colour, linewidth=1.4, linestyle=dashes, label=label)
     against_time(axes, (title, what, unit), [run[name] for name, _ in columns], energy * 1e-9)
     legend(axes)

@@ -1,7 +1,7 @@
 //! Loads one by one, on cables and rigid bodies in random states: forces from energies, tangents by
 //! differences, power.
 
-use flexbody::body::Node;
+use flexbody::body::{Node, NodeBlock};
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{Coupling, Load, Rotational, Turning};
@@ -25,8 +25,8 @@ struct Acted<'a> {
 impl Acted<'_> {
     fn at<T>(
         &self,
-        (x, v, t): (&[Node<4>], &[Node<4>], f64),
-        f: impl Fn(&Load, Instant<'_>) -> T,
+        (x, v, t): (&[Node], &[Node], f64),
+        f: impl Fn(&Load, Instant<'_, 2>) -> T,
     ) -> T {
         let start = &self.frame.x;
         let hints: Vec<f64> = (self.angles.iter())
@@ -44,36 +44,36 @@ impl Acted<'_> {
         f(&self.load, instant)
     }
 
-    fn force(&self, x: &[Node<4>], v: &[Node<4>], t: f64) -> DVector<f64> {
+    fn force(&self, x: &[Node], v: &[Node], t: f64) -> DVector<f64> {
         self.at((x, v, t), |load, at| {
-            let mut f = vec![[0.0; 4]; x.len()];
+            let mut f = vec![[[0.0; 2]; 2]; x.len()];
             load.add_force(at, &mut f);
-            DVector::from_column_slice(f.as_flattened())
+            DVector::from_column_slice(f.as_flattened().as_flattened())
         })
     }
 
-    fn energy(&self, x: &[Node<4>], t: f64) -> f64 {
+    fn energy(&self, x: &[Node], t: f64) -> f64 {
         self.at((x, x, t), |load, at| load.energy(at))
     }
 
     /// Work from the frame's configuration to another one, all else held.
-    fn work(&self, to: &[Node<4>], t: f64) -> f64 {
+    fn work(&self, to: &[Node], t: f64) -> f64 {
         let x = &self.frame.x;
         self.at((x, x, t), |load, at| load.work(at, Instant { x: to, ..at }))
     }
 
     /// Stiffness and damping over all nodes.
-    fn tangent(&self, x: &[Node<4>], v: &[Node<4>], t: f64) -> [DMatrix<f64>; 2] {
+    fn tangent(&self, x: &[Node], v: &[Node], t: f64) -> [DMatrix<f64>; 2] {
         let size = 4 * x.len();
         let zero = || std::cell::RefCell::new(DMatrix::zeros(size, size));
         let found = [zero(), zero()];
-        let enter = |which: usize, a: usize, b: usize, block: &[[f64; 4]; 4]| {
+        let enter = |which: usize, a: usize, b: usize, block: &NodeBlock<2>| {
             let mut matrix = found[which].borrow_mut();
-            for r in 0..4 {
-                for c in 0..4 {
-                    matrix[(4 * a + r, 4 * b + c)] += block[r][c];
+            for (r, row) in block.as_flattened().iter().enumerate() {
+                for (c, part) in row.as_flattened().iter().enumerate() {
+                    matrix[(4 * a + r, 4 * b + c)] += part;
                     if a != b {
-                        matrix[(4 * b + c, 4 * a + r)] += block[r][c];
+                        matrix[(4 * b + c, 4 * a + r)] += part;
                     }
                 }
             }
@@ -201,7 +201,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
     let (frame, t) = (acted.frame, 0.3);
     let (x, v) = (&frame.x, &frame.v);
     let size = 4 * x.len();
-    let rest = vec![[0.0; 4]; x.len()];
+    let rest = vec![[[0.0; 2]; 2]; x.len()];
     let force = acted.force(x, &rest, t);
     let most = 1.0 + force.amax();
     let follower = matches!(&acted.load, Load::Force(force) if force.follower);
@@ -239,7 +239,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
     // Between two places on one rigid body nothing is there to damp.
     prop_assert!(acted.load.is_damped() || damping.amax() == 0.0);
     // Power of the forces, with what is stored, is what comes in less what is dissipated.
-    let moving = DVector::from_column_slice(v.as_flattened());
+    let moving = DVector::from_column_slice(v.as_flattened().as_flattened());
     let power = acted.force(x, v, t).dot(&moving);
     let stored = slope(0.005, |s| acted.energy(&along(x, v, s), t + s));
     let [supplied, dissipated] = acted.at((x, v, t), |load, at| load.power(at));
@@ -277,7 +277,7 @@ fn a_rotational_spring_counts_turns() {
             let Load::Rotational(spring) = &load else {
                 return f64::NAN;
             };
-            let rest = vec![[0.0; 4]; frame.x.len()];
+            let rest = vec![[[0.0; 2]; 2]; frame.x.len()];
             let value = spring.moment(Instant {
                 time: 0.0,
                 inputs: &[],

@@ -166,7 +166,7 @@ fn reference_positions_and_total_mass_are_those_given() {
         let system = chain.system();
         for (x, [p, s]) in system.reference().iter().zip(&chain.nodes) {
             let given = [p.x, p.y, s.x, s.y];
-            let pairs = x.iter().zip(given);
+            let pairs = x.as_flattened().iter().zip(given);
             let off = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             // Joints hold nodes where they are; what rounding makes of that stays small.
             within("reference", off, 1e-14)?;

@@ -1,11 +1,11 @@
 //! From the description of a mechanism to the product's system.
 
-use flexbody::body::Marker;
+use flexbody::body::{Marker, Node};
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::loads::{Distributed, Force, Load, Moment, Rotational, Spring};
 use flexbody::system::{
-    Accepted, Angle, BuildError, Drive, End, Evaluation, Lump, Model, NotAssembled, Parts,
-    PlanarChain, Signal, State, System, Work,
+    Accepted, Angle, BuildError, CableChain, Drive, End, Evaluation, Lump, Model, NotAssembled,
+    Parts, Signal, State, System, Work,
 };
 use nalgebra::Vector2;
 use proptest::test_runner::TestCaseError;
@@ -21,11 +21,11 @@ pub struct Moving {
 }
 
 impl Mechanism {
-    pub fn chains(&self) -> Vec<PlanarChain> {
+    pub fn chains(&self) -> Vec<CableChain> {
         let bodies = self.bodies.iter().zip(&self.firsts);
         bodies
             .filter_map(|(body, first)| match body {
-                Body::Cable(elements) => Some(PlanarChain::new(elements.clone(), *first)),
+                Body::Cable(elements) => Some(CableChain::new(elements.clone(), *first)),
                 _ => None,
             })
             .collect()
@@ -184,21 +184,21 @@ impl Mechanism {
     }
 
     /// Rates of a rigid motion of every body, random.
-    pub fn rigid_rates(&self, from: usize) -> Vec<[f64; 4]> {
+    pub fn rigid_rates(&self, from: usize) -> Vec<Node> {
         let mut rates = Vec::new();
         for (b, body) in self.bodies.iter().enumerate() {
             let number = |k: usize| self.noise[(from + 3 * b + k) % self.noise.len()];
-            let origin = self.nodes[self.firsts[b]];
+            let [origin, _] = self.nodes[self.firsts[b]];
             let spin = match body {
                 Body::Particle { .. } => 0.0,
                 _ => 2.0 * number(2),
             };
-            for x in &self.nodes[self.firsts[b]..self.firsts[b] + body.sizes()[0]] {
+            for [p, d] in &self.nodes[self.firsts[b]..self.firsts[b] + body.sizes()[0]] {
                 let velocity = [
-                    number(0) - spin * (x[1] - origin[1]),
-                    number(1) + spin * (x[0] - origin[0]),
+                    number(0) - spin * (p[1] - origin[1]),
+                    number(1) + spin * (p[0] - origin[0]),
                 ];
-                rates.push([velocity[0], velocity[1], -spin * x[3], spin * x[2]]);
+                rates.push([velocity, [-spin * d[1], spin * d[0]]]);
             }
         }
         rates
@@ -230,8 +230,8 @@ impl Moving {
     pub fn disturb(&mut self, mechanism: &Mechanism, size: f64) -> bool {
         let [dx, dv] = [11, 53].map(|from| {
             let numbers = mechanism.random(4 * mechanism.nodes.len(), from);
-            let node = |x: &[f64]| [0.3 * x[0], 0.3 * x[1], x[2], x[3]];
-            let nodes: Vec<[f64; 4]> = numbers.chunks_exact(4).map(node).collect();
+            let node = |x: &[f64]| [[0.3 * x[0], 0.3 * x[1]], [x[2], x[3]]];
+            let nodes: Vec<Node> = numbers.chunks_exact(4).map(node).collect();
             project(&self.system, &nodes)
         });
         let add = |sum: &mut [f64], part: &[f64], size: f64| {
@@ -255,7 +255,10 @@ impl Moving {
     pub fn reactions(&self, values: &Evaluation) -> Vec<(Vector2<f64>, f64)> {
         let joints = 0..self.system.joints().len();
         joints
-            .map(|joint| values.reaction(&self.system, joint))
+            .map(|joint| {
+                let (force, [.., moment]) = values.reaction(&self.system, joint);
+                (force, moment)
+            })
             .collect()
     }
 }

@@ -8,7 +8,7 @@ use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
 use flexbody::system::joints::{Joint, JointKind};
 use flexbody::system::loads::Load;
-use flexbody::system::{End, Parts, PlanarChain, State, System, Work};
+use flexbody::system::{CableChain, End, Parts, State, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -35,7 +35,7 @@ pub struct Held {
 /// Everything a random body is made from.
 #[derive(Clone, Debug)]
 pub struct Chain {
-    pub elements: Vec<Cable<2, 1>>,
+    pub elements: Vec<Cable<2>>,
     /// Position and slope.
     pub nodes: Vec<[Vector2<f64>; 2]>,
     pub joints: Vec<Held>,
@@ -128,8 +128,8 @@ fn build(
 
 impl Chain {
     /// The flexible body.
-    pub fn flexible(&self) -> PlanarChain {
-        PlanarChain::new(self.elements.clone(), 0)
+    pub fn flexible(&self) -> CableChain {
+        CableChain::new(self.elements.clone(), 0)
     }
 
     /// The element that a node belongs to, the last for the last two, and which end it is.
@@ -163,8 +163,8 @@ impl Chain {
 
     /// What the system is made of.
     pub fn parts(&self) -> Parts {
-        let node = |[p, s]: &[Vector2<f64>; 2]| [p.x, p.y, s.x, s.y];
-        let nodes: Vec<Node<4>> = self.nodes.iter().map(node).collect();
+        let node = |node: &[Vector2<f64>; 2]| node.map(Into::into);
+        let nodes: Vec<Node> = self.nodes.iter().map(node).collect();
         let joints = self.joints.iter();
         Parts {
             bodies: std::iter::once(0..nodes.len()).collect(),
@@ -278,20 +278,20 @@ impl Chain {
     pub fn coordinates(&self, system: &System, fraction: f64) -> Vec<f64> {
         let lengths = self.elements.iter().map(Element::length);
         let shortest = lengths.fold(f64::INFINITY, f64::min);
-        let displacement = |j: usize| -> Node<4> {
+        let displacement = |j: usize| -> Node {
             let noise = &self.noise[j];
             let positions = noise.column(0) * (shortest * fraction);
             let slopes = noise.column(1) * fraction;
-            [positions.x, positions.y, slopes.x, slopes.y]
+            [positions.into(), slopes.into()]
         };
-        let displacements: Vec<Node<4>> = (0..self.nodes.len()).map(displacement).collect();
+        let displacements: Vec<Node> = (0..self.nodes.len()).map(displacement).collect();
         project(system, &displacements)
     }
 }
 
 /// Coordinates whose rates come closest to nodal ones in the mass norm.
-pub fn project(system: &System, rates: &[Node<4>]) -> Vec<f64> {
-    let mut f = vec![[0.0; 4]; rates.len()];
+pub fn project(system: &System, rates: &[Node]) -> Vec<f64> {
+    let mut f = vec![[[0.0; 2]; 2]; rates.len()];
     system.add_inertia(1.0, rates, &mut f);
     let (mut y, mut q) = scratch(system);
     system.elimination().reduce(&f, &mut y, &mut q);
@@ -314,18 +314,18 @@ pub fn state(system: &System, q: &[f64], v: &[f64]) -> (State, Work) {
 }
 
 /// Nodal rates from those of the coordinates.
-pub fn expand(system: &System, q: &[f64]) -> Vec<Node<4>> {
+pub fn expand(system: &System, q: &[f64]) -> Vec<Node> {
     let (mut y, _) = scratch(system);
-    let mut x = vec![[0.0; 4]; system.reference().len()];
+    let mut x = vec![[[0.0; 2]; 2]; system.reference().len()];
     system.elimination().expand(q, &mut y, &mut x);
     x
 }
 
 /// Numbers of all elements in one vector, from those of the nodes.
-pub fn flat(chain: &PlanarChain, x: &[Node<4>]) -> DVector<f64> {
+pub fn flat(chain: &CableChain, x: &[Node]) -> DVector<f64> {
     let elements = 0..chain.elements().len();
     let numbers = elements.flat_map(|j| chain.nodes(j).map(|node| x[node]));
-    DVector::from_vec(numbers.flatten().collect())
+    DVector::from_vec(numbers.flatten().flatten().collect())
 }
 
 /// The matrix `T` over all elements, column by column.
@@ -349,8 +349,9 @@ pub fn reduction(system: &System) -> DMatrix<f64> {
     let size = 8 * chain.elements().len();
     let mut t = DMatrix::zeros(system.coordinates(), size);
     for column in 0..size {
-        let mut force = vec![[0.0; 4]; system.reference().len()];
-        force[chain.nodes(column / 8)[column % 8 / 4]][column % 4] = 1.0;
+        let mut force = vec![[[0.0; 2]; 2]; system.reference().len()];
+        let node = chain.nodes(column / 8)[column % 8 / 4];
+        force[node].as_flattened_mut()[column % 4] = 1.0;
         let (mut y, mut q) = scratch(system);
         system.elimination().reduce(&force, &mut y, &mut q);
         t.set_column(column, &DVector::from_vec(q));

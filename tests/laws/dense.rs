@@ -8,9 +8,9 @@ use nalgebra::{DMatrix, DVector, Matrix2x4, Rotation2, Vector2};
 use crate::mechanism::{Acting, Body, Hold, Kind, Mechanism, Place, Point, left};
 
 /// `T^T K T`, column by column.
-pub fn reduced_stiffness<const D: usize, const B: usize>(
-    tangent: &mut Tangent<D, B>,
-    elimination: &Elimination<B>,
+pub fn reduced_stiffness<const D: usize>(
+    tangent: &mut Tangent<D>,
+    elimination: &Elimination<D>,
 ) -> Vec<Vec<f64>> {
     let n = elimination.coordinates();
     let column = |k: usize| {
@@ -155,8 +155,8 @@ impl Mechanism {
                     missing.push(0.5 * (x[first + 2].powi(2) + x[first + 3].powi(2) - 1.0));
                 }
                 Body::Particle { .. } => {
-                    let direction = self.nodes[self.firsts[b]];
-                    missing.extend([2, 3].map(|k| x[first + k] - direction[k]));
+                    let [_, direction] = self.nodes[self.firsts[b]];
+                    missing.extend([0, 1].map(|k| x[first + 2 + k] - direction[k]));
                 }
             }
         }

@@ -25,7 +25,7 @@ fn gauss_4() -> [(f64, f64); 4] {
 
 /// The consistent mass is the integral of rho A S^T S and the report's numbers; what is added to it
 /// weighs quadratic and cubic parts alone. Weight is the integral of rho A S.
-pub fn inertia<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
+pub fn inertia<const D: usize>(s: &Specimen<D>) -> Outcome {
     let (l, line_density) = (s.parameters.length, s.parameters.line_density);
     // Legendre polynomials up to the third degree, over 0 to 1: their coordinates and norms.
     let polynomials: [fn(f64) -> f64; 4] = [
@@ -51,7 +51,7 @@ pub fn inertia<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
             inertia,
             ..s.parameters
         };
-        Cable::<D, C>::new(parameters, None).mass()
+        Cable::<D>::new(parameters, None).mass()
     };
     let counts = [
         (Inertia::Consistent, [1.0; 4]),
@@ -84,7 +84,7 @@ pub fn inertia<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
 }
 
 /// The elastic force is minus the gradient of the energy.
-pub fn force_is_gradient<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
+pub fn force_is_gradient<const D: usize>(s: &Specimen<D>) -> Outcome {
     let l = s.parameters.length;
     let force = s.cable.force(&s.e, &Nodal::zeros());
     for direction in directions::<D>(l) {
@@ -96,7 +96,7 @@ pub fn force_is_gradient<const D: usize, const C: usize>(s: &Specimen<D, C>) -> 
 }
 
 /// The stiffness is minus the derivative of the elastic force, and symmetric also at a rate.
-pub fn stiffness_is_derivative<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
+pub fn stiffness_is_derivative<const D: usize>(s: &Specimen<D>) -> Outcome {
     let (l, rest) = (s.parameters.length, Nodal::zeros());
     let stiffness = s.cable.stiffness(&s.e, &rest);
     for direction in directions::<D>(l) {
@@ -117,10 +117,7 @@ pub fn stiffness_is_derivative<const D: usize, const C: usize>(s: &Specimen<D, C
 }
 
 /// Neither force nor energy notices where space is and how it moves.
-pub fn objectivity<const D: usize, const C: usize>(
-    s: &Specimen<D, C>,
-    motion: &RigidMotion<D>,
-) -> Outcome {
+pub fn objectivity<const D: usize>(s: &Specimen<D>, motion: &RigidMotion<D>) -> Outcome {
     let l = s.parameters.length;
     let mut motion = motion.clone();
     motion.translation *= l;
@@ -147,7 +144,7 @@ pub fn objectivity<const D: usize, const C: usize>(
 }
 
 /// Forces and their moments about the origin sum to zero.
-pub fn momentum<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
+pub fn momentum<const D: usize>(s: &Specimen<D>) -> Outcome {
     let l = s.parameters.length;
     let force = s.cable.force(&s.e, &s.rate);
     let scale = s.energy_scale() * (1.0 + s.parameters.damping_time);
@@ -165,7 +162,7 @@ pub fn momentum<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
 }
 
 /// The energy falls by what the elastic force does, and damping only takes.
-pub fn power<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
+pub fn power<const D: usize>(s: &Specimen<D>) -> Outcome {
     let rate = derivative(5e-4, |t| s.cable.energy(&(s.e + s.rate * t)));
     let elastic = s.cable.force(&s.e, &Nodal::zeros()).dot(&s.rate);
     within("power", (rate + elastic).abs(), 2e-9 * s.energy_scale())?;
@@ -180,7 +177,7 @@ pub fn power<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
 }
 
 /// The damping matrix is minus the derivative of the force by the rate, symmetric and not negative.
-pub fn damping<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
+pub fn damping<const D: usize>(s: &Specimen<D>) -> Outcome {
     let (l, time) = (s.parameters.length, s.parameters.damping_time);
     let damping = s.cable.damping(&s.e);
     let (scale, n) = (s.energy_scale() * time, 4 * D);
@@ -208,8 +205,8 @@ pub fn damping<const D: usize, const C: usize>(s: &Specimen<D, C>) -> Outcome {
 }
 
 /// Strains are those of the position field `r = S e`, measured by differences of positions.
-pub fn strains<const D: usize, const C: usize>(
-    s: &Specimen<D, C>,
+pub fn strains<const D: usize>(
+    s: &Specimen<D>,
     xi: f64,
     formula: impl Fn(&SVector<f64, D>, &SVector<f64, D>) -> (f64, f64),
 ) -> Outcome {

@@ -1,10 +1,10 @@
 //! Constraints one by one, on cables and rigid bodies in random states: derivatives by
 //! differences.
 
-use flexbody::body::Node;
+use flexbody::body::{Node, add_node};
 use flexbody::elements::Element;
 use flexbody::system::joints::{Constraint, ConstraintKind, View};
-use flexbody::system::{Drive, PlanarChain};
+use flexbody::system::{CableChain, Drive};
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -18,9 +18,9 @@ const CASES: u32 = 200;
 /// Two bodies in random states: coordinates, rates, and everything that constraints and loads look at.
 pub struct Frame {
     pub made: Mechanism,
-    pub chains: Vec<PlanarChain>,
-    pub x: Vec<Node<4>>,
-    pub v: Vec<Node<4>>,
+    pub chains: Vec<CableChain>,
+    pub x: Vec<Node>,
+    pub v: Vec<Node>,
 }
 
 /// Pairs of bodies with a place on each.
@@ -30,17 +30,17 @@ pub fn frames() -> impl Strategy<Value = Mechanism> {
 
 /// The pair deformed and in motion.
 pub fn frame(made: Mechanism) -> Frame {
-    let part = |from: usize, size: f64| -> Vec<Node<4>> {
+    let part = |from: usize, size: f64| -> Vec<Node> {
         let numbers = made.random(4 * made.nodes.len(), from);
         numbers
             .chunks_exact(4)
-            .map(|x| [0, 1, 2, 3].map(|k| size * x[k]))
+            .map(|x| [[size * x[0], size * x[1]], [size * x[2], size * x[3]]])
             .collect()
     };
     let (dx, v) = (part(5, 0.05), part(29, 1.0));
     let mut x = made.nodes.clone();
     for (x, dx) in x.iter_mut().zip(dx) {
-        x.iter_mut().zip(dx).for_each(|(x, d)| *x += d);
+        add_node(x, 1.0, &dx);
     }
     Frame {
         chains: made.chains(),
@@ -51,11 +51,10 @@ pub fn frame(made: Mechanism) -> Frame {
 }
 
 /// Nodes moved along others.
-pub fn along(x: &[Node<4>], v: &[Node<4>], s: f64) -> Vec<Node<4>> {
-    let pairs = x.iter().zip(v);
-    pairs
-        .map(|(x, v)| [0, 1, 2, 3].map(|k| x[k] + s * v[k]))
-        .collect()
+pub fn along(x: &[Node], v: &[Node], s: f64) -> Vec<Node> {
+    let mut x = x.to_vec();
+    x.iter_mut().zip(v).for_each(|(x, v)| add_node(x, s, v));
+    x
 }
 
 impl Frame {
@@ -72,8 +71,8 @@ impl Frame {
         &self,
         constraint: &Constraint,
         drives: &[Drive],
-        (x, v, t): (&[Node<4>], &[Node<4>], f64),
-        f: impl Fn(&Constraint, &View<'_>) -> T,
+        (x, v, t): (&[Node], &[Node], f64),
+        f: impl Fn(&Constraint, &View<'_, 2>) -> T,
     ) -> T {
         let drives: Vec<[f64; 3]> = (drives.iter())
             .map(|drive| match drive {
@@ -98,19 +97,19 @@ impl Frame {
     }
 
     /// Gradient over all nodes.
-    fn gradient(&self, c: &Constraint, drives: &[Drive], x: &[Node<4>], t: f64) -> DVector<f64> {
+    fn gradient(&self, c: &Constraint, drives: &[Drive], x: &[Node], t: f64) -> DVector<f64> {
         self.view(c, drives, (x, &self.v, t), |c, view| {
             let mut gradient = DVector::zeros(4 * x.len());
             c.gradient(view).for_each(|node, term| {
-                (0..4).for_each(|k| gradient[4 * node + k] += term[k]);
+                (0..4).for_each(|k| gradient[4 * node + k] += term.as_flattened()[k]);
             });
             gradient
         })
     }
 
-    pub fn unit(&self, i: usize) -> Vec<Node<4>> {
-        let mut unit = vec![[0.0; 4]; self.x.len()];
-        unit[i / 4][i % 4] = 1.0;
+    pub fn unit(&self, i: usize) -> Vec<Node> {
+        let mut unit = vec![[[0.0; 2]; 2]; self.x.len()];
+        unit[i / 4][i % 4 / 2][i % 2] = 1.0;
         unit
     }
 }
@@ -171,9 +170,8 @@ fn constraint_derivatives(frame: &Frame, hold: &Hold) -> Outcome {
         _ => (0.02, 1e-9),
     };
     for c in &constraints {
-        let value = |x: &[Node<4>], t: f64| {
-            frame.view(c, &drives, (x, &frame.v, t), |c, view| c.value(view))
-        };
+        let value =
+            |x: &[Node], t: f64| frame.view(c, &drives, (x, &frame.v, t), |c, view| c.value(view));
         let gradient = frame.gradient(c, &drives, x, t);
         for i in 0..4 * x.len() {
             let unit = frame.unit(i);
@@ -189,7 +187,7 @@ fn constraint_derivatives(frame: &Frame, hold: &Hold) -> Outcome {
         let dg = |s: f64| {
             let x = along(x, v, s);
             let part = frame.gradient(c, &drives, &x, t + s);
-            let moving = DVector::from_column_slice(v.as_flattened());
+            let moving = DVector::from_column_slice(v.as_flattened().as_flattened());
             part.dot(&moving) + frame.view(c, &drives, (&x, v, t + s), |c, view| c.rate(view))
         };
         let bias = frame.view(c, &drives, (x, v, t), |c, view| c.bias(view));
@@ -205,11 +203,11 @@ fn stiffness(frame: &Frame, c: &Constraint, drives: &[Drive], t: f64) -> Outcome
     let found = frame.view(c, drives, (x, &frame.v, t), |c, view| {
         let mut found = DMatrix::zeros(size, size);
         c.stiffness(lambda, view, &mut |a, b, block| {
-            for r in 0..4 {
-                for col in 0..4 {
-                    found[(4 * a + r, 4 * b + col)] += block[r][col];
+            for (r, row) in block.as_flattened().iter().enumerate() {
+                for (col, part) in row.as_flattened().iter().enumerate() {
+                    found[(4 * a + r, 4 * b + col)] += part;
                     if a != b {
-                        found[(4 * b + col, 4 * a + r)] += block[r][col];
+                        found[(4 * b + col, 4 * a + r)] += part;
                     }
                 }
             }
@@ -266,8 +264,8 @@ fn a_slide_along_a_cable_keeps_to_the_curve() {
         let way = from - frame.made.end(ends[1], &apart)[0];
         let range = frame.made.firsts[1]..frame.x.len();
         for node in &mut frame.x[range.clone()] {
-            node[0] += way.x;
-            node[1] += way.y;
+            node[0][0] += way.x;
+            node[0][1] += way.y;
         }
         // Velocities that keep it there: along the curve relative to it.
         let apart = frame.made.apart(&frame.v);
@@ -275,8 +273,8 @@ fn a_slide_along_a_cable_keeps_to_the_curve() {
             - frame.made.end_rate(Point::On(inside), &apart)[0];
         let normal = Rotation2::new(0.5 * std::f64::consts::PI) * tangent.normalize();
         for node in &mut frame.v[range] {
-            node[0] -= normal.x * normal.dot(&relative);
-            node[1] -= normal.y * normal.dot(&relative);
+            node[0][0] -= normal.x * normal.dot(&relative);
+            node[0][1] -= normal.y * normal.dot(&relative);
         }
         constraint_derivatives(
             &frame,

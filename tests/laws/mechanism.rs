@@ -10,7 +10,7 @@ use nalgebra::{DVector, Vector2};
 /// A body.
 #[derive(Clone)]
 pub enum Body {
-    Cable(Vec<Cable<2, 1>>),
+    Cable(Vec<Cable<2>>),
     Rigid {
         mass: f64,
         inertia: f64,
@@ -124,7 +124,7 @@ pub struct Mechanism {
     pub bodies: Vec<Body>,
     /// First node of every body.
     pub firsts: Vec<usize>,
-    pub nodes: Vec<Node<4>>,
+    pub nodes: Vec<Node>,
     pub holds: Vec<Hold>,
     pub loads: Vec<Acting>,
     /// Masses at places: mass, inertia of the direction.
@@ -164,7 +164,7 @@ impl std::fmt::Debug for Mechanism {
 }
 
 impl Body {
-    fn elements(&self) -> &[Cable<2, 1>] {
+    fn elements(&self) -> &[Cable<2>] {
         match self {
             Self::Cable(elements) => elements,
             _ => &[],
@@ -197,16 +197,16 @@ impl Mechanism {
     }
 
     /// Coordinates of unconnected parts from those of nodes: every element has both its ends to itself.
-    pub fn apart(&self, nodes: &[Node<4>]) -> DVector<f64> {
+    pub fn apart(&self, nodes: &[Node]) -> DVector<f64> {
         let mut numbers = Vec::new();
         for (body, first) in self.bodies.iter().zip(&self.firsts) {
             let count = body.elements().len();
             if count == 0 {
-                numbers.extend(nodes[*first]);
+                numbers.extend(nodes[*first].as_flattened());
             }
             for j in 0..count {
-                numbers.extend(nodes[first + j]);
-                numbers.extend(nodes[first + j + 1]);
+                numbers.extend(nodes[first + j].as_flattened());
+                numbers.extend(nodes[first + j + 1].as_flattened());
             }
         }
         DVector::from_vec(numbers)
@@ -282,7 +282,7 @@ impl Mechanism {
     }
 
     /// The elements with their first coordinates.
-    pub fn elements(&self) -> impl Iterator<Item = (usize, &Cable<2, 1>)> {
+    pub fn elements(&self) -> impl Iterator<Item = (usize, &Cable<2>)> {
         (0..self.bodies.len()).flat_map(|b| {
             let first = self.offset(b);
             let elements = self.bodies[b].elements().iter().enumerate();

@@ -57,7 +57,7 @@ fn bulk(system: &System, state: &State) -> Bulk {
     }
     bulk.centre /= bulk.mass;
     // The same by what is given out.
-    let (linear, angular) = values.momentum(system);
+    let (linear, [.., angular]) = values.momentum(system);
     assert!((linear - bulk.linear).norm() < 1e-12 * (1.0 + bulk.linear.norm()));
     assert!((angular - bulk.angular).abs() < 1e-12 * (1.0 + bulk.angular.abs()));
     assert!((values.center_of_mass(system) - bulk.centre).norm() < 1e-12);
@@ -67,7 +67,7 @@ fn bulk(system: &System, state: &State) -> Bulk {
 /// A started simulation with its system.
 fn start(integrator: &str, tolerance: f64, gravity: f64) -> (Simulation, System) {
     let scene = scene(integrator, tolerance, gravity);
-    let system = assemble(&scene).expect("a fine enough mesh").system;
+    let system = assemble::<2>(&scene).expect("a fine enough mesh").system;
     let mut simulation = Simulation::new(scene);
     simulation.initialize(0.0).expect("a valid scene");
     simulation.start().expect("a valid scene");
@@ -83,8 +83,8 @@ fn rigid_rates_of_a_free_body_are_exactly_rigid() {
     let (velocity, spin) = (Vector2::new(0.7, -0.4), Matrix2::new(0.0, -3.0, 3.0, 0.0));
     let origin = Vector2::new(0.2, -0.1);
     for (x, rate) in values.x.iter().zip(&values.v) {
-        let [p, s] = [[x[0], x[1]], [x[2], x[3]]].map(Vector2::from);
-        let [moving, turning] = [[rate[0], rate[1]], [rate[2], rate[3]]].map(Vector2::from);
+        let [p, s] = x.map(Vector2::from);
+        let [moving, turning] = rate.map(Vector2::from);
         let exact = velocity + spin * (p - origin);
         assert!((moving - exact).norm() < 1e-13);
         let turn = (turning - spin * s).norm();

@@ -7,7 +7,7 @@ use crate::differences::{Outcome, apply, check, derivative, within};
 use crate::elements;
 use crate::specimen::{Specimen, planar, rigid_motion};
 
-type Planar = Specimen<2, 1>;
+type Planar = Specimen<2>;
 
 /// Random elements that each law sees.
 const CASES: u32 = 256;
@@ -172,7 +172,7 @@ fn both_quadratures_are_seen() {
 fn a_constant_stretch_has_the_energy_of_a_rod() {
     check(CASES, (planar(), 0.5..1.5), |(s, stretch)| {
         let p = &s.parameters;
-        let straight = flexbody::elements::cable::Cable::<2, 1>::new(*p, None);
+        let straight = flexbody::elements::cable::Cable::<2>::new(*p, None);
         let along = SVector::from([0.6, 0.8]);
         let zero = SVector::zeros();
         let e = Nodal::from_columns(&[

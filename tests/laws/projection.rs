@@ -16,8 +16,8 @@ const CASES: u32 = 200;
 /// A small nodal field as coordinates.
 fn small(mechanism: &Mechanism, moving: &Moving, from: usize, size: f64) -> Vec<f64> {
     let numbers = mechanism.random(4 * mechanism.nodes.len(), from);
-    let nodes: Vec<Node<4>> = (numbers.chunks_exact(4))
-        .map(|x| [0, 1, 2, 3].map(|k| size * x[k]))
+    let nodes: Vec<Node> = (numbers.chunks_exact(4))
+        .map(|x| [[size * x[0], size * x[1]], [size * x[2], size * x[3]]])
         .collect();
     project(&moving.system, &nodes)
 }
@@ -98,7 +98,7 @@ fn states_come_back_to_the_constraints_by_the_shortest_way() {
 }
 
 /// Every body moved as a whole by a random way.
-fn scattered(mechanism: &Mechanism, size: f64) -> Vec<Node<4>> {
+fn scattered(mechanism: &Mechanism, size: f64) -> Vec<Node> {
     let mut nodes = mechanism.nodes.clone();
     for (b, body) in mechanism.bodies.iter().enumerate() {
         let number = |k: usize| size * mechanism.noise[(17 + 3 * b + k) % mechanism.noise.len()];
@@ -110,11 +110,11 @@ fn scattered(mechanism: &Mechanism, size: f64) -> Vec<Node<4>> {
             turn = Rotation2::identity();
         }
         let first = mechanism.firsts[b];
-        let about = Vector2::new(nodes[first][0], nodes[first][1]);
+        let about = Vector2::from(nodes[first][0]);
         for node in &mut nodes[first..first + body.sizes()[0]] {
-            let p = about + way + turn * (Vector2::new(node[0], node[1]) - about);
-            let d = turn * Vector2::new(node[2], node[3]);
-            *node = [p.x, p.y, d.x, d.y];
+            let p = about + way + turn * (Vector2::from(node[0]) - about);
+            let d = turn * Vector2::from(node[1]);
+            *node = [p.into(), d.into()];
         }
     }
     nodes
@@ -156,7 +156,7 @@ fn bodies_are_moved_as_wholes_until_joints_fit() {
 /// Two rods of length 1 on pins 3 apart, with a link of 0.5 between their ends.
 #[test]
 fn what_cannot_fit_is_named_with_its_gap() {
-    let rod = |x: f64, angle: f64| [x, 0.0, angle.cos(), angle.sin()];
+    let rod = |x: f64, angle: f64| [[x, 0.0], [angle.cos(), angle.sin()]];
     let end = |body: usize, x: f64| {
         let at = At::Point([x, 0.0]);
         Point::On(Place { body, at })

@@ -164,7 +164,7 @@ impl Builder {
         let at = self.dice.vector(1.0);
         let mut heading = self.dice.between(-PI, PI);
         let direction = |heading: f64| Vector2::new(heading.cos(), heading.sin());
-        let node = |p: Vector2<f64>, d: Vector2<f64>| [p.x, p.y, d.x, d.y];
+        let node = |p: Vector2<f64>, d: Vector2<f64>| [p.into(), d.into()];
         match self.dice.pick(5) {
             0..=2 => self.cable(at, heading),
             3 => {
@@ -211,7 +211,7 @@ impl Builder {
             let shape = Nodal::from_columns(&[p, d, at, direction(heading)]);
             cables.push(Cable::new(parameters, Some(&shape)));
         }
-        let nodes = ends.iter().map(|[p, d]| [p.x, p.y, d.x, d.y]);
+        let nodes = ends.iter().map(|end| end.map(Into::into));
         self.made.nodes.extend(nodes);
         self.made.bodies.push(Body::Cable(cables));
     }
@@ -257,8 +257,8 @@ impl Builder {
         let way = to - self.end(Point::On(place))[0];
         let first = self.made.firsts[place.body];
         for node in &mut self.made.nodes[first..] {
-            node[0] += way.x;
-            node[1] += way.y;
+            node[0][0] += way.x;
+            node[0][1] += way.y;
         }
     }
 

@@ -145,7 +145,7 @@ fn agrees_with_augmented(chain: &Chain, allowed: f64) -> Outcome {
                 exact -= row.rows(first, 4) * *multiplier;
             }
         }
-        let (force, moment) = values.reaction(system, index);
+        let (force, [.., moment]) = values.reaction(system, index);
         let off = (force - Vector2::new(exact[0], exact[1])).amax();
         within("reaction force", off / size, allowed)?;
         let exact = e[first + 2] * exact[3] - e[first + 3] * exact[2];
@@ -199,13 +199,13 @@ fn newton_and_euler(chain: &Chain) -> Outcome {
         weight.rows_mut(8 * j, 8).copy_from_slice(part.as_slice());
     }
     let (mut force, mut moment) = resultant(&e, &weight);
-    let at = |node: usize| Vector2::new(values.x[node][0], values.x[node][1]);
+    let at = |node: usize| Vector2::from(values.x[node][0]);
     let load = Vector2::new(case.inputs[0], case.inputs[1]);
     force += load;
     moment += at(case.places[0]).perp(&load) + case.inputs[2];
     let mut size = inertia.amax().max(applied.amax()).max(1.0);
     for (index, joint) in chain.joints.iter().enumerate() {
-        let (reaction, turning) = values.reaction(system, index);
+        let (reaction, [.., turning]) = values.reaction(system, index);
         force += reaction;
         moment += at(joint.node).perp(&reaction) + turning;
         size = size.max(reaction.amax()).max(turning.abs());
@@ -214,7 +214,7 @@ fn newton_and_euler(chain: &Chain) -> Outcome {
     within("linear momentum", (change - force).amax(), 1e-11 * size)?;
     within("angular momentum", (turn - moment).abs(), 1e-11 * size)?;
     // What is given out as momentum is the sum over elements.
-    let (linear, angular) = values.momentum(system);
+    let (linear, [.., angular]) = values.momentum(system);
     let (exact, turning) = resultant(&e, &(chain.mass() * rate));
     within(
         "momentum",

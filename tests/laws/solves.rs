@@ -1,6 +1,6 @@
 //! Solves with the tangent in the coordinates `q`, against dense matrices and differences.
 
-use flexbody::body::Tangent;
+use flexbody::body::{Tangent, add_node};
 use flexbody::elements::{Element, Nodal};
 use flexbody::system::loads::{Force, Load, Moment};
 use flexbody::system::{Dynamics, End, Model, Signal, System, fastest};
@@ -164,14 +164,10 @@ fn turned_solve(chain: &Chain, angle: f64) -> Outcome {
     // Coordinates of the same shape, turned about the origin.
     let way: Vec<_> = (expand(system, &here.q).iter().zip(system.reference()))
         .map(|(change, reference)| {
-            let x: [f64; 4] = std::array::from_fn(|k| reference[k] + change[k]);
-            let [p, s] = [[x[0], x[1]], [x[2], x[3]]].map(|v| turn * Vector2::from(v));
-            [
-                p.x - reference[0],
-                p.y - reference[1],
-                s.x - reference[2],
-                s.y - reference[3],
-            ]
+            [0, 1].map(|k| {
+                let reference = Vector2::from(reference[k]);
+                (turn * (reference + Vector2::from(change[k])) - reference).into()
+            })
         })
         .collect();
     let there = project(system, &way);
@@ -297,12 +293,12 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
         } = dense(&chain, Vec::new());
         let [mut x, rate] = [&q, &v].map(|q| expand(&system, q));
         for (x, reference) in x.iter_mut().zip(system.reference()) {
-            x.iter_mut().zip(reference).for_each(|(x, r)| *x += r);
+            add_node(x, 1.0, reference);
         }
         let elimination = system.elimination();
         let body = &system.chains()[0];
         let elastic = vec![true; x.len()];
-        let mut tangent: Tangent<2, 4> =
+        let mut tangent: Tangent<2> =
             Tangent::new(elimination, body.is_damped(), &[], &[], &elastic);
         tangent.clear();
         let assembly = &elimination.assembly;

@@ -1,6 +1,6 @@
 //! Chains of cables in space: what bodies of the plane promise holds for any dimension.
 
-use flexbody::body::{Assembly, Chain, Elimination, Node, Row, Tangent};
+use flexbody::body::{Assembly, Chain, Elimination, Node, Row, Tangent, map_node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Nodal, Strain};
 use flexbody::math::sparse::Matrix;
@@ -15,16 +15,16 @@ use crate::specimen::{decades, noise};
 const CASES: u32 = 64;
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-type Spatial = Chain<Cable<3, 3>, 3, 6>;
+type Spatial = Chain<Cable<3>, 3>;
 
 /// A chain in space, rows on it, and its matrices by hand.
 #[derive(Debug)]
 struct Case {
     chain: Spatial,
-    elimination: Elimination<6>,
-    rows: Vec<Row<6>>,
+    elimination: Elimination<3>,
+    rows: Vec<Row<3>>,
     /// Nodal coordinates of a deformed shape, and numbers for anybody.
-    x: Vec<Node<6>>,
+    x: Vec<Node<3>>,
     noise: Vec<Nodal<3>>,
 }
 
@@ -55,7 +55,7 @@ fn case((elements, joints, noise): Numbers) -> Case {
     for node in 0..chain.node_count() {
         let (p, s) = (noise[node].column(0) * 0.02, noise[node].column(1) * 0.1);
         let (p, s) = (at + p, Vector3::x() + s);
-        x.push([p.x, p.y, p.z, s.x, s.y, s.z]);
+        x.push([p.into(), s.into()]);
         at.x += elements.get(node).map_or(0.0, |e| e.0);
     }
     let mut rows = Vec::new();
@@ -68,15 +68,15 @@ fn case((elements, joints, noise): Numbers) -> Case {
                 is_driven: false,
             });
         };
-        let random = noise[i].column(2);
+        let random = Vector3::from(noise[i].column(2));
         match kind {
             // A ball joint.
             0 => (0..3).for_each(|k| push(vec![(node, unit(k))])),
             // The slope stays in a plane, the position too.
-            1 => push(vec![(node, [0.0, 0.0, 0.0, random.x, random.y, random.z])]),
-            2 => push(vec![(node, [random.x, random.y, random.z, 0.0, 0.0, 0.0])]),
+            1 => push(vec![(node, [[0.0; 3], random.into()])]),
+            2 => push(vec![(node, [random.into(), [0.0; 3]])]),
             // Two nodes at the same height.
-            _ => push(vec![(node, unit(2)), (other, unit(2).map(|x| -x))]),
+            _ => push(vec![(node, unit(2)), (other, map_node(&unit(2), |x| -x))]),
         }
     }
     let links: Vec<_> = (1..chain.node_count())
@@ -94,8 +94,10 @@ fn case((elements, joints, noise): Numbers) -> Case {
     }
 }
 
-fn unit(k: usize) -> Node<6> {
-    std::array::from_fn(|i| f64::from(u8::from(i == k)))
+fn unit(k: usize) -> Node<3> {
+    let mut unit = [[0.0; 3]; 2];
+    unit[k / 3][k % 3] = 1.0;
+    unit
 }
 
 impl Case {
@@ -108,7 +110,8 @@ impl Case {
             q[column] = 1.0;
             let mut x = self.x.clone();
             self.elimination.expand(&q, &mut y, &mut x);
-            t.column_mut(column).copy_from_slice(x.as_flattened());
+            t.column_mut(column)
+                .copy_from_slice(x.as_flattened().as_flattened());
         }
         t
     }
@@ -138,19 +141,19 @@ impl Case {
         })
     }
 
-    fn stiffness(&self, x: &[Node<6>]) -> DMatrix<f64> {
+    fn stiffness(&self, x: &[Node<3>]) -> DMatrix<f64> {
         let blocks: Vec<_> = (self.chain.elements().iter().enumerate())
             .map(|(j, element)| {
-                let e = Nodal::from_column_slice(x[j..j + 2].as_flattened());
+                let e = Nodal::from_column_slice(x[j..j + 2].as_flattened().as_flattened());
                 element.stiffness(&e, &Nodal::zeros())
             })
             .collect();
         self.dense(|j, r, c| blocks[j][r / 3][c / 3][(r % 3, c % 3)])
     }
 
-    fn tangent(&self, x: &[Node<6>]) -> Tangent<3, 6> {
+    fn tangent(&self, x: &[Node<3>]) -> Tangent<3> {
         let elastic = vec![true; x.len()];
-        let mut tangent: Tangent<3, 6> = Tangent::new(&self.elimination, false, &[], &[], &elastic);
+        let mut tangent: Tangent<3> = Tangent::new(&self.elimination, false, &[], &[], &elastic);
         tangent.clear();
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);
         self.chain
@@ -172,7 +175,9 @@ fn elimination(case: &Case) -> Outcome {
     let size = t.nrows();
     let phi = DMatrix::from_fn(case.rows.len(), size, |r, c| {
         let terms = case.rows[r].terms.iter().filter(|(node, _)| *node == c / 6);
-        terms.map(|(_, coefficients)| coefficients[c % 6]).sum()
+        terms
+            .map(|(_, coefficients)| coefficients.as_flattened()[c % 6])
+            .sum()
     });
     let gap = (&phi * &t)
         .iter()
@@ -190,11 +195,12 @@ fn elimination(case: &Case) -> Outcome {
     let mut f = case.x.clone();
     f.iter_mut()
         .flatten()
+        .flatten()
         .zip(0..)
         .for_each(|(f, i)| *f = case.random(i)[0]);
     let (mut y, mut q) = (vec![0.0; case.elimination.scratch()], vec![0.0; n]);
     case.elimination.reduce(&f, &mut y, &mut q);
-    let exact = t.transpose() * DVector::from_column_slice(f.as_flattened());
+    let exact = t.transpose() * DVector::from_column_slice(f.as_flattened().as_flattened());
     let off = (DVector::from_vec(q) - &exact).amax();
     within("transpose", off, 1e-13 * exact.amax().max(1.0))
 }
@@ -249,20 +255,16 @@ fn turned(case: &Case, axis: Vector3<f64>) -> Outcome {
     // The smallest rotation between two directions turns about nothing but what is across both: so the
     // chain is straight, and turned about an axis across it.
     let mut at = 0.0;
-    let mut straight: Vec<Node<6>> = vec![[0.0, 0.0, 0.0, 1.01, 0.0, 0.0]];
+    let mut straight: Vec<Node<3>> = vec![[[0.0; 3], [1.01, 0.0, 0.0]]];
     for element in case.chain.elements() {
         at += 1.01 * element.length();
-        straight.push([at, 0.0, 0.0, 1.01, 0.0, 0.0]);
+        straight.push([[at, 0.0, 0.0], [1.01, 0.0, 0.0]]);
     }
     let turn = Rotation3::new(Vector3::new(0.0, axis.y, axis.z));
-    let there = straight.iter().map(|x| {
-        let (p, s) = (
-            turn * Vector3::new(x[0], x[1], x[2]),
-            turn * Vector3::x() * x[3],
-        );
-        [p.x, p.y, p.z, s.x, s.y, s.z]
-    });
-    let there: Vec<Node<6>> = there.collect();
+    let there = straight.iter();
+    let there: Vec<Node<3>> = there
+        .map(|x| x.map(|v| (turn * Vector3::from(v)).into()))
+        .collect();
     let n = case.elimination.coordinates();
     let shift = Complex::new(2.0, 2.0) * 10.0;
     let mut exact = case.tangent(&there);

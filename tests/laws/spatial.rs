@@ -1,4 +1,4 @@
-//! Laws of the spatial cable, straight and undamped.
+//! Laws of the spatial cable, straight without stress.
 
 use flexbody::elements::cable::Cable;
 use flexbody::elements::{Element, Nodal, Strain};
@@ -42,6 +42,11 @@ fn energy_changes_by_the_power_of_the_force() {
 }
 
 #[test]
+fn damping_is_minus_the_derivative_by_the_rate_symmetric_and_dissipates() {
+    check(CASES, spatial(), |s| elements::damping(&s));
+}
+
+#[test]
 fn strains_are_those_of_the_position_field() {
     check(CASES, (spatial(), 0.0..1.0), |(s, xi)| {
         let measure = s.parameters.strain;
@@ -62,20 +67,21 @@ fn strains_are_those_of_the_position_field() {
 #[test]
 fn a_planar_state_in_space_agrees_with_the_planar_cable() {
     check(CASES, (planar(), rigid_motion::<3>()), |(s, motion)| {
-        let mut p = s.parameters;
-        p.damping_time = 0.0;
-        let (flat, full) = (Cable::<2, 1>::new(p, None), Cable::<3, 3>::new(p, None));
+        let p = s.parameters;
+        let (flat, full) = (Cable::<2>::new(p, None), Cable::<3>::new(p, None));
         let lift = |x: &Nodal<2>| {
             let lifted = Nodal::<3>::from_fn(|i, k| if i < 2 { x[(i, k)] } else { 0.0 });
             motion.rotation * lifted
         };
         let (e, rest) = (lift(&s.e), Nodal::zeros());
-        let scale = s.energy_scale();
+        let scale = s.energy_scale() * (1.0 + p.damping_time);
         let off = (full.energy(&e) - flat.energy(&s.e)).abs();
         within("energy", off, 1e-13 * scale)?;
         let flat_force = flat.force(&s.e, &Nodal::zeros());
         let off = full.force(&e, &rest) - lift(&flat_force);
         within("force", scaled(&off, p.length).abs().max(), 1e-12 * scale)?;
+        let off = full.force(&e, &lift(&s.rate)) - lift(&flat.force(&s.e, &s.rate));
+        within("damping", scaled(&off, p.length).abs().max(), 1e-12 * scale)?;
         let [x, _] = &s.directions;
         let flat_change = apply(&flat.stiffness(&s.e, &Nodal::zeros()), x);
         let off = apply(&full.stiffness(&e, &rest), &lift(x)) - lift(&flat_change);

@@ -8,8 +8,8 @@ use proptest::prelude::*;
 
 /// A cable in a state.
 #[derive(Clone, Debug)]
-pub struct Specimen<const D: usize, const C: usize> {
-    pub cable: Cable<D, C>,
+pub struct Specimen<const D: usize> {
+    pub cable: Cable<D>,
     pub parameters: Parameters,
     /// Coordinates without stress.
     pub unstressed: Nodal<D>,
@@ -19,7 +19,7 @@ pub struct Specimen<const D: usize, const C: usize> {
     pub directions: [Nodal<D>; 2],
 }
 
-impl<const D: usize, const C: usize> Specimen<D, C> {
+impl<const D: usize> Specimen<D> {
     /// Size of its energy, J: allowed errors are fractions of it.
     pub fn energy_scale(&self) -> f64 {
         let p = &self.parameters;
@@ -65,13 +65,9 @@ fn disturbed<const D: usize>(length: f64, noise: &Nodal<D>) -> Nodal<D> {
     e
 }
 
-/// Random material on a random length, slender or short; no damping where `damped` is false.
-fn parameters(damped: bool) -> impl Strategy<Value = Parameters> {
-    let damping = if damped {
-        prop_oneof![Just(0.0), decades(-3.0, 0.0)].boxed()
-    } else {
-        Just(0.0).boxed()
-    };
+/// Random material on a random length, slender or short.
+fn parameters() -> impl Strategy<Value = Parameters> {
+    let damping = prop_oneof![Just(0.0), decades(-3.0, 0.0)];
     let sizes = (decades(-2.0, 1.0), decades(-2.0, 5.0), decades(-2.0, 4.0));
     (sizes, decades(-3.0, 3.0), damping, strains()).prop_map(
         |((length, slenderness, bending_stiffness), line_density, damping_time, strain)| {
@@ -88,12 +84,9 @@ fn parameters(damped: bool) -> impl Strategy<Value = Parameters> {
     )
 }
 
-fn specimen<const D: usize, const C: usize>(
-    damped: bool,
-    curved: BoxedStrategy<bool>,
-) -> impl Strategy<Value = Specimen<D, C>> {
+fn specimen<const D: usize>(curved: BoxedStrategy<bool>) -> impl Strategy<Value = Specimen<D>> {
     let noises = (noise(), noise(), noise(), noise(), noise());
-    (parameters(damped), curved, noises).prop_map(|(parameters, curved, noises)| {
+    (parameters(), curved, noises).prop_map(|(parameters, curved, noises)| {
         let length = parameters.length;
         let (natural, state, rate, first, second) = noises;
         let unstressed = if curved {
@@ -114,13 +107,13 @@ fn specimen<const D: usize, const C: usize>(
 }
 
 /// Planar cables: straight and curved, with and without damping, all strain measures.
-pub fn planar() -> impl Strategy<Value = Specimen<2, 1>> {
-    specimen(true, any::<bool>().boxed())
+pub fn planar() -> impl Strategy<Value = Specimen<2>> {
+    specimen(any::<bool>().boxed())
 }
 
-/// Spatial cables: straight and undamped.
-pub fn spatial() -> impl Strategy<Value = Specimen<3, 3>> {
-    specimen(false, Just(false).boxed())
+/// Spatial cables: straight, with and without damping.
+pub fn spatial() -> impl Strategy<Value = Specimen<3>> {
+    specimen(Just(false).boxed())
 }
 
 /// A rigid motion of space with its rates.

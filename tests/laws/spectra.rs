@@ -213,7 +213,7 @@ fn beam(elements: usize, axial_stiffness: f64, damping_time: f64, clamped: bool)
         .push(Body::Cable(vec![Cable::new(parameters, None); elements]));
     made.firsts.push(0);
     made.nodes = (0..=elements)
-        .map(|i| [i as f64 * length, 0.0, 1.0, 0.0])
+        .map(|i| [[i as f64 * length, 0.0], [1.0, 0.0]])
         .collect();
     made.gravity *= 0.0;
     if clamped {
@@ -233,7 +233,8 @@ fn end(part: f64) -> Point {
 /// A force that follows the end, and the compression in which it is balanced.
 fn push(made: &mut Mechanism, axial_stiffness: f64, force: f64) {
     for node in &mut made.nodes {
-        node.iter_mut()
+        node.as_flattened_mut()
+            .iter_mut()
             .for_each(|x| *x *= 1.0 - force / axial_stiffness);
     }
     made.loads.push(Acting::Force {
@@ -365,7 +366,7 @@ fn copies_are_counted() {
 fn rigid_motions_and_twins_are_there() {
     let one = beam(40, 1e4, 0.0, false);
     let mut two = one.clone();
-    let nodes = one.nodes.iter().map(|[x, y, u, v]| [*x, y + 1.0, *u, *v]);
+    let nodes = one.nodes.iter().map(|[[x, y], d]| [[*x, y + 1.0], *d]);
     two.nodes.extend(nodes);
     two.bodies.push(one.bodies[0].clone());
     two.firsts.push(41);

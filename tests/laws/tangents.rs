@@ -30,7 +30,7 @@ const SYMMETRIC: Scope = Scope {
 };
 
 /// Orthonormal directions in `q` that constraints hold at a configuration.
-fn held(mechanism: &Mechanism, system: &System, t: f64, x: &[Node<4>]) -> DMatrix<f64> {
+fn held(mechanism: &Mechanism, system: &System, t: f64, x: &[Node]) -> DMatrix<f64> {
     let n = system.coordinates();
     let jacobian = mechanism.jacobian(t, &mechanism.apart(x));
     let mut rows = DMatrix::zeros(n, jacobian.nrows());

@@ -4,7 +4,7 @@ use flexbody::body::{Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};
 use flexbody::system::joints::{Joint, JointKind};
-use flexbody::system::{End, Evaluation, Parts, PlanarChain, System, Work};
+use flexbody::system::{CableChain, End, Evaluation, Parts, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 use super::support::{Row, figure, short};
@@ -20,7 +20,7 @@ const ELEMENTS: [[f64; 2]; 6] = [
     [1e-3, 1e6],
 ];
 
-fn cables() -> Vec<Cable<2, 1>> {
+fn cables() -> Vec<Cable<2>> {
     let cable = |[length, line_density]: [f64; 2]| {
         let parameters = Parameters {
             length,
@@ -38,14 +38,14 @@ fn cables() -> Vec<Cable<2, 1>> {
 
 /// Vertical accelerations under gravity from rest, positions and slopes of all nodes, as the product
 /// has them.
-fn product(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
+fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
     let mut at = 0.0;
-    let mut nodes: Vec<Node<4>> = vec![[0.0, 0.0, 1.0, 0.0]];
+    let mut nodes: Vec<Node> = vec![[[0.0, 0.0], [1.0, 0.0]]];
     for cable in cables {
         at += cable.length();
-        nodes.push([at, 0.0, 1.0, 0.0]);
+        nodes.push([[at, 0.0], [1.0, 0.0]]);
     }
-    let chain = PlanarChain::new(cables.to_vec(), 0);
+    let chain = CableChain::new(cables.to_vec(), 0);
     let pin = Joint {
         kind: JointKind::Revolute,
         ends: [
@@ -77,13 +77,13 @@ fn product(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
         &[],
         &mut Work::new(&system),
     );
-    let both = values.acceleration.iter().flat_map(|a| [a[1], a[3]]);
+    let both = values.acceleration.iter().flat_map(|[p, s]| [p[1], s[1]]);
     Ok(DVector::from_iterator(2 * values.acceleration.len(), both))
 }
 
 /// The mass over unconnected elements, their weight, and rows that connect and pin them (vertical
 /// coordinates alone).
-fn apart(cables: &[Cable<2, 1>]) -> (DMatrix<f64>, DVector<f64>, DMatrix<f64>) {
+fn apart(cables: &[Cable<2>]) -> (DMatrix<f64>, DVector<f64>, DMatrix<f64>) {
     let n = 4 * cables.len();
     let (mut mass, mut force) = (DMatrix::zeros(n, n), DVector::zeros(n));
     let mut rows = DMatrix::zeros(2 * cables.len() - 1, n);
@@ -108,7 +108,7 @@ fn apart(cables: &[Cable<2, 1>]) -> (DMatrix<f64>, DVector<f64>, DMatrix<f64>) {
 }
 
 /// By the report's Eq. 23, mended: `M^-1 Phi^T = Q R`, `T = M^-1 Q2`, hence `Phi T = 0`.
-fn by_inverse(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
+fn by_inverse(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
     let (mass, force, rows) = apart(cables);
     let (n, m) = (rows.ncols(), rows.nrows());
     let inverse = mass.clone().try_inverse().ok_or("a singular mass")?;
@@ -124,7 +124,7 @@ fn by_inverse(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
 }
 
 /// Accelerations of the connected elements: their mass assembled, scaled to a unit diagonal.
-fn assembled(cables: &[Cable<2, 1>]) -> Outcome<DVector<f64>> {
+fn assembled(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
     let (mass, force, _) = apart(cables);
     let n = 2 * cables.len() + 1;
     let place = |i: usize| (2 * (i / 4) + i % 4).checked_sub(1);

@@ -24,13 +24,13 @@ impl Transformation for Assembled {
     }
 
     fn spread(&mut self, q: &[f64], u: &mut [Node]) {
-        u.as_flattened_mut().copy_from_slice(q);
+        u.as_flattened_mut().as_flattened_mut().copy_from_slice(q);
     }
 
     fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
-        f[0][..2].fill(0.0);
+        f[0][0] = [0.0; 2];
         self.mass.solve(f);
-        a.copy_from_slice(f.as_flattened());
+        a.copy_from_slice(f.as_flattened().as_flattened());
     }
 
     fn memory(&self) -> usize {

@@ -2,6 +2,8 @@
 //! `[M Phi^T; Phi 0] [e''; lambda] = [F; 0]`, by the Schur complement `Phi M^-1 Phi^T`, which couples
 //! neighbouring interfaces. Nothing is projected: `Phi e` drifts with roundoff alone, since it is linear.
 
+use flexbody::body::{add_node, no_node};
+
 use super::Transformation;
 use super::band::{Band, Factors};
 use super::rod::{Mass, Node, Rod, entries, matrix, times};
@@ -40,7 +42,7 @@ pub fn new(rod: &Rod) -> Option<Augmented> {
         below[1][1] = 0.0;
     }
     Some(Augmented {
-        lambda: vec![[0.0; 4]; inverse.len()],
+        lambda: vec![no_node(); inverse.len()],
         schur: band.factors()?,
         inverse,
     })
@@ -52,21 +54,22 @@ impl Transformation for Augmented {
     }
 
     fn spread(&mut self, q: &[f64], u: &mut [Node]) {
-        u.as_flattened_mut().copy_from_slice(q);
+        u.as_flattened_mut().as_flattened_mut().copy_from_slice(q);
     }
 
     fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
         let f = f.as_chunks_mut::<2>().0;
-        let mut end = [0.0; 4];
+        let mut end = no_node();
         for ((inverse, f), lambda) in self.inverse.iter().zip(f.iter()).zip(&mut self.lambda) {
             let free = times(inverse, f);
-            *lambda = std::array::from_fn(|k| free[0][k] - end[k]);
+            *lambda = free[0];
+            add_node(lambda, -1.0, &end);
             end = free[1];
         }
-        self.lambda[0][2..].fill(0.0);
+        self.lambda[0][1] = [0.0; 2];
         self.schur.solve(&mut self.lambda);
         let (a, _) = a.as_chunks_mut::<8>();
-        let next = self.lambda[1..].iter().copied().chain([[0.0; 4]]);
+        let next = self.lambda[1..].iter().copied().chain([no_node()]);
         for ((((inverse, f), own), next), a) in self
             .inverse
             .iter()
@@ -75,11 +78,9 @@ impl Transformation for Augmented {
             .zip(next)
             .zip(a)
         {
-            for k in 0..4 {
-                f[0][k] -= own[k];
-                f[1][k] += next[k];
-            }
-            a.copy_from_slice(times(inverse, f).as_flattened());
+            add_node(&mut f[0], -1.0, own);
+            add_node(&mut f[1], 1.0, &next);
+            a.copy_from_slice(times(inverse, f).as_flattened().as_flattened());
         }
     }
 

@@ -4,6 +4,8 @@
 //! Source: block form of the LDL^T factorization, G. H. Golub, C. F. Van Loan, Matrix Computations,
 //! 4th ed., sections 4.3.6 and 4.5.1.
 
+use flexbody::body::no_node;
+
 use super::rod::{Mass, Node};
 
 /// A scalar 2 x 2 block.
@@ -95,12 +97,12 @@ impl Band {
 impl Factors {
     /// `x <- A^-1 x`.
     pub fn solve(&self, x: &mut [Node]) {
-        let mut before = [0.0; 4];
+        let mut before = no_node();
         for ([_, l], x) in self.rows.iter().zip(x.iter_mut()) {
             *x = less(x, &times(l, &before));
             before = *x;
         }
-        let mut after = [0.0; 4];
+        let mut after = no_node();
         for ([inverse, l], x) in self.rows.iter().zip(x.iter_mut()).rev() {
             *x = less(&times(inverse, x), &after);
             after = times_transposed(l, x);
@@ -116,10 +118,10 @@ impl Factors {
 impl Root {
     /// `y = W^-1 x`; the first pair is held.
     pub fn forward(&self, x: &[Node], y: &mut [f64]) {
-        let (y, _) = y.as_chunks_mut::<4>();
-        let mut before = [0.0; 4];
+        let y = y.as_chunks_mut::<2>().0.as_chunks_mut::<2>().0;
+        let mut before = no_node();
         let mut x = x.iter().copied();
-        let first = x.next().map(|[_, _, c, d]| [0.0, 0.0, c, d]);
+        let first = x.next().map(|[_, slope]| [[0.0; 2], slope]);
         let x = first.into_iter().chain(x);
         for (([inverse, w], x), y) in self.rows.iter().zip(x).zip(y) {
             before = less(&times(inverse, &x), &times(w, &before));
@@ -129,8 +131,8 @@ impl Root {
 
     /// `x = W^-T y`.
     pub fn backward(&self, y: &[f64], x: &mut [Node]) {
-        let (y, _) = y.as_chunks::<4>();
-        let mut after = [0.0; 4];
+        let y = y.as_chunks::<2>().0.as_chunks::<2>().0;
+        let mut after = no_node();
         // Block above the diagonal, one row later.
         for (([inverse, w], y), x) in self.rows.iter().zip(y).zip(x).rev() {
             let z = less(y, &after);
@@ -159,13 +161,13 @@ fn minus(a: &Block, b: &Block) -> Block {
 }
 
 fn less(a: &Node, b: &Node) -> Node {
-    std::array::from_fn(|k| a[k] - b[k])
+    std::array::from_fn(|r| std::array::from_fn(|k| a[r][k] - b[r][k]))
 }
 
 fn times(a: &Block, x: &Node) -> Node {
-    std::array::from_fn(|k| a[k / 2][0] * x[k % 2] + a[k / 2][1] * x[2 + k % 2])
+    std::array::from_fn(|r| std::array::from_fn(|k| a[r][0] * x[0][k] + a[r][1] * x[1][k]))
 }
 
 fn times_transposed(a: &Block, x: &Node) -> Node {
-    std::array::from_fn(|k| a[0][k / 2] * x[k % 2] + a[1][k / 2] * x[2 + k % 2])
+    std::array::from_fn(|r| std::array::from_fn(|k| a[0][r] * x[0][k] + a[1][r] * x[1][k]))
 }

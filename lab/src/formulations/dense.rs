@@ -1,5 +1,6 @@
 //! A transformation written out as one dense matrix; a scalar each for both directions of the plane.
 
+use flexbody::body::no_node;
 use flexbody::math::lanes::{Simd, Work, vectorized};
 
 use super::fronts::Fronts;
@@ -25,12 +26,12 @@ impl Dense {
         let padded = columns.next_multiple_of(LANES);
         let mut entries = vec![0.0; 4 * elements * padded];
         let mut unit = vec![0.0; 2 * columns];
-        let mut u = vec![[0.0; 4]; 2 * elements];
+        let mut u = vec![no_node(); 2 * elements];
         for column in 0..columns {
             unit[2 * column] = 1.0;
             fronts.spread(&unit, &mut u);
             unit[2 * column] = 0.0;
-            for (row, pair) in u.as_flattened().chunks_exact(2).enumerate() {
+            for (row, pair) in u.as_flattened().iter().enumerate() {
                 entries[row * padded + column] = pair[0];
             }
         }
@@ -80,7 +81,7 @@ impl Work for Spread<'_> {
     fn run<S: Simd>(self, _: S) {
         let dense = self.dense;
         let rows = dense.entries.chunks_exact(dense.padded);
-        let u = self.u.as_flattened_mut().as_chunks_mut::<2>().0;
+        let u = self.u.as_flattened_mut();
         for (row, u) in rows.zip(u) {
             let mut sums = [[0.0; 2]; LANES];
             let chunks = row.as_chunks::<LANES>().0.iter();
@@ -111,7 +112,7 @@ impl Work for Gather<'_> {
             pairs,
             ..
         } = self.dense;
-        let f = self.f.as_flattened().as_chunks::<2>().0;
+        let f = self.f.as_flattened();
         for (row, [x, y]) in entries.chunks_exact(*padded).zip(f) {
             for (entry, pair) in row.iter().zip(pairs.iter_mut()) {
                 pair[0] += entry * x;

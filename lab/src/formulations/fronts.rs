@@ -49,8 +49,8 @@ impl Fronts {
         let (q, _) = q.as_chunks_mut::<2>();
         let mut carry = [[0.0; 2]; 2];
         for (j, (front, f)) in self.fronts.iter().zip(f.as_chunks::<2>().0).enumerate() {
-            let [[a, b, c, d], [e, g, h, i]] = *f;
-            let x = [[a, b], [c, d], [e, g], [h, i], carry[0], carry[1]];
+            let [[a, b], [c, d]] = *f;
+            let x = [a, b, c, d, carry[0], carry[1]];
             let y: [[f64; 2]; 4] = std::array::from_fn(|r| {
                 std::array::from_fn(|k| (0..6).map(|c| front[r][c] * x[c][k]).sum())
             });
@@ -80,8 +80,7 @@ impl Fronts {
             let x: [[f64; 2]; 6] = std::array::from_fn(|c| {
                 std::array::from_fn(|k| (0..4).map(|r| front[r][c] * y[r][k]).sum())
             });
-            u[0] = [x[0][0], x[0][1], x[1][0], x[1][1]];
-            u[1] = [x[2][0], x[2][1], x[3][0], x[3][1]];
+            *u = [[x[0], x[1]], [x[2], x[3]]];
             carry = [x[4], x[5]];
         }
     }

@@ -20,6 +20,7 @@ mod rod;
 mod tests;
 
 use clap::ValueEnum;
+use flexbody::body::add_node;
 
 pub use rod::{Element, Node, Rod, uniform};
 
@@ -119,9 +120,7 @@ impl System {
     fn nodes_at(&mut self, q: &[f64]) {
         self.transformation.spread(q, &mut self.x);
         for (x, reference) in self.x.iter_mut().zip(&self.rod.reference) {
-            for (x, reference) in x.iter_mut().zip(reference) {
-                *x += reference;
-            }
+            add_node(x, 1.0, reference);
         }
     }
 }

@@ -8,20 +8,24 @@ use super::rod::{Node, Rod};
 
 /// The elimination and its scratch.
 pub struct Product {
-    elimination: Elimination<4>,
+    elimination: Elimination,
     y: Vec<f64>,
 }
 
 /// `None` where the mass is not positive.
 pub fn new(rod: &Rod) -> Option<Product> {
-    let held = |k: usize| Row {
-        terms: vec![(0, std::array::from_fn(|i| f64::from(u8::from(i == k))))],
+    let held = |along: [f64; 2]| Row {
+        terms: vec![(0, [along, [0.0; 2]])],
         is_driven: false,
     };
     let links: Vec<_> = (0..rod.count())
         .map(|j| rod.chain.nodes(j).into())
         .collect();
-    let (assembly, _) = Assembly::new(rod.reference.len(), &[held(0), held(1)], &links);
+    let (assembly, _) = Assembly::new(
+        rod.reference.len(),
+        &[held([1.0, 0.0]), held([0.0, 1.0])],
+        &links,
+    );
     let mut mass = Matrix::zeros(assembly.pattern());
     rod.chain.add_mass(&assembly, &mut mass);
     let elimination = Elimination::new(assembly, mass)?;

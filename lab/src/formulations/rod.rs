@@ -1,15 +1,15 @@
 //! The chain that all formulations move.
 
-use flexbody::body::Chain;
+use flexbody::body::{Chain, no_node};
 use flexbody::elements::Element as _;
 use flexbody::elements::cable::{Cable, Parameters};
 use flexbody::math::lanes::{PACK, Simd, Work, vectorized};
 use nalgebra::{Matrix4, Vector2};
 
 /// The product's cable.
-pub type Element = Cable<2, 1>;
+pub type Element = Cable<2>;
 /// Position and slope, or rates of them, or forces on them.
-pub type Node = [f64; 4];
+pub type Node = flexbody::body::Node;
 /// Scalar mass of an element.
 pub type Mass = [[f64; 4]; 4];
 
@@ -19,7 +19,7 @@ type Pack = <Element as flexbody::elements::Element<2>>::Pack;
 /// A chain along the first axis, its start pinned to the origin.
 pub struct Rod {
     /// The elements, as neighbours that share a node.
-    pub chain: Chain<Element, 2, 4>,
+    pub chain: Chain<Element, 2>,
     /// Elements that have both their nodes for themselves are computed in these packs.
     packs: Vec<Pack>,
     /// Whether neighbours share a node.
@@ -61,17 +61,17 @@ impl Rod {
             weight: Vec::new(),
         };
         let count = rod.nodes(rod.count() - 1)[1] + 1;
-        let (mut reference, mut weight) = (vec![[0.0; 4]; count], vec![[0.0; 4]; count]);
+        let (mut reference, mut weight) = (vec![no_node(); count], vec![no_node(); count]);
         let mut start = 0.0;
         for (j, element) in rod.chain.elements().iter().enumerate() {
             let [first, second] = rod.nodes(j);
-            reference[first] = [start, 0.0, 1.0, 0.0];
+            reference[first] = [[start, 0.0], [1.0, 0.0]];
             start += element.length();
-            reference[second] = [start, 0.0, 1.0, 0.0];
+            reference[second] = [[start, 0.0], [1.0, 0.0]];
             let force = Vector2::from(gravity) * element.weight().transpose();
             for (node, column) in [(first, 0), (second, 2)] {
                 for k in 0..4 {
-                    weight[node][k] += force[(k % 2, column + k / 2)];
+                    weight[node][k / 2][k % 2] += force[(k % 2, column + k / 2)];
                 }
             }
         }
@@ -116,7 +116,7 @@ impl Rod {
 
     /// Distance between the start of an element and the end of the one before it, m.
     pub fn gap_before(&self, j: usize, x: &[Node]) -> f64 {
-        let (before, after) = (x[self.nodes(j - 1)[1]], x[self.nodes(j)[0]]);
+        let ([before, _], [after, _]) = (x[self.nodes(j - 1)[1]], x[self.nodes(j)[0]]);
         (before[0] - after[0]).hypot(before[1] - after[1])
     }
 }
@@ -137,15 +137,15 @@ impl Work for AddForce<'_> {
         for (pack, (x, force)) in self.rod.packs.iter().zip(nodes) {
             for (lane, ends) in x.as_chunks::<2>().0.iter().enumerate() {
                 for k in 0..4 {
-                    e[k / 2][k % 2][lane] = ends[0][k];
-                    e[2 + k / 2][k % 2][lane] = ends[1][k];
+                    e[k / 2][k % 2][lane] = ends[0][k / 2][k % 2];
+                    e[2 + k / 2][k % 2][lane] = ends[1][k / 2][k % 2];
                 }
             }
             Cable::pack_force(simd, pack, (&e, None), &mut f);
             for (lane, ends) in force.as_chunks_mut::<2>().0.iter_mut().enumerate() {
                 for k in 0..4 {
-                    ends[0][k] += f[k / 2][k % 2][lane];
-                    ends[1][k] += f[2 + k / 2][k % 2][lane];
+                    ends[0][k / 2][k % 2] += f[k / 2][k % 2][lane];
+                    ends[1][k / 2][k % 2] += f[2 + k / 2][k % 2][lane];
                 }
             }
         }
@@ -181,6 +181,6 @@ pub fn identity() -> Mass {
 #[inline]
 pub fn times(matrix: &Mass, nodes: &[Node; 2]) -> [Node; 2] {
     let x = nodes.as_flattened();
-    let entry = |row: usize, d: usize| (0..4).map(|c| matrix[row][c] * x[2 * c + d]).sum();
-    std::array::from_fn(|n| std::array::from_fn(|k| entry(2 * n + k / 2, k % 2)))
+    let entry = |row: usize, d: usize| (0..4).map(|c| matrix[row][c] * x[c][d]).sum();
+    [0, 2].map(|row| [row, row + 1].map(|row| [entry(row, 0), entry(row, 1)]))
 }

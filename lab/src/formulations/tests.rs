@@ -42,9 +42,9 @@ fn bent(rod: &Rod) -> Vec<Node> {
             index.div_ceil(2)
         };
         let at = number as f64;
-        node[1] = 0.03 * (1.3 * at).sin();
-        node[2] += 0.02 * (0.7 * at).cos();
-        node[3] = 0.1 * (0.9 * at).sin();
+        node[0][1] = 0.03 * (1.3 * at).sin();
+        node[1][0] += 0.02 * (0.7 * at).cos();
+        node[1][1] = 0.1 * (0.9 * at).sin();
     }
     let mut f = x.clone();
     rod.force(&x, &mut f);
@@ -74,9 +74,11 @@ fn augmented_dense(rod: &Rod, f: &[Node]) -> Vec<Node> {
             hold(4 * j - 2 + k, 8 * j + k, -1.0);
         }
     }
-    b.rows_mut(0, n).copy_from_slice(f.as_flattened());
+    b.rows_mut(0, n)
+        .copy_from_slice(f.as_flattened().as_flattened());
     let solved = a.lu().solve(&b).expect("a regular matrix");
-    solved.as_slice()[..n].as_chunks::<4>().0.to_vec()
+    let (pairs, _) = solved.as_slice()[..n].as_chunks::<2>();
+    pairs.as_chunks::<2>().0.to_vec()
 }
 
 /// Accelerations of all nodes, and those of an independent solution.
@@ -98,9 +100,9 @@ fn compared(formulation: Formulation, inertia: Inertia, lengths: &[f64]) -> (Vec
 
 fn distance(a: &[Node], b: &[Node]) -> f64 {
     let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let pairs = a.as_flattened().iter().zip(b.as_flattened());
-    let apart: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
-    size(&apart) / size(b.as_flattened())
+    let [a, b] = [a, b].map(|x| x.as_flattened().as_flattened());
+    let apart: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+    size(&apart) / size(b)
 }
 
 #[test]
@@ -151,7 +153,7 @@ fn at_rest(formulation: Formulation, unit: f64) -> [f64; 3] {
     system.acceleration(&q, &mut a);
     let mut u = system.rod.reference.clone();
     system.transformation.spread(&a, &mut u);
-    [u[0][1], system.rod.gap(&u), u[u.len() - 1][1]].map(|a| a * unit)
+    [u[0][0][1], system.rod.gap(&u), u[u.len() - 1][0][1]].map(|a| a * unit)
 }
 
 /// Figures of docs/decisions/0001-mass-weighted-elimination.md, from a separate program.
@@ -183,8 +185,15 @@ fn expansion(formulation: Formulation, elements: Vec<Element>) -> (Rod, Vec<Vec<
     (system.rod, columns)
 }
 
+fn difference(a: &Node, b: &Node) -> Node {
+    let mut difference = *a;
+    add_node(&mut difference, -1.0, b);
+    difference
+}
+
 fn largest(x: &[Node]) -> f64 {
     x.as_flattened()
+        .as_flattened()
         .iter()
         .fold(0.0, |most, x| x.abs().max(most))
 }
@@ -192,15 +201,15 @@ fn largest(x: &[Node]) -> f64 {
 /// Largest violation of connectivity and of identity inertia by unit coordinates.
 fn violations(formulation: Formulation) -> [f64; 2] {
     let (rod, t) = expansion(formulation, uniform(soft(Inertia::Consistent), 2));
-    let apart = |u: &Vec<Node>| largest(&[std::array::from_fn(|k| u[1][k] - u[2][k])]);
+    let apart = |u: &Vec<Node>| largest(&[difference(&u[1], &u[2])]);
     let size = t.iter().map(|u| largest(u)).fold(0.0, f64::max);
     let gap = t.iter().map(apart).fold(0.0, f64::max) / size;
     let product = |a: &[Node], b: &[Node]| -> f64 {
         let pairs = a.as_chunks::<2>().0.iter().zip(b.as_chunks::<2>().0);
         let parts = pairs.zip(rod.masses()).map(|((a, b), mass)| {
             let forces = rod::times(&mass, b);
-            let pairs = a.as_flattened().iter().zip(forces.as_flattened());
-            pairs.map(|(a, f)| a * f).sum::<f64>()
+            let [a, forces] = [a, &forces].map(|x| x.as_flattened().as_flattened());
+            a.iter().zip(forces).map(|(a, f)| a * f).sum::<f64>()
         });
         parts.sum()
     };
@@ -230,11 +239,10 @@ fn worst_gap(formulation: Formulation, elements: Vec<Element>) -> f64 {
     let (rod, t) = expansion(formulation, elements);
     let of = |u: &Vec<Node>| {
         let gaps = (1..rod.count()).map(|j| {
-            let (before, after) = (u[rod.nodes(j - 1)[1]], u[rod.nodes(j)[0]]);
-            let scale = |k: usize| if k > 1 { shortest } else { 1.0 };
-            largest(&[std::array::from_fn(|k| (before[k] - after[k]) * scale(k))])
+            let [gap, slopes] = difference(&u[rod.nodes(j - 1)[1]], &u[rod.nodes(j)[0]]);
+            largest(&[[gap, slopes.map(|x| x * shortest)]])
         });
-        let pin = u[0][0].abs().max(u[0][1].abs());
+        let pin = u[0][0][0].abs().max(u[0][0][1].abs());
         gaps.fold(pin, f64::max) / largest(u)
     };
     t.iter().map(of).fold(0.0, f64::max)

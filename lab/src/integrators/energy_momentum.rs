@@ -15,7 +15,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use flexbody::body::{Elimination, Node};
+use flexbody::body::{Elimination, Node, no_node};
 use flexbody::elements::{Element, Nodal};
 use flexbody::integrators::{Attempt, Method, Tolerance};
 use flexbody::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point};
@@ -180,20 +180,20 @@ impl Bar {
     }
 }
 
-fn element(nodes: [usize; 2], x: &[Node<4>]) -> Nodal<2> {
-    Nodal::from_column_slice([x[nodes[0]], x[nodes[1]]].as_flattened())
+fn element(nodes: [usize; 2], x: &[Node]) -> Nodal<2> {
+    Nodal::from_column_slice(nodes.map(|node| x[node]).as_flattened().as_flattened())
 }
 
 /// Scratch of the method.
 pub struct EnergyMomentum {
     bars: Vec<Bar>,
-    elimination: Elimination<4>,
+    elimination: Elimination,
     /// Where the dynamics leave nodal coordinates.
-    nodes: Arc<Mutex<Vec<Node<4>>>>,
+    nodes: Arc<Mutex<Vec<Node>>>,
     /// Nodal coordinates at the start of the step and at the midpoint.
-    start: Vec<Node<4>>,
-    middle: Vec<Node<4>>,
-    force: Vec<Node<4>>,
+    start: Vec<Node>,
+    middle: Vec<Node>,
+    force: Vec<Node>,
     y: Vec<f64>,
     extra: Vec<f64>,
     newton: Newton,
@@ -217,7 +217,7 @@ impl EnergyMomentum {
             return Err("energy_momentum: expected cables, found a rigid body".into());
         }
         let n = system.coordinates();
-        let (zero, nodes) = (vec![0.0; n], vec![[0.0; 4]; system.reference().len()]);
+        let (zero, nodes) = (vec![0.0; n], vec![no_node(); system.reference().len()]);
         Ok(Self {
             bars: Bar::all(build),
             elimination: system.elimination().clone(),
@@ -235,7 +235,7 @@ impl EnergyMomentum {
         })
     }
 
-    fn placed(&self, into: &mut [Node<4>]) {
+    fn placed(&self, into: &mut [Node]) {
         if let Ok(nodes) = self.nodes.lock() {
             into.copy_from_slice(&nodes);
         }
@@ -256,7 +256,7 @@ impl Equation for Step<'_> {
         if let Ok(nodes) = scheme.nodes.lock() {
             scheme.middle.copy_from_slice(&nodes);
         }
-        scheme.force.fill([0.0; 4]);
+        scheme.force.fill(no_node());
         for bar in &scheme.bars {
             let (start, middle) = (
                 element(bar.nodes, &scheme.start),
@@ -267,7 +267,7 @@ impl Equation for Step<'_> {
             let force = bar.force(&start, &end) - bar.force(&middle, &middle);
             for (half, node) in bar.nodes.iter().enumerate() {
                 for k in 0..4 {
-                    scheme.force[*node][k] += force[4 * half + k];
+                    scheme.force[*node][k / 2][k % 2] += force[4 * half + k];
                 }
             }
         }

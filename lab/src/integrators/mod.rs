@@ -42,7 +42,7 @@ pub struct Build<'a> {
     /// The system at its start.
     pub start: &'a Start,
     /// Where the dynamics leave nodal coordinates, for a method that needs them.
-    pub nodes: Arc<Mutex<Vec<Node<4>>>>,
+    pub nodes: Arc<Mutex<Vec<Node>>>,
     /// Whether the step is fixed: nothing reads error estimates.
     pub fixed: bool,
 }

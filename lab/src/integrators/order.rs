@@ -118,7 +118,7 @@ fn energy_and_momenta_stay_with_the_energy_momentum_scheme() {
         let mut measure = |state: &State| {
             let mut values = Evaluation::new(system);
             values.kinematics(system, state, &mut work);
-            let (momentum, angular) = values.momentum(system);
+            let (momentum, [.., angular]) = values.momentum(system);
             let energies = (values.kinetic_energy(system), values.strain_energy(system));
             (
                 [energies.0 + energies.1, momentum[0], momentum[1], angular],

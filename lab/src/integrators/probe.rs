@@ -35,7 +35,7 @@ impl Tally {
 /// A model that counts, and leaves the nodal coordinates of every acceleration where told.
 pub struct Probe<'a> {
     model: Model<'a>,
-    nodes: Option<Arc<Mutex<Vec<Node<4>>>>>,
+    nodes: Option<Arc<Mutex<Vec<Node>>>>,
     partition: Option<Partition>,
     /// What was asked so far.
     pub tally: Tally,
@@ -43,7 +43,7 @@ pub struct Probe<'a> {
 
 impl<'a> Probe<'a> {
     /// Of a model.
-    pub fn new(model: Model<'a>, nodes: Option<Arc<Mutex<Vec<Node<4>>>>>) -> Self {
+    pub fn new(model: Model<'a>, nodes: Option<Arc<Mutex<Vec<Node>>>>) -> Self {
         let tally = Tally::default();
         Self {
             model,

@@ -18,7 +18,7 @@ use nalgebra::{SMatrix, SVector};
 use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, Strain, shape};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use kernel::{Kernel, Line, Sampling, transposed};
+use kernel::{Factors, Kernel, Line, Sampling, TURNS, transposed};
 
 /// Slenderness EA l^2 / EI up to which axial strain is sampled at Gauss points: they halve the error
 /// of stretching waves and cost bending less than they gain; beyond it they lock.
@@ -56,23 +56,22 @@ pub enum Inertia {
     Corrected,
 }
 
-/// An ANCF cable element in `D` dimensions; `C = D (D - 1) / 2` is the number of components of a
-/// curvature: `Cable<2, 1>` in the plane, `Cable<3, 3>` in space. Natural curvature and damping of
-/// bending are planar: in space a cable without torsion has no frame to measure them in.
+/// An ANCF cable element in the plane (`D` = 2) or in space (3). Natural curvature is planar: in space a cable
+/// without torsion has no frame to measure it in. Damping of bending acts on the size of the curvature.
 #[derive(Clone, Debug)]
-pub struct Cable<const D: usize, const C: usize> {
+pub struct Cable<const D: usize = 2> {
     parameters: Parameters,
-    kernel: Kernel<f64, C>,
+    kernel: Kernel<f64>,
 }
 
 /// Up to [`PACK`] cables.
 #[derive(Clone, Debug)]
-pub struct Pack<const C: usize> {
-    kernel: Kernel<[f64; PACK], C>,
+pub struct Pack {
+    kernel: Kernel<[f64; PACK]>,
     count: usize,
 }
 
-impl<const C: usize> Pack<C> {
+impl Pack {
     /// Number of groups of as many elements as there are lanes.
     #[inline(always)]
     fn groups<S: Simd>(&self) -> usize {
@@ -108,7 +107,7 @@ fn write<S: Simd, const D: usize>(
     }
 }
 
-impl<const D: usize, const C: usize> Cable<D, C> {
+impl<const D: usize> Cable<D> {
     /// A cable whose unstressed shape is the straight line or, with `shape` its coordinates, the
     /// curve through them.
     pub fn new(parameters: Parameters, shape: Option<&Nodal<D>>) -> Self {
@@ -125,7 +124,7 @@ impl<const D: usize, const C: usize> Cable<D, C> {
             bending_stiffness: p.bending_stiffness,
             damping_time: p.damping_time,
             natural_strain: [0.0; 3],
-            natural_curvature: [[0.0; C]; 3],
+            natural_curvature: [[0.0; TURNS]; 3],
             sampling,
             strain: p.strain,
             is_damped: p.damping_time > 0.0,
@@ -146,16 +145,20 @@ impl<const D: usize, const C: usize> Cable<D, C> {
 }
 
 /// Its sign where there is one, its size in space.
-fn signed<N: Number, const C: usize>(curvature: &[N; C]) -> N {
-    if C == 1 {
-        curvature[0]
-    } else {
-        SVector::from(*curvature).norm()
+fn signed<N: Number, const D: usize>(curvature: &[N; TURNS]) -> N {
+    if D == 2 {
+        return curvature[0];
+    }
+    let square = curvature.iter().fold(N::of(0.0), |sum, c| sum + *c * *c);
+    // The size of a straight cable's curvature has no derivatives.
+    match square > N::of(0.0) {
+        true => square.root(),
+        false => N::of(0.0),
     }
 }
 
-impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
-    type Pack = Pack<C>;
+impl<const D: usize> Element<D> for Cable<D> {
+    type Pack = Pack;
 
     fn length(&self) -> f64 {
         self.parameters.length
@@ -232,12 +235,12 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
 
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D> {
         let rate = self.kernel.is_damped.then_some(&rate.data.0);
-        let sum = self.kernel.tangent(&e.data.0, rate, (1.0, 1.0));
+        let sum = self.kernel.tangent(&e.data.0, rate, elastic(1.0));
         whole(&self.kernel.ends(&sum))
     }
 
     fn damping(&self, e: &Nodal<D>) -> Blocks<D> {
-        let factors = (0.0, self.parameters.damping_time);
+        let factors = damped(0.0, self.parameters.damping_time);
         let sum = self.kernel.tangent(&e.data.0, None, factors);
         whole(&self.kernel.ends(&sum))
     }
@@ -253,7 +256,10 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
     fn strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> (N, N) {
         let (at, kernel) = (self.line(e, xi), self.kernel.lift::<N>());
         let square = at.u.iter().fold(N::of(0.0), |sum, u| sum + *u * *u);
-        (kernel.axial(square).0, signed(&kernel.curvature(&at).value))
+        (
+            kernel.axial(square).0,
+            signed::<N, D>(&kernel.curvature(&at).value),
+        )
     }
 
     fn recovered_strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> N {
@@ -263,13 +269,13 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
 
     fn goes_with(&self, other: &Self) -> bool {
         let (a, b) = (&self.kernel, &other.kernel);
-        let kind = |k: &Kernel<f64, C>| (k.strain, k.sampling, k.is_damped, k.bends);
+        let kind = |k: &Kernel<f64>| (k.strain, k.sampling, k.is_damped, k.bends);
         kind(a) == kind(b)
     }
 
-    fn pack(elements: &[Self]) -> Pack<C> {
+    fn pack(elements: &[Self]) -> Pack {
         let last = elements.len() - 1;
-        let lanes = |of: &dyn Fn(&Kernel<f64, C>) -> f64| -> [f64; PACK] {
+        let lanes = |of: &dyn Fn(&Kernel<f64>) -> f64| -> [f64; PACK] {
             std::array::from_fn(|lane| of(&elements[lane.min(last)].kernel))
         };
         let first = &elements[0].kernel;
@@ -297,7 +303,7 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
     #[inline(always)]
     fn pack_force<S: Simd>(
         simd: S,
-        pack: &Pack<C>,
+        pack: &Pack,
         (e, rate): (&NodalPack<D>, Option<&NodalPack<D>>),
         out: &mut NodalPack<D>,
     ) {
@@ -319,7 +325,7 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
     #[inline(always)]
     fn pack_stiffness<S: Simd>(
         simd: S,
-        pack: &Pack<C>,
+        pack: &Pack,
         (e, rate): (&NodalPack<D>, Option<&NodalPack<D>>),
         out: &mut BlockPack<D>,
     ) {
@@ -328,21 +334,41 @@ impl<const D: usize, const C: usize> Element<D> for Cable<D, C> {
             let e = read(simd, e, group);
             let one = kernel.length.constant(1.0);
             let sum = match rate {
-                Some(rate) => kernel.tangent(&e, Some(&read(simd, rate, group)), (one, one)),
-                None => kernel.tangent(&e, None, (one, one)),
+                Some(rate) => kernel.tangent(&e, Some(&read(simd, rate, group)), elastic(one)),
+                None => kernel.tangent(&e, None, elastic(one)),
             };
             write(&kernel.ends(&sum), out, group);
         }
     }
 
     #[inline(always)]
-    fn pack_damping<S: Simd>(simd: S, pack: &Pack<C>, e: &NodalPack<D>, out: &mut BlockPack<D>) {
+    fn pack_damping<S: Simd>(simd: S, pack: &Pack, e: &NodalPack<D>, out: &mut BlockPack<D>) {
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
             let e = read(simd, e, group);
-            let factors = (kernel.length.constant(0.0), kernel.damping_time);
+            let factors = damped(kernel.length.constant(0.0), kernel.damping_time);
             write(&kernel.ends(&kernel.tangent(&e, None, factors)), out, group);
         }
+    }
+}
+
+/// What the stiffness is made of.
+#[inline(always)]
+fn elastic<N: Copy>(one: N) -> Factors<N> {
+    Factors {
+        stress: one,
+        material: one,
+        of_size: false,
+    }
+}
+
+/// What the damping matrix is made of.
+#[inline(always)]
+fn damped<N>(zero: N, time: N) -> Factors<N> {
+    Factors {
+        stress: zero,
+        material: time,
+        of_size: true,
     }
 }
 
@@ -377,7 +403,7 @@ mod tests {
     fn forces_at_free_ends_are_derivatives_of_the_energy() {
         let (rest, h) = (Nodal::<2>::zeros(), 1e-6);
         let e = Nodal::<2>::from_column_slice(&[0.1, 0.0, 1.1, 0.2, 0.8, 0.1, 0.9, -0.3]);
-        let rope = Cable::<2, 1>::new(ROPE, None);
+        let rope = Cable::<2>::new(ROPE, None);
         for free in [[false, false], [false, true], [true, false], [true, true]] {
             let element = rope.with_free_ends(&e, free);
             let (force, stiffness) = (element.force(&e, &rest), element.stiffness(&e, &rest));
@@ -418,8 +444,8 @@ mod tests {
         let e = Nodal::<2>::from_column_slice(&columns);
         // The slope turns and the chord by a sixth of it: the middle does not notice.
         let mode = [0.0, 0.0, 0.0, 0.0, ROPE.length / 6.0, 0.0, 1.0, 0.0];
-        let rope = Cable::<2, 1>::new(ROPE, None);
-        let held = |element: &Cable<2, 1>| {
+        let rope = Cable::<2>::new(ROPE, None);
+        let held = |element: &Cable<2>| {
             let k = element.stiffness(&e, &Nodal::zeros());
             let entry = |i: usize, j: usize| mode[i] * k[i / 2][j / 2][(i % 2, j % 2)] * mode[j];
             (0..64).map(|n| entry(n / 8, n % 8)).sum::<f64>()

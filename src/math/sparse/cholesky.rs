@@ -1,11 +1,11 @@
 //! The triangular factor of a positive definite matrix, as a change of coordinates.
 //!
 //! Masses are isotropic: a block over two nodes of a chain is a 2 x 2 matrix times the identity of the
-//! plane. Runs of such blocks have loops of their own, on two vectors a node.
+//! plane or of space. Runs of such blocks have loops of their own, on two vectors a node.
 
 use std::ops::Range;
 
-use super::pattern::{CHAIN, Step};
+use super::pattern::{Step, of_size};
 use super::{Matrix, Pattern, kernels};
 
 /// Cholesky factor W, lower triangular in elimination order, of a positive definite A = W W^T,
@@ -26,6 +26,8 @@ struct Piece {
     /// The columns of a run where it is isotropic, else nothing; and the first of their variables.
     links: Vec<Link>,
     start: usize,
+    /// Variables of a column.
+    size: usize,
 }
 
 /// A column of L: two vectors of a node, `p` and `s`, and those of the next one.
@@ -41,12 +43,14 @@ struct Link {
 }
 
 impl Link {
-    /// From the blocks of a column, unless they depend on the direction.
-    fn new([diagonal, below]: &[[[f64; CHAIN]; CHAIN]; 2]) -> Option<Self> {
-        for r in 0..CHAIN {
-            for c in 0..CHAIN {
-                let (twin_r, twin_c) = (r ^ 1, c ^ 1);
-                let isotropic = |block: &[[f64; CHAIN]; CHAIN]| match r % 2 == c % 2 {
+    /// From the blocks of a column over two vectors, unless they depend on the direction.
+    fn new<const B: usize>([diagonal, below]: &[[[f64; B]; B]; 2]) -> Option<Self> {
+        let dimension = B / 2;
+        for r in 0..B {
+            for c in 0..B {
+                // The entry of the first axis over the same vectors.
+                let (twin_r, twin_c) = (r - r % dimension, c - c % dimension);
+                let isotropic = |block: &[[f64; B]; B]| match r % dimension == c % dimension {
                     true => block[r][c] == block[twin_r][twin_c],
                     false => block[r][c] == 0.0,
                 };
@@ -55,9 +59,10 @@ impl Link {
                 }
             }
         }
+        let d = dimension;
         let (own, below) = (
-            diagonal[2][0],
-            [[below[0][0], below[0][2]], [below[2][0], below[2][2]]],
+            diagonal[d][0],
+            [[below[0][0], below[0][d]], [below[d][0], below[d][d]]],
         );
         Some(Self {
             own,
@@ -107,7 +112,8 @@ impl Cholesky {
                 let step = std::slice::from_ref(step);
                 kernels::forward(pattern, step, &self.factors.values, base, x);
             } else {
-                forward_links(&piece.links, &mut x[piece.start - base..]);
+                let x = &mut x[piece.start - base..];
+                of_size!(piece.size, B => forward_links::<{ B / 2 }>(&piece.links, x));
             }
         }
     }
@@ -120,7 +126,8 @@ impl Cholesky {
                 let step = std::slice::from_ref(step);
                 kernels::backward::<f64, false>(pattern, step, &self.factors.values, 0, x);
             } else {
-                backward_links(&piece.links, &mut x[piece.start..]);
+                let x = &mut x[piece.start..];
+                of_size!(piece.size, B => backward_links::<{ B / 2 }>(&piece.links, x));
             }
         }
     }
@@ -146,7 +153,8 @@ impl Cholesky {
                     kernels::multiply_lower(pattern, column, &self.factors.values, base, x);
                 }
             } else {
-                multiply_links(&piece.links, &mut x[piece.start - base..]);
+                let x = &mut x[piece.start - base..];
+                of_size!(piece.size, B => multiply_links::<{ B / 2 }>(&piece.links, x));
             }
         }
     }
@@ -159,7 +167,8 @@ impl Cholesky {
                     kernels::multiply_lower_transposed(pattern, column, &self.factors.values, x);
                 }
             } else {
-                multiply_links_transposed(&piece.links, &mut x[piece.start..]);
+                let x = &mut x[piece.start..];
+                of_size!(piece.size, B => multiply_links_transposed::<{ B / 2 }>(&piece.links, x));
             }
         }
         scale(x, &self.roots);
@@ -169,13 +178,20 @@ impl Cholesky {
 fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
     let mut first = 0;
     let piece = |step: &Step| {
-        let (count, links, start) = match step {
-            Step::Column(_) => (1, None, 0),
-            Step::Chain { values, variables } => {
-                let blocks = factors.values[values.clone()].as_chunks::<CHAIN>().0;
-                let columns = blocks.as_chunks::<CHAIN>().0.as_chunks::<2>().0;
-                let links: Option<Vec<Link>> = columns.iter().map(Link::new).collect();
-                (columns.len(), links, variables.start)
+        let (count, links, start, size) = match step {
+            Step::Column(_) => (1, None, 0, 0),
+            Step::Chain {
+                size,
+                values,
+                variables,
+            } => {
+                let links = of_size!(size, B => {
+                    let blocks = factors.values[values.clone()].as_chunks::<B>().0;
+                    let columns = blocks.as_chunks::<B>().0.as_chunks::<2>().0;
+                    columns.iter().map(Link::new).collect::<Option<Vec<Link>>>()
+                });
+                let count = variables.len() / size;
+                (count, links, variables.start, *size)
             }
         };
         let columns = first..first + count;
@@ -184,81 +200,83 @@ fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
             columns,
             links: links.unwrap_or_default(),
             start,
+            size,
         }
     };
     pattern.steps.iter().map(piece).collect()
 }
 
+/// The nodes of a run: two vectors each.
+fn nodes<const D: usize>(x: &mut [f64]) -> &mut [[[f64; D]; 2]] {
+    x.as_chunks_mut::<D>().0.as_chunks_mut::<2>().0
+}
+
 /// `x <- L^-1 x` over a run; `x` starts with its variables.
-fn forward_links(links: &[Link], x: &mut [f64]) {
-    let mut nodes = x.as_chunks_mut::<CHAIN>().0.iter_mut();
+fn forward_links<const D: usize>(links: &[Link], x: &mut [f64]) {
+    let mut nodes = nodes::<D>(x).iter_mut();
     let Some(mut node) = nodes.next() else {
         return;
     };
     for (link, next) in links.iter().zip(nodes) {
-        let [[_, by_p], [_, by_s]] = link.below;
-        let [p, q, s, t] = *node;
-        node[2] = s - link.own * p;
-        node[3] = t - link.own * q;
-        next[0] = next[0] - by_p * s - link.direct[0] * p;
-        next[1] = next[1] - by_p * t - link.direct[0] * q;
-        next[2] = next[2] - by_s * s - link.direct[1] * p;
-        next[3] = next[3] - by_s * t - link.direct[1] * q;
+        let ([[_, by_p], [_, by_s]], [p, s]) = (link.below, *node);
+        for d in 0..D {
+            node[1][d] = s[d] - link.own * p[d];
+            next[0][d] = next[0][d] - by_p * s[d] - link.direct[0] * p[d];
+            next[1][d] = next[1][d] - by_s * s[d] - link.direct[1] * p[d];
+        }
         node = next;
     }
 }
 
 /// `x <- L^-T x`.
-fn backward_links(links: &[Link], x: &mut [f64]) {
-    let nodes = &mut x.as_chunks_mut::<CHAIN>().0[..links.len() + 1];
+fn backward_links<const D: usize>(links: &[Link], x: &mut [f64]) {
+    let nodes = &mut nodes::<D>(x)[..links.len() + 1];
     let mut nodes = nodes.iter_mut().rev();
     let Some(mut next) = nodes.next() else {
         return;
     };
     for (link, node) in links.iter().rev().zip(nodes) {
-        let [[_, by_p], [_, by_s]] = link.below;
-        let [p, q, s, t] = *next;
-        let [own_p, own_q] = [node[0] - link.own * node[2], node[1] - link.own * node[3]];
-        node[0] = own_p - link.direct[0] * p - link.direct[1] * s;
-        node[1] = own_q - link.direct[0] * q - link.direct[1] * t;
-        node[2] = node[2] - by_p * p - by_s * s;
-        node[3] = node[3] - by_p * q - by_s * t;
+        let ([[_, by_p], [_, by_s]], [p, s]) = (link.below, *next);
+        for d in 0..D {
+            let own = node[0][d] - link.own * node[1][d];
+            node[0][d] = own - link.direct[0] * p[d] - link.direct[1] * s[d];
+            node[1][d] = node[1][d] - by_p * p[d] - by_s * s[d];
+        }
         next = node;
     }
 }
 
 /// `x <- L x`.
-fn multiply_links(links: &[Link], x: &mut [f64]) {
-    let nodes = &mut x.as_chunks_mut::<CHAIN>().0[..links.len() + 1];
+fn multiply_links<const D: usize>(links: &[Link], x: &mut [f64]) {
+    let nodes = &mut nodes::<D>(x)[..links.len() + 1];
     let mut nodes = nodes.iter_mut().rev();
     let Some(mut next) = nodes.next() else {
         return;
     };
     for (link, node) in links.iter().rev().zip(nodes) {
-        let [p, q, s, t] = *node;
-        for (k, below) in link.below.iter().enumerate() {
-            next[2 * k] += below[0] * p + below[1] * s;
-            next[2 * k + 1] += below[0] * q + below[1] * t;
+        let [p, s] = *node;
+        for d in 0..D {
+            for (next, below) in next.iter_mut().zip(&link.below) {
+                next[d] += below[0] * p[d] + below[1] * s[d];
+            }
+            node[1][d] += link.own * p[d];
         }
-        node[2] += link.own * p;
-        node[3] += link.own * q;
         next = node;
     }
 }
 
 /// `x <- L^T x`.
-fn multiply_links_transposed(links: &[Link], x: &mut [f64]) {
-    let mut nodes = x.as_chunks_mut::<CHAIN>().0.iter_mut();
+fn multiply_links_transposed<const D: usize>(links: &[Link], x: &mut [f64]) {
+    let mut nodes = nodes::<D>(x).iter_mut();
     let Some(mut node) = nodes.next() else {
         return;
     };
     for (link, next) in links.iter().zip(nodes) {
-        let [[pp, ps], [sp, ss]] = link.below;
-        let [p, q, s, t] = *next;
-        node[0] += link.own * node[2] + pp * p + sp * s;
-        node[1] += link.own * node[3] + pp * q + sp * t;
-        node[2] += ps * p + ss * s;
-        node[3] += ps * q + ss * t;
+        let ([[pp, ps], [sp, ss]], [p, s]) = (link.below, *next);
+        for d in 0..D {
+            node[0][d] += link.own * node[1][d] + pp * p[d] + sp * s[d];
+            node[1][d] += ps * p[d] + ss * s[d];
+        }
         node = next;
     }
 }

@@ -1,7 +1,7 @@
 //! The loops over stored blocks. A column of `size` variables is one matrix of `size` numbers per
 //! row: its diagonal block first, then its blocks below.
 
-use super::pattern::{CHAIN, Column, Pattern, Step};
+use super::pattern::{Column, Pattern, Step, of_size};
 use super::{Number, chains};
 
 /// L D L^T in place, column after column; the number of negative pivots, or `None` at one that is
@@ -10,13 +10,17 @@ pub(super) fn factor<T: Number>(pattern: &Pattern, values: &mut [T]) -> Option<u
     let mut negative = 0;
     for step in &pattern.steps {
         negative += match step {
-            Step::Chain { values: run, .. } => {
-                chains::factor::<T, CHAIN>(&mut values[run.start..run.end + CHAIN * CHAIN])?
+            Step::Chain {
+                size, values: run, ..
+            } => {
+                let run = &mut values[run.start..run.end + size * size];
+                of_size!(size, B => chains::factor::<T, B>(run)?)
             }
             Step::Column(j) => {
                 let column = &pattern.columns[*j];
                 match column.size {
                     4 => factor_column(4, pattern, column, values)?,
+                    6 => factor_column(6, pattern, column, values)?,
                     size => factor_column(size, pattern, column, values)?,
                 }
             }
@@ -36,16 +40,18 @@ pub(super) fn forward<T: Number>(
     for step in steps {
         match step {
             Step::Chain {
+                size,
                 values: run,
                 variables,
             } => {
-                let x = &mut x[variables.start - base..variables.end - base + CHAIN];
-                chains::forward::<T, CHAIN>(&values[run.clone()], x);
+                let x = &mut x[variables.start - base..variables.end - base + size];
+                of_size!(size, B => chains::forward::<T, B>(&values[run.clone()], x));
             }
             Step::Column(j) => {
                 let column = &pattern.columns[*j];
                 match column.size {
                     4 => forward_column(4, pattern, column, values, base, x),
+                    6 => forward_column(6, pattern, column, values, base, x),
                     size => forward_column(size, pattern, column, values, base, x),
                 }
             }
@@ -65,16 +71,18 @@ pub(super) fn backward<T: Number, const SCALE: bool>(
     for step in steps.iter().rev() {
         match step {
             Step::Chain {
+                size,
                 values: run,
                 variables,
             } => {
-                let x = &mut x[variables.start - base..variables.end - base + CHAIN];
-                chains::backward::<T, CHAIN, SCALE>(&values[run.clone()], x);
+                let x = &mut x[variables.start - base..variables.end - base + size];
+                of_size!(size, B => chains::backward::<T, B, SCALE>(&values[run.clone()], x));
             }
             Step::Column(j) => {
                 let column = &pattern.columns[*j];
                 match column.size {
                     4 => backward_column::<T, SCALE>(4, pattern, column, values, base, x),
+                    6 => backward_column::<T, SCALE>(6, pattern, column, values, base, x),
                     size => backward_column::<T, SCALE>(size, pattern, column, values, base, x),
                 }
             }
@@ -88,12 +96,13 @@ pub(super) fn multiply<T: Number>(pattern: &Pattern, values: &[T], x: &[T], y: &
     for step in &pattern.steps {
         match step {
             Step::Chain {
+                size,
                 values: run,
                 variables,
             } => {
-                let variables = variables.start..variables.end + CHAIN;
+                let variables = variables.start..variables.end + size;
                 let (x, y) = (&x[variables.clone()], &mut y[variables]);
-                chains::multiply::<T, CHAIN>(&values[run.clone()], x, y);
+                of_size!(size, B => chains::multiply::<T, B>(&values[run.clone()], x, y));
             }
             Step::Column(j) => multiply_column(pattern, &pattern.columns[*j], values, x, y),
         }

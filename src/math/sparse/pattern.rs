@@ -46,8 +46,10 @@ pub struct Component {
 pub(super) enum Step {
     /// One column of any size with any rows.
     Column(usize),
-    /// Columns that have [`CHAIN`] variables and one row each: the next column, of the same size.
+    /// Columns of one of the sizes of [`CHAINS`] and one row each: the next column, of the same size.
     Chain {
+        /// Variables of a column.
+        size: usize,
         /// The blocks of the columns.
         values: Range<usize>,
         /// The variables of the columns.
@@ -55,8 +57,25 @@ pub(super) enum Step {
     },
 }
 
-/// The block size for which runs have loops of their own: a node of a cable in the plane.
-pub(super) const CHAIN: usize = 4;
+/// The block sizes for which runs have loops of their own: nodes of cables in the plane and in space.
+pub(super) const CHAINS: [usize; 2] = [4, 6];
+
+/// Does something with the size of a run's blocks known when compiling.
+macro_rules! of_size {
+    ($size:expr, $b:ident => $call:expr) => {
+        match $size {
+            4 => {
+                const $b: usize = 4;
+                $call
+            }
+            _ => {
+                const $b: usize = 6;
+                $call
+            }
+        }
+    };
+}
+pub(super) use of_size;
 
 /// Where the block of two vertices is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -198,21 +217,27 @@ impl Pattern {
 
     fn find_steps(&mut self) {
         for (j, column) in self.columns.iter().enumerate() {
+            let size = column.size;
             let linked = match &self.rows[column.rows.clone()] {
-                [row] => row.column == j + 1 && row.size == CHAIN && column.size == CHAIN,
+                [row] => row.column == j + 1 && row.size == size && CHAINS.contains(&size),
                 _ => false,
             };
-            let variables = column.start..column.start + CHAIN;
-            let values = column.at..column.at + 2 * CHAIN * CHAIN;
+            let variables = column.start..column.start + size;
+            let values = column.at..column.at + 2 * size * size;
             match self.steps.last_mut() {
                 Some(Step::Chain {
+                    size: s,
                     values: v,
                     variables: x,
-                }) if linked && v.end == values.start => {
+                }) if linked && *s == size && v.end == values.start => {
                     v.end = values.end;
                     x.end = variables.end;
                 }
-                _ if linked => self.steps.push(Step::Chain { values, variables }),
+                _ if linked => self.steps.push(Step::Chain {
+                    size,
+                    values,
+                    variables,
+                }),
                 _ => self.steps.push(Step::Column(j)),
             }
         }

@@ -1,6 +1,6 @@
 //! Loads and inputs: what acts, where and which way.
 
-use super::picture::Picture;
+use super::picture::{Picture, seen};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{Action as Kind, Cable, InputKind, LoadKind, Marker, PortKind, Resolved};
@@ -15,7 +15,7 @@ pub(super) struct Action<'a> {
     /// What is written beside it.
     pub label: &'a str,
     /// Components of a force at the start.
-    components: [f64; 2],
+    components: Vec<f64>,
 }
 
 /// All loads and inputs of a scene, those of ports included, but not those of springs.
@@ -63,14 +63,16 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
 }
 
 /// Components of a force at the start, from those of an input; moments have none.
-fn at_start(kind: &Kind<'_>, inputs: &[f64]) -> [f64; 2] {
+fn at_start(kind: &Kind<'_>, inputs: &[f64]) -> Vec<f64> {
     let (Kind::Force { components, .. } | Kind::Distributed(_, components)) = kind else {
-        return [0.0; 2];
+        return Vec::new();
     };
-    std::array::from_fn(|axis| match &components[axis] {
+    let values = components.iter().enumerate();
+    let value = |(axis, component): (usize, &Signal)| match component {
         Signal::Function(function) => function.value(0.0),
         Signal::Input(_) => inputs[axis],
-    })
+    };
+    values.map(value).collect()
 }
 
 impl<'a> Action<'a> {
@@ -86,13 +88,18 @@ impl<'a> Action<'a> {
     /// Direction of a force in the image, from the direction at its marker. One that starts at zero
     /// has none yet; obliquely from below it keeps clear of the names above.
     pub(super) fn way(&self, [x, y]: Point) -> Point {
-        match self.components {
-            [0.0, 0.0] => direction([-1.0, -1.0]),
+        match self.components[..] {
+            _ if self.components.iter().all(|part| *part == 0.0) => direction([-1.0, -1.0]),
             // Along, and across to the left; y points down the page.
             [a, b] if matches!(self.kind, Kind::Force { follower: true, .. }) => {
                 direction([a * x + b * y, a * y - b * x])
             }
             [a, b] => direction([a, -b]),
+            ref components => {
+                let part = |k: usize| components.get(k).copied().unwrap_or(0.0);
+                let [across, up] = seen(components.len(), [part(0), part(1), part(2)]);
+                direction([across, -up])
+            }
         }
     }
 }

@@ -10,38 +10,38 @@ const PARTS: u32 = 96;
 const MOST_NODES: u32 = 64;
 
 /// Points along a cable; corners around a rigid body's markers and its centre, m.
-pub(super) fn outline(body: BodyReference<'_>) -> Vec<[f64; 2]> {
+pub(super) fn outline(body: BodyReference<'_>) -> Vec<[f64; 3]> {
     match body {
         BodyReference::Cable(cable) => cable_outline(cable.body),
         BodyReference::Rigid(rigid) => rigid_outline(rigid.body),
     }
 }
 
-fn cable_outline(cable: &CableBody) -> Vec<[f64; 2]> {
+fn cable_outline(cable: &CableBody) -> Vec<[f64; 3]> {
     (0..=PARTS)
         .map(|part| cable.shape.point(f64::from(part) / f64::from(PARTS)))
         .collect()
 }
 
 /// Corners around a rigid body's markers and its centre, m.
-pub(super) fn rigid_outline(rigid: &RigidBody) -> Vec<[f64; 2]> {
+pub(super) fn rigid_outline(rigid: &RigidBody) -> Vec<[f64; 3]> {
     let markers = rigid.markers.values();
-    let points = markers.map(|point| rigid.point(*point));
-    hull(points.chain([rigid.position]).collect())
+    let points = markers.map(|point| rigid.point(point.full()));
+    hull(points.chain([rigid.position.full()]).collect())
 }
 
-/// Corners of the smallest convex polygon around points, counter-clockwise; the two ends where all lie
+/// Corners of the smallest convex polygon around points in the plane, counter-clockwise; the two ends where all lie
 /// on a line.
 ///
 /// Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
-fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+fn hull(mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     if points.len() < 3 {
         return points;
     }
-    let half = |points: &mut dyn Iterator<Item = &[f64; 2]>| {
-        let mut corners: Vec<[f64; 2]> = Vec::new();
+    let half = |points: &mut dyn Iterator<Item = &[f64; 3]>| {
+        let mut corners: Vec<[f64; 3]> = Vec::new();
         for point in points {
             while let [.., a, b] = corners[..] {
                 let left = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
@@ -98,7 +98,7 @@ impl Picture<'_> {
             width: 0.28 * self.unit,
             fill: INSIDE,
         };
-        let centre = self.at(body.position);
+        let centre = self.at(body.position.full());
         if points.len() > 1 {
             self.canvas.polyline(points, true, style);
             self.canvas.circle(centre, 0.34 * self.unit, style);
@@ -136,11 +136,15 @@ mod tests {
 
     #[test]
     fn a_hull_keeps_corners_and_ends() {
+        let found = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            let flat = hull(points.iter().map(|[x, y]| [*x, *y, 0.0]).collect());
+            flat.iter().map(|[x, y, _]| [*x, *y]).collect()
+        };
         let square = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.5], [1.0, 1.0], [0.0, 1.0]];
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-        assert_eq!(hull(square.to_vec()), corners);
-        let line = vec![[2.0, 2.0], [0.0, 0.0], [1.0, 1.0]];
-        assert_eq!(hull(line), [[0.0, 0.0], [2.0, 2.0]]);
-        assert_eq!(hull(vec![[1.0, 2.0]; 3]), [[1.0, 2.0]]);
+        assert_eq!(found(&square), corners);
+        let line = [[2.0, 2.0], [0.0, 0.0], [1.0, 1.0]];
+        assert_eq!(found(&line), [[0.0, 0.0], [2.0, 2.0]]);
+        assert_eq!(found(&[[1.0, 2.0]; 3]), [[1.0, 2.0]]);
     }
 }

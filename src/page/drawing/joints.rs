@@ -37,13 +37,13 @@ impl Picture<'_> {
                 symbols::block(&mut self.canvas, second, place.direction, unit);
             }
             JointKind::Slider(slider) => {
-                let along = in_image(slider.direction);
+                let along = self.way(slider.direction);
                 symbols::slider(&mut self.canvas, second, along, unit);
             }
             JointKind::Prismatic {
                 ends, direction, ..
             } => {
-                let [a, b] = in_image(*direction);
+                let [a, b] = self.way(*direction);
                 let [x, y] = match ends.first {
                     First::Ground(_) => [1.0, 0.0],
                     First::Marker(first) => self.place(first).direction,
@@ -106,33 +106,35 @@ impl Picture<'_> {
                     angle.is_some()
                 }
             };
-            symbols::way(&mut self.canvas, at, [1.0, 0.0], unit);
-            symbols::way(&mut self.canvas, at, [0.0, 1.0], unit);
+            self.ways(at);
             if turns {
                 symbols::turn(&mut self.canvas, at, unit, symbols::MOTION);
             }
         }
     }
 
+    /// Ways along all axes.
+    fn ways(&mut self, at: Point) {
+        for axis in 0..self.scene.dimension {
+            let along = self.way(std::array::from_fn(|k| f64::from(u8::from(k == axis))));
+            symbols::way(&mut self.canvas, at, along, self.unit);
+        }
+    }
+
     pub(super) fn motions(&mut self) {
         for motion in &self.resolved.motions {
             let at = self.at(motion.kind.marker().position);
-            let (canvas, unit) = (&mut self.canvas, self.unit);
+            let unit = self.unit;
             match &motion.kind {
-                MotionKind::Angle(..) => symbols::turn(canvas, at, unit, symbols::MOTION),
-                MotionKind::Position(..) => {
-                    symbols::way(canvas, at, [1.0, 0.0], unit);
-                    symbols::way(canvas, at, [0.0, 1.0], unit);
+                MotionKind::Angle(..) => {
+                    symbols::turn(&mut self.canvas, at, unit, symbols::MOTION);
                 }
+                MotionKind::Position(..) => self.ways(at),
                 MotionKind::Displacement(slider, _) => {
-                    symbols::way(canvas, at, in_image(slider.direction), unit);
+                    let along = self.way(slider.direction);
+                    symbols::way(&mut self.canvas, at, along, unit);
                 }
             }
         }
     }
-}
-
-/// A direction of the scene, y downwards.
-fn in_image([x, y]: [f64; 2]) -> Point {
-    direction([x, -y])
 }

@@ -6,6 +6,7 @@ mod joints;
 mod names;
 mod picture;
 
+use super::canvas::Point;
 use crate::scene::{LoadKind, Resolved, Scene};
 use picture::Picture;
 
@@ -42,8 +43,8 @@ pub fn icon(scene: &Scene) -> String {
     .draw()
 }
 
-/// The corners of the box around all bodies and all points of the ground, m.
-fn bounds(resolved: &Resolved<'_>) -> [[f64; 2]; 2] {
+/// The corners of the box around all bodies and all points of the ground as they are seen, m.
+fn bounds(resolved: &Resolved<'_>) -> [Point; 2] {
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
     let joints = resolved.joints.iter().filter_map(|joint| joint.point());
@@ -56,6 +57,7 @@ fn bounds(resolved: &Resolved<'_>) -> [[f64; 2]; 2] {
         .iter()
         .flat_map(|body| bodies::outline(*body));
     for point in outlines.chain(joints).chain(loads) {
+        let point = picture::seen(resolved.scene.dimension, point);
         for axis in 0..2 {
             low[axis] = low[axis].min(point[axis]);
             high[axis] = high[axis].max(point[axis]);
@@ -125,8 +127,8 @@ mod tests {
         let mut scene = Scene::from_json(text).expect("a valid scene");
         for to in [[0.0, 2.0], [2.0, 0.0], [1e-9, -1e-9]] {
             scene.bodies[0].cable_mut().expect("a cable").shape = crate::scene::Shape::Line {
-                from: [0.0, 0.0],
-                to,
+                from: [0.0, 0.0].into(),
+                to: to.into(),
             };
             let picture = drawing(&scene);
             assert!(

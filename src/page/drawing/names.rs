@@ -83,7 +83,7 @@ impl<'a> Picture<'a> {
                 Some(label) => label.add(marker.name, INK),
                 None => labels.push(Label {
                     at: point,
-                    side: side(marker.place),
+                    side: self.side(marker.place),
                     lines: vec![(marker.name, INK)],
                     is_far: false,
                 }),
@@ -142,7 +142,7 @@ impl<'a> Picture<'a> {
             let (at, side, distance) = match body {
                 // A quarter along the way, where markers are rare, on the side without their names.
                 BodyReference::Cable(cable) => {
-                    let side = cable_side(cable.body, 0.25).map(|part| -part);
+                    let side = self.cable_side(cable.body, 0.25).map(|part| -part);
                     (self.at(cable.body.shape.point(0.25)), side, 1.5)
                 }
                 BodyReference::Rigid(rigid) => {
@@ -150,13 +150,27 @@ impl<'a> Picture<'a> {
                     if rigid_outline(rigid).len() < 2 && !rigid.markers.is_empty() {
                         continue;
                     }
-                    let side = rigid_side(rigid, [0.0; 2]).map(|part| -part);
-                    (self.at(rigid.position), side, 1.8)
+                    let side = rigid_side(rigid, [0.0; 3]).map(|part| -part);
+                    (self.at(rigid.position.full()), side, 1.8)
                 }
             };
             let at = moved(at, side, distance * self.unit);
             self.canvas.texts(at, side, &[(body.name(), BODY)]);
         }
+    }
+
+    /// The side of a body for the name of a place on it, in the image.
+    fn side(&self, on: On<'_>) -> Point {
+        match on {
+            On::Along(cable, s) => self.cable_side(cable.body, s),
+            On::Point(rigid, point) => rigid_side(rigid.body, point),
+        }
+    }
+
+    /// Above a cable, or to the right if it is upright.
+    fn cable_side(&self, body: &CableBody, along: f64) -> Point {
+        let [x, y] = direction(self.seen(body.shape.tangent(along)));
+        upper([-y, -x])
     }
 
     /// Names of springs and links in their middle.
@@ -182,15 +196,7 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// The side of a body for the name of a place on it, in the image.
-fn side(on: On<'_>) -> Point {
-    match on {
-        On::Along(cable, s) => cable_side(cable.body, s),
-        On::Point(rigid, point) => rigid_side(rigid.body, point),
-    }
-}
-
-fn rigid_side(rigid: &RigidBody, point: [f64; 2]) -> Point {
+fn rigid_side(rigid: &RigidBody, point: [f64; 3]) -> Point {
     let corners = rigid_outline(rigid);
     let p = rigid.point(point);
     let out = [p[0] - rigid.position[0], p[1] - rigid.position[1]];
@@ -200,12 +206,6 @@ fn rigid_side(rigid: &RigidBody, point: [f64; 2]) -> Point {
         _ if out[0].hypot(out[1]) > 0.0 => direction([out[0], -out[1]]),
         _ => [0.0, -1.0],
     }
-}
-
-/// Above a cable, or to the right if it is upright.
-fn cable_side(body: &CableBody, along: f64) -> Point {
-    let [x, y] = body.shape.tangent(along);
-    upper([-y, -x])
 }
 
 /// A normal or its opposite: the one that points up the page, or to the right if both are level.

@@ -1,5 +1,7 @@
 //! The image that a scene is drawn into: where its points are in there, and the colours of all parts.
 
+use std::f64::consts::FRAC_PI_6;
+
 use crate::page::canvas::{Canvas, Point, Style, direction, moved};
 use crate::scene::{Ends, Marker, Place as On, Resolved, Scene};
 
@@ -30,7 +32,7 @@ pub(super) struct Picture<'a> {
     /// Pixels a metre.
     scale: f64,
     /// The point of the scene in the middle of the image, m.
-    middle: [f64; 2],
+    middle: Point,
     /// The middle of the image, pixels.
     centre: Point,
     /// Size of symbols, pixels.
@@ -43,7 +45,7 @@ impl<'a> Picture<'a> {
     /// An empty image of a scene between two corners, m.
     pub(super) fn new(
         resolved: &'a Resolved<'a>,
-        [low, high]: [[f64; 2]; 2],
+        [low, high]: [Point; 2],
         size: Point,
         margin: f64,
         unit: f64,
@@ -65,20 +67,32 @@ impl<'a> Picture<'a> {
     }
 
     /// From metres to pixels.
-    pub(super) fn at(&self, point: [f64; 2]) -> Point {
+    pub(super) fn at(&self, point: [f64; 3]) -> Point {
+        let [across, up] = self.seen(point);
         [
-            self.centre[0] + self.scale * (point[0] - self.middle[0]),
-            self.centre[1] - self.scale * (point[1] - self.middle[1]),
+            self.centre[0] + self.scale * (across - self.middle[0]),
+            self.centre[1] - self.scale * (up - self.middle[1]),
         ]
+    }
+
+    /// Where a point or a vector is seen, m: as it is in the plane, in an isometric view of space.
+    pub(super) fn seen(&self, point: [f64; 3]) -> Point {
+        seen(self.scene.dimension, point)
+    }
+
+    /// A direction of the scene in the image, y downwards.
+    pub(super) fn way(&self, along: [f64; 3]) -> Point {
+        let [across, up] = self.seen(along);
+        direction([across, -up])
     }
 
     /// A marker in the image.
     pub(super) fn place(&self, marker: Marker<'a>) -> Place<'a> {
-        let [x, y] = marker.direction;
+        let [across, up] = self.seen(marker.direction);
         Place {
             on: marker.place,
             point: self.at(marker.position),
-            direction: [x, -y],
+            direction: [across, -up],
         }
     }
 
@@ -89,8 +103,8 @@ impl<'a> Picture<'a> {
 
     /// An arrow in the upper right corner, where no body is drawn.
     pub(super) fn gravity(&mut self) {
-        let [x, y] = self.scene.gravity;
-        if x == 0.0 && y == 0.0 {
+        let gravity = self.scene.gravity.full();
+        if gravity == [0.0; 3] {
             return;
         }
         let style = Style {
@@ -99,11 +113,21 @@ impl<'a> Picture<'a> {
             fill: "none",
         };
         let corner = [self.canvas.width() - 2.6 * self.unit, 2.6 * self.unit];
-        let along = direction([x, -y]);
+        let along = self.way(gravity);
         let ends = [-1.7, 1.7].map(|end| moved(corner, along, end * self.unit));
         self.canvas.arrow(ends[0], ends[1], 0.7 * self.unit, style);
         let side = [-along[1].abs(), along[0].abs()];
         let at = moved(corner, side, 0.8 * self.unit);
         self.canvas.texts(at, side, &[("g", FAINT)]);
     }
+}
+
+/// Where a point is seen, m: as it is in the plane; in space from the front, the right and above, so that x goes to the
+/// right and down, y to the right and up, z up.
+pub(super) fn seen(dimension: usize, [x, y, z]: [f64; 3]) -> Point {
+    if dimension == 2 {
+        return [x, y];
+    }
+    let (sin, cos) = FRAC_PI_6.sin_cos();
+    [(x + y) * cos, (y - x) * sin + z]
 }

@@ -4,8 +4,6 @@ mod initial;
 mod motions;
 mod ports;
 
-use nalgebra::Vector2;
-
 pub use initial::Motions;
 
 use super::resolved::{
@@ -17,31 +15,32 @@ use crate::body::{Marker, Node};
 use crate::elements::cable::{self, Inertia};
 use crate::elements::{self, Nodal};
 use crate::math::function::Function;
+use crate::math::space::{Vector, axis, turned};
 use crate::system::joints::{self, Joint};
 use crate::system::loads::{self, Load};
-use crate::system::{Angle, BuildError, End, Lump, Parts, PlanarChain, Signal, System};
+use crate::system::{Angle, BuildError, CableChain, End, Lump, Parts, Signal, System};
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
 const BYTES: usize = 5000;
 
 /// A system and what of its scene is needed beside it.
 #[derive(Clone, Debug)]
-pub struct Assembled {
+pub struct Assembled<const D: usize = 2> {
     /// The system.
-    pub system: System,
+    pub system: System<D>,
     /// Nodal coordinates as described.
-    pub nodes: Vec<Node<4>>,
+    pub nodes: Vec<Node<D>>,
     /// Their rates as described.
-    pub rates: Vec<Node<4>>,
+    pub rates: Vec<Node<D>>,
     /// Motions of the bodies at the start.
-    pub motions: Motions,
+    pub motions: Motions<D>,
     /// For every marker, itself in the system.
     markers: Vec<Marker>,
     /// For every coupling, its place among the loads of the system.
     couplings: Vec<usize>,
 }
 
-impl Assembled {
+impl<const D: usize> Assembled<D> {
     /// All markers, body by body, in the order of their names.
     pub fn markers(&self) -> &[Marker] {
         &self.markers
@@ -63,7 +62,7 @@ impl Assembled {
 /// # Errors
 /// When the scene is not valid, when a mesh is too coarse for what acts inside its body, when a motion contradicts joints, when a body
 /// has no mass.
-pub fn assemble(scene: &Scene) -> Result<Assembled, Error> {
+pub fn assemble<const D: usize>(scene: &Scene) -> Result<Assembled<D>, Error> {
     scene.resolve()?.assemble()
 }
 
@@ -73,7 +72,8 @@ impl Resolved<'_> {
     /// # Errors
     /// When a mesh is too coarse for what acts inside its body, when a motion contradicts joints, when a
     /// body has no mass, when memory does not suffice.
-    pub fn assemble(&self) -> Result<Assembled, Error> {
+    pub fn assemble<const D: usize>(&self) -> Result<Assembled<D>, Error> {
+        debug_assert_eq!(self.scene.dimension, D);
         self.reserve()?;
         let mut builder = Builder {
             resolved: self,
@@ -106,7 +106,7 @@ impl Resolved<'_> {
     }
 
     /// Nothing but what belongs to the scene as a whole.
-    fn parts(&self) -> Parts {
+    fn parts<const D: usize>(&self) -> Parts<D> {
         let scene = self.scene;
         Parts {
             nodes: Vec::new(),
@@ -119,7 +119,7 @@ impl Resolved<'_> {
             loads: Vec::new(),
             initial_loads: Vec::new(),
             angles: Vec::new(),
-            gravity: scene.gravity.into(),
+            gravity: vector(scene.gravity.full()),
             rotation: scene.rotation,
             tracks_work: self.outputs.iter().any(|o| matches!(o, Output::Work)),
         }
@@ -151,15 +151,15 @@ impl Resolved<'_> {
     }
 }
 
-struct Builder<'a> {
+struct Builder<'a, const D: usize> {
     resolved: &'a Resolved<'a>,
-    motions: Motions,
+    motions: Motions<D>,
     markers: Vec<Marker>,
     couplings: Vec<usize>,
-    parts: Parts,
+    parts: Parts<D>,
 }
 
-impl<'a> Builder<'a> {
+impl<const D: usize> Builder<'_, D> {
     fn body(&mut self, index: usize) -> Result<(), Error> {
         let first = self.parts.nodes.len();
         let motion = self.resolved.scene.bodies[index].motion();
@@ -167,19 +167,19 @@ impl<'a> Builder<'a> {
             BodyReference::Cable(reference) => {
                 let cable = reference.body;
                 let mesh = self.resolved.nodes(reference)?;
-                let chain = PlanarChain::new(build_elements(cable, &mesh), first);
+                let chain = CableChain::new(build_elements(cable, &mesh), first);
                 let node = |s: &f64| {
-                    let (p, d) = (cable.shape.point(*s), cable.shape.tangent(*s));
-                    [p[0], p[1], d[0], d[1]]
+                    let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
+                    ways.map(|way| vector::<D>(way).into())
                 };
                 self.parts.nodes.extend(mesh.iter().map(node));
                 self.parts.chains.push(chain);
             }
             BodyReference::Rigid(rigid) => {
                 let rigid = rigid.body;
-                let (sin, cos) = rigid.angle.sin_cos();
-                let [x, y] = rigid.position;
-                self.parts.nodes.push([x, y, cos, sin]);
+                let direction: Vector<D> = turned(axis(0), rigid.angle);
+                let position: Vector<D> = vector(rigid.position.full());
+                (self.parts.nodes).push([position.into(), direction.into()]);
                 self.parts.rigid.push((first, rigid.inertia > 0.0));
                 self.parts.lumps.push(Lump {
                     marker: Marker::rigid(index, first, [0.0; 2]),
@@ -211,7 +211,8 @@ impl<'a> Builder<'a> {
                 }
                 Place::Point(rigid, point) => {
                     let body = rigid.id.index();
-                    Marker::rigid(body, self.parts.bodies[body].start, point)
+                    let [x, y, _] = point;
+                    Marker::rigid(body, self.parts.bodies[body].start, [x, y])
                 }
             });
         }
@@ -233,12 +234,12 @@ impl<'a> Builder<'a> {
     }
 
     /// The ends of something; the ground where the second one is at the start, or at its point.
-    fn ends(&self, ends: Ends<'_>) -> [End; 2] {
+    fn ends(&self, ends: Ends<'_>) -> [End<D>; 2] {
         let second = self.marker(ends.second);
         let first = match ends.first {
             First::Ground(point) => {
                 let here = second.position(&self.parts.nodes);
-                End::Ground(point.map_or(here, Vector2::from))
+                End::Ground(point.map_or(here, vector))
             }
             First::Marker(marker) => End::Body(self.marker(marker)),
         };
@@ -246,24 +247,24 @@ impl<'a> Builder<'a> {
     }
 
     /// A marker, seen from the ground.
-    fn on_marker(&self, marker: resolved::Marker<'_>) -> [End; 2] {
-        let ground = End::Ground(Vector2::zeros());
+    fn on_marker(&self, marker: resolved::Marker<'_>) -> [End<D>; 2] {
+        let ground = End::Ground(Vector::zeros());
         [ground, End::Body(self.marker(marker))]
     }
 
-    fn turning(&self, turning: &Turning<'_>) -> [End; 2] {
+    fn turning(&self, turning: &Turning<'_>) -> [End<D>; 2] {
         match turning {
             Turning::Marker(marker) => self.on_marker(*marker),
             Turning::Pivot(pivot) => self.ends(pivot.ends),
         }
     }
 
-    fn distance_at_start(&self, ends: &[End; 2]) -> f64 {
+    fn distance_at_start(&self, ends: &[End<D>; 2]) -> f64 {
         let nodes = &self.parts.nodes;
         (ends[1].position(nodes) - ends[0].position(nodes)).norm()
     }
 
-    fn count_angle(&mut self, ends: [End; 2]) -> usize {
+    fn count_angle(&mut self, ends: [End<D>; 2]) -> usize {
         self.parts.angles.push(Angle { ends });
         self.parts.angles.len() - 1
     }
@@ -275,7 +276,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn hold(&mut self, kind: joints::JointKind, ends: [End; 2]) {
+    fn hold(&mut self, kind: joints::JointKind<D>, ends: [End<D>; 2]) {
         let spring = None;
         self.parts.joints.push(Joint { kind, ends, spring });
     }
@@ -288,11 +289,15 @@ impl<'a> Builder<'a> {
 
     fn joint(&mut self, kind: &JointKind<'_>) {
         // From the direction of the first end to that of the second at the start, where none is given.
-        let angle = |builder: &Self, ends: [End; 2], given: Option<f64>| {
+        let angle = |builder: &Self, ends: [End<D>; 2], given: Option<f64>| {
             given.unwrap_or_else(|| Angle { ends }.value(&builder.parts.nodes, 0.0))
         };
         match *kind {
             JointKind::Revolute(ends) => self.hold(joints::JointKind::Revolute, self.ends(ends)),
+            JointKind::Weld(ends, _) if D == 3 => {
+                let direction = vector(ends.second.direction);
+                self.hold(joints::JointKind::Clamp(direction), self.ends(ends));
+            }
             JointKind::Weld(ends, given) => {
                 let ends = self.ends(ends);
                 self.hold(joints::JointKind::Weld(angle(self, ends, given)), ends);
@@ -370,7 +375,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn spring(&self, spring: &Spring<'_>) -> Load {
+    fn spring(&self, spring: &Spring<'_>) -> Load<D> {
         let ends = self.ends(spring.ends);
         let now = || Signal::Function(Function::Constant(self.distance_at_start(&ends)));
         Load::Spring(loads::Spring {
@@ -381,7 +386,7 @@ impl<'a> Builder<'a> {
         })
     }
 
-    fn action(&self, action: &Action<'_>) -> Load {
+    fn action(&self, action: &Action<'_>) -> Load<D> {
         match action {
             Action::Force {
                 marker,
@@ -390,7 +395,7 @@ impl<'a> Builder<'a> {
             } => Load::Force(loads::Force {
                 marker: self.marker(*marker),
                 follower: *follower,
-                components: components.clone(),
+                components: each(components),
             }),
             Action::Moment(marker, size) => Load::Moment(loads::Moment {
                 ends: self.on_marker(*marker),
@@ -402,7 +407,7 @@ impl<'a> Builder<'a> {
             }),
             Action::Distributed(cable, components) => Load::Distributed(loads::Distributed {
                 chain: cable.id.chain,
-                components: components.clone(),
+                components: each(components),
             }),
         }
     }
@@ -423,18 +428,28 @@ impl<'a> Builder<'a> {
 }
 
 /// The direction as a unit vector.
-fn unit(direction: [f64; 2]) -> Vector2<f64> {
-    Vector2::from(direction).normalize()
+fn unit<const D: usize>(direction: [f64; 3]) -> Vector<D> {
+    vector::<D>(direction).normalize()
 }
 
-fn build_elements(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<2, 1>> {
+/// The components that there are in so many dimensions.
+fn vector<const D: usize>(components: [f64; 3]) -> Vector<D> {
+    Vector::from_row_slice(&components[..D])
+}
+
+/// One number for every component of a vector.
+fn each<T: Clone, const D: usize>(components: &[T]) -> [T; D] {
+    std::array::from_fn(|k| components[k].clone())
+}
+
+fn build_elements<const D: usize>(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<D>> {
     let (material, section) = (&body.material, &body.section);
     let strain = match body.strain {
         Strain::ThetaPrime => elements::Strain::ThetaPrime,
         Strain::GreenLagrangeFrenetKappa => elements::Strain::GreenLagrangeFrenetKappa,
         Strain::EngStrainFrenetKappa => elements::Strain::EngStrainFrenetKappa,
     };
-    let end = |s: f64| [body.shape.point(s).into(), body.shape.tangent(s).into()];
+    let end = |s: f64| [body.shape.point(s), body.shape.tangent(s)].map(vector);
     let build = |s: &[f64]| {
         let parameters = cable::Parameters {
             length: (s[1] - s[0]) * body.shape.length(),
@@ -445,7 +460,7 @@ fn build_elements(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<2, 1>> {
             strain,
             inertia: Inertia::Corrected,
         };
-        let [a, b]: [[Vector2<f64>; 2]; 2] = [end(s[0]), end(s[1])];
+        let [a, b]: [[Vector<D>; 2]; 2] = [end(s[0]), end(s[1])];
         let e = Nodal::from_columns(&[a[0], a[1], b[0], b[1]]);
         let curved = (!body.shape.is_straight()).then_some(&e);
         cable::Cable::new(parameters, curved)

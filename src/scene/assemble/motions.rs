@@ -4,7 +4,7 @@ use super::{Builder, unit};
 use crate::scene::resolved::{MotionKind, PortKind};
 use crate::system::{Drive, joints};
 
-impl Builder<'_> {
+impl<const D: usize> Builder<'_, D> {
     pub(super) fn motions(&mut self) {
         for motion in &self.resolved.motions {
             self.motion(&motion.kind);
@@ -23,8 +23,9 @@ impl Builder<'_> {
                 let kind = joints::JointKind::DrivenAngle(self.drive(drive));
                 self.hold(kind, self.turning(turning));
             }
-            MotionKind::Position(marker, [x, y]) => {
-                let kind = joints::JointKind::DrivenPosition([self.drive(x), self.drive(y)]);
+            MotionKind::Position(marker, drives) => {
+                let drives = std::array::from_fn(|k| self.drive(&drives[k]));
+                let kind = joints::JointKind::DrivenPosition(drives);
                 self.hold(kind, self.on_marker(*marker));
             }
             MotionKind::Displacement(slider, drive) => {

@@ -5,7 +5,7 @@ use crate::scene::resolved::{Coupling, Port, PortKind};
 use crate::system::Signal;
 use crate::system::loads::{self, Load, Turning};
 
-impl Builder<'_> {
+impl<const D: usize> Builder<'_, D> {
     pub(super) fn ports(&mut self) {
         for port in &self.resolved.ports {
             match &port.kind {
@@ -29,8 +29,8 @@ impl Builder<'_> {
             marker: self.marker(port.marker),
             stiffness: coupling.stiffness,
             damping: coupling.damping,
-            position: [signal(0), signal(2)],
-            velocity: [signal(1), signal(3)],
+            position: std::array::from_fn(|k| signal(2 * k)),
+            velocity: std::array::from_fn(|k| signal(2 * k + 1)),
         }));
     }
 
@@ -46,7 +46,7 @@ impl Builder<'_> {
         }));
     }
 
-    fn couple(&mut self, load: Load) {
+    fn couple(&mut self, load: Load<D>) {
         self.couplings.push(self.parts.loads.len());
         self.parts.loads.push(load);
     }

@@ -7,6 +7,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::strict::{Strict, at, typed};
+use super::{Spin, Vector};
 
 /// A body; `element` says of which kind.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -44,7 +45,7 @@ pub struct CableBody {
     pub markers: BTreeMap<String, f64>,
 }
 
-/// A rigid body; without inertia, a particle.
+/// A rigid body; without inertia, a particle. In space there are particles only.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidBody {
@@ -57,7 +58,7 @@ pub struct RigidBody {
     #[serde(default)]
     pub inertia: f64,
     /// Centre of mass at the start, m.
-    pub position: [f64; 2],
+    pub position: Vector,
     /// Direction of the body's frame at the start, counter-clockwise, rad.
     #[serde(default)]
     pub angle: f64,
@@ -66,7 +67,7 @@ pub struct RigidBody {
     pub motion: InitialMotion,
     /// Named points in the body's frame, whose origin is the centre of mass, m.
     #[serde(default)]
-    pub markers: BTreeMap<String, [f64; 2]>,
+    pub markers: BTreeMap<String, Vector>,
 }
 
 /// Material of a cable.
@@ -114,17 +115,18 @@ pub enum Shape {
     /// Straight line.
     Line {
         /// First end, m.
-        from: [f64; 2],
+        from: Vector,
         /// Last end, m.
-        to: [f64; 2],
+        to: Vector,
     },
     /// Circular arc that bulges to the right of the way from `from` to `to`: drawn from left to
-    /// right it sags.
+    /// right it sags. In space it sags towards -z in the upright plane through both ends, and the cable has no
+    /// bending stiffness.
     Arc {
         /// First end, m.
-        from: [f64; 2],
+        from: Vector,
         /// Last end, m.
-        to: [f64; 2],
+        to: Vector,
         /// Length along the arc, m; more than the distance between the ends.
         length: f64,
     },
@@ -136,14 +138,14 @@ pub enum Shape {
 pub struct InitialMotion {
     /// Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s.
     #[serde(default)]
-    pub velocity: [f64; 2],
-    /// Angular velocity, counter-clockwise, rad/s.
+    pub velocity: Vector,
+    /// Angular velocity, counter-clockwise in the plane, rad/s.
     #[serde(default)]
-    pub spin: f64,
-    /// Velocity of deformation, m/s, beside both: its two components as expressions in the material coordinate `s`,
+    pub spin: Spin,
+    /// Velocity of deformation, m/s, beside both: its components as expressions in the material coordinate `s`,
     /// 0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; cables only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub deformation: Option<[String; 2]>,
+    pub deformation: Option<Vec<String>>,
 }
 
 /// A mass lumped at a marker.
@@ -194,6 +196,14 @@ impl Body {
         match self {
             Self::Cable(body) => &body.motion,
             Self::Rigid(body) => &body.motion,
+        }
+    }
+
+    /// Motion at the start, to be changed.
+    pub fn motion_mut(&mut self) -> &mut InitialMotion {
+        match self {
+            Self::Cable(body) => &mut body.motion,
+            Self::Rigid(body) => &mut body.motion,
         }
     }
 

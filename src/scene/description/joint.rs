@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::MotionValue;
+use super::{MotionValue, Vector};
 
 /// A joint between two markers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,11 +18,11 @@ pub struct Joint {
     pub markers: [String; 2],
     /// With `ground` only: where on the ground, m; where the second marker is at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<[f64; 2]>,
+    pub point: Option<Vector>,
     /// `slider`: direction of the line along which the marker may move. `prismatic`: the same in the axes of the
     /// first marker (of ground: the global ones), by default its own direction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub direction: Option<[f64; 2]>,
+    pub direction: Option<Vector>,
     /// `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
     /// rad; as at the start by default. `hinge`: the same at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{LoadValue, Value};
+use super::{LoadValue, Value, Vector};
 
 /// A load that is known in the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -28,11 +28,11 @@ pub struct Load {
     /// `spring_damper` from `ground` only: where on the ground, m; where the second marker is at the
     /// start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub point: Option<[f64; 2]>,
+    pub point: Option<Vector>,
     /// `force` only: the components turn with the marker, along and across (to the left).
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
-    /// All but `spring_damper`: two components of a force (N) or of a force per length (N/m), one of
+    /// All but `spring_damper`: the components of a force (N) or of a force per length (N/m), one of
     /// a moment or torque (N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<LoadValue>,
@@ -84,7 +84,7 @@ pub struct Input {
     /// `force` only: the components turn with the marker, along and across (to the left).
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
-    /// Value before the master sets one: two components for a force, one for others; zero by default,
+    /// Value before the master sets one: the components of a force, one of others; zero by default,
     /// for a rest length that of the spring-damper.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub start: Vec<f64>,
@@ -107,10 +107,10 @@ pub enum InputKind {
 }
 
 impl Input {
-    /// Number of components: 2 for a force, 1 for others.
-    pub fn components(&self) -> usize {
+    /// Number of components: those of a force in so many dimensions, 1 of others.
+    pub fn components(&self, dimension: usize) -> usize {
         match self.kind {
-            InputKind::Force | InputKind::Distributed => 2,
+            InputKind::Force | InputKind::Distributed => dimension,
             InputKind::Moment | InputKind::Torque | InputKind::RestLength => 1,
         }
     }

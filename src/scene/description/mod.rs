@@ -10,6 +10,7 @@ mod port;
 mod reader;
 mod strict;
 mod value;
+mod vector;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,6 +25,7 @@ pub use port::{Port, PortKind};
 pub use reader::Reader;
 pub use strict::Strict;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};
+pub use vector::{Spin, Vector};
 
 /// A scene: bodies, joints, what drives and loads them, what goes in and what comes out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,12 +36,14 @@ pub struct Scene {
     /// Whose model it is.
     #[serde(default, skip_serializing_if = "About::is_empty")]
     pub about: About,
-    /// Dimension of space; 2 (planar).
+    /// Dimension: 2 in the plane, 3 in space. In space there are cables (they stretch and bend, isotropically, and know no
+    /// torsion) and particles.
+    #[schemars(range(min = 2, max = 3))]
     pub dimension: usize,
     /// Gravitational acceleration, m/s^2.
     #[serde(default)]
-    pub gravity: [f64; 2],
-    /// Rate of the frame that the scene is described in, about its origin, counter-clockwise, rad/s.
+    pub gravity: Vector,
+    /// Rate of the frame that the scene is described in, about its origin, counter-clockwise, rad/s; 0 in space.
     #[serde(default)]
     pub rotation: f64,
     /// Bodies; at least one.
@@ -91,6 +95,23 @@ pub struct Accuracy {
 }
 
 impl Scene {
+    /// Says what is left out and follows from other values.
+    pub fn write_out_defaults(&mut self) {
+        self.accuracy.relative_tolerance = Some(self.relative_tolerance());
+        let motions = self.bodies.iter_mut().map(Body::motion_mut);
+        let zeros = motions.map(|motion| {
+            if self.dimension == 3 && motion.spin == Spin::default() {
+                motion.spin = Spin::Vector([0.0; 3]);
+            }
+            &mut motion.velocity
+        });
+        for vector in zeros.chain([&mut self.gravity]) {
+            if vector.given().is_empty() {
+                *vector = Vector::zero(self.dimension.clamp(2, 3));
+            }
+        }
+    }
+
     /// Error in time that a step may make: as given, or by the kinds of bodies.
     pub fn relative_tolerance(&self) -> f64 {
         let is_rigid = self.bodies.iter().all(|body| body.cable().is_none());

@@ -45,9 +45,9 @@ pub enum OutputKind {
     AngularVelocity,
     /// Rate of the rate of the angle, rad/s^2.
     AngularAcceleration,
-    /// Axial strain at a marker of a cable, in the strain measure of the body.
+    /// Axial strain at a marker of a cable, in the strain measure of the body. Where a load or joint acts, that after it.
     Strain,
-    /// Curvature at a marker of a cable, in the strain measure of the body, 1/m.
+    /// Curvature at a marker of a cable, in the strain measure of the body, 1/m; in space its size.
     Curvature,
     /// Axial force at a marker of a cable, N: the part of the section force along the tangent, tension
     /// positive, from the balance of forces with inertia. Where a load or joint acts, that after it.

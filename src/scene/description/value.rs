@@ -50,14 +50,14 @@ pub enum Interpolation {
     Spline,
 }
 
-/// Values of a load: one of a moment, two of a force.
+/// Values of a load: one of a moment, as many as dimensions of a force.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum LoadValue {
     /// One component.
     One(Value),
-    /// Two components.
-    Two([Value; 2]),
+    /// The components of a vector.
+    Vector(#[schemars(length(min = 2, max = 3))] Vec<Value>),
 }
 
 /// Course of a driven motion.
@@ -66,8 +66,8 @@ pub enum LoadValue {
 pub enum MotionValue {
     /// An angle or a displacement.
     One(Value),
-    /// The two components of a position.
-    Two([Value; 2]),
+    /// The components of a position.
+    Vector(#[schemars(length(min = 2, max = 3))] Vec<Value>),
     /// Set by the master.
     Input(MasterInput),
 }
@@ -116,21 +116,21 @@ impl Value {
 }
 
 impl LoadValue {
-    /// Its one or two components.
+    /// Its components.
     pub fn components(&self) -> &[Value] {
         match self {
             Self::One(value) => std::slice::from_ref(value),
-            Self::Two(values) => values,
+            Self::Vector(values) => values,
         }
     }
 }
 
 impl MotionValue {
-    /// Its one or two components; none if the master sets it.
+    /// Its components; none if the master sets it.
     pub fn components(&self) -> &[Value] {
         match self {
             Self::One(value) => std::slice::from_ref(value),
-            Self::Two(values) => values,
+            Self::Vector(values) => values,
             Self::Input(_) => &[],
         }
     }
@@ -140,14 +140,14 @@ impl MotionValue {
 struct Anything {
     /// What is told to be expected.
     wanted: &'static str,
-    pair: bool,
+    list: bool,
     input: bool,
 }
 
 /// What a JSON value turned out to be.
 enum Found {
     One(Value),
-    Two([Value; 2]),
+    Vector(Vec<Value>),
     Input(MasterInput),
 }
 
@@ -184,13 +184,13 @@ impl<'de> Visitor<'de> for Anything {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Found, A::Error> {
-        if !self.pair {
+        if !self.list {
             return Err(A::Error::custom(format!(
                 "expected {}, found a list",
                 self.wanted
             )));
         }
-        Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Found::Two)
+        Deserialize::deserialize(SeqAccessDeserializer::new(list)).map(Found::Vector)
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Found, A::Error> {
@@ -225,27 +225,29 @@ impl<'de> Deserialize<'de> for Value {
         let wanted = "a number, an expression in t or {\"table\": [[t, y], ...]}";
         let visitor = Anything {
             wanted,
-            pair: false,
+            list: false,
             input: false,
         };
         match deserializer.deserialize_any(visitor)? {
             Found::One(value) => Ok(value),
-            Found::Two(_) | Found::Input(_) => Err(D::Error::custom(format!("expected {wanted}"))),
+            Found::Vector(_) | Found::Input(_) => {
+                Err(D::Error::custom(format!("expected {wanted}")))
+            }
         }
     }
 }
 
 impl<'de> Deserialize<'de> for LoadValue {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let wanted = "a number, an expression in t, {\"table\": [[t, y], ...]} or a pair of them";
+        let wanted = "a number, an expression in t, {\"table\": [[t, y], ...]} or a list of them";
         let visitor = Anything {
             wanted,
-            pair: true,
+            list: true,
             input: false,
         };
         match deserializer.deserialize_any(visitor)? {
             Found::One(value) => Ok(Self::One(value)),
-            Found::Two(values) => Ok(Self::Two(values)),
+            Found::Vector(values) => Ok(Self::Vector(values)),
             Found::Input(_) => Err(D::Error::custom(format!("expected {wanted}"))),
         }
     }
@@ -254,13 +256,13 @@ impl<'de> Deserialize<'de> for LoadValue {
 impl<'de> Deserialize<'de> for MotionValue {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let visitor = Anything {
-            wanted: "a number, an expression in t, {\"table\": [[t, y], ...]}, a pair of them or {\"input\": 0, 1 or 2}",
-            pair: true,
+            wanted: "a number, an expression in t, {\"table\": [[t, y], ...]}, a list of them or {\"input\": 0, 1 or 2}",
+            list: true,
             input: true,
         };
         Ok(match deserializer.deserialize_any(visitor)? {
             Found::One(value) => Self::One(value),
-            Found::Two(values) => Self::Two(values),
+            Found::Vector(values) => Self::Vector(values),
             Found::Input(input) => Self::Input(input),
         })
     }

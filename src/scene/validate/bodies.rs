@@ -3,18 +3,21 @@
 use std::collections::BTreeSet;
 
 use super::ELEMENTS;
-use super::checks::{expected, finite, name, not_negative, positive, quoted, vector};
+use super::checks::{
+    components, expected, finite, name, not_negative, planar, positive, quoted, vector,
+};
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
-use crate::scene::{Body, CableBody, Error, InitialMotion, RigidBody, Shape};
+use crate::scene::{Body, CableBody, Error, InitialMotion, RigidBody, Shape, Spin};
 
 impl Body {
-    pub(super) fn validate(&self, path: &str) -> Result<(), Error> {
+    pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         match self {
-            Self::Cable(body) => body.validate(path),
-            Self::Rigid(body) => body.validate(path),
+            Self::Cable(body) => body.validate(path, dimension),
+            Self::Rigid(body) => body.validate(path, dimension),
         }?;
-        self.motion().validate(&format!("{path}.motion"))?;
+        self.motion()
+            .validate(&format!("{path}.motion"), dimension)?;
         let mut names = BTreeSet::new();
         for marker in self.marker_names() {
             name(&format!("{path}.markers.{marker}"), marker, &mut names)?;
@@ -24,11 +27,25 @@ impl Body {
 }
 
 impl InitialMotion {
-    fn validate(&self, path: &str) -> Result<(), Error> {
-        vector(&format!("{path}.velocity"), self.velocity)?;
-        finite(&format!("{path}.spin"), self.spin)?;
+    fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        vector(&format!("{path}.velocity"), dimension, &self.velocity)?;
+        let place = format!("{path}.spin");
+        match (&self.spin, dimension) {
+            (Spin::Number(rate), 2) => finite(&place, *rate)?,
+            (Spin::Vector(rates), 3) => vector(&place, dimension, &(*rates).into())?,
+            // What a scene that is changed by hand leaves out.
+            (Spin::Number(0.0), _) => {}
+            (Spin::Number(rate), _) => return Err(expected(&place, "[x, y, z] in space", rate)),
+            (Spin::Vector(_), _) => {
+                return Err(expected(&place, "a number in the plane", "a list"));
+            }
+        }
+        let place = format!("{path}.deformation");
+        if let Some(field) = &self.deformation {
+            components(&place, dimension, field, |_, _| Ok(()))?;
+        }
         for (k, text) in self.deformation.iter().flatten().enumerate() {
-            let place = format!("{path}.deformation[{k}]");
+            let place = format!("{place}[{k}]");
             let field = Expression::of(text, "s").map_err(|error| Error::new(&place, error))?;
             for s in [0.0, 0.5, 1.0] {
                 let values = field.derivatives(s);
@@ -43,7 +60,7 @@ impl InitialMotion {
 }
 
 impl CableBody {
-    fn validate(&self, path: &str) -> Result<(), Error> {
+    fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let (material, section) = (&self.material, &self.section);
         let at = |key: &str| format!("{path}.{key}");
         if !ELEMENTS.contains(&self.elements) {
@@ -59,7 +76,16 @@ impl CableBody {
         not_negative(&at("material.damping_time"), "s", material.damping_time)?;
         positive(&at("section.area"), "m^2", section.area)?;
         not_negative(&at("section.second_moment"), "m^4", section.second_moment)?;
-        self.shape.validate(&at("shape"))?;
+        self.shape.validate(&at("shape"), dimension)?;
+        if !self.shape.is_straight() && section.second_moment > 0.0 {
+            let (place, found) = (at("section.second_moment"), section.second_moment);
+            planar(
+                &place,
+                dimension,
+                "0 of a cable that is curved without stress, which has no frame to be curved in,",
+                &found.to_string(),
+            )?;
+        }
         for (marker, coordinate) in &self.markers {
             if !(0.0..=1.0).contains(coordinate) {
                 let place = at(&format!("markers.{marker}"));
@@ -71,18 +97,27 @@ impl CableBody {
 }
 
 impl RigidBody {
-    fn validate(&self, path: &str) -> Result<(), Error> {
+    fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
         positive(&at("mass"), "kg", self.mass)?;
         not_negative(&at("inertia"), "kg m^2", self.inertia)?;
-        vector(&at("position"), self.position)?;
+        vector(&at("position"), dimension, &self.position)?;
         finite(&at("angle"), self.angle)?;
+        for (key, value) in [("inertia", self.inertia), ("angle", self.angle)] {
+            if value != 0.0 {
+                let instead = "0 of a rigid body, which is a particle";
+                planar(&at(key), dimension, instead, &value.to_string())?;
+            }
+        }
         for (marker, point) in &self.markers {
             let place = at(&format!("markers.{marker}"));
-            vector(&place, *point)?;
-            if self.inertia == 0.0 && *point != [0.0; 2] {
-                let wanted = "[0, 0] in a body without inertia, which does not turn";
-                return Err(expected(&place, wanted, format!("{point:?}")));
+            vector(&place, dimension, point)?;
+            if self.inertia == 0.0 && point.full() != [0.0; 3] {
+                let wanted = match dimension {
+                    2 => "[0, 0] in a body without inertia, which does not turn",
+                    _ => "[0, 0, 0] in a body without inertia, which does not turn",
+                };
+                return Err(expected(&place, wanted, format!("{:?}", point.given())));
             }
         }
         if self.motion.deformation.is_some() {
@@ -92,24 +127,33 @@ impl RigidBody {
                 "one",
             ));
         }
-        if self.inertia == 0.0 && self.motion.spin != 0.0 {
+        let spin = self.motion.spin.full();
+        if self.inertia == 0.0 && spin != [0.0; 3] {
             let wanted = "0 in a body without inertia, which does not turn";
-            return Err(expected(&at("motion.spin"), wanted, self.motion.spin));
+            let found = match dimension {
+                2 => spin[2].to_string(),
+                _ => format!("{spin:?}"),
+            };
+            return Err(expected(&at("motion.spin"), wanted, found));
         }
         Ok(())
     }
 }
 
 impl Shape {
-    fn validate(&self, path: &str) -> Result<(), Error> {
+    fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let kind = if self.is_straight() { "line" } else { "arc" };
-        let (Self::Line { from, to } | Self::Arc { from, to, .. }) = self;
-        vector(&format!("{path}.{kind}.from"), *from)?;
-        vector(&format!("{path}.{kind}.to"), *to)?;
-        let distance = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let [from, to] = self.ends();
+        vector(&format!("{path}.{kind}.from"), dimension, &from)?;
+        vector(&format!("{path}.{kind}.to"), dimension, &to)?;
+        let distance = self.chord();
         if distance <= 0.0 {
             let wanted = "two ends that differ";
             return Err(expected(path, wanted, "the same point twice"));
+        }
+        if !self.is_straight() && dimension == 3 && from.full()[..2] == to.full()[..2] {
+            let wanted = "ends of an arc that are not one above the other";
+            return Err(expected(path, wanted, "an upright chord"));
         }
         if let Self::Arc { length, .. } = self {
             let place = format!("{path}.arc.length");
@@ -139,6 +183,10 @@ impl Resolved<'_> {
             if mass.inertia > 0.0 && matches!(marker.place, Place::Point(..)) {
                 let wanted = "0 at a marker of a rigid body, which has its own inertia";
                 return Err(expected(&at("inertia"), wanted, mass.inertia));
+            }
+            if mass.inertia > 0.0 {
+                let (dimension, found) = (self.scene.dimension, mass.inertia.to_string());
+                planar(&at("inertia"), dimension, "0", &found)?;
             }
             if mass.mass + mass.inertia <= 0.0 {
                 return Err(expected(&at("mass"), "a positive number (kg)", mass.mass));

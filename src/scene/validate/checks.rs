@@ -5,7 +5,7 @@ use std::fmt::Display;
 
 use crate::math::function::Function;
 use crate::scene::Error;
-use crate::scene::description::Value;
+use crate::scene::description::{Value, Vector};
 use crate::scene::marker::GROUND;
 
 /// Words that begin variable names of the scene itself, or stand for something else.
@@ -74,10 +74,50 @@ pub fn finite(path: &str, value: f64) -> Result<(), Error> {
     Err(expected(path, "a finite number", value))
 }
 
-/// Checks that both components are finite.
-pub fn vector(path: &str, value: [f64; 2]) -> Result<(), Error> {
-    finite(&format!("{path}[0]"), value[0])?;
-    finite(&format!("{path}[1]"), value[1])
+/// What a vector looks like in so many dimensions.
+pub fn shape(dimension: usize) -> &'static str {
+    match dimension {
+        2 => "[x, y]",
+        _ => "[x, y, z]",
+    }
+}
+
+/// Checks that there are as many components as dimensions, and that they are finite.
+pub fn vector(path: &str, dimension: usize, value: &Vector) -> Result<(), Error> {
+    let count = value.given().len();
+    if count != dimension && count > 0 {
+        let wanted = format!("{dimension} components {}", shape(dimension));
+        return Err(expected(path, &wanted, count));
+    }
+    for (k, component) in value.given().iter().enumerate() {
+        finite(&format!("{path}[{k}]"), *component)?;
+    }
+    Ok(())
+}
+
+/// The components of a force or a position, of which there are as many as dimensions.
+pub fn components<T, U>(
+    path: &str,
+    dimension: usize,
+    given: &[T],
+    mut of: impl FnMut(&str, &T) -> Result<U, Error>,
+) -> Result<Vec<U>, Error> {
+    if given.len() != dimension {
+        let wanted = format!("{dimension} values {}", shape(dimension));
+        return Err(expected(path, &wanted, given.len()));
+    }
+    let places = given.iter().enumerate();
+    places
+        .map(|(k, given)| of(&format!("{path}[{k}]"), given))
+        .collect()
+}
+
+/// Refuses what there is in the plane alone, with what is offered instead.
+pub fn planar(path: &str, dimension: usize, instead: &str, found: &str) -> Result<(), Error> {
+    if dimension == 2 {
+        return Ok(());
+    }
+    Err(expected(path, &format!("{instead} in space"), found))
 }
 
 /// Checks that a quantity is positive.

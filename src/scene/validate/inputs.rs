@@ -27,8 +27,8 @@ impl Input {
         keys(path, "input", &all, must, may)
     }
 
-    fn validate_start(&self, path: &str) -> Result<(), Error> {
-        let components = self.components();
+    fn validate_start(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let components = self.components(dimension);
         if !self.start.is_empty() && self.start.len() != components {
             let wanted = format!("{components} component(s)");
             let place = format!("{path}.start");
@@ -60,13 +60,13 @@ impl<'a> Resolved<'a> {
                 let wanted = "an input not declared before";
                 return Err(expected(&path, wanted, quoted(of)));
             }
-            input.validate_start(&path)?;
+            input.validate_start(&path, self.scene.dimension)?;
             let start = match input.start.is_empty() {
                 true => start,
                 false => input.start.clone(),
             };
             self.inputs.push(resolved::Input { kind, first, start });
-            first += input.components();
+            first += input.components(self.scene.dimension);
         }
         Ok(())
     }
@@ -82,6 +82,8 @@ impl<'a> Resolved<'a> {
             let name = needed(path, key, "a name", name.as_deref())?;
             Ok::<_, Error>((format!("{path}.{key}"), name))
         };
+        let count = input.components(self.scene.dimension);
+        let components = || (0..count).map(|k| Signal::Input(first + k)).collect();
         let action = match input.kind {
             InputKind::Force => {
                 let (at, name) = named("marker", &input.marker)?;
@@ -92,7 +94,7 @@ impl<'a> Resolved<'a> {
                 Action::Force {
                     marker,
                     follower: input.follower,
-                    components: [0, 1].map(|k| Signal::Input(first + k)),
+                    components: components(),
                 }
             }
             InputKind::Moment => {
@@ -105,8 +107,7 @@ impl<'a> Resolved<'a> {
             }
             InputKind::Distributed => {
                 let (at, name) = named("body", &input.body)?;
-                let components = [0, 1].map(|k| Signal::Input(first + k));
-                Action::Distributed(self.require_cable(&at, name)?, components)
+                Action::Distributed(self.require_cable(&at, name)?, components())
             }
             InputKind::RestLength => {
                 let (at, name) = named("load", &input.load)?;
@@ -114,7 +115,7 @@ impl<'a> Resolved<'a> {
                 return Ok((resolved::InputKind::RestLength(name), vec![start]));
             }
         };
-        let start = vec![0.0; input.components()];
+        let start = vec![0.0; count];
         Ok((resolved::InputKind::Action(action), start))
     }
 

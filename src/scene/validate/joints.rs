@@ -1,6 +1,8 @@
 //! Checks of joints.
 
-use super::checks::{Key, expected, finite, keys, needed, positive, quoted, spring_damper, vector};
+use super::checks::{
+    Key, expected, finite, keys, needed, planar, positive, quoted, spring_damper, vector,
+};
 use crate::scene::Error;
 use crate::scene::description::{Joint, JointKind};
 use crate::scene::marker::GROUND;
@@ -29,13 +31,31 @@ impl Joint {
         keys(path, "joint", &all, must, may)
     }
 
-    fn validate_numbers(&self, path: &str) -> Result<(), Error> {
+    /// In space there is nothing yet that has an angle.
+    fn validate_dimension(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let instead = "revolute, slider, distance or along, or weld from the ground to a cable,";
+        let found = match self.kind {
+            JointKind::Prismatic => "prismatic",
+            JointKind::Orientation => "orientation",
+            JointKind::Hinge => "hinge",
+            JointKind::Weld if self.markers[0] != GROUND => "weld between two bodies",
+            JointKind::Weld if self.angle.is_some() => {
+                let place = format!("{path}.angle");
+                return planar(&place, dimension, "nothing", "an angle");
+            }
+            _ => return Ok(()),
+        };
+        planar(&format!("{path}.kind"), dimension, instead, found)
+    }
+
+    fn validate_numbers(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
         if let Some(direction) = self.direction {
-            vector(&at("direction"), direction)?;
-            if direction[0].hypot(direction[1]) <= 0.0 {
+            vector(&at("direction"), dimension, &direction)?;
+            if direction.full() == [0.0; 3] {
                 let wanted = "a direction that is not zero";
-                return Err(expected(&at("direction"), wanted, "[0, 0]"));
+                let found = format!("{:?}", direction.given());
+                return Err(expected(&at("direction"), wanted, found));
             }
         }
         if let Some(angle) = self.angle {
@@ -53,6 +73,7 @@ impl<'a> Resolved<'a> {
         for (index, joint) in self.scene.joints.iter().enumerate() {
             let path = format!("joints[{index}]");
             joint.validate_keys(&path)?;
+            joint.validate_dimension(&path, self.scene.dimension)?;
             let kind = self.resolve_joint(&path, joint)?;
             let holder = self.hold(&path, &joint.name);
             self.joints.push(resolved::Joint {
@@ -91,13 +112,15 @@ impl<'a> Resolved<'a> {
         }
         let ends = self.require_pair(path, &joint.markers, joint.point)?;
         use JointKind::{Hinge, Orientation, Prismatic, Weld};
-        if matches!(joint.kind, Weld | Orientation | Hinge | Prismatic) {
+        if joint.kind == Weld && self.scene.dimension == 3 {
+            self.require_cable_marker(&second, b)?;
+        } else if matches!(joint.kind, Weld | Orientation | Hinge | Prismatic) {
             if a != GROUND {
                 self.require_turning(&first, a)?;
             }
             self.require_turning(&second, b)?;
         }
-        joint.validate_numbers(path)?;
+        joint.validate_numbers(path, self.scene.dimension)?;
         Ok(ends)
     }
 
@@ -113,13 +136,13 @@ impl<'a> Resolved<'a> {
             JointKind::Weld => Kind::Weld(ends()?, joint.angle),
             JointKind::Slider => Kind::Slider(Slider {
                 name: &joint.name,
-                point: joint.point,
+                point: joint.point.map(|point| point.full()),
                 marker: ends()?.second,
-                direction: needed(path, "direction", "a direction [x, y]", joint.direction)?,
+                direction: needed(path, "direction", "a direction [x, y]", joint.direction)?.full(),
             }),
             JointKind::Prismatic => Kind::Prismatic {
                 ends: ends()?,
-                direction: joint.direction.unwrap_or([1.0, 0.0]),
+                direction: joint.direction.map_or([1.0, 0.0, 0.0], |of| of.full()),
                 angle: joint.angle,
             },
             JointKind::Orientation => Kind::Orientation(ends()?, joint.angle),

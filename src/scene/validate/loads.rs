@@ -1,6 +1,6 @@
 //! Checks of loads.
 
-use super::checks::{Key, expected, keys, needed, not_negative, spring_damper, value};
+use super::checks::{Key, components, expected, keys, needed, not_negative, spring_damper, value};
 use crate::scene::Error;
 use crate::scene::description::{Load, LoadKind, LoadValue, Value};
 use crate::scene::resolved::{self, Action, Resolved, Spring};
@@ -79,7 +79,7 @@ impl<'a> Resolved<'a> {
                 Action::Force {
                     marker,
                     follower: load.follower,
-                    components: two(&place, given()?)?,
+                    components: self.vector_of(&place, given()?)?,
                 }
             }
             LoadKind::Moment => {
@@ -92,7 +92,10 @@ impl<'a> Resolved<'a> {
             }
             LoadKind::Distributed => {
                 let (at, name) = named("body", &load.body)?;
-                Action::Distributed(self.require_cable(&at, name)?, two(&place, given()?)?)
+                Action::Distributed(
+                    self.require_cable(&at, name)?,
+                    self.vector_of(&place, given()?)?,
+                )
             }
             LoadKind::SpringDamper => {
                 return self.spring(path, load).map(resolved::LoadKind::Spring);
@@ -102,6 +105,15 @@ impl<'a> Resolved<'a> {
             action,
             values: given()?.components(),
         })
+    }
+
+    fn vector_of(&self, path: &str, given: &LoadValue) -> Result<Vec<Signal>, Error> {
+        components(
+            path,
+            self.scene.dimension,
+            given.components(),
+            |place, of| value(place, of, false).map(Signal::Function),
+        )
     }
 
     fn spring(&self, path: &str, load: &'a Load) -> Result<Spring<'a>, Error> {
@@ -128,16 +140,6 @@ impl<'a> Resolved<'a> {
 fn one(path: &str, given: &LoadValue) -> Result<Signal, Error> {
     match given {
         LoadValue::One(of) => value(path, of, false).map(Signal::Function),
-        LoadValue::Two(_) => Err(expected(path, "one value", "two")),
-    }
-}
-
-fn two(path: &str, given: &LoadValue) -> Result<[Signal; 2], Error> {
-    match given {
-        LoadValue::One(_) => Err(expected(path, "two values [x, y]", "one value")),
-        LoadValue::Two([x, y]) => Ok([
-            Signal::Function(value(&format!("{path}[0]"), x, false)?),
-            Signal::Function(value(&format!("{path}[1]"), y, false)?),
-        ]),
+        LoadValue::Vector(values) => Err(expected(path, "one value", values.len())),
     }
 }

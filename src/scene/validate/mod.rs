@@ -17,7 +17,7 @@ use std::ops::RangeInclusive;
 
 use super::resolved::{Holder, HolderId, Resolved};
 use super::{Error, InitialState, Scene};
-use checks::{expected, finite, name, positive, scene_name, sentence, vector};
+use checks::{expected, finite, name, planar, positive, scene_name, sentence, vector};
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
 pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
@@ -36,11 +36,16 @@ impl Scene {
         for (key, text) in self.about.texts() {
             sentence(&format!("about.{key}"), text)?;
         }
-        if self.dimension != 2 {
-            return Err(expected("dimension", "2 (planar)", self.dimension));
+        if ![2, 3].contains(&self.dimension) {
+            let wanted = "2 (the plane) or 3 (space)";
+            return Err(expected("dimension", wanted, self.dimension));
         }
-        vector("gravity", self.gravity)?;
+        vector("gravity", self.dimension, &self.gravity)?;
         finite("rotation", self.rotation)?;
+        if self.rotation != 0.0 {
+            let found = self.rotation.to_string();
+            planar("rotation", self.dimension, "0", &found)?;
+        }
         self.validate_names()?;
         self.validate_bodies()?;
         let mut resolved = Resolved::bare(self);
@@ -110,7 +115,7 @@ impl Scene {
         }
         for (index, body) in self.bodies.iter().enumerate() {
             let path = format!("bodies[{index}]");
-            body.validate(&path)?;
+            body.validate(&path, self.dimension)?;
         }
         let elements: u64 = self.elements();
         if elements > ALL_ELEMENTS {
@@ -128,6 +133,10 @@ impl<'a> Resolved<'a> {
         if state == InitialState::AsShaped && !scene.initial.loads().is_empty() {
             let wanted = "a state that loads act on, static_equilibrium or steady";
             return Err(expected("initial.state", wanted, "as_shaped"));
+        }
+        if state == InitialState::Steady {
+            let instead = "as_shaped or static_equilibrium";
+            planar("initial", scene.dimension, instead, "steady")?;
         }
         if state == InitialState::Steady && scene.rotation != 0.0 {
             let wanted = "0 where the initial state is steady";

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, keys, needed, quoted, value};
+use super::checks::{Key, components, expected, keys, needed, quoted, shape, value};
 use crate::scene::Error;
 use crate::scene::description::{Motion, MotionKind, MotionValue};
 use crate::scene::resolved::{self, JointKind, Resolved, Slider, Turning};
@@ -15,7 +15,8 @@ impl<'a> Resolved<'a> {
     pub(super) fn resolve_motions(&mut self) -> Result<(), Error> {
         // Inputs have the first numbers.
         let inputs = self.scene.inputs.iter();
-        self.numbers = inputs.map(|input| input.components()).sum();
+        let dimension = self.scene.dimension;
+        self.numbers = inputs.map(|input| input.components(dimension)).sum();
         let mut seen = BTreeSet::new();
         for (index, motion) in self.scene.motions.iter().enumerate() {
             let path = format!("motions[{index}]");
@@ -61,7 +62,7 @@ impl<'a> Resolved<'a> {
         Ok(match (motion.kind, &motion.joint) {
             (MotionKind::Position, _) => {
                 let marker = self.require_marker(&at_marker, marker()?)?;
-                Kind::Position(marker, self.two_drives(&at_value, &motion.value)?)
+                Kind::Position(marker, self.vector_of_drives(&at_value, &motion.value)?)
             }
             (MotionKind::Angle, None) => {
                 let turning = Turning::Marker(self.require_turning(&at_marker, marker()?)?);
@@ -89,24 +90,25 @@ impl<'a> Resolved<'a> {
         match given {
             MotionValue::Input(input) => Ok(self.driven(derivatives(path, input.input)?)),
             MotionValue::One(of) => value(path, of, true).map(Drive::Function),
-            MotionValue::Two(_) => Err(expected(path, "one value", "two")),
+            MotionValue::Vector(values) => Err(expected(path, "one value", values.len())),
         }
     }
 
-    fn two_drives(&mut self, path: &str, given: &MotionValue) -> Result<[Drive; 2], Error> {
+    fn vector_of_drives(&mut self, path: &str, given: &MotionValue) -> Result<Vec<Drive>, Error> {
+        let dimension = self.scene.dimension;
         match given {
             MotionValue::Input(input) => {
                 let derivatives = derivatives(path, input.input)?;
-                Ok([(); 2].map(|()| self.driven(derivatives)))
+                Ok((0..dimension).map(|_| self.driven(derivatives)).collect())
             }
             MotionValue::One(_) => {
-                let wanted = "two values [x, y] or {\"input\": 0, 1 or 2}";
-                Err(expected(path, wanted, "one value"))
+                let shape = shape(dimension);
+                let wanted = format!("{dimension} values {shape} or {{\"input\": 0, 1 or 2}}");
+                Err(expected(path, &wanted, "one value"))
             }
-            MotionValue::Two([x, y]) => Ok([
-                Drive::Function(value(&format!("{path}[0]"), x, true)?),
-                Drive::Function(value(&format!("{path}[1]"), y, true)?),
-            ]),
+            MotionValue::Vector(values) => components(path, dimension, values, |place, of| {
+                value(place, of, true).map(Drive::Function)
+            }),
         }
     }
 

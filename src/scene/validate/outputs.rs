@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, keys, needed, quoted};
+use super::checks::{Key, expected, keys, needed, planar, quoted};
 use crate::scene::Error;
 use crate::scene::description::{Output, OutputKind};
 use crate::scene::resolved::{self, AngleId, JointKind, MotionKind, Reaction, Resolved, Turning};
@@ -162,6 +162,9 @@ impl<'a> Resolved<'a> {
         let name = needed(path, "joint", "a name", output.joint.as_deref())?;
         let path = format!("{path}.joint");
         let joint = self.require_joint(&path, name)?;
+        if is_moment {
+            planar(&path, self.scene.dimension, "no moment", &quoted(name))?;
+        }
         let (wanted, offered) = match (is_moment, joint.kind) {
             (false, kind) => (
                 "a joint that transmits a force",

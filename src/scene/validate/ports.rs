@@ -104,15 +104,16 @@ impl<'a> Resolved<'a> {
     }
 
     fn force_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
-        let first = self.place(2);
+        let dimension = self.scene.dimension;
+        let first = self.place(dimension);
         let mut inputs = vec![resolved::Input {
             kind: InputKind::Action(Action::Force {
                 marker,
                 follower: false,
-                components: [0, 1].map(|k| Signal::Input(first + k)),
+                components: (0..dimension).map(|k| Signal::Input(first + k)).collect(),
             }),
             first,
-            start: vec![0.0; 2],
+            start: vec![0.0; dimension],
         }];
         let mut outputs = vec![
             Output::Position(marker),
@@ -138,7 +139,8 @@ impl<'a> Resolved<'a> {
     /// The motions that come in: with two derivatives or, with a spring and damper, which do not feel
     /// accelerations, with one.
     fn position(&mut self, marker: Marker<'a>, derivatives: usize) -> MotionKind<'a> {
-        let drives = [(); 2].map(|()| self.driven(derivatives));
+        let coordinates = 0..self.scene.dimension;
+        let drives = coordinates.map(|_| self.driven(derivatives)).collect();
         MotionKind::Position(marker, drives)
     }
 

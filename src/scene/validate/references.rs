@@ -1,11 +1,11 @@
 //! Names that refer to other parts of a scene, and what they refer to.
 
-use super::checks::{expected, quoted, vector};
-use crate::scene::Error;
+use super::checks::{expected, planar, quoted, vector};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
     BodyReference, Cable, Ends, First, Joint, JointKind, Marker, Pivot, Place, Resolved,
 };
+use crate::scene::{Error, Vector};
 
 impl<'a> Resolved<'a> {
     pub(super) fn require_marker(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
@@ -18,8 +18,11 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// A marker with a direction: of a cable, or of a rigid body that has inertia.
+    /// A marker with an angle: in the plane, of a cable, or of a rigid body that has inertia.
     pub(super) fn require_turning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+        let instead =
+            "nothing that has an angle or takes a moment, which a cable without torsion does not,";
+        planar(path, self.scene.dimension, instead, &quoted(name))?;
         let marker = self.require_marker(path, name)?;
         if marker.place.turns() {
             return Ok(marker);
@@ -58,15 +61,15 @@ impl<'a> Resolved<'a> {
         &self,
         path: &str,
         markers: &'a [String; 2],
-        point: Option<[f64; 2]>,
+        point: Option<Vector>,
     ) -> Result<Ends<'a>, Error> {
         let second = self.require_marker(&format!("{path}.markers[1]"), &markers[1])?;
         let place = format!("{path}.point");
         if markers[0] == GROUND {
             if let Some(point) = point {
-                vector(&place, point)?;
+                vector(&place, self.scene.dimension, &point)?;
             }
-            let first = First::Ground(point);
+            let first = First::Ground(point.map(|point| point.full()));
             return Ok(Ends { first, second });
         }
         let first = self.require_marker(&format!("{path}.markers[0]"), &markers[0])?;
@@ -102,6 +105,9 @@ impl<'a> Resolved<'a> {
 
     /// A joint with an angle of its own.
     pub(super) fn require_pivot(&self, path: &str, name: &str) -> Result<Pivot<'a>, Error> {
+        let instead =
+            "nothing that has an angle or takes a moment, which a cable without torsion does not,";
+        planar(path, self.scene.dimension, instead, &quoted(name))?;
         let found = self.require_joint(path, name)?;
         let (JointKind::Revolute(ends) | JointKind::Hinge { ends, .. }) = found.kind else {
             return Err(expected(path, "a revolute joint or a hinge", quoted(name)));

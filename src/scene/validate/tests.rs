@@ -1,6 +1,8 @@
 //! What scenes may say, and refusals, one line each: where, what stands there instead, and how the
 //! message begins.
 
+mod space;
+
 use serde_json::{Value, json};
 
 use crate::math::function::Function;
@@ -263,8 +265,8 @@ fn motions_drive_what_can_be_driven_once() {
         /motions/2/joint | "pin" | motions[2].joint: expected nothing for this kind of motion
         /motions/3/marker | "load.eye" | motions[3].marker: expected a marker that can turn
         /motions/2/value | {"input": 3} | motions[2].value.input: expected 0, 1 or 2, found 3
-        /motions/2/value | 1 | motions[2].value: expected two values [x, y] or
-        /motions/0/value | [1, 2] | motions[0].value: expected one value, found two
+        /motions/2/value | 1 | motions[2].value: expected 2 values [x, y] or
+        /motions/0/value | [1, 2] | motions[0].value: expected one value, found 2
         /motions/0/value | "sin(x)" | motions[0].value: expected one of the names t, 
         /motions/4/value | ["t", "2 t"] | motions[4].value[1]: expected an operator, found "t"
         /motions/1/value | {"table": [[1, 0], [0, 2]]} | motions[1].value.table: expected increasing times
@@ -285,12 +287,12 @@ fn loads_take_what_is_theirs_and_no_more() {
         r#"
         /loads/0/marker | null | loads[0].marker: expected a name, found nothing
         /loads/0/value | null | loads[0].value: expected a value, found nothing
-        /loads/0/value | 1 | loads[0].value: expected two values [x, y], found one
+        /loads/0/value | 1 | loads[0].value: expected 2 values [x, y], found 1
         /loads/0/marker | "load.eye" | loads[0].marker: expected a marker that can turn
         /loads/0/joint | "pin" | loads[0].joint: expected nothing for this kind of load
         /loads/1/follower | true | loads[1].follower: expected nothing for this kind of load
         /loads/1/marker | "load.eye" | loads[1].marker: expected a marker that can turn
-        /loads/1/value | [1, 2] | loads[1].value: expected one value, found two
+        /loads/1/value | [1, 2] | loads[1].value: expected one value, found 2
         /loads/1/value | "1 +" | loads[1].value: expected a number, t, a function
         /loads/2/joint | "rail" | loads[2].joint: expected a revolute joint or a hinge
         /loads/2/stiffness | 1 | loads[2].stiffness: expected nothing for this kind of load
@@ -375,12 +377,15 @@ fn markers_are_found_on_cables_and_rigid_bodies() {
     let mid = resolved.marker("rod.mid").expect("a marker");
     let top = resolved.marker("cart.top").expect("a marker");
     assert!(matches!(mid.place, Place::Along(cable, 0.5) if cable.body.name == "rod"));
-    assert!(matches!(top.place, Place::Point(rigid, [0.0, 0.1]) if rigid.body.name == "cart"));
+    assert!(matches!(top.place, Place::Point(rigid, [0.0, 0.1, _]) if rigid.body.name == "cart"));
     assert_eq!((mid.place.body_index(), top.place.body_index()), (0, 4));
-    assert_eq!(mid.position, [0.5, 0.0]);
+    assert_eq!(mid.position, [0.5, 0.0, 0.0]);
     let (sin, cos) = 0.5_f64.sin_cos();
-    assert_eq!(top.position, [-sin * 0.1, -1.0 + cos * 0.1]);
-    assert_eq!((mid.direction, top.direction), ([1.0, 0.0], [cos, sin]));
+    assert_eq!(top.position, [-sin * 0.1, -1.0 + cos * 0.1, 0.0]);
+    assert_eq!(
+        (mid.direction, top.direction),
+        ([1.0, 0.0, 0.0], [cos, sin, 0.0])
+    );
     for name in ["ground", "rod", "rod.top", "rode.tip", "rod.mid.x"] {
         assert!(resolved.marker(name).is_none());
     }

@@ -49,7 +49,7 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
 
 /// A load; its variables bear the name of a port or of what it acts on.
 fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
-    let axes = ["component x", "component y"];
+    let axes = ["component x", "component y", "component z"];
     let (key, what, unit, ways): (_, _, _, &[&str]) = match &input.kind {
         InputKind::Action(Action::Force { follower: true, .. }) => (
             "follower_force",
@@ -83,6 +83,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
         InputKind::RestLength(load) => load,
     };
     let (name, before) = (format!("{}.{key}", port.unwrap_or(of)), list.0.len());
+    let ways = &ways[..input.start.len()];
     for (axis, (start, way)) in input.start.iter().zip(ways).enumerate() {
         let name = match ways.len() {
             1 => name.clone(),

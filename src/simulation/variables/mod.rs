@@ -130,8 +130,8 @@ pub enum Quantity {
     Curvature(MarkerId),
     /// Axial force at a marker.
     AxialForce(MarkerId),
-    /// Bending moment at a marker.
-    BendingMoment(MarkerId),
+    /// Component of the bending moment at a marker; in the plane the third.
+    BendingMoment(MarkerId, usize),
     /// Component of the force that the part of a cable before a marker exerts on the part after it.
     ConnectivityForce(MarkerId, usize),
     /// Where a slide is on its cable.
@@ -162,8 +162,8 @@ pub enum Quantity {
     Dissipated,
     /// Component of the linear momentum.
     Momentum(usize),
-    /// Angular momentum about the origin.
-    AngularMomentum,
+    /// Component of the angular momentum about the origin; in the plane the third.
+    AngularMomentum(usize),
     /// Component of the centre of mass.
     CenterOfMass(usize),
     /// Largest residual of the constraints: 0 of positions, 1 of velocities.
@@ -208,7 +208,7 @@ pub fn variables(scene: &Scene) -> Vec<Variable> {
 
 /// The variables of a scene whose references are resolved.
 pub(super) fn list(scene: &Resolved<'_>) -> Vec<Variable> {
-    let mut list = List(Vec::new());
+    let mut list = List(Vec::new(), scene.scene.dimension);
     list.add("time", "Simulated time", Some(SECOND), Source::Time, None);
     parameters::add(&mut list, scene);
     inputs::add(&mut list, scene);
@@ -234,9 +234,10 @@ fn component(name: &str, axis: usize) -> String {
     format!("{name}[{}]", axis + 1)
 }
 
-const AXES: [&str; 2] = ["x", "y"];
+const AXES: [&str; 3] = ["x", "y", "z"];
 
-struct List(Vec<Variable>);
+/// Variables, and how many components a vector has.
+struct List(Vec<Variable>, usize);
 
 impl List {
     fn add(

@@ -58,8 +58,12 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             list.mark_direct(first);
         }
         Output::BendingMoment(m) => {
-            let words = ("bending_moment", "Bending moment at", Some(NEWTON_METRE));
-            list.scalar_at(m, words, Quantity::BendingMoment);
+            let (name, what) = (
+                format!("{}.bending_moment", m.name),
+                format!("Bending moment at {}", m.name),
+            );
+            let quantity = |axis| Quantity::BendingMoment(m.id, axis);
+            list.turning(&name, &what, NEWTON_METRE, quantity);
             list.mark_direct(first);
         }
         Output::Angle(turning, angle) => {
@@ -257,7 +261,7 @@ fn add_momentum(list: &mut List) {
     list.vector("momentum", what, NEWTON_SECOND, Quantity::Momentum);
     let (name, what) = ("angular_momentum", "Angular momentum about the origin");
     let quantity = Quantity::AngularMomentum;
-    list.scalar(name, what, Some(NEWTON_METRE_SECOND), quantity);
+    list.turning(name, what, NEWTON_METRE_SECOND, quantity);
 }
 
 fn add_residuals(list: &mut List) {
@@ -319,7 +323,7 @@ fn add_eigenvalues(list: &mut List, body: Option<&str>, count: u32) {
 }
 
 impl List {
-    /// The two components of a vector at a marker; of a port, by its name.
+    /// The components of a vector at a marker; of a port, by its name.
     fn vector_at(
         &mut self,
         marker: &Marker<'_>,
@@ -345,9 +349,17 @@ impl List {
         self.scalar(&name, &what, unit, quantity(marker.id));
     }
 
-    /// The two components of a vector.
+    /// What turns: a number in the plane, three components in space.
+    fn turning(&mut self, name: &str, what: &str, unit: Unit, of: impl Fn(usize) -> Quantity) {
+        match self.1 {
+            2 => self.scalar(name, what, Some(unit), of(2)),
+            _ => self.vector(name, what, unit, of),
+        }
+    }
+
+    /// The components of a vector.
     fn vector(&mut self, name: &str, what: &str, unit: Unit, quantity: impl Fn(usize) -> Quantity) {
-        for axis in 0..2 {
+        for axis in 0..self.1 {
             let what = format!("{what}, component {}", AXES[axis]);
             self.scalar(&component(name, axis), &what, Some(unit), quantity(axis));
         }

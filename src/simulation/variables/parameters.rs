@@ -23,7 +23,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
     }
     add_dampers(list, resolved);
     let scene = resolved.scene;
-    for axis in 0..2 {
+    for axis in 0..scene.dimension {
         let what = format!("Gravitational acceleration, component {}", AXES[axis]);
         let (unit, parameter) = (Some(METRE_PER_SECOND_2), Parameter::Gravity(axis));
         let name = component("gravity", axis);

@@ -1,26 +1,30 @@
 //! A point on a line of a body: `(A u1) x (r2 - r1) = 0`, `A` the fixed turn from the direction `u1` of the first
 //! end to the line. On the ground the line stands still and the row is linear.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::SMatrix;
 
 use super::{ConstraintKind, Gradient, Rows, View, slider};
-use crate::body::{NodeBlock, left};
 use crate::math::jet::Number;
-use crate::system::end::{End, bilinear};
+use crate::math::space::{Vector, axis, cross, left};
+use crate::system::end::{Add, End, bilinear};
 
 /// The second end on a line through the first, which turns with it.
 #[derive(Clone, Debug)]
-pub struct Across {
+pub struct Across<const D: usize> {
     /// The ends.
-    pub ends: [End; 2],
+    pub ends: [End<D>; 2],
     /// Unit direction of the line in the axes of the first end.
-    pub along: Vector2<f64>,
+    pub along: Vector<D>,
     /// What residuals are relative to, m.
     pub size: f64,
 }
 
 /// Holds the position of the second end across a line through the first; `size` is their distance, m.
-pub(super) fn hold(rows: &mut Rows<'_>, along: Vector2<f64>, size: f64) -> Option<ConstraintKind> {
+pub(super) fn hold<const D: usize>(
+    rows: &mut Rows<'_, D>,
+    along: Vector<D>,
+    size: f64,
+) -> Option<ConstraintKind<D>> {
     if let End::Ground(_) = rows.ends[0] {
         slider::hold(rows, along);
         return None;
@@ -30,49 +34,49 @@ pub(super) fn hold(rows: &mut Rows<'_>, along: Vector2<f64>, size: f64) -> Optio
     Some(ConstraintKind::Across(Across { ends, along, size }))
 }
 
-impl Across {
+impl<const D: usize> Across<D> {
     /// What belongs to the direction of the first end, turned to the line.
-    fn turned<N: Number>(&self, direction: Vector2<N>) -> Vector2<N> {
-        direction * N::of(self.along.x) + left(direction) * N::of(self.along.y)
+    fn turned<N: Number>(&self, direction: Vector<D, N>) -> Vector<D, N> {
+        direction * N::of(self.along[0]) + left(direction) * N::of(self.along[1])
     }
 
     /// Direction of the line, and the way between the ends.
-    fn line<N: Number>(&self, view: &View<'_, N>) -> [Vector2<N>; 2] {
+    fn line<N: Number>(&self, view: &View<'_, D, N>) -> [Vector<D, N>; 2] {
         let [first, second] = self.ends.map(|end| end.lift());
         let way = second.position(view.x) - first.position(view.x);
         [self.turned(first.direction(view.x)), way]
     }
 
-    pub(super) fn value<N: Number>(&self, view: &View<'_, N>) -> N {
+    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [line, way] = self.line(view);
-        line.perp(&way)
+        cross(&line, &way)
     }
 
-    pub(super) fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let [first, second] = self.ends.map(|end| end.lift());
         let [line, way] = self.line(view);
         // (A u) x d = u . A^T (-left d)
-        let back = left(way) * N::of(self.along.x) + way * N::of(self.along.y);
-        let none = Vector2::zeros();
+        let back = left(way) * N::of(self.along[0]) + way * N::of(self.along[1]);
+        let none = Vector::zeros();
         Gradient {
             ends: [(first, [-left(line), -back]), (second, [left(line), none])],
         }
     }
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
+    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [first, second] = self.ends.map(|end| end.lift());
         let speed = second.velocity(view.v) - first.velocity(view.v);
         let turning = self.turned(first.direction_rate(view.v));
-        N::of(2.0) * turning.perp(&speed)
+        N::of(2.0) * cross(&turning, &speed)
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, add: &mut dyn FnMut(usize, usize, &NodeBlock<4>)) {
+    pub(super) fn stiffness(&self, lambda: f64, add: Add<'_, D>) {
         let [End::Body(first), End::Body(second)] = &self.ends else {
             return;
         };
         // d^2 g = (A du1) x (dr2 - dr1)
-        let (x, y) = (self.along.x, self.along.y);
-        let cross = Matrix2::new(-y, x, -x, -y) * lambda;
+        let by = |axis: Vector<D>| left(self.turned(axis));
+        let cross = SMatrix::from_fn(|r, c| by(axis(r))[c]) * lambda;
         bilinear([(first, 1), (second, 0)], cross, add);
         bilinear([(first, 1), (first, 0)], -cross, add);
     }

@@ -1,12 +1,11 @@
 //! Slider along a flexible body: the end is on the curve of a cable, `(p - r(s)) . n(s) = 0` with `s` the
-//! foot of `p` on the curve. It transmits a force across the curve only.
-
-use nalgebra::Vector2;
+//! foot of `p` on the curve, for every normal `n`. It transmits a force across the curve only.
 
 use super::{Gradient, View};
-use crate::body::{Marker, Node, left};
+use crate::body::{Marker, Node};
 use crate::math::jet::Number;
-use crate::system::PlanarChain;
+use crate::math::space::{Vector, normals};
+use crate::system::CableChain;
 use crate::system::end::End;
 
 /// Iterations for the foot of a point on a curve.
@@ -14,23 +13,29 @@ const ITERATIONS: usize = 20;
 
 /// A point on a chain.
 #[derive(Clone, Debug)]
-pub struct Along {
+pub struct Along<const D: usize> {
     /// The chain.
     pub chain: usize,
     /// What slides along it.
-    pub end: End,
+    pub end: End<D>,
     /// Number of the slide: where it is, is part of the state.
     pub slide: usize,
+    /// Which of the normals of the curve it is held along.
+    pub normal: usize,
 }
 
 /// A place on a chain.
-struct Foot<N: Number> {
+struct Foot<const D: usize, N: Number> {
     marker: Marker<N>,
     /// Second derivative of the curve by length.
-    bend: Vector2<N>,
+    bend: Vector<D, N>,
 }
 
-fn foot<N: Number>(chain: &PlanarChain, length: N, x: &[Node<4, N>]) -> Foot<N> {
+fn foot<const D: usize, N: Number>(
+    chain: &CableChain<D>,
+    length: N,
+    x: &[Node<D, N>],
+) -> Foot<D, N> {
     let (part, xi) = chain.find(length.plain());
     let moved = length - N::of(length.plain());
     let xi = N::of(xi) + moved / N::of(chain.element_length(part));
@@ -40,14 +45,14 @@ fn foot<N: Number>(chain: &PlanarChain, length: N, x: &[Node<4, N>]) -> Foot<N> 
     }
 }
 
-impl Along {
+impl<const D: usize> Along<D> {
     /// Length along the chain of the point nearest to the end, m; searched from `hint` on.
-    pub fn travel<N: Number>(&self, chain: &PlanarChain, x: &[Node<4, N>], hint: N) -> N {
+    pub fn travel<N: Number>(&self, chain: &CableChain<D>, x: &[Node<D, N>], hint: N) -> N {
         let p = self.end.lift().position(x);
         let mut s = hint;
         for _ in 0..ITERATIONS {
             let at = foot(chain, s, x);
-            let slope = at.marker.direction(x);
+            let slope: Vector<D, N> = at.marker.direction(x);
             let away = p - at.marker.position(x);
             let square = slope.norm_squared();
             let stiffness = square - away.dot(&at.bend);
@@ -62,28 +67,33 @@ impl Along {
     }
 
     /// The nearest point of the whole chain, m: where a search begins.
-    pub fn nearest(&self, chain: &PlanarChain, x: &[Node<4>]) -> f64 {
+    pub fn nearest(&self, chain: &CableChain<D>, x: &[Node<D>]) -> f64 {
         let near = chain.near(&self.end.position(x), x);
         self.travel(chain, x, near)
     }
 
-    fn foot<N: Number>(&self, view: &View<'_, N>) -> (Foot<N>, Vector2<N>, N) {
+    fn foot<N: Number>(&self, view: &View<'_, D, N>) -> (Foot<D, N>, Vector<D, N>, N) {
         let at = foot(&view.chains[self.chain], view.travel[self.slide], view.x);
         let slope = at.marker.direction(view.x);
         let stretch = slope.norm();
         (at, slope / stretch, stretch)
     }
 
-    pub(super) fn value<N: Number>(&self, view: &View<'_, N>) -> N {
-        let (at, tangent, _) = self.foot(view);
-        let away = self.end.lift().position(view.x) - at.marker.position(view.x);
-        left(tangent).dot(&away)
+    fn normal<N: Number>(&self, tangent: &Vector<D, N>) -> Vector<D, N> {
+        let mut found = normals(tangent);
+        found.nth(self.normal).unwrap_or_else(Vector::zeros)
     }
 
-    pub(super) fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
-        let none = Vector2::zeros();
+    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let (at, tangent, _) = self.foot(view);
-        let normal = left(tangent);
+        let away = self.end.lift().position(view.x) - at.marker.position(view.x);
+        self.normal(&tangent).dot(&away)
+    }
+
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
+        let none = Vector::zeros();
+        let (at, tangent, _) = self.foot(view);
+        let normal = self.normal(&tangent);
         Gradient {
             ends: [
                 (End::Body(at.marker), [-normal, none]),
@@ -93,11 +103,13 @@ impl Along {
     }
 
     /// With the point on the curve: `n . (p'' - r'' - 2 s' dr'/dt - s'^2 d^2r/ds^2)`.
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
+    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let (at, tangent, stretch) = self.foot(view);
         let relative = self.end.lift().velocity(view.v) - at.marker.position(view.v);
         let speed = tangent.dot(&relative) / stretch;
         let slope_rate = at.marker.direction(view.v);
-        -left(tangent).dot(&(slope_rate * (N::of(2.0) * speed) + at.bend * (speed * speed)))
+        -self
+            .normal(&tangent)
+            .dot(&(slope_rate * (N::of(2.0) * speed) + at.bend * (speed * speed)))
     }
 }

@@ -1,42 +1,40 @@
 //! Distance link: a massless rigid rod, `(d.d - L^2) / (2 L) = 0`.
 
-use nalgebra::Vector2;
-
 use super::{Gradient, View};
-use crate::body::NodeBlock;
 use crate::math::jet::Number;
-use crate::system::end::{End, isotropic};
+use crate::math::space::Vector;
+use crate::system::end::{Add, End, isotropic};
 
 /// Two ends at a fixed distance.
 #[derive(Clone, Debug)]
-pub struct Distance {
+pub struct Distance<const D: usize> {
     /// The ends.
-    pub ends: [End; 2],
+    pub ends: [End<D>; 2],
     /// Length, m.
     pub length: f64,
 }
 
-impl Distance {
-    pub(super) fn value<N: Number>(&self, view: &View<'_, N>) -> N {
+impl<const D: usize> Distance<D> {
+    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [a, b] = self.ends.map(|end| end.lift().position(view.x));
         let length = N::of(self.length);
         ((b - a).norm_squared() - length * length) / (length + length)
     }
 
-    pub(super) fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
-        let (none, [a, b]) = (Vector2::zeros(), self.ends.map(|end| end.lift()));
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
+        let (none, [a, b]) = (Vector::zeros(), self.ends.map(|end| end.lift()));
         let unit = (b.position(view.x) - a.position(view.x)) / N::of(self.length);
         Gradient {
             ends: [(a, [-unit, none]), (b, [unit, none])],
         }
     }
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
+    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [a, b] = self.ends.map(|end| end.lift().velocity(view.v));
         (b - a).norm_squared() / N::of(self.length)
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, add: &mut dyn FnMut(usize, usize, &NodeBlock<4>)) {
+    pub(super) fn stiffness(&self, lambda: f64, add: Add<'_, D>) {
         isotropic(&self.ends, lambda / self.length, add);
     }
 }

@@ -18,26 +18,27 @@ pub use distance::Distance;
 pub use orientation::Parallel;
 pub use unit::Unit;
 
-use nalgebra::Vector2;
-
-use super::PlanarChain;
-use super::end::End;
-use crate::body::{Node, NodeBlock, Row};
+use super::CableChain;
+use super::end::{Add, End};
+use crate::body::{Node, Row};
 use crate::math::jet::Number;
+use crate::math::space::Vector;
 
 /// What a joint or a motion holds.
 #[derive(Clone, Debug)]
-pub enum JointKind {
+pub enum JointKind<const D: usize = 2> {
     /// The position of one end on the other: a pin.
     Revolute,
     /// The position, and the direction at this angle from that of the first end (rad).
     Weld(f64),
+    /// The position, and the direction of a cable along this unit vector (first end: ground).
+    Clamp(Vector<D>),
     /// The position across this unit direction (first end: ground).
-    Slider(Vector2<f64>),
+    Slider(Vector<D>),
     /// The position across a line through the first end, and the direction.
     Prismatic {
         /// Unit direction of the line in the axes of the first end.
-        along: Vector2<f64>,
+        along: Vector<D>,
         /// Angle of the direction from that of the first end, rad.
         angle: f64,
         /// Distance of the ends at the start, m.
@@ -51,13 +52,13 @@ pub enum JointKind {
     Along(usize),
     /// The direction, at a driven angle from that of the first end.
     DrivenAngle(usize),
-    /// The position at two driven coordinates (first end: ground).
-    DrivenPosition([usize; 2]),
+    /// The position at driven coordinates (first end: ground).
+    DrivenPosition([usize; D]),
     /// The position along this unit direction at a driven way from the first end (ground).
-    DrivenWay(Vector2<f64>, usize),
+    DrivenWay(Vector<D>, usize),
 }
 
-impl JointKind {
+impl<const D: usize> JointKind<D> {
     /// Driven coordinates that it follows.
     pub fn drives(&self) -> &[usize] {
         match self {
@@ -70,11 +71,11 @@ impl JointKind {
 
 /// A joint or a motion.
 #[derive(Clone, Debug)]
-pub struct Joint {
+pub struct Joint<const D: usize = 2> {
     /// What it holds.
-    pub kind: JointKind,
+    pub kind: JointKind<D>,
     /// What it joins.
-    pub ends: [End; 2],
+    pub ends: [End<D>; 2],
     /// Index of its rotational spring among the loads: a hinge.
     pub spring: Option<usize>,
 }
@@ -122,55 +123,55 @@ impl Target {
 
 /// A linear constraint of a joint.
 #[derive(Clone, Debug)]
-pub struct Linear {
+pub struct Linear<const D: usize = 2> {
     /// Index of the joint, if it belongs to one.
     pub joint: Option<usize>,
     /// The row of `Phi`.
-    pub row: Row<4>,
+    pub row: Row<D>,
     /// What it equals.
     pub target: Target,
     /// Its coefficients on position and direction of the second end.
-    pub on_second: [Vector2<f64>; 2],
+    pub on_second: [Vector<D>; 2],
 }
 
 /// State of a system as constraints see it.
-pub struct View<'a, N = f64> {
+pub struct View<'a, const D: usize, N = f64> {
     /// Nodal coordinates.
-    pub x: &'a [Node<4, N>],
+    pub x: &'a [Node<D, N>],
     /// Their rates.
-    pub v: &'a [Node<4, N>],
+    pub v: &'a [Node<D, N>],
     /// Driven coordinates with two derivatives.
     pub drives: &'a [[N; 3]],
     /// Flexible bodies.
-    pub chains: &'a [PlanarChain],
+    pub chains: &'a [CableChain<D>],
     /// Where on their chains slides are, m.
     pub travel: &'a [N],
 }
 
 /// A non-linear constraint `g(x, t) = 0` with the force `-J^T lambda`.
 #[derive(Clone, Debug)]
-pub struct Constraint {
+pub struct Constraint<const D: usize = 2> {
     /// Index of the joint, if it belongs to one.
     pub joint: Option<usize>,
     /// What is held.
-    pub kind: ConstraintKind,
+    pub kind: ConstraintKind<D>,
     /// What `g` is to equal: 0, but where joints that do not fit yet are closed little by little.
     pub offset: f64,
 }
 
 /// Kinds of non-linear constraints.
 #[derive(Clone, Debug)]
-pub enum ConstraintKind {
+pub enum ConstraintKind<const D: usize = 2> {
     /// A rigid body's direction keeps its length.
     Unit(Unit),
     /// A direction at an angle from another one.
-    Parallel(Parallel),
+    Parallel(Parallel<D>),
     /// A distance.
-    Distance(Distance),
+    Distance(Distance<D>),
     /// A point on a line of a body.
-    Across(Across),
+    Across(Across<D>),
     /// A point on a chain.
-    Along(Along),
+    Along(Along<D>),
 }
 
 macro_rules! each {
@@ -185,9 +186,9 @@ macro_rules! each {
     };
 }
 
-impl Constraint {
+impl<const D: usize> Constraint<D> {
     /// That of a joint, by its index.
-    fn of(joint: usize, kind: ConstraintKind) -> Self {
+    fn of(joint: usize, kind: ConstraintKind<D>) -> Self {
         Self {
             joint: Some(joint),
             kind,
@@ -196,18 +197,18 @@ impl Constraint {
     }
 
     /// `g`.
-    pub fn value<N: Number>(&self, view: &View<'_, N>) -> N {
+    pub fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let value = each!(self, c => c.value(view));
         value - N::of(self.offset)
     }
 
     /// Forces that a unit multiplier takes from position and direction of both ends.
-    pub fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
+    pub fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         each!(self, c => c.gradient(view))
     }
 
     /// Derivative of `g` by time alone, 1/s.
-    pub fn rate<N: Number>(&self, view: &View<'_, N>) -> N {
+    pub fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         match &self.kind {
             ConstraintKind::Parallel(c) => c.rate(view),
             _ => N::of(0.0),
@@ -215,17 +216,12 @@ impl Constraint {
     }
 
     /// `d^2 g / dt^2` without the part of accelerations, 1/s^2.
-    pub fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
+    pub fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
         each!(self, c => c.bias(view))
     }
 
     /// Second derivatives times the multiplier, block by block of nodes.
-    pub fn stiffness(
-        &self,
-        lambda: f64,
-        view: &View<'_>,
-        add: &mut dyn FnMut(usize, usize, &NodeBlock<4>),
-    ) {
+    pub fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         match &self.kind {
             ConstraintKind::Unit(c) => c.stiffness(lambda, add),
             ConstraintKind::Parallel(c) => c.stiffness(lambda, view, add),
@@ -237,7 +233,7 @@ impl Constraint {
     }
 
     /// Size of `g` to measure its residual by: 1 for directions, m for lengths.
-    pub fn size(&self, chains: &[PlanarChain]) -> f64 {
+    pub fn size(&self, chains: &[CableChain<D>]) -> f64 {
         match &self.kind {
             ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
             ConstraintKind::Distance(c) => c.length,
@@ -247,7 +243,7 @@ impl Constraint {
     }
 
     /// Nodes that it ties together.
-    pub fn nodes(&self, chains: &[PlanarChain]) -> Vec<usize> {
+    pub fn nodes(&self, chains: &[CableChain<D>]) -> Vec<usize> {
         match &self.kind {
             ConstraintKind::Unit(c) => vec![c.node],
             ConstraintKind::Parallel(c) => c.ends.iter().flat_map(End::nodes).collect(),
@@ -260,9 +256,14 @@ impl Constraint {
         }
     }
 
+    /// Whether it is the first one of a slide along a chain.
+    pub fn is_slide(&self) -> bool {
+        matches!(&self.kind, ConstraintKind::Along(along) if along.normal == 0)
+    }
+
     /// Whether it ties to the ground.
     pub fn is_grounded(&self) -> bool {
-        let ground = |end: &End| end.marker().is_none();
+        let ground = |end: &End<D>| end.marker().is_none();
         match &self.kind {
             ConstraintKind::Unit(_) => false,
             ConstraintKind::Parallel(c) => c.ends.iter().any(ground),
@@ -275,19 +276,19 @@ impl Constraint {
 
 /// Derivatives of a constraint by position and direction of two ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Gradient<N: Number = f64> {
+pub struct Gradient<const D: usize, N: Number = f64> {
     /// The ends and, for each, the derivatives by position and direction.
-    pub ends: [(End<N>, [Vector2<N>; 2]); 2],
+    pub ends: [(End<D, N>, [Vector<D, N>; 2]); 2],
 }
 
-impl<N: Number> Gradient<N> {
+impl<const D: usize, N: Number> Gradient<D, N> {
     /// Terms over the nodes.
-    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<4, N>)) {
+    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<D, N>)) {
         for (end, [position, direction]) in &self.ends {
             if let End::Body(marker) = end {
                 let [a, b] = marker.forces(*position, *direction);
                 term(a.0, &a.1);
-                if b.1 != [N::of(0.0); 4] {
+                if b.1 != [[N::of(0.0); D]; 2] {
                     term(b.0, &b.1);
                 }
             }
@@ -295,13 +296,13 @@ impl<N: Number> Gradient<N> {
     }
 }
 
-impl Joint {
+impl<const D: usize> Joint<D> {
     /// What the joint adds to the linear and to the non-linear constraints; `index` is its own.
     pub fn constraints(
         &self,
         index: usize,
-        linear: &mut Vec<Linear>,
-        nonlinear: &mut Vec<Constraint>,
+        linear: &mut Vec<Linear<D>>,
+        nonlinear: &mut Vec<Constraint<D>>,
     ) {
         let mut rows = Rows {
             joint: index,
@@ -311,6 +312,7 @@ impl Joint {
         let kind = match &self.kind {
             JointKind::Revolute => return revolute::hold(&mut rows),
             JointKind::Weld(angle) => weld::hold(&mut rows, *angle),
+            JointKind::Clamp(direction) => return weld::clamp(&mut rows, direction),
             JointKind::Slider(along) => return slider::hold(&mut rows, *along),
             JointKind::Prismatic { along, angle, size } => {
                 let held = orientation::hold(&mut rows, *angle);
@@ -324,12 +326,17 @@ impl Joint {
             })),
             JointKind::Along(chain) => {
                 let before = nonlinear.iter();
-                let slides = before.filter(|c| matches!(c.kind, ConstraintKind::Along(_)));
-                Some(ConstraintKind::Along(Along {
-                    chain: *chain,
-                    end: self.ends[1],
-                    slide: slides.count(),
-                }))
+                let slide = before.filter(|c| c.is_slide()).count();
+                nonlinear.extend((0..D - 1).map(|normal| {
+                    let along = Along {
+                        chain: *chain,
+                        end: self.ends[1],
+                        slide,
+                        normal,
+                    };
+                    Constraint::of(index, ConstraintKind::Along(along))
+                }));
+                return;
             }
             JointKind::DrivenAngle(drive) => motion::angle(&mut rows, *drive),
             JointKind::DrivenPosition(drives) => return motion::position(&mut rows, *drives),
@@ -340,15 +347,15 @@ impl Joint {
 }
 
 /// Where joints put their rows.
-struct Rows<'a> {
+struct Rows<'a, const D: usize> {
     joint: usize,
-    ends: &'a [End; 2],
-    linear: &'a mut Vec<Linear>,
+    ends: &'a [End<D>; 2],
+    linear: &'a mut Vec<Linear<D>>,
 }
 
-impl Rows<'_> {
+impl<const D: usize> Rows<'_, D> {
     /// `second . (position, direction of the second end) - first . (of the first end) = target`.
-    fn push(&mut self, first: [Vector2<f64>; 2], second: [Vector2<f64>; 2], target: Target) {
+    fn push(&mut self, first: [Vector<D>; 2], second: [Vector<D>; 2], target: Target) {
         let mut row = Row {
             terms: Vec::new(),
             is_driven: target.is_driven(),
@@ -365,8 +372,8 @@ impl Rows<'_> {
 
     /// Holds the position of the second end along an axis against that of the first; `target` takes
     /// where a first end on the ground is along it.
-    fn hold_position(&mut self, axis: Vector2<f64>, target: impl Fn(f64) -> Target) {
-        let none = Vector2::zeros();
+    fn hold_position(&mut self, axis: Vector<D>, target: impl Fn(f64) -> Target) {
+        let none = Vector::zeros();
         let start = match self.ends[0] {
             End::Ground(point) => axis.dot(&point),
             End::Body(_) => 0.0,

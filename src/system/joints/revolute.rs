@@ -1,12 +1,12 @@
 //! Revolute joint, a pin: both ends are at the same place. Linear.
 
-use nalgebra::Vector2;
+use crate::math::space::axis;
 
 use super::{Rows, Target};
 
 /// Holds the position.
-pub(super) fn hold(rows: &mut Rows<'_>) {
-    for axis in [Vector2::x(), Vector2::y()] {
-        rows.hold_position(axis, Target::Fixed);
+pub(super) fn hold<const D: usize>(rows: &mut Rows<'_, D>) {
+    for k in 0..D {
+        rows.hold_position(axis(k), Target::Fixed);
     }
 }

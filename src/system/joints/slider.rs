@@ -1,11 +1,12 @@
 //! Slider on a fixed line: the second end stays on the line through the first one (ground). Linear.
 
-use nalgebra::Vector2;
+use crate::math::space::{Vector, normals};
 
 use super::{Rows, Target};
-use crate::body::left;
 
 /// Holds the position across this unit direction.
-pub(super) fn hold(rows: &mut Rows<'_>, along: Vector2<f64>) {
-    rows.hold_position(left(along), Target::Fixed);
+pub(super) fn hold<const D: usize>(rows: &mut Rows<'_, D>, along: Vector<D>) {
+    for normal in normals(&along) {
+        rows.hold_position(normal, Target::Fixed);
+    }
 }

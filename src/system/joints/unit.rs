@@ -1,12 +1,11 @@
 //! The direction of a rigid body keeps its length: `(u.u - 1) / 2 = 0`. Natural coordinates: J. Garcia
 //! de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems (1994), section 2.2.
 
-use nalgebra::Vector2;
-
 use super::{Gradient, View};
-use crate::body::{Marker, NodeBlock};
+use crate::body::{Marker, no_block};
 use crate::math::jet::Number;
-use crate::system::end::End;
+use crate::math::space::Vector;
+use crate::system::end::{Add, End};
 
 /// The unit vector of a rigid body.
 #[derive(Clone, Debug)]
@@ -16,32 +15,33 @@ pub struct Unit {
 }
 
 impl Unit {
-    pub(super) fn value<N: Number>(&self, view: &View<'_, N>) -> N {
-        let [_, _, x, y] = view.x[self.node];
-        N::of(0.5) * (x * x + y * y - N::of(1.0))
+    pub(super) fn value<const D: usize, N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let [_, direction] = view.x[self.node].map(Vector::from);
+        N::of(0.5) * (direction.norm_squared() - N::of(1.0))
     }
 
-    pub(super) fn gradient<N: Number>(&self, view: &View<'_, N>) -> Gradient<N> {
-        let none = Vector2::zeros();
-        let [_, _, x, y] = view.x[self.node];
+    pub(super) fn gradient<const D: usize, N: Number>(
+        &self,
+        view: &View<'_, D, N>,
+    ) -> Gradient<D, N> {
+        let none = Vector::zeros();
+        let [_, direction] = view.x[self.node].map(Vector::from);
         let end = End::Body(Marker::rigid(0, self.node, [0.0; 2]).lift());
         Gradient {
-            ends: [
-                (end, [none, Vector2::new(x, y)]),
-                (End::Ground(none), [none; 2]),
-            ],
+            ends: [(end, [none, direction]), (End::Ground(none), [none; 2])],
         }
     }
 
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, N>) -> N {
-        let [_, _, x, y] = view.v[self.node];
-        x * x + y * y
+    pub(super) fn bias<const D: usize, N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let [_, rate] = view.v[self.node].map(Vector::from);
+        rate.norm_squared()
     }
 
-    pub(super) fn stiffness(&self, lambda: f64, add: &mut dyn FnMut(usize, usize, &NodeBlock<4>)) {
-        let mut block = [[0.0; 4]; 4];
-        block[2][2] = lambda;
-        block[3][3] = lambda;
+    pub(super) fn stiffness<const D: usize>(&self, lambda: f64, add: Add<'_, D>) {
+        let mut block = no_block();
+        for k in 0..D {
+            block[1][k][1][k] = lambda;
+        }
         add(self.node, self.node, &block);
     }
 }

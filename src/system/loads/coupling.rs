@@ -1,17 +1,18 @@
 //! A spring with a damper from a marker to a point that moves, without length at rest, and the same from
 //! the direction of a marker to an angle. Unlike those of other springs, its force is linear.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::SMatrix;
 
 use super::{Add, Instant};
-use crate::body::{Marker, Node, left};
+use crate::body::{Marker, Node};
 use crate::math::jet::Number;
+use crate::math::space::{Vector, left};
 use crate::system::end::{End, coupling, isotropic};
 use crate::system::signal::Signal;
 
 /// A spring and a damper in parallel between a marker and a point.
 #[derive(Clone, Debug)]
-pub struct Coupling {
+pub struct Coupling<const D: usize = 2> {
     /// The marker.
     pub marker: Marker,
     /// Stiffness, N/m.
@@ -19,19 +20,19 @@ pub struct Coupling {
     /// Damping, N s/m.
     pub damping: f64,
     /// Position of the point, m.
-    pub position: [Signal; 2],
+    pub position: [Signal; D],
     /// Velocity of the point, m/s.
-    pub velocity: [Signal; 2],
+    pub velocity: [Signal; D],
 }
 
-impl Coupling {
-    fn velocity<N: Number>(&self, at: Instant<'_, N>) -> Vector2<N> {
+impl<const D: usize> Coupling<D> {
+    fn velocity<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
         self.velocity.each_ref().map(|c| c.value(at)).into()
     }
 
     /// From the point to the marker, and its rate.
-    fn stretch<N: Number>(&self, at: Instant<'_, N>) -> [Vector2<N>; 2] {
-        let position = Vector2::from(self.position.each_ref().map(|c| c.value(at)));
+    fn stretch<N: Number>(&self, at: Instant<'_, D, N>) -> [Vector<D, N>; 2] {
+        let position = Vector::from(self.position.each_ref().map(|c| c.value(at)));
         let marker = self.marker.lift();
         [
             marker.position(at.x) - position,
@@ -40,18 +41,18 @@ impl Coupling {
     }
 
     /// Force on the point, N; its opposite acts on the marker.
-    pub fn force<N: Number>(&self, at: Instant<'_, N>) -> Vector2<N> {
+    pub fn force<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
         let [stretch, rate] = self.stretch(at);
         stretch * N::of(self.stiffness) + rate * N::of(self.damping)
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         let marker = self.marker.lift();
-        marker.add_force(-self.force(at), Vector2::zeros(), f);
+        marker.add_force(-self.force(at), Vector::zeros(), f);
     }
 
-    pub(super) fn add_tangent(&self, stiffness: Add<'_>, damping: Add<'_>) {
-        let ends = [End::Ground(Vector2::zeros()), End::Body(self.marker)];
+    pub(super) fn add_tangent(&self, stiffness: Add<'_, D>, damping: Add<'_, D>) {
+        let ends: [End<D>; 2] = [End::Ground(Vector::zeros()), End::Body(self.marker)];
         isotropic(&ends, self.stiffness, stiffness);
         if self.damping > 0.0 {
             isotropic(&ends, self.damping, damping);
@@ -60,20 +61,20 @@ impl Coupling {
 
     /// What moves the point works against the spring as fast as its position changes, and against the
     /// damper with its velocity: inputs say both, and masters need not hold them together.
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> [N; 2] {
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let [stretch, rate] = self.stretch(at);
-        let speed: Vector2<N> = self.position.each_ref().map(|c| c.rate(at)).into();
+        let speed: Vector<D, N> = self.position.each_ref().map(|c| c.rate(at)).into();
         let (stiffness, damping) = (N::of(self.stiffness), N::of(self.damping));
         let pull = stiffness * stretch.dot(&speed) + damping * rate.dot(&self.velocity(at));
         [-pull, damping * rate.norm_squared()]
     }
 
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         N::of(0.5 * self.stiffness) * self.stretch(at)[0].norm_squared()
     }
 
     /// The part of the damper that the velocity of the point makes is a dead force.
-    pub(super) fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {
+    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         let way = self.stretch(after)[0] - self.stretch(before)[0];
         let dead = self.damping * self.velocity(before).dot(&way);
         self.energy(before) - self.energy(after) + dead
@@ -98,14 +99,14 @@ pub struct Turning {
 }
 
 impl Turning {
-    fn end<N: Number>(&self) -> End<N> {
+    fn end<const D: usize, N: Number>(&self) -> End<D, N> {
         End::Body(self.marker.lift())
     }
 
     /// From the angle to the direction of the marker, and its rate.
-    fn stretch<N: Number>(&self, at: Instant<'_, N>) -> [N; 2] {
+    fn stretch<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let counted = at.angles.0[self.counted].value(at.x, at.angles.1[self.counted]);
-        let spin = self.end().spin(at.x, at.v);
+        let spin = self.end::<D, N>().spin(at.x, at.v);
         [
             counted - self.angle.value(at),
             spin - self.velocity.value(at),
@@ -113,22 +114,31 @@ impl Turning {
     }
 
     /// Moment on what turns by the angle, N m; its opposite acts on the marker.
-    pub fn moment<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub fn moment<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let [turn, rate] = self.stretch(at);
         N::of(self.stiffness) * turn + N::of(self.damping) * rate
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
-        self.end().add_moment(-self.moment(at), at.x, f);
+    pub(super) fn add_force<const D: usize, N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        f: &mut [Node<D, N>],
+    ) {
+        self.end::<D, N>().add_moment(-self.moment(at), at.x, f);
     }
 
-    pub(super) fn add_tangent(&self, at: Instant<'_>, stiffness: Add<'_>, damping: Add<'_>) {
-        let end: End = self.end();
+    pub(super) fn add_tangent<const D: usize>(
+        &self,
+        at: Instant<'_, D>,
+        stiffness: Add<'_, D>,
+        damping: Add<'_, D>,
+    ) {
+        let end: End<D> = self.end();
         let u = end.direction(at.x);
         let turn = left(u) / u.norm_squared();
-        let outer: Matrix2<f64> = turn * turn.transpose();
-        let ends = [end, End::Ground(Vector2::zeros())];
-        let alone = |k: Matrix2<f64>| [[k, Matrix2::zeros()], [Matrix2::zeros(); 2]];
+        let outer: SMatrix<f64, D, D> = turn * turn.transpose();
+        let ends = [end, End::Ground(Vector::zeros())];
+        let alone = |k: SMatrix<f64, D, D>| [[k, SMatrix::zeros()], [SMatrix::zeros(); 2]];
         let k = outer * self.stiffness - super::moment::curl(&end, at.x) * self.moment(at);
         coupling(&ends, alone(k), 1, stiffness);
         if self.damping > 0.0 {
@@ -137,7 +147,7 @@ impl Turning {
     }
 
     /// As [`Coupling::power`].
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> [N; 2] {
+    pub(super) fn power<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let [turn, rate] = self.stretch(at);
         let (stiffness, damping) = (N::of(self.stiffness), N::of(self.damping));
         let speed = self.angle.rate(at);
@@ -145,13 +155,17 @@ impl Turning {
         [-pull, damping * rate * rate]
     }
 
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub(super) fn energy<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let [turn, _] = self.stretch(at);
         N::of(0.5 * self.stiffness) * turn * turn
     }
 
     /// As [`Coupling::work`].
-    pub(super) fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {
+    pub(super) fn work<const D: usize>(
+        &self,
+        before: Instant<'_, D>,
+        after: Instant<'_, D>,
+    ) -> f64 {
         let way = self.stretch(after)[0] - self.stretch(before)[0];
         let dead = self.damping * self.velocity.value(before) * way;
         self.energy(before) - self.energy(after) + dead

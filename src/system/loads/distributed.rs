@@ -1,31 +1,30 @@
 //! A dead force per reference length of a cable.
 
-use nalgebra::Vector2;
-
 use super::Instant;
 use crate::body::Node;
 use crate::elements::Element;
 use crate::math::jet::Number;
-use crate::system::PlanarChain;
+use crate::math::space::Vector;
+use crate::system::CableChain;
 use crate::system::signal::Signal;
 
 /// A distributed force.
 #[derive(Clone, Debug)]
-pub struct Distributed {
+pub struct Distributed<const D: usize = 2> {
     /// The chain.
     pub chain: usize,
     /// Components, N/m.
-    pub components: [Signal; 2],
+    pub components: [Signal; D],
 }
 
-impl Distributed {
-    pub(in crate::system) fn value<N: Number>(&self, at: Instant<'_, N>) -> Vector2<N> {
+impl<const D: usize> Distributed<D> {
+    pub(in crate::system) fn value<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
         let components = self.components.each_ref();
         components.map(|c| c.value(at)).into()
     }
 
     /// Sum over elements of what the load does per unit: as weight does, but for the density.
-    fn each(&self, chain: &PlanarChain, mut add: impl FnMut(usize, [f64; 4])) {
+    fn each(&self, chain: &CableChain<D>, mut add: impl FnMut(usize, [f64; 4])) {
         for (j, element) in chain.elements().iter().enumerate() {
             let weight = element.weight();
             let scale = element.length() / (weight[0] + weight[2]);
@@ -33,37 +32,38 @@ impl Distributed {
         }
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         let (load, chain) = (self.value(at), &at.chains[self.chain]);
         self.each(chain, |j, weights| {
             let [a, b] = chain.nodes(j);
             for (node, pair) in [(a, [weights[0], weights[1]]), (b, [weights[2], weights[3]])] {
                 for (k, weight) in pair.iter().enumerate() {
-                    f[node][2 * k] += load.x * N::of(*weight);
-                    f[node][2 * k + 1] += load.y * N::of(*weight);
+                    for d in 0..D {
+                        f[node][k][d] += load[d] * N::of(*weight);
+                    }
                 }
             }
         });
     }
 
     /// The integral of the load times a nodal field.
-    fn along<N: Number>(&self, at: Instant<'_, N>, field: &[Node<4, N>]) -> N {
+    fn along<N: Number>(&self, at: Instant<'_, D, N>, field: &[Node<D, N>]) -> N {
         let (load, chain) = (self.value(at), &at.chains[self.chain]);
         let mut sum = N::of(0.0);
         self.each(chain, |j, weights| {
             let e = chain.element(j, field);
             for (k, weight) in weights.iter().enumerate() {
-                sum += (load.x * e[(0, k)] + load.y * e[(1, k)]) * N::of(*weight);
+                sum += load.dot(&e.column(k)) * N::of(*weight);
             }
         });
         sum
     }
 
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.along(at, at.v)
     }
 
-    pub(super) fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {
+    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         self.along(before, after.x) - self.along(before, before.x)
     }
 }

@@ -1,15 +1,16 @@
 //! The rotational spring with a damper of a hinge: between two directions.
 
 use super::{Add, Instant};
-use crate::body::{Node, left};
+use crate::body::Node;
 use crate::math::jet::Number;
+use crate::math::space::left;
 use crate::system::end::{End, coupling};
 
 /// A rotational spring and a damper in parallel between two directions.
 #[derive(Clone, Debug)]
-pub struct Rotational {
+pub struct Rotational<const D: usize = 2> {
     /// Its ends.
-    pub ends: [End; 2],
+    pub ends: [End<D>; 2],
     /// Index of the angle from the first to the second among those that the system counts.
     pub angle: usize,
     /// Stiffness, N m/rad.
@@ -20,28 +21,33 @@ pub struct Rotational {
     pub rest: f64,
 }
 
-impl Rotational {
-    fn turn<N: Number>(&self, at: Instant<'_, N>) -> N {
+impl<const D: usize> Rotational<D> {
+    fn turn<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         at.angles.0[self.angle].value(at.x, at.angles.1[self.angle]) - N::of(self.rest)
     }
 
-    fn rate<N: Number>(&self, at: Instant<'_, N>) -> N {
+    fn rate<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let [a, b] = self.ends.map(|end| end.lift().spin(at.x, at.v));
         b - a
     }
 
     /// Moment on the second end, N m.
-    pub fn moment<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub fn moment<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         -N::of(self.stiffness) * self.turn(at) - N::of(self.damping) * self.rate(at)
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         let moment = self.moment(at);
         self.ends[1].lift().add_moment(moment, at.x, f);
         self.ends[0].lift().add_moment(-moment, at.x, f);
     }
 
-    pub(super) fn add_tangent(&self, at: Instant<'_>, stiffness: Add<'_>, damping: Add<'_>) {
+    pub(super) fn add_tangent(
+        &self,
+        at: Instant<'_, D>,
+        stiffness: Add<'_, D>,
+        damping: Add<'_, D>,
+    ) {
         let moment = self.moment(at);
         // Derivatives of the angle by both directions.
         let [a, b] = self.ends.map(|end| {
@@ -61,12 +67,12 @@ impl Rotational {
         }
     }
 
-    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let rate = self.rate(at);
         N::of(self.damping) * rate * rate
     }
 
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let turn = self.turn(at);
         N::of(0.5 * self.stiffness) * turn * turn
     }

@@ -23,26 +23,26 @@ use crate::math::jet::Number;
 
 /// What acts.
 #[derive(Clone, Debug)]
-pub enum Load {
+pub enum Load<const D: usize = 2> {
     /// A force at a marker, dead or follower.
-    Force(Force),
+    Force(Force<D>),
     /// A moment on one end, and its opposite on another.
-    Moment(Moment),
+    Moment(Moment<D>),
     /// A dead force per reference length of a cable.
-    Distributed(Distributed),
+    Distributed(Distributed<D>),
     /// A spring with a damper between two ends.
-    Spring(Spring),
+    Spring(Spring<D>),
     /// A rotational spring with a damper between two directions.
-    Rotational(Rotational),
+    Rotational(Rotational<D>),
     /// A spring with a damper from a marker to a point that moves.
-    Coupling(Coupling),
+    Coupling(Coupling<D>),
     /// A rotational spring with a damper from the direction of a marker to an angle.
     Turning(Turning),
 }
 
-impl Load {
+impl<const D: usize> Load<D> {
     /// Adds its forces.
-    pub fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
+    pub fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         match self {
             Self::Force(load) => load.add_force(at, f),
             Self::Moment(load) => load.add_force(at, f),
@@ -56,7 +56,7 @@ impl Load {
 
     /// Adds minus the derivative of its forces by coordinates (the symmetric part, which is what
     /// solves use) and, to `damping`, by rates.
-    pub fn add_tangent(&self, at: Instant<'_>, stiffness: Add<'_>, damping: Add<'_>) {
+    pub fn add_tangent(&self, at: Instant<'_, D>, stiffness: Add<'_, D>, damping: Add<'_, D>) {
         match self {
             Self::Force(load) => load.add_stiffness(at, stiffness),
             Self::Moment(load) => load.add_stiffness(at, stiffness),
@@ -69,7 +69,7 @@ impl Load {
     }
 
     /// Power that it supplies from outside and power that it dissipates, W. Springs store.
-    pub fn power<N: Number>(&self, at: Instant<'_, N>) -> [N; 2] {
+    pub fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let none = N::of(0.0);
         match self {
             Self::Force(load) => [load.power(at), none],
@@ -83,7 +83,7 @@ impl Load {
     }
 
     /// Energy that it stores, J.
-    pub fn energy<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         match self {
             Self::Spring(load) => load.energy(at),
             Self::Rotational(load) => load.energy(at),
@@ -95,7 +95,7 @@ impl Load {
 
     /// Work on the way from `before` to `after` of a load held as it is, for the potential: exact for
     /// dead loads and springs.
-    pub fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {
+    pub fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
         match self {
             Self::Force(load) => load.work(before, after),
             Self::Moment(load) => load.work(before, after),
@@ -107,7 +107,7 @@ impl Load {
     }
 
     /// The same load held as it is at an instant; dead and follower loads at a fraction of their size.
-    pub fn held(&self, at: Instant<'_>, fraction: f64) -> Self {
+    pub fn held(&self, at: Instant<'_, D>, fraction: f64) -> Self {
         let mut held = self.clone();
         let hold = |signals: &mut [Signal], fraction: f64| {
             for signal in signals {
@@ -149,26 +149,22 @@ impl Load {
     }
 
     /// Its sizes that change in time.
-    pub fn signals(&self) -> [Option<&Signal>; 4] {
-        match self {
-            Self::Force(Force { components, .. })
-            | Self::Distributed(Distributed { components, .. }) => {
-                let [x, y] = components;
-                [Some(x), Some(y), None, None]
-            }
-            Self::Moment(load) => [Some(&load.size), None, None, None],
-            Self::Spring(load) => [Some(&load.length), None, None, None],
-            Self::Rotational(_) => [None; 4],
-            Self::Coupling(load) => {
-                let ([x, y], [u, v]) = (&load.position, &load.velocity);
-                [Some(x), Some(y), Some(u), Some(v)]
-            }
-            Self::Turning(load) => [Some(&load.angle), Some(&load.velocity), None, None],
-        }
+    pub fn signals(&self) -> impl Iterator<Item = &Signal> {
+        let one = std::slice::from_ref;
+        let (first, second): (&[Signal], &[Signal]) = match self {
+            Self::Force(load) => (&load.components, &[]),
+            Self::Distributed(load) => (&load.components, &[]),
+            Self::Moment(load) => (one(&load.size), &[]),
+            Self::Spring(load) => (one(&load.length), &[]),
+            Self::Rotational(_) => (&[], &[]),
+            Self::Coupling(load) => (&load.position, &load.velocity),
+            Self::Turning(load) => (one(&load.angle), one(&load.velocity)),
+        };
+        first.iter().chain(second)
     }
 
     /// Ends between which its tangent couples.
-    pub fn ends(&self) -> Vec<End> {
+    pub fn ends(&self) -> Vec<End<D>> {
         match self {
             Self::Force(load) => vec![End::Body(load.marker)],
             Self::Moment(load) => load.ends.to_vec(),

@@ -1,60 +1,61 @@
 //! A moment on the direction of one end and its opposite on another, the ground or a body: an applied
 //! moment or the torque of a joint.
 
-use nalgebra::Matrix2;
+use nalgebra::SMatrix;
 
 use super::{Add, Instant};
-use crate::body::{Node, left};
+use crate::body::Node;
 use crate::math::jet::Number;
+use crate::math::space::{Vector, axis, cross, left};
 use crate::system::end::{End, coupling};
 use crate::system::signal::Signal;
 
 /// A moment.
 #[derive(Clone, Debug)]
-pub struct Moment {
+pub struct Moment<const D: usize = 2> {
     /// The second end takes the moment, the first one its opposite.
-    pub ends: [End; 2],
+    pub ends: [End<D>; 2],
     /// Size, counter-clockwise, N m.
     pub size: Signal,
 }
 
-impl Moment {
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
+impl<const D: usize> Moment<D> {
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         let size = self.size.value(at);
         self.ends[1].lift().add_moment(size, at.x, f);
         self.ends[0].lift().add_moment(-size, at.x, f);
     }
 
-    pub(super) fn add_stiffness(&self, at: Instant<'_>, add: Add<'_>) {
+    pub(super) fn add_stiffness(&self, at: Instant<'_, D>, add: Add<'_, D>) {
         let size = self.size.value(at);
         for (end, size) in self.ends.iter().zip([-size, size]) {
             if let End::Body(_) = end {
                 let k = curl(end, at.x) * size;
-                let zero = Matrix2::zeros();
-                let ground = End::Ground(nalgebra::Vector2::zeros());
+                let zero = SMatrix::zeros();
+                let ground = End::Ground(Vector::zeros());
                 coupling(&[*end, ground], [[k, zero], [zero, zero]], 1, add);
             }
         }
     }
 
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let [a, b] = self.ends.map(|end| end.lift().spin(at.x, at.v));
         self.size.value(at) * (b - a)
     }
 
-    pub(super) fn work(&self, before: Instant<'_>, after: Instant<'_>) -> f64 {
-        let turn = |end: &End| {
+    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
+        let turn = |end: &End<D>| {
             let (u, v) = (end.direction(before.x), end.direction(after.x));
-            u.perp(&v).atan2(u.dot(&v))
+            cross(&u, &v).atan2(u.dot(&v))
         };
         self.size.value(before) * (turn(&self.ends[1]) - turn(&self.ends[0]))
     }
 }
 
 /// Minus the second derivative of the angle of a direction.
-pub(super) fn curl(end: &End, x: &[Node<4>]) -> Matrix2<f64> {
+pub(super) fn curl<const D: usize>(end: &End<D>, x: &[Node<D>]) -> SMatrix<f64, D, D> {
     let u = end.direction(x);
     let a = u.norm_squared();
-    let turn = Matrix2::new(0.0, -1.0, 1.0, 0.0);
+    let turn = SMatrix::from_fn(|r, c| left(axis::<D, f64>(c))[r]);
     (left(u) * u.transpose() * (2.0 / a) - turn) / a
 }

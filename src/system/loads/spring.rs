@@ -1,18 +1,19 @@
 //! A spring with a damper between two points.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::SMatrix;
 
 use super::{Add, Instant};
 use crate::body::Node;
 use crate::math::jet::Number;
+use crate::math::space::Vector;
 use crate::system::end::{End, between};
 use crate::system::signal::Signal;
 
 /// A spring and a damper in parallel between two points.
 #[derive(Clone, Debug)]
-pub struct Spring {
+pub struct Spring<const D: usize = 2> {
     /// Its ends.
-    pub ends: [End; 2],
+    pub ends: [End<D>; 2],
     /// Stiffness, N/m.
     pub stiffness: f64,
     /// Damping, N s/m.
@@ -21,20 +22,16 @@ pub struct Spring {
     pub length: Signal,
 }
 
-impl Spring {
+impl<const D: usize> Spring<D> {
     /// Unit vector from the first end to the second, length, speed of stretching. At length zero no
     /// direction is better than another, and none is taken.
-    fn stretch<N: Number>(&self, at: Instant<'_, N>) -> (Vector2<N>, N, N) {
+    fn stretch<N: Number>(&self, at: Instant<'_, D, N>) -> (Vector<D, N>, N, N) {
         let [a, b] = self.ends.map(|end| end.lift());
         let d = b.position(at.x) - a.position(at.x);
         let square = d.norm_squared();
         let is_open = square > N::of(0.0);
         let length = if is_open { square.sqrt() } else { square };
-        let unit = if is_open {
-            d / length
-        } else {
-            Vector2::zeros()
-        };
+        let unit = if is_open { d / length } else { Vector::zeros() };
         (
             unit,
             length,
@@ -42,18 +39,18 @@ impl Spring {
         )
     }
 
-    fn rest<N: Number>(&self, at: Instant<'_, N>) -> N {
+    fn rest<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.length.value(at)
     }
 
     /// Force with which it pulls, N.
-    pub fn tension<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub fn tension<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let (_, length, speed) = self.stretch(at);
         N::of(self.stiffness) * (length - self.rest(at)) + N::of(self.damping) * speed
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, N>, f: &mut [Node<4, N>]) {
-        let ((unit, _, speed), none) = (self.stretch(at), Vector2::zeros());
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+        let ((unit, _, speed), none) = (self.stretch(at), Vector::zeros());
         // Without a rest length it pulls to the other end however near that is: the part has no kink there.
         let [a, b] = self.ends.map(|end| end.lift().position(at.x));
         let stiffness = N::of(self.stiffness);
@@ -63,16 +60,21 @@ impl Spring {
         self.ends[1].lift().add_force(-pull, none, f);
     }
 
-    pub(super) fn add_tangent(&self, at: Instant<'_>, stiffness: Add<'_>, damping: Add<'_>) {
+    pub(super) fn add_tangent(
+        &self,
+        at: Instant<'_, D>,
+        stiffness: Add<'_, D>,
+        damping: Add<'_, D>,
+    ) {
         let (unit, length, _) = self.stretch(at);
-        let along: Matrix2<f64> = unit * unit.transpose();
+        let along: SMatrix<f64, D, D> = unit * unit.transpose();
         // A spring in compression pushes itself aside; that part stays out where it has no direction.
         let turn = match length > 0.0 {
             true => self.tension(at) / length,
             false if self.rest(at) == 0.0 => self.stiffness,
             false => 0.0,
         };
-        let k = along * self.stiffness + (Matrix2::identity() - along) * turn;
+        let k = along * self.stiffness + (SMatrix::identity() - along) * turn;
         between(&self.ends, k, 0, stiffness);
         if self.damping > 0.0 {
             between(&self.ends, along * self.damping, 0, damping);
@@ -80,14 +82,14 @@ impl Spring {
     }
 
     /// A rest length that changes does work; the part of the spring itself comes from its energy.
-    pub(super) fn power<N: Number>(&self, at: Instant<'_, N>) -> [N; 2] {
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let speed = self.stretch(at).2;
         let stretch = self.stretch(at).1 - self.rest(at);
         let supplied = -N::of(self.stiffness) * stretch * self.length.rate(at);
         [supplied, N::of(self.damping) * speed * speed]
     }
 
-    pub(super) fn energy<N: Number>(&self, at: Instant<'_, N>) -> N {
+    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let stretch = self.stretch(at).1 - self.rest(at);
         N::of(0.5 * self.stiffness) * stretch * stretch
     }

@@ -7,6 +7,7 @@
 //! of a System of Rigid Bodies, part I, chapter VIII, after Gauss's principle).
 
 use super::dynamics::Model;
+use crate::body::{add_node, no_node};
 use crate::math::function::Function;
 use crate::math::switches::grain;
 use crate::system::joints::Joint;
@@ -27,7 +28,7 @@ pub enum Follower {
     Load(usize),
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// All functions of time, and what follows them.
     pub fn functions(&self) -> impl Iterator<Item = (Follower, &Function)> {
         let drives = self.drives.iter().enumerate();
@@ -36,8 +37,7 @@ impl System {
             Drive::Input { .. } => None,
         });
         let of_loads = self.loads.iter().enumerate().flat_map(|(index, load)| {
-            let signals = load.signals().into_iter().flatten();
-            signals.filter_map(move |signal| match signal {
+            load.signals().filter_map(move |signal| match signal {
                 Signal::Function(function) => Some((Follower::Load(index), function)),
                 Signal::Input(_) => None,
             })
@@ -47,12 +47,12 @@ impl System {
 
     /// The first joint or motion that follows a driven coordinate.
     pub fn driven_joint(&self, drive: usize) -> Option<usize> {
-        let follows = |joint: &Joint| joint.kind.drives().contains(&drive);
+        let follows = |joint: &Joint<D>| joint.kind.drives().contains(&drive);
         self.joints.iter().position(follows)
     }
 
     /// The time at which functions of time are taken at `time`.
-    pub(in crate::system) fn clock(&self, time: f64, work: &Work) -> f64 {
+    pub(in crate::system) fn clock(&self, time: f64, work: &Work<D>) -> f64 {
         match work.stretch {
             Some([first, last]) => time.max(first).min(last),
             None => self.now(time),
@@ -86,7 +86,7 @@ impl System {
     }
 }
 
-impl Model<'_> {
+impl<const D: usize> Model<'_, D> {
     /// Begins a stretch without kinks and jumps at `from`; its end, `until` at the latest.
     pub(in crate::system) fn enter(&mut self, from: f64, until: f64) -> f64 {
         let (first, last) = (from + grain(from), until + grain(until));
@@ -142,10 +142,10 @@ impl Model<'_> {
         let mut old = std::mem::take(&mut self.work.v);
         self.work.stretch = Some([after, after]);
         system.place(time, &state.coordinates, None, self.work);
-        self.work.supply.fill([0.0; 4]);
+        self.work.supply.fill(no_node());
         system.follow(&self.work.drives, 1, &mut self.work.supply);
         for (rate, driven) in old.iter_mut().zip(&self.work.supply) {
-            rate.iter_mut().zip(driven).for_each(|(v, d)| *v -= d);
+            add_node(rate, -1.0, driven);
         }
         system.coordinates_of(&old, self.work, &mut state.rates);
         self.work.v = old;

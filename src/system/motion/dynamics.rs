@@ -5,6 +5,7 @@ use nalgebra::Complex;
 
 use crate::body::Node;
 use crate::elements::Element;
+use crate::math::space::{Vector, moment};
 use crate::system::instant::Instant;
 use crate::system::joints::ConstraintKind;
 use crate::system::signal::{Course, moved};
@@ -83,16 +84,16 @@ const BROKEN: f64 = 1e-8;
 
 /// A system under inputs that are held, or that move as polynomials in time.
 #[derive(Debug)]
-pub struct Model<'a> {
+pub struct Model<'a, const D: usize = 2> {
     /// The system.
-    pub system: &'a System,
+    pub system: &'a System<D>,
     /// Its inputs at the beginning.
     pub inputs: &'a [f64],
     /// Their first and second derivatives; empty where they are held.
     slopes: &'a [[f64; 2]],
     start: f64,
     /// Scratch of the system.
-    pub work: &'a mut Work,
+    pub work: &'a mut Work<D>,
     pub(in crate::system) time: f64,
     /// The kink or jump that ends the stretch under way.
     pub(in crate::system) crossing: Option<f64>,
@@ -101,9 +102,14 @@ pub struct Model<'a> {
     most_operations: u64,
 }
 
-impl<'a> Model<'a> {
+impl<'a, const D: usize> Model<'a, D> {
     /// The system at a state, what inputs drive held.
-    pub fn new(system: &'a System, inputs: &'a [f64], work: &'a mut Work, state: &State) -> Self {
+    pub fn new(
+        system: &'a System<D>,
+        inputs: &'a [f64],
+        work: &'a mut Work<D>,
+        state: &State,
+    ) -> Self {
         work.follow(state);
         work.stretch = None;
         work.inputs.clear();
@@ -201,7 +207,9 @@ impl<'a> Model<'a> {
             }
         }
         for (weight, (a, b)) in system.weight.iter().zip(after.iter().zip(before)) {
-            let fall: f64 = (0..4).map(|k| weight[k] * (a[k] - b[k])).sum();
+            let ways = a.as_flattened().iter().zip(b.as_flattened());
+            let fall = weight.as_flattened().iter().zip(ways);
+            let fall: f64 = fall.map(|(w, (a, b))| w * (a - b)).sum();
             add(-fall, fall.abs());
         }
         let (start, end) = (self.instant(before), self.instant(after));
@@ -232,7 +240,7 @@ impl<'a> Model<'a> {
         self.work.project_on_tangent_plane(x);
     }
 
-    fn instant<'b>(&'b self, x: &'b [Node<4>]) -> Instant<'b> {
+    fn instant<'b>(&'b self, x: &'b [Node<D>]) -> Instant<'b, D> {
         Instant {
             x,
             ..self.system.instant(self.time, self.work)
@@ -288,7 +296,7 @@ impl<'a> Model<'a> {
     }
 }
 
-impl Dynamics for Model<'_> {
+impl<const D: usize> Dynamics for Model<'_, D> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         self.operations += 1;
         let system = self.system;
@@ -381,11 +389,10 @@ impl Dynamics for Model<'_> {
         system.place(time, to, None, self.work);
         let mut largest = 0.0_f64;
         for (a, b) in self.work.other.iter().zip(&self.work.x) {
-            let (along, across) = (a[2] * b[2] + a[3] * b[3], a[2] * b[3] - a[3] * b[2]);
-            let stretch = b[2].hypot(b[3]) / a[2].hypot(a[3]);
-            largest = largest
-                .max(across.atan2(along).abs())
-                .max(stretch.ln().abs());
+            let [a, b] = [a, b].map(|node| Vector::from(node[1]));
+            let across = Vector::from(moment(&a, &b)).norm();
+            let stretch = b.norm() / a.norm();
+            largest = largest.max(across.atan2(a.dot(&b))).max(stretch.ln().abs());
         }
         largest
     }

@@ -1,21 +1,22 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use crate::body::Node;
+use crate::body::{Node, add_node, left_node, map_node};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
+use crate::math::space::Vector;
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::signal::Drive;
 use crate::system::{System, Work};
 
-impl System {
+impl<const D: usize> System<D> {
     /// Puts the nodal coordinates and, if given, rates of a state into `work`.
     pub(in crate::system) fn place(
         &self,
         time: f64,
         q: &[f64],
         v: Option<&[f64]>,
-        work: &mut Work,
+        work: &mut Work<D>,
     ) {
         let clock = self.clock(time, work);
         let mut courses = work.courses.iter();
@@ -30,9 +31,7 @@ impl System {
         }
         self.elimination.expand(q, &mut work.y, &mut work.x);
         for (x, reference) in work.x.iter_mut().zip(&self.reference) {
-            for k in 0..4 {
-                x[k] += reference[k];
-            }
+            add_node(x, 1.0, reference);
         }
         self.follow(&work.drives, 0, &mut work.x);
         self.find_travel(&work.x, &mut work.travel);
@@ -42,7 +41,7 @@ impl System {
     }
 
     /// Where slides are on their cables, searched from where they were.
-    pub(in crate::system) fn find_travel<N: Number>(&self, x: &[Node<4, N>], travel: &mut [N]) {
+    pub(in crate::system) fn find_travel<N: Number>(&self, x: &[Node<D, N>], travel: &mut [N]) {
         for (constraint, travel) in self.slides.iter().zip(travel) {
             if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
                 *travel = along.travel(&self.chains[along.chain], x, *travel);
@@ -51,13 +50,13 @@ impl System {
     }
 
     /// Puts nodal rates into `work`; what drives them is that of the last [`System::place`].
-    pub(in crate::system) fn place_rates(&self, v: &[f64], work: &mut Work) {
+    pub(in crate::system) fn place_rates(&self, v: &[f64], work: &mut Work<D>) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
         self.follow(&work.drives, 1, &mut work.v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
-    pub(in crate::system) fn follow(&self, drives: &[[f64; 3]], order: usize, out: &mut [Node<4>]) {
+    pub(in crate::system) fn follow(&self, drives: &[[f64; 3]], order: usize, out: &mut [Node<D>]) {
         for driven in &self.driven {
             let mut value = self.linear[driven.row].target.derivatives(drives)[order];
             if order == 0 {
@@ -67,7 +66,7 @@ impl System {
         }
     }
 
-    pub(in crate::system) fn instant<'a>(&'a self, time: f64, work: &'a Work) -> Instant<'a> {
+    pub(in crate::system) fn instant<'a>(&'a self, time: f64, work: &'a Work<D>) -> Instant<'a, D> {
         Instant {
             time: self.clock(time, work),
             inputs: &work.inputs,
@@ -80,7 +79,7 @@ impl System {
     }
 
     /// Total force on the nodes in `work`, but for constraints.
-    pub(in crate::system) fn forces(&self, time: f64, work: &mut Work) {
+    pub(in crate::system) fn forces(&self, time: f64, work: &mut Work<D>) {
         let mut force = std::mem::take(&mut work.f);
         force.copy_from_slice(&self.weight);
         for chain in &self.chains {
@@ -94,7 +93,7 @@ impl System {
             let rate = self.rotation;
             self.add_inertia(rate * rate, &work.x, &mut force);
             for (turned, v) in work.other.iter_mut().zip(&work.v) {
-                *turned = [-v[1], v[0], -v[3], v[2]];
+                *turned = left_node(v);
             }
             self.add_inertia(-2.0 * rate, &work.other, &mut force);
         }
@@ -102,8 +101,8 @@ impl System {
     }
 
     /// Generalized forces `T^T (f - M G c'')` of the nodal forces in `work`, which stay.
-    pub(in crate::system) fn reduce(&self, work: &mut Work, a: &mut [f64]) {
-        let change = |sign: f64, work: &mut Work| {
+    pub(in crate::system) fn reduce(&self, work: &mut Work<D>, a: &mut [f64]) {
+        let change = |sign: f64, work: &mut Work<D>| {
             for driven in &self.driven {
                 let second = self.linear[driven.row].target.derivatives(&work.drives)[2];
                 add(&driven.inertia, sign * second, &mut work.f);
@@ -115,7 +114,7 @@ impl System {
     }
 
     /// Tangent at the state in `work`, with the multipliers of its last acceleration.
-    pub(in crate::system) fn assemble(&self, time: f64, work: &mut Work) {
+    pub(in crate::system) fn assemble(&self, time: f64, work: &mut Work<D>) {
         let assembly = &self.elimination.assembly;
         let clock = self.clock(time, work);
         let Work { tangent, x, v, .. } = work;
@@ -169,11 +168,11 @@ impl System {
 
     /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.supply`:
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
-    pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work) {
+    pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work<D>) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
         self.follow(&work.drives, 2, &mut work.other);
         for (supply, f) in work.supply.iter_mut().zip(&work.f) {
-            *supply = f.map(|f| -f);
+            *supply = map_node(f, |f| -f);
         }
         self.add_inertia(1.0, &work.other, &mut work.supply);
         let mut supply = std::mem::take(&mut work.supply);
@@ -190,7 +189,7 @@ impl System {
 
     /// Power that comes in through loads and motions and that is dissipated, W, at the state and
     /// accelerations in place.
-    pub(in crate::system) fn powers(&self, time: f64, a: &[f64], work: &mut Work) -> [f64; 2] {
+    pub(in crate::system) fn powers(&self, time: f64, a: &[f64], work: &mut Work<D>) -> [f64; 2] {
         if !self.drives.is_empty() {
             self.supply(a, work);
         }
@@ -204,10 +203,10 @@ impl System {
     /// the multipliers of the others.
     pub(in crate::system) fn power<'a, N: Number>(
         &self,
-        at: Instant<'_, N>,
-        view: &View<'_, N>,
-        supply: &[Node<4, N>],
-        multiplied: impl Iterator<Item = (&'a Constraint, N)>,
+        at: Instant<'_, D, N>,
+        view: &View<'_, D, N>,
+        supply: &[Node<D, N>],
+        multiplied: impl Iterator<Item = (&'a Constraint<D>, N)>,
     ) -> [N; 2] {
         let mut power = [N::of(0.0); 2];
         if !self.drives.is_empty() {
@@ -233,38 +232,43 @@ impl System {
     }
 
     /// Energy of the centrifugal force in a turning frame, negative, J.
-    pub(in crate::system) fn centrifugal<N: Number>(&self, x: &[Node<4, N>]) -> N {
+    pub(in crate::system) fn centrifugal<N: Number>(&self, x: &[Node<D, N>]) -> N {
         N::of(self.rotation * self.rotation) * self.quadratic(x)
     }
 
     /// `x^T M x / 2`.
-    pub(in crate::system) fn quadratic<N: Number>(&self, x: &[Node<4, N>]) -> N {
+    pub(in crate::system) fn quadratic<N: Number>(&self, x: &[Node<D, N>]) -> N {
         let mut sum = N::of(0.0);
         for chain in &self.chains {
             for (j, element) in chain.elements().iter().enumerate() {
-                let e: Nodal<2, N> = chain.element(j, x);
+                let e: Nodal<D, N> = chain.element(j, x);
                 sum += (e * element.mass().map(N::of)).dot(&e);
             }
         }
         for lump in &self.lumps {
             let marker = lump.marker.lift();
-            sum += marker.position(x).norm_squared() * N::of(lump.mass)
-                + marker.direction(x).norm_squared() * N::of(lump.inertia);
+            let (at, on): (Vector<D, N>, Vector<D, N>) = (marker.position(x), marker.direction(x));
+            sum += at.norm_squared() * N::of(lump.mass) + on.norm_squared() * N::of(lump.inertia);
         }
         N::of(0.5) * sum
     }
 }
 
 /// Inner product of weights and numbers of any kind.
-pub(in crate::system) fn weighted<N: Number>(weights: &Node<4>, numbers: &Node<4, N>) -> N {
-    let products = weights.iter().zip(numbers).map(|(w, n)| *n * N::of(*w));
+pub(in crate::system) fn weighted<const D: usize, N: Number>(
+    weights: &Node<D>,
+    numbers: &Node<D, N>,
+) -> N {
+    let products = weights
+        .as_flattened()
+        .iter()
+        .zip(numbers.as_flattened())
+        .map(|(w, n)| *n * N::of(*w));
     products.fold(N::of(0.0), |sum, product| sum + product)
 }
 
-fn add(terms: &[(usize, Node<4>)], factor: f64, out: &mut [Node<4>]) {
+fn add<const D: usize>(terms: &[(usize, Node<D>)], factor: f64, out: &mut [Node<D>]) {
     for (node, term) in terms {
-        for k in 0..4 {
-            out[*node][k] += factor * term[k];
-        }
+        add_node(&mut out[*node], factor, term);
     }
 }

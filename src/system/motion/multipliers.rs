@@ -13,11 +13,10 @@
 
 use std::ops::Range;
 
-use crate::body::Node;
+use crate::body::{Node, no_node, product};
 use crate::math::jet::Number;
 use crate::math::row_space::RowSpace;
-use crate::math::vector::dot;
-use crate::system::joints::{ConstraintKind, View};
+use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::{System, Work};
 
 /// Most iterations of a projection.
@@ -44,9 +43,9 @@ pub(in crate::system) struct Group {
 }
 
 /// A non-linear constraint `g(q, t) = 0` at a time, coordinates and rates.
-pub struct ConstraintRow<'a> {
-    constraint: &'a crate::system::Constraint,
-    view: &'a View<'a>,
+pub struct ConstraintRow<'a, const D: usize> {
+    constraint: &'a Constraint<D>,
+    view: &'a View<'a, D>,
     /// Its size, which residuals are relative to.
     pub size: f64,
     /// The coordinates of its component of the system.
@@ -55,7 +54,7 @@ pub struct ConstraintRow<'a> {
     pub gradient: &'a [f64],
 }
 
-impl ConstraintRow<'_> {
+impl<const D: usize> ConstraintRow<'_, D> {
     /// `g`.
     pub fn value(&self) -> f64 {
         self.constraint.value(self.view)
@@ -68,7 +67,7 @@ impl ConstraintRow<'_> {
 }
 
 impl Group {
-    pub(in crate::system) fn all(system: &System) -> Vec<Self> {
+    pub(in crate::system) fn all<const D: usize>(system: &System<D>) -> Vec<Self> {
         let mut first = 0;
         let groups = system.groups.iter().map(|(component, count)| {
             let part = &system.elimination.assembly.components()[*component];
@@ -88,9 +87,9 @@ impl Group {
     }
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// Fills in the Jacobians at the nodal coordinates in `work`; their rows are not orthonormal yet.
-    fn jacobians(&self, work: &mut Work) {
+    fn jacobians(&self, work: &mut Work<D>) {
         let mut groups = std::mem::take(&mut work.groups);
         let view = self.view(work);
         for group in &mut groups {
@@ -118,8 +117,8 @@ impl System {
         time: f64,
         q: &[f64],
         v: Option<&[f64]>,
-        work: &mut Work,
-        mut visit: impl FnMut(ConstraintRow<'_>),
+        work: &mut Work<D>,
+        mut visit: impl FnMut(ConstraintRow<'_, D>),
     ) {
         self.place(time, q, v, work);
         self.jacobians(work);
@@ -139,7 +138,7 @@ impl System {
     }
 
     /// The state in `work` as constraints see it.
-    pub(in crate::system) fn view<'a>(&'a self, work: &'a Work) -> View<'a> {
+    pub(in crate::system) fn view<'a>(&'a self, work: &'a Work<D>) -> View<'a, D> {
         View {
             x: &work.x,
             v: &work.v,
@@ -150,7 +149,7 @@ impl System {
     }
 
     /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`.
-    pub(in crate::system) fn constrain(&self, work: &mut Work, a: &mut [f64]) {
+    pub(in crate::system) fn constrain(&self, work: &mut Work<D>, a: &mut [f64]) {
         self.jacobians(work);
         let mut groups = std::mem::take(&mut work.groups);
         self.driven_acceleration(&work.drives, &mut work.other);
@@ -160,7 +159,7 @@ impl System {
             for (right, constraint) in group.right.iter_mut().zip(constraints) {
                 *right = -constraint.bias(&view);
                 constraint.gradient(&view).for_each(|node, term| {
-                    *right -= dot(term, &work.other[node]);
+                    *right -= product(term, &work.other[node]);
                 });
             }
             group.rows.factor(RANK);
@@ -173,8 +172,8 @@ impl System {
     }
 
     /// Nodal accelerations of what is driven.
-    pub(in crate::system) fn driven_acceleration(&self, drives: &[[f64; 3]], out: &mut [Node<4>]) {
-        out.fill([0.0; 4]);
+    pub(in crate::system) fn driven_acceleration(&self, drives: &[[f64; 3]], out: &mut [Node<D>]) {
+        out.fill(no_node());
         self.follow(drives, 2, out);
     }
 
@@ -184,7 +183,7 @@ impl System {
         &self,
         time: f64,
         q: &mut [f64],
-        work: &mut Work,
+        work: &mut Work<D>,
     ) -> f64 {
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
@@ -196,13 +195,13 @@ impl System {
             }
             before = residual;
             self.jacobians(work);
-            self.correct(q, work, crate::system::Constraint::value);
+            self.correct(q, work, Constraint::value);
         }
         before
     }
 
     /// Projects velocities onto the constraints at the positions and drives in `work`.
-    pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work) {
+    pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work<D>) {
         self.jacobians(work);
         self.place_rates(v, work);
         self.correct(v, work, constraint_rate);
@@ -212,8 +211,8 @@ impl System {
     fn correct(
         &self,
         q: &mut [f64],
-        work: &mut Work,
-        missing: impl Fn(&crate::system::Constraint, &View<'_>) -> f64,
+        work: &mut Work<D>,
+        missing: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
     ) {
         let mut groups = std::mem::take(&mut work.groups);
         let view = self.view(work);
@@ -230,18 +229,16 @@ impl System {
     }
 
     /// Largest residual of positions, relative to the size of the constraint.
-    pub(in crate::system) fn position_residual<N: Number>(&self, view: &View<'_, N>) -> f64 {
-        let residual =
-            |c: &crate::system::Constraint| c.value(view).plain().abs() / c.size(&self.chains);
+    pub(in crate::system) fn position_residual<N: Number>(&self, view: &View<'_, D, N>) -> f64 {
+        let residual = |c: &Constraint<D>| c.value(view).plain().abs() / c.size(&self.chains);
         let all = self.constraints.iter().chain(&self.settled);
         all.map(residual).fold(0.0, larger)
     }
 
     /// Largest residual of velocities, relative to the size of the constraint, 1/s.
-    pub(in crate::system) fn velocity_residual<N: Number>(&self, view: &View<'_, N>) -> f64 {
-        let residual = |c: &crate::system::Constraint| {
-            constraint_rate(c, view).plain().abs() / c.size(&self.chains)
-        };
+    pub(in crate::system) fn velocity_residual<N: Number>(&self, view: &View<'_, D, N>) -> f64 {
+        let residual =
+            |c: &Constraint<D>| constraint_rate(c, view).plain().abs() / c.size(&self.chains);
         self.constraints.iter().map(residual).fold(0.0, larger)
     }
 
@@ -250,7 +247,7 @@ impl System {
     pub fn redundant_at(
         &self,
         state: &crate::system::State,
-        work: &mut Work,
+        work: &mut Work<D>,
     ) -> (Vec<usize>, Vec<usize>) {
         self.redundant_within(RANK, state, work)
     }
@@ -260,7 +257,7 @@ impl System {
         &self,
         part: f64,
         state: &crate::system::State,
-        work: &mut Work,
+        work: &mut Work<D>,
     ) -> (Vec<usize>, Vec<usize>) {
         let (mut joints, mut bodies) = (self.redundant.clone(), Vec::new());
         work.follow(state);
@@ -286,10 +283,13 @@ impl System {
 }
 
 /// `dg/dt` at the coordinates and rates in place.
-fn constraint_rate<N: Number>(constraint: &crate::system::Constraint, view: &View<'_, N>) -> N {
+fn constraint_rate<const D: usize, N: Number>(
+    constraint: &Constraint<D>,
+    view: &View<'_, D, N>,
+) -> N {
     let mut rate = constraint.rate(view);
     constraint.gradient(view).for_each(|node, term| {
-        for (term, v) in term.iter().zip(&view.v[node]) {
+        for (term, v) in term.as_flattened().iter().zip(view.v[node].as_flattened()) {
             rate += *term * *v;
         }
     });
@@ -298,10 +298,10 @@ fn constraint_rate<N: Number>(constraint: &crate::system::Constraint, view: &Vie
 
 impl Group {
     /// Its constraints with their multipliers.
-    pub(in crate::system) fn multiplied<'a>(
+    pub(in crate::system) fn multiplied<'a, const D: usize>(
         &'a self,
-        constraints: &'a [crate::system::Constraint],
-    ) -> impl Iterator<Item = (&'a crate::system::Constraint, f64)> {
+        constraints: &'a [Constraint<D>],
+    ) -> impl Iterator<Item = (&'a Constraint<D>, f64)> {
         let own = &constraints[self.constraints.clone()];
         own.iter().zip(self.lambda.iter().copied())
     }

@@ -9,7 +9,7 @@
 //!
 //! Source: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 13.
 
-use crate::body::Node;
+use crate::body::{Node, add_node, left_node, map_node, no_node};
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::math::vector::dot;
 use crate::system::signal::Drive;
@@ -17,18 +17,18 @@ use crate::system::{Evaluation, State, System, Work};
 
 /// An evaluation with derivatives, and what it takes to make one.
 #[derive(Clone, Debug)]
-pub struct Derivatives {
+pub struct Derivatives<const D: usize> {
     /// The evaluation: derivatives in time, or the first one along a direction of the inputs.
-    pub values: Evaluation<Jet>,
+    pub values: Evaluation<D, Jet>,
     /// Forces on the nodes, but for constraints.
-    f: Vec<Node<4, Jet>>,
+    f: Vec<Node<D, Jet>>,
     /// Nodal accelerations of what is driven.
-    driven: Vec<Node<4, Jet>>,
+    driven: Vec<Node<D, Jet>>,
     /// First and second derivative of generalized accelerations.
     q: [Vec<f64>; 2],
     /// One derivative of a nodal vector, and another one.
-    one: Vec<Node<4>>,
-    other: Vec<Node<4>>,
+    one: Vec<Node<D>>,
+    other: Vec<Node<D>>,
     borders: Vec<Border>,
 }
 
@@ -42,10 +42,10 @@ struct Border {
     lambda: [Vec<f64>; 3],
 }
 
-impl Derivatives {
+impl<const D: usize> Derivatives<D> {
     /// Storage for a system.
-    pub fn new(system: &System, work: &Work) -> Self {
-        let nodes = vec![[Jet::from_re(0.0); 4]; system.reference.len()];
+    pub fn new(system: &System<D>, work: &Work<D>) -> Self {
+        let nodes = vec![[[Jet::from_re(0.0); D]; 2]; system.reference.len()];
         let q = vec![0.0; system.coordinates()];
         let border = |group: &crate::system::motion::multipliers::Group| {
             let (count, length) = (group.constraints.len(), group.coordinates.len());
@@ -61,8 +61,8 @@ impl Derivatives {
             f: nodes.clone(),
             driven: nodes,
             q: [q.clone(), q],
-            one: vec![[0.0; 4]; system.reference.len()],
-            other: vec![[0.0; 4]; system.reference.len()],
+            one: vec![no_node(); system.reference.len()],
+            other: vec![no_node(); system.reference.len()],
             borders: work.groups.iter().map(border).collect(),
         }
     }
@@ -71,11 +71,11 @@ impl Derivatives {
     /// computed with this scratch; inputs move with these derivatives.
     pub fn in_time(
         &mut self,
-        system: &System,
-        (plain, state): (&Evaluation, &State),
+        system: &System<D>,
+        (plain, state): (&Evaluation<D>, &State),
         slopes: &[[f64; 2]],
         order: usize,
-        work: &mut Work,
+        work: &mut Work<D>,
     ) {
         let time = system.now(state.time);
         self.values.time = Jet::new(time, 1.0, 0.0);
@@ -109,7 +109,7 @@ impl Derivatives {
             &mut self.values.x,
             [&plain.x, &plain.v, &plain.acceleration],
         );
-        self.one.fill([0.0; 4]);
+        self.one.fill(no_node());
         lift(
             &mut self.values.v,
             [&plain.v, &plain.acceleration, &self.one],
@@ -119,7 +119,8 @@ impl Derivatives {
             if k == 2 {
                 take(&self.values.acceleration, 1, &mut self.one);
                 for (v, jerk) in self.values.v.iter_mut().zip(&self.one) {
-                    v.iter_mut().zip(jerk).for_each(|(v, jerk)| v.v2 = *jerk);
+                    let v = v.as_flattened_mut().iter_mut();
+                    (v.zip(jerk.as_flattened())).for_each(|(v, jerk)| v.v2 = *jerk);
                 }
             }
             self.forces(system, true);
@@ -133,10 +134,10 @@ impl Derivatives {
     /// depend on inputs.
     pub fn by_inputs(
         &mut self,
-        system: &System,
-        plain: &Evaluation,
+        system: &System<D>,
+        plain: &Evaluation<D>,
         direction: &[f64],
-        work: &mut Work,
+        work: &mut Work<D>,
     ) {
         self.values.time = Jet::from_re(plain.time);
         self.set_inputs(plain, |i| [[direction[i], 0.0], [0.0; 2]]);
@@ -152,7 +153,7 @@ impl Derivatives {
                 set[2].v1 = direction[given.start + 2];
             }
         }
-        self.one.fill([0.0; 4]);
+        self.one.fill(no_node());
         lift(&mut self.values.x, [&plain.x, &self.one, &self.one]);
         lift(&mut self.values.v, [&plain.v, &self.one, &self.one]);
         self.follow(system, plain);
@@ -162,7 +163,7 @@ impl Derivatives {
     }
 
     /// Inputs with derivatives, and their rates with derivatives.
-    fn set_inputs(&mut self, plain: &Evaluation, derivatives: impl Fn(usize) -> [[f64; 2]; 2]) {
+    fn set_inputs(&mut self, plain: &Evaluation<D>, derivatives: impl Fn(usize) -> [[f64; 2]; 2]) {
         self.values.inputs.clear();
         self.values.input_rates.clear();
         for (i, input) in plain.inputs.iter().enumerate() {
@@ -173,7 +174,7 @@ impl Derivatives {
     }
 
     /// Angles and slides follow the coordinates.
-    fn follow(&mut self, system: &System, plain: &Evaluation) {
+    fn follow(&mut self, system: &System<D>, plain: &Evaluation<D>) {
         let values = &mut self.values;
         for ((set, angle), now) in (values.angles.iter_mut().zip(&system.angles)).zip(&plain.angles)
         {
@@ -186,9 +187,9 @@ impl Derivatives {
     }
 
     /// Forces on the nodes, but for constraints; without those of elements where nothing moves.
-    fn forces(&mut self, system: &System, elastic: bool) {
+    fn forces(&mut self, system: &System<D>, elastic: bool) {
         for (f, weight) in self.f.iter_mut().zip(&system.weight) {
-            *f = weight.map(Jet::from_re);
+            *f = map_node(weight, Jet::from_re);
         }
         let values = &self.values;
         if elastic {
@@ -204,11 +205,11 @@ impl Derivatives {
             let rate = system.rotation;
             for order in 0..3 {
                 take(&values.x, order, &mut self.one);
-                self.other.fill([0.0; 4]);
+                self.other.fill(no_node());
                 system.add_inertia(rate * rate, &self.one, &mut self.other);
                 take(&values.v, order, &mut self.one);
                 for v in &mut self.one {
-                    *v = [-v[1], v[0], -v[3], v[2]];
+                    *v = left_node(v);
                 }
                 system.add_inertia(-2.0 * rate, &self.one, &mut self.other);
                 add_order(&self.other, order, &mut self.f);
@@ -217,22 +218,25 @@ impl Derivatives {
     }
 
     /// Derivative `k` of accelerations and multipliers from those below.
-    fn accelerations(&mut self, system: &System, plain: &Evaluation, k: usize, work: &mut Work) {
+    fn accelerations(
+        &mut self,
+        system: &System<D>,
+        plain: &Evaluation<D>,
+        k: usize,
+        work: &mut Work<D>,
+    ) {
         take(&self.f, k, &mut self.one);
-        self.driven.fill([Jet::from_re(0.0); 4]);
+        self.driven.fill([[Jet::from_re(0.0); D]; 2]);
         for driven in &system.driven {
             let [_, _, second] = system.linear[driven.row]
                 .target
                 .derivatives(&self.values.drives);
             for (node, c) in &driven.inertia {
-                for i in 0..4 {
-                    self.one[*node][i] -= c[i] * part(second, k);
-                }
+                add_node(&mut self.one[*node], -part(second, k), c);
             }
             for (node, c) in &driven.follow {
-                for i in 0..4 {
-                    self.driven[*node][i] += second * Jet::of(c[i]);
-                }
+                let driven = self.driven[*node].as_flattened_mut().iter_mut();
+                (driven.zip(c.as_flattened())).for_each(|(d, c)| *d += second * Jet::of(*c));
             }
         }
         let q = &mut self.q[k - 1];
@@ -245,15 +249,16 @@ impl Derivatives {
         let accelerations = self.values.acceleration.iter_mut().zip(&plain.acceleration);
         for ((a, plain), (moved, driven)) in accelerations.zip(self.other.iter().zip(&self.driven))
         {
-            for i in 0..4 {
-                a[i].re = plain[i];
-                set_part(&mut a[i], k, moved[i] + part(driven[i], k));
+            let [plain, moved] = [plain, moved].map(|node| node.as_flattened());
+            for (i, a) in a.as_flattened_mut().iter_mut().enumerate() {
+                a.re = plain[i];
+                set_part(a, k, moved[i] + part(driven.as_flattened()[i], k));
             }
         }
     }
 
     /// Takes what constraints ask for out of derivative `k` of the accelerations.
-    fn constrain(&mut self, system: &System, k: usize, work: &mut Work) {
+    fn constrain(&mut self, system: &System<D>, k: usize, work: &mut Work<D>) {
         let mut multiplied = std::mem::take(&mut self.values.lambda);
         let mut groups = std::mem::take(&mut work.groups);
         let view = self.values.view(system);
@@ -267,11 +272,12 @@ impl Derivatives {
             {
                 let mut right = -constraint.bias(&view);
                 constraint.gradient(&view).for_each(|node, term| {
-                    for (term, driven) in term.iter().zip(&self.driven[node]) {
+                    let driven = self.driven[node].as_flattened();
+                    for (term, driven) in term.as_flattened().iter().zip(driven) {
                         right -= *term * *driven;
                     }
                     for (order, rows) in border.rows.iter_mut().enumerate() {
-                        let term = term.map(|term| part(term, order + 1));
+                        let term = map_node(term, |term| part(term, order + 1));
                         let row = &mut rows[i * n..(i + 1) * n];
                         let assembly = &system.elimination.assembly;
                         assembly.gather_node(node, &term, range.start, row);
@@ -313,13 +319,13 @@ impl Derivatives {
     }
 
     /// Forces that linear constraints supply.
-    fn supply(&mut self, system: &System, order: usize) {
+    fn supply(&mut self, system: &System<D>, order: usize) {
         for (supply, f) in self.values.supply.iter_mut().zip(&self.f) {
-            *supply = f.map(|f| -f);
+            *supply = map_node(f, |f| -f);
         }
         for k in 0..=order {
             take(&self.values.acceleration, k, &mut self.one);
-            self.other.fill([0.0; 4]);
+            self.other.fill(no_node());
             system.add_inertia(1.0, &self.one, &mut self.other);
             add_order(&self.other, k, &mut self.values.supply);
         }
@@ -327,7 +333,8 @@ impl Derivatives {
         let view = self.values.view(system);
         for (constraint, lambda) in system.constraints.iter().zip(&self.values.lambda) {
             constraint.gradient(&view).for_each(|node, term| {
-                for (supply, term) in supply[node].iter_mut().zip(term) {
+                let supply = supply[node].as_flattened_mut().iter_mut();
+                for (supply, term) in supply.zip(term.as_flattened()) {
                     *supply += *term * *lambda;
                 }
             });
@@ -337,26 +344,27 @@ impl Derivatives {
 }
 
 /// Numbers from their values and derivatives.
-fn lift(to: &mut [Node<4, Jet>], orders: [&[Node<4>]; 3]) {
+fn lift<const D: usize>(to: &mut [Node<D, Jet>], orders: [&[Node<D>]; 3]) {
     for (node, to) in to.iter_mut().enumerate() {
-        *to = std::array::from_fn(|i| {
-            let [value, first, second] = orders.map(|order| order[node][i]);
-            Jet::new(value, first, second)
-        });
+        for (i, to) in to.as_flattened_mut().iter_mut().enumerate() {
+            let [value, first, second] = orders.map(|order| order[node].as_flattened()[i]);
+            *to = Jet::new(value, first, second);
+        }
     }
 }
 
 /// One derivative of a nodal vector.
-fn take(from: &[Node<4, Jet>], order: usize, to: &mut [Node<4>]) {
+fn take<const D: usize>(from: &[Node<D, Jet>], order: usize, to: &mut [Node<D>]) {
     for (to, from) in to.iter_mut().zip(from) {
-        *to = from.map(|number| part(number, order));
+        *to = map_node(from, |number| part(number, order));
     }
 }
 
 /// Adds to one derivative of a nodal vector.
-fn add_order(from: &[Node<4>], order: usize, to: &mut [Node<4, Jet>]) {
+fn add_order<const D: usize>(from: &[Node<D>], order: usize, to: &mut [Node<D, Jet>]) {
     for (to, from) in to.iter_mut().zip(from) {
-        for (to, from) in to.iter_mut().zip(from) {
+        let to = to.as_flattened_mut().iter_mut();
+        for (to, from) in to.zip(from.as_flattened()) {
             set_part(to, order, part(*to, order) + from);
         }
     }

@@ -1,32 +1,32 @@
 //! Quantities that follow from a state.
 
-use nalgebra::Vector2;
+use nalgebra::Vector3;
 
 use crate::body::{Marker, Node};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
-use crate::math::vector::dot;
+use crate::math::space::{Vector, moment};
 use crate::system::instant::Instant;
 use crate::system::joints::View;
 use crate::system::loads::Load;
 use crate::system::motion::forces::weighted;
-use crate::system::{Dynamics, Model, State, System, Work};
+use crate::system::{CableChain, Dynamics, Model, State, System, Work};
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
-pub struct Evaluation<N = f64> {
+pub struct Evaluation<const D: usize = 2, N = f64> {
     pub(in crate::system) time: N,
     /// Inputs, and their rates.
     pub(in crate::system) inputs: Vec<N>,
     pub(in crate::system) input_rates: Vec<N>,
     /// Coordinates, m.
-    pub x: Vec<Node<4, N>>,
+    pub x: Vec<Node<D, N>>,
     /// Rates, m/s.
-    pub v: Vec<Node<4, N>>,
+    pub v: Vec<Node<D, N>>,
     /// Accelerations, m/s^2.
-    pub acceleration: Vec<Node<4, N>>,
+    pub acceleration: Vec<Node<D, N>>,
     /// Forces that linear constraints supply, N.
-    pub(in crate::system) supply: Vec<Node<4, N>>,
+    pub(in crate::system) supply: Vec<Node<D, N>>,
     /// Multipliers of non-linear constraints.
     pub(in crate::system) lambda: Vec<N>,
     /// Angles that are counted, rad.
@@ -36,11 +36,11 @@ pub struct Evaluation<N = f64> {
     pub(in crate::system) drives: Vec<[N; 3]>,
 }
 
-impl<N: Number> Evaluation<N> {
+impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Storage for a system.
-    pub fn new(system: &System) -> Self {
+    pub fn new(system: &System<D>) -> Self {
         let zero = N::of(0.0);
-        let nodes = vec![[zero; 4]; system.reference.len()];
+        let nodes = vec![[[zero; D]; 2]; system.reference.len()];
         Self {
             time: zero,
             inputs: Vec::new(),
@@ -57,7 +57,7 @@ impl<N: Number> Evaluation<N> {
     }
 }
 
-impl Evaluation {
+impl<const D: usize> Evaluation<D> {
     /// Takes over the inputs.
     pub fn set_inputs(&mut self, inputs: &[f64]) {
         self.inputs.clear();
@@ -67,7 +67,7 @@ impl Evaluation {
     }
 
     /// Computes coordinates and rates.
-    pub fn kinematics(&mut self, system: &System, state: &State, work: &mut Work) {
+    pub fn kinematics(&mut self, system: &System<D>, state: &State, work: &mut Work<D>) {
         work.follow(state);
         self.time = system.now(state.time);
         system.place(state.time, &state.coordinates, Some(&state.rates), work);
@@ -79,7 +79,13 @@ impl Evaluation {
     }
 
     /// Computes accelerations and what constraints supply.
-    pub fn dynamics(&mut self, system: &System, state: &State, inputs: &[f64], work: &mut Work) {
+    pub fn dynamics(
+        &mut self,
+        system: &System<D>,
+        state: &State,
+        inputs: &[f64],
+        work: &mut Work<D>,
+    ) {
         self.set_inputs(inputs);
         let mut a = std::mem::take(&mut work.a);
         let mut model = Model::new(system, inputs, work, state);
@@ -100,10 +106,11 @@ impl Evaluation {
     }
 }
 
-impl<N: Number> Evaluation<N> {
-    /// Axial strain and curvature (1/m) at a marker of a cable; zero elsewhere.
-    pub fn strain(&self, system: &System, marker: &Marker) -> (N, N) {
-        let at = system.element(marker);
+impl<const D: usize, N: Number> Evaluation<D, N> {
+    /// Axial strain and curvature (1/m) at a marker of a cable; zero elsewhere. At a node they are those just after it,
+    /// but at the last end.
+    pub fn strain(&self, system: &System<D>, marker: &Marker) -> (N, N) {
+        let at = system.element_after(marker);
         at.map_or((N::of(0.0), N::of(0.0)), |(chain, j, xi)| {
             let e = chain.element(j, &self.x);
             let element = &chain.elements()[j];
@@ -111,18 +118,18 @@ impl<N: Number> Evaluation<N> {
         })
     }
 
-    /// Force (N) and moment (N m) of a joint or motion on its second end.
-    pub fn reaction(&self, system: &System, joint: usize) -> (Vector2<N>, N) {
-        let mut force = Vector2::zeros();
+    /// Force (N) and moment (N m), in the plane its third component, of a joint or motion on its second end.
+    pub fn reaction(&self, system: &System<D>, joint: usize) -> (Vector<D, N>, [N; 3]) {
+        let mut force = Vector::zeros();
         let second = system.joints[joint].ends[1].lift();
         let u = second.direction(&self.x);
-        let mut moment = N::of(0.0);
+        let mut turning = Vector3::zeros();
         for (row, linear) in system.linear.iter().enumerate() {
             if linear.joint == Some(joint) {
                 let lambda = system.row_multiplier(row, &self.supply);
                 let [position, direction] = linear.on_second.map(|on| on.map(N::of) * lambda);
                 force += position;
-                moment += u.perp(&direction);
+                turning += Vector3::from(moment(&u, &direction));
             }
         }
         let (at, view) = (self.instant(system), self.view(system));
@@ -130,28 +137,28 @@ impl<N: Number> Evaluation<N> {
             if constraint.joint == Some(joint) {
                 let [position, direction] = constraint.gradient(&view).ends[1].1;
                 force -= position * *lambda;
-                moment -= u.perp(&(direction * *lambda));
+                turning -= Vector3::from(moment(&u, &(direction * *lambda)));
             }
         }
         if let Some(load) = system.joints[joint].spring
             && let Load::Rotational(spring) = &system.loads[load]
         {
-            moment += spring.moment(at);
+            turning[2] += spring.moment(at);
         }
-        (force, moment)
+        (force, turning.into())
     }
 
     /// Force (N) and moment (N m) of a coupling on what it couples to.
-    pub fn coupling(&self, system: &System, load: usize) -> (Vector2<N>, N) {
+    pub fn coupling(&self, system: &System<D>, load: usize) -> (Vector<D, N>, N) {
         let at = self.instant(system);
         match &system.loads[load] {
             Load::Coupling(coupling) => (coupling.force(at), N::of(0.0)),
-            Load::Turning(coupling) => (Vector2::zeros(), coupling.moment(at)),
-            _ => (Vector2::zeros(), N::of(0.0)),
+            Load::Turning(coupling) => (Vector::zeros(), coupling.moment(at)),
+            _ => (Vector::zeros(), N::of(0.0)),
         }
     }
 
-    pub(in crate::system) fn instant<'a>(&'a self, system: &'a System) -> Instant<'a, N> {
+    pub(in crate::system) fn instant<'a>(&'a self, system: &'a System<D>) -> Instant<'a, D, N> {
         Instant {
             time: self.time,
             inputs: &self.inputs,
@@ -163,7 +170,7 @@ impl<N: Number> Evaluation<N> {
         }
     }
 
-    pub(in crate::system) fn view<'a>(&'a self, system: &'a System) -> View<'a, N> {
+    pub(in crate::system) fn view<'a>(&'a self, system: &'a System<D>) -> View<'a, D, N> {
         View {
             x: &self.x,
             v: &self.v,
@@ -174,7 +181,7 @@ impl<N: Number> Evaluation<N> {
     }
 
     /// Power that comes in and that is dissipated, W.
-    pub fn power(&self, system: &System) -> [N; 2] {
+    pub fn power(&self, system: &System<D>) -> [N; 2] {
         let multiplied = system.constraints.iter().zip(self.lambda.iter().copied());
         let (at, view) = (self.instant(system), self.view(system));
         system.power(at, &view, &self.supply, multiplied)
@@ -182,7 +189,7 @@ impl<N: Number> Evaluation<N> {
 
     /// Largest residual of non-linear constraints: of positions, relative to their size, and of
     /// velocities, relative to size over time, 1/s. What roundoff leaves has no derivatives.
-    pub fn residuals(&self, system: &System) -> [f64; 2] {
+    pub fn residuals(&self, system: &System<D>) -> [f64; 2] {
         let view = self.view(system);
         [
             system.position_residual(&view),
@@ -191,12 +198,12 @@ impl<N: Number> Evaluation<N> {
     }
 
     /// Kinetic energy, J.
-    pub fn kinetic_energy(&self, system: &System) -> N {
+    pub fn kinetic_energy(&self, system: &System<D>) -> N {
         system.quadratic(&self.v)
     }
 
     /// Strain energy, J.
-    pub fn strain_energy(&self, system: &System) -> N {
+    pub fn strain_energy(&self, system: &System<D>) -> N {
         let energies = system
             .chains
             .iter()
@@ -205,7 +212,7 @@ impl<N: Number> Evaluation<N> {
     }
 
     /// Energy in springs, J.
-    pub fn spring_energy(&self, system: &System) -> N {
+    pub fn spring_energy(&self, system: &System<D>) -> N {
         let at = self.instant(system);
         let energies = system.loads.iter().map(|load| load.energy(at));
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
@@ -213,7 +220,7 @@ impl<N: Number> Evaluation<N> {
 
     /// Potential energy of gravity, zero at the origin, and of the centrifugal force in a turning frame,
     /// J.
-    pub fn gravity_energy(&self, system: &System) -> N {
+    pub fn gravity_energy(&self, system: &System<D>) -> N {
         let falls = system.weight.iter().zip(&self.x);
         let fall = falls.fold(N::of(0.0), |sum, (w, x)| sum + weighted(w, x));
         if system.rotation == 0.0 {
@@ -222,18 +229,18 @@ impl<N: Number> Evaluation<N> {
         -fall - system.centrifugal(&self.x)
     }
 
-    /// Momentum (kg m/s) and angular momentum about the origin (kg m^2/s).
-    pub fn momentum(&self, system: &System) -> (Vector2<N>, N) {
-        let (mut linear, mut angular) = (Vector2::zeros(), N::of(0.0));
-        let mut add = |x: [N; 2], p: [N; 2], translates: bool| {
+    /// Momentum (kg m/s) and angular momentum about the origin (kg m^2/s), in the plane its third component.
+    pub fn momentum(&self, system: &System<D>) -> (Vector<D, N>, [N; 3]) {
+        let (mut linear, mut angular) = (Vector::zeros(), Vector3::zeros());
+        let mut add = |x: Vector<D, N>, p: Vector<D, N>, translates: bool| {
             if translates {
-                linear += Vector2::from(p);
+                linear += p;
             }
-            angular += x[0] * p[1] - x[1] * p[0];
+            angular += Vector3::from(moment(&x, &p));
         };
         for chain in &system.chains {
             for (j, element) in chain.elements().iter().enumerate() {
-                let x: Nodal<2, N> = chain.element(j, &self.x);
+                let x: Nodal<D, N> = chain.element(j, &self.x);
                 let p = chain.element(j, &self.v) * element.mass().map(N::of);
                 for k in 0..4 {
                     add(x.column(k).into(), p.column(k).into(), k % 2 == 0);
@@ -245,15 +252,15 @@ impl<N: Number> Evaluation<N> {
             let (m, j) = (N::of(lump.mass), N::of(lump.inertia));
             let (x, d) = (marker.position(&self.x), marker.direction(&self.x));
             let (p, s) = (marker.position(&self.v) * m, marker.direction(&self.v) * j);
-            add(x.into(), p.into(), true);
-            add(d.into(), s.into(), false);
+            add(x, p, true);
+            add(d, s, false);
         }
-        (linear, angular)
+        (linear, angular.into())
     }
 
     /// Center of mass, m.
-    pub fn center_of_mass(&self, system: &System) -> Vector2<N> {
-        let mut sum = Vector2::zeros();
+    pub fn center_of_mass(&self, system: &System<D>) -> Vector<D, N> {
+        let mut sum = Vector::zeros();
         for chain in &system.chains {
             for (j, element) in chain.elements().iter().enumerate() {
                 sum += chain.element(j, &self.x) * element.weight().map(N::of);
@@ -266,34 +273,42 @@ impl<N: Number> Evaluation<N> {
     }
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// Chain, element and place inside it of a marker of a cable.
     pub(in crate::system) fn element(
         &self,
         marker: &Marker,
-    ) -> Option<(&crate::system::PlanarChain, usize, f64)> {
+    ) -> Option<(&CableChain<D>, usize, f64)> {
         let (j, xi) = marker.element?;
         let first = self.bodies[marker.body].start;
         let chain = self.chains.iter().find(|c| c.nodes(0)[0] == first)?;
         Some((chain, j, xi))
     }
 
+    /// The same; at a node the element after it, but at the last end.
+    pub(in crate::system) fn element_after(
+        &self,
+        marker: &Marker,
+    ) -> Option<(&CableChain<D>, usize, f64)> {
+        let (chain, j, xi) = self.element(marker)?;
+        let is_before = xi == 1.0 && j + 1 < chain.elements().len();
+        Some(if is_before {
+            (chain, j + 1, 0.0)
+        } else {
+            (chain, j, xi)
+        })
+    }
+
     /// Multiplier of a linear row from the forces that rows supply; zero for one that repeats others.
-    fn row_multiplier<N: Number>(&self, row: usize, supply: &[Node<4, N>]) -> N {
+    fn row_multiplier<N: Number>(&self, row: usize, supply: &[Node<D, N>]) -> N {
         match self.holds[row] {
             Some((cluster, k)) => {
                 let cluster = &self.elimination.assembly.clusters()[cluster];
                 let column = cluster.multipliers.row(k);
-                let nodes = cluster.nodes.iter().flat_map(|node| &supply[*node]);
+                let nodes = cluster.nodes.iter();
+                let nodes = nodes.flat_map(|node| supply[*node].as_flattened());
                 let terms = column.iter().zip(nodes);
                 terms.fold(N::of(0.0), |sum, (c, f)| sum + *f * N::of(*c))
-            }
-            None if self.elimination.assembly.clusters().is_empty() => {
-                // As printed, rows are no clusters; they apply to one node each.
-                let terms = &self.linear[row].row.terms;
-                let products = terms.iter().map(|(n, c)| weighted(c, &supply[*n]));
-                let sum = products.fold(N::of(0.0), |sum, product| sum + product);
-                sum / N::of(terms.iter().map(|(_, c)| dot(c, c)).sum::<f64>())
             }
             None => N::of(0.0),
         }

@@ -10,71 +10,71 @@
 //! J. T. Oden, J. N. Reddy, An Introduction to the Mathematical Theory of Finite Elements (1976), on forces at nodes
 //! from the balance of elements.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
 use crate::body::Marker;
+use crate::elements::cable::Cable;
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_3;
+use crate::math::space::{Vector, left, moment};
 use crate::system::loads::Load;
-use crate::system::{PlanarChain, System};
+use crate::system::{CableChain, System};
 
-impl<N: Number> Evaluation<N> {
+impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Force that the element before a node of a cable exerts on the one after it (report Eq. 14), N:
     /// what the one before lacks for equilibrium. Joints and point loads at the node count with what
     /// comes after. Zero at the first end.
-    pub fn connectivity_force(&self, system: &System, marker: &Marker) -> Vector2<N> {
+    pub fn connectivity_force(&self, system: &System<D>, marker: &Marker) -> Vector<D, N> {
         let Some((chain, j, xi)) = system.element(marker) else {
-            return Vector2::zeros();
+            return Vector::zeros();
         };
         let element = if xi < 0.5 { j.wrapping_sub(1) } else { j };
         if element >= chain.elements().len() {
-            return Vector2::zeros();
+            return Vector::zeros();
         }
         self.lack(system, (chain, element)).column(2).into()
     }
 
-    /// Axial force (N), the part of the section force along the tangent, and bending moment (N m) at a
+    /// Axial force (N), the part of the section force along the tangent, and bending moment (N m, in the plane its third component) at a
     /// marker of a cable; zero elsewhere. At a node they are those just after what acts there, but at
     /// the last end.
-    pub fn section(&self, system: &System, marker: &Marker) -> (N, N) {
-        let Some((chain, mut j, mut xi)) = system.element(marker) else {
-            return (N::of(0.0), N::of(0.0));
+    pub fn section(&self, system: &System<D>, marker: &Marker) -> (N, [N; 3]) {
+        let Some((chain, j, xi)) = system.element_after(marker) else {
+            return (N::of(0.0), [N::of(0.0); 3]);
         };
-        if xi == 1.0 && j + 1 < chain.elements().len() {
-            (j, xi) = (j + 1, 0.0);
-        }
         let (part, e) = (&chain.elements()[j], chain.element(j, &self.x));
         let lack = self.lack(system, (chain, j));
-        let column = |k: usize| -> Vector2<N> { lack.column(k).into() };
-        let slope = |xi: f64| -> Vector2<N> { e * shape::slopes(N::of(xi), part.length()) };
+        let column = |k: usize| -> Vector<D, N> { lack.column(k).into() };
+        let slope = |xi: f64| -> Vector<D, N> { e * shape::slopes(N::of(xi), part.length()) };
         let tangent = slope(xi).normalize();
         let bends = part.bends();
-        let moment = |moment: N| if bends { moment } else { N::of(0.0) };
+        let bending = |m: Vector3<N>| if bends { m } else { Vector3::zeros() };
         // At the ends: what the neighbours exert.
-        let [first, last] = [slope(0.0).perp(&column(1)), -slope(1.0).perp(&column(3))];
+        let first = Vector3::from(moment(&slope(0.0), &column(1)));
+        let last = -Vector3::from(moment(&slope(1.0), &column(3)));
         if xi == 1.0 {
-            return (-column(2).dot(&tangent), moment(last));
+            return (-column(2).dot(&tangent), bending(last).into());
         }
         let (force, turned) = self.integrated(system, (chain, j), column(0), xi);
         // The mass matrix counts quadratic and cubic parts of the motion more than the integral of their
         // products: the balance of moments over the element misses that much, spread evenly.
         let (_, whole) = self.integrated(system, (chain, j), column(0), 1.0);
         let missing = last - first + whole;
-        let moment = moment(first - turned + missing * N::of(xi));
-        (force.dot(&tangent), moment)
+        let moment = bending(first - turned + missing * N::of(xi));
+        (force.dot(&tangent), moment.into())
     }
 
     /// Section force at `xi` inside an element from that at its first end, and the integral of `r' x n` up
     /// to there.
     fn integrated(
         &self,
-        system: &System,
-        (chain, j): (&PlanarChain, usize),
-        first: Vector2<N>,
+        system: &System<D>,
+        (chain, j): (&CableChain<D>, usize),
+        first: Vector<D, N>,
         xi: f64,
-    ) -> (Vector2<N>, N) {
+    ) -> (Vector<D, N>, Vector3<N>) {
         let part = &chain.elements()[j];
         let (l, density) = (part.length(), N::of(line_density(part)));
         let (e, inertia) = (chain.element(j, &self.x), self.inertia(system, (chain, j)));
@@ -84,21 +84,21 @@ impl<N: Number> Evaluation<N> {
             first - load * N::of(xi * l) + inertia
         };
         // Gauss's rule is exact to degree 5; the part of degree 6 is of that order in the length.
-        let mut turned = N::of(0.0);
+        let mut turned = Vector3::zeros();
         for point in GAUSS_3 {
             let at = point.at * xi;
-            let slope: Vector2<N> = e * shape::slopes(N::of(at), l);
-            turned += slope.perp(&force(at)) * N::of(point.weight * xi * l);
+            let slope: Vector<D, N> = e * shape::slopes(N::of(at), l);
+            turned += Vector3::from(moment(&slope, &force(at))) * N::of(point.weight * xi * l);
         }
         (force(xi), turned)
     }
 
     /// What an element lacks for equilibrium, on its coordinates: elastic and damping forces and loads less
     /// inertia, N and N m. Its neighbours exert the opposite.
-    fn lack(&self, system: &System, (chain, j): (&PlanarChain, usize)) -> Nodal<2, N> {
+    fn lack(&self, system: &System<D>, (chain, j): (&CableChain<D>, usize)) -> Nodal<D, N> {
         let (e, v) = (chain.element(j, &self.x), chain.element(j, &self.v));
         let part = &chain.elements()[j];
-        let mut lack: Nodal<2, N> = part.force(&e, &v);
+        let mut lack: Nodal<D, N> = part.force(&e, &v);
         lack += (system.gravity * part.weight().transpose()).map(N::of);
         lack -= self.inertia(system, (chain, j)) * part.mass().map(N::of);
         let weights = part.weight() / line_density(part);
@@ -106,17 +106,17 @@ impl<N: Number> Evaluation<N> {
     }
 
     /// Absolute accelerations of the coordinates of an element, in the axes of the frame, m/s^2.
-    fn inertia(&self, system: &System, (chain, j): (&PlanarChain, usize)) -> Nodal<2, N> {
+    fn inertia(&self, system: &System<D>, (chain, j): (&CableChain<D>, usize)) -> Nodal<D, N> {
         let (e, v) = (chain.element(j, &self.x), chain.element(j, &self.v));
         let rate = system.rotation;
-        let turned = Matrix2::new(0.0, -1.0, 1.0, 0.0).map(N::of) * v;
+        let turned = Nodal::from_columns(&[0, 1, 2, 3].map(|k| left(v.column(k).into())));
         chain.element(j, &self.acceleration) + turned * N::of(2.0 * rate) - e * N::of(rate * rate)
     }
 
     /// Sum of the distributed loads on a cable, N/m.
-    fn distributed(&self, system: &System, chain: &PlanarChain) -> Vector2<N> {
+    fn distributed(&self, system: &System<D>, chain: &CableChain<D>) -> Vector<D, N> {
         let at = self.instant(system);
-        let mut sum = Vector2::zeros();
+        let mut sum = Vector::zeros();
         for load in &system.loads {
             if let Load::Distributed(load) = load
                 && std::ptr::eq(&system.chains[load.chain], chain)
@@ -129,7 +129,7 @@ impl<N: Number> Evaluation<N> {
 }
 
 /// Mass per reference length, kg/m.
-fn line_density<E: Element<2>>(element: &E) -> f64 {
+fn line_density<const D: usize>(element: &Cable<D>) -> f64 {
     let weight = element.weight();
     (weight[0] + weight[2]) / element.length()
 }

@@ -12,7 +12,12 @@ const MARGIN: f64 = 1.02;
 /// stiffness and damping.
 ///
 /// Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., section 10.1.
-pub fn fastest(system: &System, inputs: &[f64], work: &mut Work, state: &State) -> (f64, f64) {
+pub fn fastest<const D: usize>(
+    system: &System<D>,
+    inputs: &[f64],
+    work: &mut Work<D>,
+    state: &State,
+) -> (f64, f64) {
     let n = state.rates.len();
     let rest = vec![0.0; n];
     Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);

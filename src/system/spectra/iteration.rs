@@ -43,17 +43,17 @@ pub(super) enum NotFound {
 }
 
 /// Lowest eigenvalues of the symmetric `K`, which is assembled in `work` as well, ascending; so many or more.
-pub(super) fn lowest(
-    system: &System,
-    work: &mut Work,
-    linear: &Linearization<'_>,
+pub(super) fn lowest<const D: usize>(
+    system: &System<D>,
+    work: &mut Work<D>,
+    linear: &Linearization<'_, D>,
     count: usize,
 ) -> Result<Vec<f64>, NotFound> {
     let modes = linear.modes();
     let scale = scale(system, work, count)?;
     let missing = NotFound::Missing(count);
     let mut shift = -0.1 * scale;
-    let is_below = |shift: f64, work: &mut Work| below(system, work, shift) == Some(0);
+    let is_below = |shift: f64, work: &mut Work<D>| below(system, work, shift) == Some(0);
     for _ in 0..2 * DECADES {
         if is_below(shift, work) {
             break;
@@ -100,7 +100,10 @@ pub(super) fn lowest(
 }
 
 /// Eigenvalues of `K` in the whole basis, free of the roundoff of its sparse form; what is roundoff still is zero.
-fn refined(linear: &Linearization<'_>, krylov: &Krylov) -> Result<Vec<f64>, NotFound> {
+fn refined<const D: usize>(
+    linear: &Linearization<'_, D>,
+    krylov: &Krylov,
+) -> Result<Vec<f64>, NotFound> {
     let basis = krylov.basis();
     let [stiffness, _] = linear.project(basis);
     let symmetric = (&stiffness + stiffness.transpose()) * 0.5;
@@ -166,13 +169,17 @@ fn split(
 }
 
 /// Number of eigenvalues of `K` below; the shift gives way where it is one of them.
-fn below(system: &System, work: &mut Work, shift: f64) -> Option<usize> {
+fn below<const D: usize>(system: &System<D>, work: &mut Work<D>, shift: f64) -> Option<usize> {
     let mut factor = |shift: f64| work.tangent.factor_below(&system.elimination, shift);
     factor(shift).or_else(|| factor(shift * (1.0 + 1e-9)))
 }
 
 /// Size of the eigenvalue number `count` of the symmetric `K`, to a factor of ten upwards.
-fn scale(system: &System, work: &mut Work, count: usize) -> Result<f64, NotFound> {
+fn scale<const D: usize>(
+    system: &System<D>,
+    work: &mut Work<D>,
+    count: usize,
+) -> Result<f64, NotFound> {
     let n = system.coordinates();
     let tangent = &mut work.tangent;
     let largest = largest_eigenvalue(n, |x| tangent.apply_stiffness(&system.elimination, x));
@@ -196,10 +203,10 @@ fn scale(system: &System, work: &mut Work, count: usize) -> Result<f64, NotFound
 }
 
 /// Slowest eigenvalues `s` where `K` is symmetric and `R` vanishes, so many or more.
-pub(super) fn slowest_conservative(
-    system: &System,
-    work: &mut Work,
-    linear: &Linearization<'_>,
+pub(super) fn slowest_conservative<const D: usize>(
+    system: &System<D>,
+    work: &mut Work<D>,
+    linear: &Linearization<'_, D>,
     count: usize,
 ) -> Result<Vec<Complex<f64>>, NotFound> {
     // Unstable modes come first, however fast they are.
@@ -215,10 +222,10 @@ pub(super) fn slowest_conservative(
 }
 
 /// Slowest eigenvalues `s` of `s^2 I + s R + K`, so many or more, of a pair the one with the positive imaginary part.
-pub(super) fn slowest(
-    system: &System,
-    work: &mut Work,
-    linear: &Linearization<'_>,
+pub(super) fn slowest<const D: usize>(
+    system: &System<D>,
+    work: &mut Work<D>,
+    linear: &Linearization<'_, D>,
     count: usize,
 ) -> Result<Vec<Complex<f64>>, NotFound> {
     let missing = NotFound::Missing(count);
@@ -303,8 +310,8 @@ fn surely_slowest(ritz: &[Ritz], shift: f64) -> (Vec<Complex<f64>>, Option<f64>)
 
 /// The values of the equations in the span of all displacements found, nearest to those found so far: free of the
 /// roundoff of the sparse form.
-fn improved(
-    linear: &Linearization<'_>,
+fn improved<const D: usize>(
+    linear: &Linearization<'_, D>,
     krylov: &Krylov,
     mut found: Vec<Complex<f64>>,
 ) -> Vec<Complex<f64>> {
@@ -339,7 +346,11 @@ fn improved(
 
 /// Number of eigenvalues inside a circle about 0, conjugate ones both: how often the determinant goes around while
 /// `s` goes round half of it.
-fn inside(linear: &Linearization<'_>, radius: f64, expected: usize) -> Option<usize> {
+fn inside<const D: usize>(
+    linear: &Linearization<'_, D>,
+    radius: f64,
+    expected: usize,
+) -> Option<usize> {
     let phases = |angle: f64| {
         let s = Complex::from_polar(radius, angle);
         linear.shifted(s).map(|shifted| shifted.phases())

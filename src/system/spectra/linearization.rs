@@ -11,11 +11,12 @@
 //! Sources: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), section 3.1; J. M. Lee, Introduction to
 //! Riemannian Manifolds, 2nd ed. (2018), proposition 10.4 (variation of motions on a manifold).
 
-use nalgebra::{DMatrix, SMatrix};
+use nalgebra::DMatrix;
 
-use crate::body::{Assembly, Elimination, Node, NodeBlock};
+use crate::body::{Assembly, Elimination, Node, NodeBlock, left_node, map_node, no_block, no_node};
 use crate::elements::{self, Element, Nodal};
-use crate::math::jet::{Jet, Number};
+use crate::math::jet::{Jet, Number, moving};
+use crate::math::space::Vector;
 use crate::math::sparse::General;
 use crate::system::end::End;
 use crate::system::instant::Instant;
@@ -27,8 +28,8 @@ const SKEW: f64 = 1e-10;
 
 /// `K` and `R` over the free coordinates, and what constraints make of them.
 #[derive(Clone, Debug)]
-pub(super) struct Linearization<'a> {
-    pub elimination: &'a Elimination<4>,
+pub(super) struct Linearization<'a, const D: usize> {
+    pub elimination: &'a Elimination<D>,
     pub stiffness: General<f64>,
     pub damping: General<f64>,
     /// What elements of cables add to both, element by element, and both without that.
@@ -49,8 +50,8 @@ pub(super) struct Linearization<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Elastic {
     pub nodes: [usize; 2],
-    pub stiffness: SMatrix<f64, 8, 8>,
-    pub damping: Option<SMatrix<f64, 8, 8>>,
+    pub stiffness: DMatrix<f64>,
+    pub damping: Option<DMatrix<f64>>,
 }
 
 /// Rows and columns around the matrices, in the coordinates of one group of constraints.
@@ -64,21 +65,21 @@ pub(super) struct Border {
 }
 
 /// Nodal vectors that carry derivatives, of which few at a time are not zero.
-struct Probe {
-    x: Vec<Node<4, Jet>>,
-    v: Vec<Node<4, Jet>>,
-    f: Vec<Node<4, Jet>>,
+struct Probe<const D: usize> {
+    x: Vec<Node<D, Jet>>,
+    v: Vec<Node<D, Jet>>,
+    f: Vec<Node<D, Jet>>,
 }
 
-type Nodes = [Node<4, Jet>];
+type Nodes<const D: usize> = [Node<D, Jet>];
 
-impl Probe {
-    fn new(x: &[Node<4>], v: &[Node<4>]) -> Self {
-        let lift = |x: &[Node<4>]| x.iter().map(|x| x.map(Jet::from_re)).collect();
+impl<const D: usize> Probe<D> {
+    fn new(x: &[Node<D>], v: &[Node<D>]) -> Self {
+        let lift = |x: &[Node<D>]| x.iter().map(|x| map_node(x, Jet::from_re)).collect();
         Self {
             x: lift(x),
             v: lift(v),
-            f: vec![[Jet::from_re(0.0); 4]; x.len()],
+            f: vec![[[Jet::from_re(0.0); D]; 2]; x.len()],
         }
     }
 
@@ -87,30 +88,42 @@ impl Probe {
         &mut self,
         nodes: &[usize],
         by_rates: bool,
-        force: &dyn Fn(&Nodes, &Nodes, &mut Nodes),
+        force: &dyn Fn(&Nodes<D>, &Nodes<D>, &mut Nodes<D>),
     ) -> Blocks {
         let mut nodes = nodes.to_vec();
         nodes.sort_unstable();
         nodes.dedup();
-        let size = 4 * nodes.len();
+        let size = 2 * D * nodes.len();
         let mut whole = DMatrix::zeros(size, size);
         for (j, column) in nodes.iter().enumerate() {
-            for c in 0..4 {
+            for c in 0..2 * D {
                 let seeded = if by_rates { &mut self.v } else { &mut self.x };
-                seeded[*column][c].v1 = 1.0;
+                seeded[*column].as_flattened_mut()[c].v1 = 1.0;
                 force(&self.x, &self.v, &mut self.f);
                 let seeded = if by_rates { &mut self.v } else { &mut self.x };
-                seeded[*column][c].v1 = 0.0;
+                seeded[*column].as_flattened_mut()[c].v1 = 0.0;
                 for (i, row) in nodes.iter().enumerate() {
-                    let force = std::mem::replace(&mut self.f[*row], [Jet::from_re(0.0); 4]);
-                    for (r, force) in force.iter().enumerate() {
-                        whole[(4 * i + r, 4 * j + c)] = -force.v1;
+                    let none = [[Jet::from_re(0.0); D]; 2];
+                    let force = std::mem::replace(&mut self.f[*row], none);
+                    for (r, force) in force.as_flattened().iter().enumerate() {
+                        whole[(2 * D * i + r, 2 * D * j + c)] = -force.v1;
                     }
                 }
             }
         }
         Blocks { nodes, whole }
     }
+}
+
+/// A block over two nodes.
+fn part<const D: usize>(whole: &DMatrix<f64>, i: usize, j: usize) -> NodeBlock<D> {
+    let mut block = no_block::<D>();
+    for (r, row) in block.as_flattened_mut().iter_mut().enumerate() {
+        for (c, entry) in row.as_flattened_mut().iter_mut().enumerate() {
+            *entry = whole[(2 * D * i + r, 2 * D * j + c)];
+        }
+    }
+    block
 }
 
 /// A matrix over a few nodes.
@@ -124,35 +137,33 @@ impl Blocks {
         (&self.whole - self.whole.transpose()).amax() <= SKEW * self.whole.amax()
     }
 
-    fn add(
+    fn add<const D: usize>(
         &self,
-        assembly: &Assembly<4>,
+        assembly: &Assembly<D>,
         matrix: &mut General<f64>,
         elsewhere: &mut dyn FnMut(usize, usize, f64),
     ) {
         for (i, row) in self.nodes.iter().enumerate() {
             for (j, column) in self.nodes.iter().enumerate() {
-                let entry = |r: usize, c: usize| self.whole[(4 * i + r, 4 * j + c)];
-                let block: NodeBlock<4> =
-                    std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c)));
+                let block = part(&self.whole, i, j);
                 assembly.add_block((*row, *column), &block, matrix, elsewhere);
             }
         }
     }
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// The equations linearized at the configuration in `work`, at which an acceleration has been computed
     /// if there are constraints. `at_rest` takes all rates as zero and leaves dampers out.
     pub(super) fn linearization(
         &self,
         time: f64,
-        work: &mut Work,
+        work: &mut Work<D>,
         at_rest: bool,
-    ) -> Linearization<'_> {
+    ) -> Linearization<'_, D> {
         let pattern = self.elimination.assembly.pattern();
         if at_rest {
-            work.v.fill([0.0; 4]);
+            work.v.fill(no_node());
         }
         let mut made = Linearization {
             elimination: &self.elimination,
@@ -195,45 +206,43 @@ impl System {
 
     fn linearize_chains(
         &self,
-        work: &Work,
+        work: &Work<D>,
         at_rest: bool,
-        probe: &mut Probe,
-        made: &mut Linearization<'_>,
+        probe: &mut Probe<D>,
+        made: &mut Linearization<'_, D>,
     ) {
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
         for chain in &self.chains {
             let is_damped = chain.is_damped() && !at_rest;
-            let moves = is_damped && work.v.iter().flatten().any(|v| *v != 0.0);
+            let moves = is_damped && work.v.iter().any(|v| *v != no_node());
             made.is_damped |= is_damped;
             made.is_symmetric &= !moves;
             for (j, element) in chain.elements().iter().enumerate() {
                 let (nodes, e) = (chain.nodes(j), chain.element(j, &work.x));
                 let stiffness = if moves {
-                    let force = |x: &Nodes, v: &Nodes, f: &mut Nodes| {
-                        let force: Nodal<2, Jet> =
+                    let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
+                        let force: Nodal<D, Jet> =
                             element.force(&chain.element(j, x), &chain.element(j, v));
                         let f = f[nodes[0]..=nodes[1]].as_flattened_mut();
-                        f.iter_mut()
+                        f.as_flattened_mut()
+                            .iter_mut()
                             .zip(force.as_slice())
                             .for_each(|(sum, f)| *sum += *f);
                     };
-                    let whole = probe.differentiate(&nodes, false, &force).whole;
-                    SMatrix::from_fn(|r, c| whole[(r, c)])
+                    probe.differentiate(&nodes, false, &force).whole
                 } else {
                     elements::whole(&element.stiffness(&e, &Nodal::zeros()))
                 };
                 let damping = is_damped.then(|| elements::whole(&element.damping(&e)));
                 let places = [
-                    (Some(stiffness), &mut made.stiffness),
-                    (damping, &mut made.damping),
+                    (Some(&stiffness), &mut made.stiffness),
+                    (damping.as_ref(), &mut made.damping),
                 ];
                 for (matrix, place) in places {
                     for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                        let Some(matrix) = &matrix else { continue };
-                        let entry = |r: usize, c: usize| matrix[(4 * a + r, 4 * b + c)];
-                        let block: NodeBlock<4> =
-                            std::array::from_fn(|r| std::array::from_fn(|c| entry(r, c)));
+                        let Some(matrix) = matrix else { continue };
+                        let block = part(matrix, a, b);
                         assembly.add_block((nodes[a], nodes[b]), &block, place, &mut none);
                     }
                 }
@@ -249,10 +258,10 @@ impl System {
     fn linearize_loads(
         &self,
         time: f64,
-        work: &Work,
+        work: &Work<D>,
         at_rest: bool,
-        probe: &mut Probe,
-        made: &mut Linearization<'_>,
+        probe: &mut Probe<D>,
+        made: &mut Linearization<'_, D>,
     ) {
         let assembly = &self.elimination.assembly;
         let lift = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
@@ -262,7 +271,7 @@ impl System {
         let mut following: Option<General<f64>> = None;
         for (index, load) in self.loads.iter().enumerate() {
             let nodes: Vec<usize> = load.ends().iter().flat_map(End::nodes).collect();
-            let force = |x: &Nodes, v: &Nodes, f: &mut Nodes| {
+            let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
                 let at = Instant {
                     time: Jet::from_re(time),
                     inputs: &inputs,
@@ -297,7 +306,7 @@ impl System {
     }
 
     /// Forces of a turning frame.
-    fn linearize_frame(&self, made: &mut Linearization<'_>) {
+    fn linearize_frame(&self, made: &mut Linearization<'_, D>) {
         let rate = self.rotation;
         if rate == 0.0 {
             return;
@@ -306,15 +315,17 @@ impl System {
         let mut none = |_: usize, _: usize, _: f64| {};
         made.stiffness
             .add_symmetric(-rate * rate, &self.elimination.mass);
-        let turned = |x: [f64; 4]| [-x[1], x[0], -x[3], x[2]];
-        let mut add = |nodes: &[usize], mass: &dyn Fn([f64; 4], usize, usize) -> [f64; 4]| {
+        let mut add = |nodes: &[usize], mass: &dyn Fn(Node<D>, usize, usize) -> Node<D>| {
             for a in nodes {
                 for b in nodes {
-                    let mut block = [[0.0; 4]; 4];
-                    for c in 0..4 {
-                        let unit = std::array::from_fn(|k| f64::from(u8::from(k == c)));
-                        let force = mass(turned(unit), *a, *b);
-                        (0..4).for_each(|r| block[r][c] = 2.0 * rate * force[r]);
+                    let mut block = no_block();
+                    for (q, c) in [0, 1].into_iter().flat_map(|q| (0..D).map(move |c| (q, c))) {
+                        let mut unit = no_node();
+                        unit[q][c] = 1.0;
+                        let force = mass(left_node(&unit), *a, *b);
+                        for (p, r) in [0, 1].into_iter().flat_map(|p| (0..D).map(move |r| (p, r))) {
+                            block[p][r][q][c] = 2.0 * rate * force[p][r];
+                        }
                     }
                     assembly.add_block((*a, *b), &block, &mut made.damping, &mut none);
                 }
@@ -325,14 +336,14 @@ impl System {
                 let (nodes, mass) = (chain.nodes(j), element.mass());
                 add(&nodes, &|x, a, b| {
                     let (row, column) = (2 * (a - nodes[0]), 2 * (b - nodes[0]));
-                    std::array::from_fn(|r| {
-                        let m = |k: usize| mass[(row + r / 2, column + k)];
-                        m(0) * x[r % 2] + m(1) * x[2 + r % 2]
+                    [0, 1].map(|p| {
+                        let m = |k: usize| mass[(row + p, column + k)];
+                        std::array::from_fn(|d| m(0) * x[0][d] + m(1) * x[1][d])
                     })
                 });
             }
         }
-        let mut scratch = vec![[0.0; 4]; self.reference.len()];
+        let mut scratch = vec![no_node(); self.reference.len()];
         for lump in &self.lumps {
             let marker = lump.marker;
             let nodes = &marker.nodes[..if marker.is_nodal() { 1 } else { 2 }];
@@ -340,9 +351,9 @@ impl System {
             add(nodes, &|x, a, b| {
                 let mut nodal = scratch.borrow_mut();
                 nodal[b] = x;
-                let at = marker.position(&nodal) * lump.mass;
+                let at: Vector<D> = marker.position(&nodal) * lump.mass;
                 let on = marker.direction(&nodal) * lump.inertia;
-                nodal[b] = [0.0; 4];
+                nodal[b] = no_node();
                 let forces = marker.forces(at, on);
                 forces[usize::from(a != nodes[0])].1
             });
@@ -352,9 +363,9 @@ impl System {
     /// `d (J^T lambda) / dx` of one constraint.
     fn linearize_constraint(
         &self,
-        work: &Work,
-        (constraint, lambda): (&Constraint, f64),
-        probe: &mut Probe,
+        work: &Work<D>,
+        (constraint, lambda): (&Constraint<D>, f64),
+        probe: &mut Probe<D>,
     ) -> Blocks {
         let lift = |x: &f64| Jet::from_re(*x);
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
@@ -368,7 +379,7 @@ impl System {
                 .chain(along.end.nodes())
                 .collect();
         }
-        let force = |x: &Nodes, v: &Nodes, f: &mut Nodes| {
+        let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
             let mut travel: Vec<Jet> = work.travel.iter().map(lift).collect();
             if let ConstraintKind::Along(along) = &constraint.kind {
                 let place = &mut travel[along.slide];
@@ -382,7 +393,8 @@ impl System {
                 travel: &travel,
             };
             constraint.gradient(&view).for_each(|node, term| {
-                for (f, term) in f[node].iter_mut().zip(term) {
+                let f = f[node].as_flattened_mut().iter_mut();
+                for (f, term) in f.zip(term.as_flattened()) {
                     *f -= *term * Jet::of(lambda);
                 }
             });
@@ -391,18 +403,17 @@ impl System {
     }
 
     /// Rates of the rows of a group's Jacobian, in `q`; nothing where they do not turn.
-    fn turning_rows(&self, work: &Work, index: usize) -> Option<Vec<Vec<f64>>> {
+    fn turning_rows(&self, work: &Work<D>, index: usize) -> Option<Vec<Vec<f64>>> {
         let group = &work.groups[index];
-        let is_still = work.v.iter().flatten().all(|v| *v == 0.0)
+        let is_still = work.v.iter().all(|v| *v == no_node())
             && work.drives.iter().all(|drive| drive[1] == 0.0);
         if is_still {
             return None;
         }
         let pairs = work.x.iter().zip(&work.v);
-        let moving =
-            |(x, v): (&Node<4>, &Node<4>)| std::array::from_fn(|i| Jet::new(x[i], v[i], 0.0));
-        let x: Vec<Node<4, Jet>> = pairs.map(moving).collect();
-        let v: Vec<Node<4, Jet>> = work.v.iter().map(|v| v.map(Jet::from_re)).collect();
+        let x: Vec<Node<D, Jet>> = pairs.map(|(x, v)| moving(x, v)).collect();
+        let v = work.v.iter().map(|v| map_node(v, Jet::from_re));
+        let v: Vec<Node<D, Jet>> = v.collect();
         let lift = |[p, v, a]: &[f64; 3]| {
             [
                 Jet::new(*p, *v, 0.0),
@@ -425,7 +436,12 @@ impl System {
             let mut row = vec![0.0; group.coordinates.len()];
             constraint.gradient(&view).for_each(|node, term| {
                 let assembly = &self.elimination.assembly;
-                assembly.gather_node(node, &term.map(|t| t.v1), group.coordinates.start, &mut row);
+                assembly.gather_node(
+                    node,
+                    &map_node(term, |t| t.v1),
+                    group.coordinates.start,
+                    &mut row,
+                );
             });
             self.elimination
                 .project_component(group.component, &mut row);
@@ -437,11 +453,11 @@ impl System {
     /// What the constraints of a group, and entries of `K` that are stored nowhere, put around the matrices.
     fn border(
         &self,
-        work: &Work,
+        work: &Work<D>,
         index: usize,
         elsewhere: &[(usize, usize, f64)],
         turning: Option<Vec<Vec<f64>>>,
-        made: &mut Linearization<'_>,
+        made: &mut Linearization<'_, D>,
     ) -> Border {
         let (group, elimination) = (&work.groups[index], &self.elimination);
         let (range, n) = (group.coordinates.clone(), group.coordinates.len());

@@ -4,10 +4,10 @@
 //! Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005),
 //! section 5 (Schur complement).
 
-use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU, SVector};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU};
 
 use super::linearization::{Border, Elastic, Linearization};
-use crate::body::Node;
+use crate::body::{Node, add_node, no_node};
 use crate::math::row_space::RowSpace;
 use crate::math::sparse::{self, Factors, General};
 use crate::math::vector::dot;
@@ -16,15 +16,15 @@ use crate::math::vector::dot;
 type BorderFactors<T> = (Vec<Vec<T>>, LU<T, Dyn, Dyn>);
 
 /// Factors of `s^2 I + s R + K` for one `s`.
-pub(super) struct Shifted<'a, T: ComplexField> {
-    of: &'a Linearization<'a>,
+pub(super) struct Shifted<'a, const D: usize, T: ComplexField> {
+    of: &'a Linearization<'a, D>,
     factors: Factors<T>,
     /// For every border its solutions and the factors of what remains.
     borders: Vec<BorderFactors<T>>,
     y: Vec<T>,
 }
 
-impl<'a> Linearization<'a> {
+impl<'a, const D: usize> Linearization<'a, D> {
     /// Number of free coordinates: of motions that keep the constraints.
     pub fn modes(&self) -> usize {
         self.elimination.coordinates() - self.units.len()
@@ -56,7 +56,7 @@ impl<'a> Linearization<'a> {
         let (mut y, mut product, mut out) = (vec![0.0; m], vec![0.0; m], vec![0.0; n]);
         for (k, q) in columns.iter().enumerate() {
             self.elimination.displacements(q, &mut y);
-            let mut x: Vec<Node<4>> = vec![[0.0; 4]; assembly.nodes()];
+            let mut x: Vec<Node<D>> = vec![no_node(); assembly.nodes()];
             assembly.spread(&y, &mut x);
             nodal.push(x);
             for (which, matrix) in self.others.iter().enumerate() {
@@ -81,7 +81,7 @@ impl<'a> Linearization<'a> {
             }
         }
         for element in &self.elements {
-            let local: Vec<SVector<f64, 8>> = nodal.iter().map(|x| element.relative(x)).collect();
+            let local: Vec<DVector<f64>> = nodal.iter().map(|x| element.relative(x)).collect();
             let [stiffness, damping] = &mut projected;
             let matrices = [
                 (Some(&element.stiffness), stiffness),
@@ -103,7 +103,7 @@ impl<'a> Linearization<'a> {
     /// Sum of the sizes of all terms that `q^T K q` is summed from.
     pub fn size(&self, q: &[f64]) -> f64 {
         let assembly = &self.elimination.assembly;
-        let (mut y, mut x) = (vec![0.0; q.len()], vec![[0.0; 4]; assembly.nodes()]);
+        let (mut y, mut x) = (vec![0.0; q.len()], vec![no_node(); assembly.nodes()]);
         self.elimination.displacements(q, &mut y);
         assembly.spread(&y, &mut x);
         let mut force = vec![0.0; q.len()];
@@ -111,7 +111,7 @@ impl<'a> Linearization<'a> {
         let others: f64 = y.iter().zip(force).map(|(y, f)| (y * f).abs()).sum();
         let elastic = self.elements.iter().map(|element| {
             let e = element.relative(&x).abs();
-            e.dot(&(element.stiffness.abs() * e))
+            e.dot(&(element.stiffness.abs() * &e))
         });
         others + elastic.sum::<f64>()
     }
@@ -146,7 +146,7 @@ impl<'a> Linearization<'a> {
     }
 
     /// Factors `s^2 I + s R + K`. `None` where that is singular.
-    pub fn shifted<T: ComplexField + sparse::Number>(&'a self, s: T) -> Option<Shifted<'a, T>> {
+    pub fn shifted<T: ComplexField + sparse::Number>(&'a self, s: T) -> Option<Shifted<'a, D, T>> {
         let pattern = self.elimination.assembly.pattern();
         let mut matrix = General::zeros(pattern);
         matrix.add_symmetric(s * s, &self.elimination.mass);
@@ -170,13 +170,15 @@ impl<'a> Linearization<'a> {
 
 impl Elastic {
     /// Displacements of the nodes relative to the position of the first.
-    fn relative(&self, x: &[Node<4>]) -> SVector<f64, 8> {
-        let [a, b] = self.nodes.map(|node| x[node]);
-        SVector::from([0.0, 0.0, a[2], a[3], b[0] - a[0], b[1] - a[1], b[2], b[3]])
+    fn relative<const D: usize>(&self, x: &[Node<D>]) -> DVector<f64> {
+        let [a, mut b] = self.nodes.map(|node| x[node]);
+        add_node(&mut b, -1.0, &[a[0], [0.0; D]]);
+        let relative = [[0.0; D], a[1], b[0], b[1]];
+        DVector::from_column_slice(relative.as_flattened())
     }
 }
 
-impl<T: ComplexField + sparse::Number> Shifted<'_, T> {
+impl<const D: usize, T: ComplexField + sparse::Number> Shifted<'_, D, T> {
     fn factor_border(&mut self, border: &Border) -> BorderFactors<T> {
         let pattern = self.of.elimination.assembly.pattern();
         let real = <T as From<f64>>::from;
@@ -223,7 +225,7 @@ impl<T: ComplexField + sparse::Number> Shifted<'_, T> {
     }
 }
 
-impl Shifted<'_, f64> {
+impl<const D: usize> Shifted<'_, D, f64> {
     /// Solves in place, in the coordinates `q`. False where that is singular.
     pub fn solve(&mut self, q: &mut [f64]) -> bool {
         let elimination = self.of.elimination;
@@ -234,7 +236,7 @@ impl Shifted<'_, f64> {
     }
 }
 
-impl Shifted<'_, Complex<f64>> {
+impl<const D: usize> Shifted<'_, D, Complex<f64>> {
     /// Numbers of size 1 whose product is that of the determinant but for a sign that is the same for all shifts.
     /// Each changes slowly with the shift, which the product of very many need not.
     pub fn phases(&self) -> Vec<Complex<f64>> {

@@ -1,11 +1,12 @@
 //! Eigenvalues of small motions about a state: natural frequencies of what is conservative, decay rates and
 //! frequencies of anything.
 
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, DMatrix, Matrix3, Vector3};
 
 use super::dense::{general, noise, quadratic, roots, sort, symmetric};
 use super::iteration::{self, NotFound};
 use super::linearization::Linearization;
+use crate::body::{Node, add_node, no_node};
 use crate::system::{Dynamics, Model, State, System, Work};
 
 /// Free coordinates up to which all eigenvalues are computed, with dense matrices; and up to which they are
@@ -59,10 +60,10 @@ impl From<NotFound> for SpectrumError {
 
 /// The equations of motion linearized at a state, `x'' + R x' + K x = 0`: an orthonormal basis, in the coordinates `q`,
 /// of the motions that keep the constraints, then `K` and `R` in that basis.
-pub fn linearized(
-    system: &System,
+pub fn linearized<const D: usize>(
+    system: &System<D>,
     inputs: &[f64],
-    work: &mut Work,
+    work: &mut Work<D>,
     state: &State,
 ) -> [DMatrix<f64>; 3] {
     let linear = at(system, inputs, work, state);
@@ -71,7 +72,12 @@ pub fn linearized(
 }
 
 /// The equations linearized at a state as it is.
-fn at<'a>(system: &'a System, inputs: &[f64], work: &mut Work, state: &State) -> Linearization<'a> {
+fn at<'a, const D: usize>(
+    system: &'a System<D>,
+    inputs: &[f64],
+    work: &mut Work<D>,
+    state: &State,
+) -> Linearization<'a, D> {
     let (q, v) = (&state.coordinates, &state.rates);
     Model::new(system, inputs, work, state).linearize(state.time, q, v);
     system.linearization(state.time, work, false)
@@ -85,10 +91,10 @@ fn at<'a>(system: &'a System, inputs: &[f64], work: &mut Work, state: &State) ->
 ///
 /// # Errors
 /// Loads that follow, more frequencies than modes, and what the iteration does not find.
-pub fn natural_frequencies(
-    system: &System,
+pub fn natural_frequencies<const D: usize>(
+    system: &System<D>,
     inputs: &[f64],
-    work: &mut Work,
+    work: &mut Work<D>,
     state: &State,
     count: usize,
 ) -> Result<Vec<f64>, SpectrumError> {
@@ -153,10 +159,10 @@ pub fn natural_frequencies(
 ///
 /// # Errors
 /// More eigenvalues than there are, and what the iteration does not find.
-pub fn eigenvalues(
-    system: &System,
+pub fn eigenvalues<const D: usize>(
+    system: &System<D>,
     inputs: &[f64],
-    work: &mut Work,
+    work: &mut Work<D>,
     state: &State,
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
@@ -190,7 +196,7 @@ pub fn eigenvalues(
 }
 
 /// All eigenvalues, by dense matrices; of a pair the one with the positive imaginary part.
-fn all(linear: &Linearization<'_>) -> Result<Vec<Complex<f64>>, SpectrumError> {
+fn all<const D: usize>(linear: &Linearization<'_, D>) -> Result<Vec<Complex<f64>>, SpectrumError> {
     let [stiffness, damping] = linear.dense();
     if linear.is_damped {
         return quadratic(&stiffness, &damping).ok_or(SpectrumError::NotFinite);
@@ -207,46 +213,62 @@ fn all(linear: &Linearization<'_>) -> Result<Vec<Complex<f64>>, SpectrumError> {
 
 /// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an
 /// eigenvalue for longer than an instant, and in the frame that turns with them gyroscopic forces act.
-fn refuse_turning(
-    system: &System,
-    linear: &Linearization<'_>,
+fn refuse_turning<const D: usize>(
+    system: &System<D>,
+    linear: &Linearization<'_, D>,
     state: &State,
 ) -> Result<(), SpectrumError> {
     let elimination = &system.elimination;
     let (mut y, mut v) = (
         vec![0.0; elimination.scratch()],
-        vec![[0.0; 4]; system.reference.len()],
+        vec![no_node(); system.reference.len()],
     );
     elimination.expand(&state.coordinates, &mut y, &mut v);
     let mut x = v.clone();
     for (x, reference) in x.iter_mut().zip(&system.reference) {
-        x.iter_mut().zip(reference).for_each(|(x, r)| *x += r);
+        add_node(x, 1.0, reference);
     }
     elimination.expand(&state.rates, &mut y, &mut v);
-    let rate = |node: usize| {
-        let (x, v) = (
-            Complex::new(x[node][2], x[node][3]),
-            Complex::new(v[node][2], v[node][3]),
-        );
-        v / x
+    let slope = |x: &Node<D>| -> Vector3<f64> {
+        Vector3::from_fn(|k, _| x[1].get(k).copied().unwrap_or(0.0))
     };
     for chain in &system.chains {
         let first = chain.nodes(0)[0];
-        let turn = rate(first);
-        let alike =
-            |node: usize| (rate(node) - Complex::new(0.0, turn.im)).norm() <= 1e-9 * turn.im.abs();
-        if turn.im == 0.0 || !(first..first + chain.node_count()).all(alike) {
+        let nodes = first..first + chain.node_count();
+        let turn = spin(nodes.clone().map(|node| [&x, &v].map(|x| slope(&x[node]))));
+        let alike = |node: usize| {
+            let [u, rate] = [&x, &v].map(|x| slope(&x[node]));
+            (rate - turn.cross(&u)).norm() <= 1e-9 * turn.norm() * u.norm()
+        };
+        if turn.norm() == 0.0 || !nodes.clone().all(alike) {
             continue;
         }
         let [stiffness, _] = linear.project(std::slice::from_ref(&state.rates));
         if stiffness[(0, 0)].abs() <= 1e-9 * linear.size(&state.rates) {
-            return Err(SpectrumError::Turns(turn.im));
+            return Err(SpectrumError::Turns(match D {
+                2 => turn.z,
+                _ => turn.norm(),
+            }));
         }
     }
     Ok(())
 }
 
-fn is_small(linear: &Linearization<'_>, count: usize) -> bool {
+/// The spin that comes closest to the rates of vectors: vectors and rates.
+fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
+    let (mut inertia, mut momentum) = (Matrix3::zeros(), Vector3::zeros());
+    for [u, rate] in vectors {
+        inertia += Matrix3::identity() * u.norm_squared() - u * u.transpose();
+        momentum += u.cross(&rate);
+    }
+    // A straight cable does not notice a turn about itself.
+    let solved = inertia
+        .svd(true, true)
+        .solve(&momentum, 1e-12 * inertia.norm());
+    solved.unwrap_or_else(|_| Vector3::zeros())
+}
+
+fn is_small<const D: usize>(linear: &Linearization<'_, D>, count: usize) -> bool {
     let n = linear.elimination.coordinates();
     // The elimination as printed has no other solves.
     n <= SMALL || (n <= MIDDLE && SHARE * count > n) || n != linear.elimination.scratch()

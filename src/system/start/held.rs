@@ -1,26 +1,25 @@
 //! Systems in which nothing changes: loads and motions held as they are at an instant, loads at a fraction of
 //! their size, joints still apart by a fraction of their gaps. What equilibria are sought in.
 
-use nalgebra::Vector2;
-
-use crate::body::Node;
+use crate::body::{Node, add_node, no_node};
 use crate::math::function::Function;
+use crate::math::space::Vector;
 use crate::system::signal::Drive;
 use crate::system::{Instant, System, Work};
 
 /// How far joints are apart: what has to be added to the reference, and values of the constraints.
 #[derive(Clone, Debug, Default)]
-pub(in crate::system) struct Open {
+pub(in crate::system) struct Open<const D: usize> {
     /// Change of the reference that holds the linear rows where they are, m.
-    pub reference: Vec<Node<4>>,
+    pub reference: Vec<Node<D>>,
     /// Values of the non-linear constraints.
     pub offsets: Vec<f64>,
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// The same system with loads and motions held as they are at the time and under the inputs in
     /// `work`, and with the loads of the initial state where asked for.
-    pub(in crate::system) fn held(&self, time: f64, work: &Work, with_initial: bool) -> Self {
+    pub(in crate::system) fn held(&self, time: f64, work: &Work<D>, with_initial: bool) -> Self {
         let at = self.instant(time, work);
         let mut held = self.clone();
         if with_initial {
@@ -38,7 +37,7 @@ impl System {
     }
 
     /// Scales gravity, the speed of rotation squared, and all loads but springs.
-    pub(in crate::system) fn scale_loads(&mut self, fraction: f64, work: &Work) {
+    pub(in crate::system) fn scale_loads(&mut self, fraction: f64, work: &Work<D>) {
         for load in &mut self.loads {
             let at = Instant {
                 time: 0.0,
@@ -51,7 +50,7 @@ impl System {
             };
             *load = load.held(at, fraction);
         }
-        for weight in self.weight.iter_mut().flatten() {
+        for weight in self.weight.iter_mut().flatten().flatten() {
             *weight *= fraction;
         }
         self.rotation *= fraction.sqrt();
@@ -60,13 +59,13 @@ impl System {
     /// Takes all loads, springs, gravity and rotation away.
     pub(in crate::system) fn unload(&mut self) {
         self.loads.clear();
-        self.weight.fill([0.0; 4]);
+        self.weight.fill(no_node());
         self.rotation = 0.0;
     }
 
     /// Turns about a point at a rate, rad/s, beside what the frame does: loads get the centrifugal force.
-    pub(in crate::system) fn turn(&mut self, rate: f64, center: Vector2<f64>) {
-        let arm = vec![[center.x, center.y, 0.0, 0.0]; self.reference.len()];
+    pub(in crate::system) fn turn(&mut self, rate: f64, center: Vector<D>) {
+        let arm = vec![[center.into(), [0.0; D]]; self.reference.len()];
         let mut weight = std::mem::take(&mut self.weight);
         self.add_inertia(-rate * rate, &arm, &mut weight);
         self.weight = weight;
@@ -76,11 +75,9 @@ impl System {
     }
 
     /// Holds joints apart by a fraction of their gaps.
-    pub(in crate::system) fn open(&mut self, open: &Open, fraction: f64) {
+    pub(in crate::system) fn open(&mut self, open: &Open<D>, fraction: f64) {
         for (x, change) in self.reference.iter_mut().zip(&open.reference) {
-            x.iter_mut()
-                .zip(change)
-                .for_each(|(x, c)| *x += fraction * c);
+            add_node(x, fraction, change);
         }
         for (constraint, offset) in self.constraints.iter_mut().zip(&open.offsets) {
             constraint.offset = fraction * offset;

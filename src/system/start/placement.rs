@@ -5,16 +5,16 @@
 //! The way is a Gauss-Newton iteration with the smallest steps (E. J. Haug, Computer Aided Kinematics and
 //! Dynamics of Mechanical Systems (1989)), started from the bodies as described.
 
-use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::equilibrium;
 use super::held::Open;
-use crate::body::Node;
-use crate::math::vector::dot;
+use crate::body::{Node, add_node, no_node, product};
+use crate::math::space::{Vector, moment, rotated, spins};
 use crate::system::instant::Instant;
-use crate::system::joints::{Constraint, ConstraintKind, JointKind, View};
+use crate::system::joints::{Constraint, ConstraintKind, JointKind, Linear, View};
 use crate::system::loads::Load;
-use crate::system::{Dynamics, Model, State, System, Work};
+use crate::system::{CableChain, Dynamics, Model, State, System, Work};
 
 /// Most iterations.
 const ITERATIONS: usize = 200;
@@ -47,7 +47,7 @@ pub struct NotAssembled {
     pub gaps: Vec<Gap>,
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// The state to start from: bodies as near to the reference as joints and motions allow, and rates
     /// as near to `rates` (over the nodes) in the mass norm.
     ///
@@ -57,8 +57,8 @@ impl System {
         &self,
         time: f64,
         inputs: &[f64],
-        described: (&[Node<4>], &[Node<4>]),
-        work: &mut Work,
+        described: (&[Node<D>], &[Node<D>]),
+        work: &mut Work<D>,
     ) -> Result<State, NotAssembled> {
         let mut state = self.blank_state(time);
         self.start_courses(&mut state, inputs);
@@ -93,15 +93,15 @@ impl System {
     /// False where they allow none.
     pub fn start_moving(
         &self,
-        rates: &[Node<4>],
+        rates: &[Node<D>],
         inputs: &[f64],
-        work: &mut Work,
+        work: &mut Work<D>,
         state: &mut State,
     ) -> bool {
         work.follow(state);
         self.place(state.time, &state.coordinates, None, work);
         let mut start = work.other.clone();
-        start.fill([0.0; 4]);
+        start.fill(no_node());
         self.follow(&work.drives, 1, &mut start);
         let missing = difference(rates, &start);
         let mut v = std::mem::take(&mut state.rates);
@@ -116,16 +116,16 @@ impl System {
     }
 
     /// Nodal coordinates of a state.
-    pub fn nodes_of(&self, state: &State, work: &mut Work) -> Vec<Node<4>> {
+    pub fn nodes_of(&self, state: &State, work: &mut Work<D>) -> Vec<Node<D>> {
         work.follow(state);
         self.place(state.time, &state.coordinates, None, work);
         work.x.clone()
     }
 
     /// Coordinates that come closest to nodal ones in the mass norm.
-    fn approach(&self, x: &[Node<4>], work: &mut Work, state: &mut State) {
+    fn approach(&self, x: &[Node<D>], work: &mut Work<D>, state: &mut State) {
         let missing = difference(x, &work.x);
-        if missing.iter().flatten().any(|m| *m != 0.0) {
+        if missing.iter().any(|m| *m != no_node()) {
             let mut q = std::mem::take(&mut state.coordinates);
             self.coordinates_of(&missing, work, &mut q);
             state.coordinates = q;
@@ -136,16 +136,16 @@ impl System {
     /// close the joints.
     fn close(
         &self,
-        (nodes, x): (&[Node<4>], &[Node<4>]),
+        (nodes, x): (&[Node<D>], &[Node<D>]),
         inputs: &[f64],
-        work: &mut Work,
+        work: &mut Work<D>,
         state: &mut State,
     ) -> Option<()> {
         if self.chains.is_empty() {
             return None;
         }
         let mut open = Open {
-            reference: vec![[0.0; 4]; x.len()],
+            reference: vec![no_node(); x.len()],
             offsets: Vec::new(),
         };
         for (linear, holds) in self.linear.iter().zip(&self.holds) {
@@ -156,8 +156,9 @@ impl System {
             let cluster = &self.elimination.assembly.clusters()[*cluster];
             let follow = cluster.multipliers.row(*row);
             for (i, node) in cluster.nodes.iter().enumerate() {
-                for k in 0..4 {
-                    open.reference[*node][k] += follow[4 * i + k] * gap;
+                let place = open.reference[*node].as_flattened_mut();
+                for (k, place) in place.iter_mut().enumerate() {
+                    *place += follow[2 * D * i + k] * gap;
                 }
             }
         }
@@ -167,7 +168,7 @@ impl System {
         };
         open.offsets = self.constraints.iter().map(|c| c.value(&view)).collect();
         for (place, change) in work.x.iter_mut().zip(&open.reference) {
-            place.iter_mut().zip(change).for_each(|(x, c)| *x += c);
+            add_node(place, 1.0, change);
         }
         self.approach(x, work, state);
         equilibrium::close(self, inputs, (&open, nodes), work, state).ok()?;
@@ -185,7 +186,7 @@ impl System {
     /// Size of the largest body, with what joins it: length of a cable, reach of the ends of joints from the centre
     /// of mass of a rigid body, length of a distance, m. 0 where there are only particles.
     pub fn body_size(&self) -> f64 {
-        let cables = self.chains.iter().map(crate::system::PlanarChain::length);
+        let cables = self.chains.iter().map(CableChain::length);
         let joints = self.joints.iter().flat_map(|joint| {
             let reach = joint.ends.each_ref().map(|end| match end.marker() {
                 Some(marker) if marker.element.is_none() => marker.arm(),
@@ -205,9 +206,9 @@ impl System {
     pub fn misfits(
         &self,
         (time, inputs): (f64, &[f64]),
-        nodes: &[Node<4>],
+        nodes: &[Node<D>],
         part: f64,
-        work: &mut Work,
+        work: &mut Work<D>,
     ) -> Vec<Gap> {
         let mut state = self.blank_state(time);
         self.start_courses(&mut state, inputs);
@@ -221,8 +222,13 @@ impl System {
     }
 
     /// `q = T^T M dx`: coordinates that come closest to a nodal displacement in the mass norm.
-    pub(in crate::system) fn coordinates_of(&self, dx: &[Node<4>], work: &mut Work, q: &mut [f64]) {
-        work.f.fill([0.0; 4]);
+    pub(in crate::system) fn coordinates_of(
+        &self,
+        dx: &[Node<D>],
+        work: &mut Work<D>,
+        q: &mut [f64],
+    ) {
+        work.f.fill(no_node());
         self.add_inertia(1.0, dx, &mut work.f);
         self.elimination.reduce(&work.f, &mut work.y, q);
     }
@@ -236,7 +242,7 @@ impl System {
     }
 
     /// Where angles and slides are counted from.
-    fn start_hints(&self, state: &mut State, x: &[Node<4>], inputs: &[f64]) {
+    fn start_hints(&self, state: &mut State, x: &[Node<D>], inputs: &[f64]) {
         for (value, angle) in state.angles.iter_mut().zip(&self.angles) {
             *value = angle.value(x, 0.0);
         }
@@ -259,8 +265,8 @@ impl System {
     }
 
     /// Moves bodies as a whole until rows and constraints hold.
-    fn fit(&self, x: &mut [Node<4>], work: &mut Work) -> Result<(), NotAssembled> {
-        let size = extent(x);
+    fn fit(&self, x: &mut [Node<D>], work: &mut Work<D>) -> Result<(), NotAssembled> {
+        let (size, free) = (extent(x), D + spins(D).len());
         let mut best = f64::INFINITY;
         for iteration in 0..=ITERATIONS {
             self.find_slides(x, &mut work.travel);
@@ -278,14 +284,22 @@ impl System {
             let step = jacobian
                 .svd(true, true)
                 .solve(&DVector::from_vec(gaps), 1e-9)
-                .unwrap_or_else(|_| DVector::zeros(3 * self.bodies.len()));
+                .unwrap_or_else(|_| DVector::zeros(free * self.bodies.len()));
             // Far from the solution a long step may turn bodies over.
-            let turns = step.iter().skip(2).step_by(3).map(|s| s.abs());
+            let turn = |body: usize| {
+                let mut turn = [0.0; 3];
+                for (i, k) in spins(D).enumerate() {
+                    turn[k] = step[free * body + D + i];
+                }
+                turn
+            };
+            let bodies = 0..self.bodies.len();
+            let turns = bodies.map(|body| Vector3::from(turn(body)).norm());
             let fraction = (0.5 / turns.fold(0.0, f64::max)).min(1.0);
             for (body, nodes) in self.bodies.iter().enumerate() {
-                let part = [0, 1, 2].map(|k| -fraction * step[3 * body + k]);
-                let way = Vector2::new(part[0], part[1]) * size;
-                move_body(&mut x[nodes.clone()], way, part[2]);
+                let way = Vector::from_fn(|k, _| -fraction * step[free * body + k] * size);
+                let turn = turn(body).map(|part| -fraction * part);
+                move_body(&mut x[nodes.clone()], way, turn);
             }
         }
         self.find_slides(x, &mut work.travel);
@@ -294,7 +308,7 @@ impl System {
     }
 
     /// What is missing of every joint, by positions and by angles, beyond `least` relative to the size of the system.
-    fn gaps_by_joint(&self, x: &[Node<4>], work: &Work, least: f64) -> Vec<Gap> {
+    fn gaps_by_joint(&self, x: &[Node<D>], work: &Work<D>, least: f64) -> Vec<Gap> {
         let size = extent(x);
         let gaps = self.gaps(x, work, size);
         // Squares of the sines of angles, or of lengths, and how many.
@@ -341,7 +355,7 @@ impl System {
         }
     }
 
-    fn all_constraints(&self) -> impl Iterator<Item = &Constraint> {
+    fn all_constraints(&self) -> impl Iterator<Item = &Constraint<D>> {
         self.constraints.iter().chain(&self.settled)
     }
 
@@ -355,7 +369,7 @@ impl System {
     }
 
     /// Where slides are on their chains, wherever they were before.
-    fn find_slides(&self, x: &[Node<4>], travel: &mut [f64]) {
+    fn find_slides(&self, x: &[Node<D>], travel: &mut [f64]) {
         for (travel, constraint) in travel.iter_mut().zip(&self.slides) {
             if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
                 *travel = along.nearest(&self.chains[along.chain], x);
@@ -364,7 +378,7 @@ impl System {
     }
 
     /// What is missing of every row and constraint; lengths relative to `size`.
-    fn gaps(&self, x: &[Node<4>], work: &Work, size: f64) -> Vec<f64> {
+    fn gaps(&self, x: &[Node<D>], work: &Work<D>, size: f64) -> Vec<f64> {
         let mut gaps = Vec::new();
         for linear in &self.linear {
             gaps.push(missing(linear, x, work) / linear_size(linear, size));
@@ -380,21 +394,24 @@ impl System {
     }
 
     /// Derivatives of the gaps by translations (relative to `size`) and turns of all bodies.
-    fn rigid_jacobian(&self, x: &[Node<4>], work: &Work, size: f64) -> DMatrix<f64> {
+    fn rigid_jacobian(&self, x: &[Node<D>], work: &Work<D>, size: f64) -> DMatrix<f64> {
         let count = self.linear.len() + self.all_constraints().count();
-        let mut jacobian = DMatrix::zeros(count, 3 * self.bodies.len());
+        let free = D + spins(D).len();
+        let mut jacobian = DMatrix::zeros(count, free * self.bodies.len());
         let mut of_node = vec![0; x.len()];
         for (body, nodes) in self.bodies.iter().enumerate() {
             of_node[nodes.clone()].fill(body);
         }
-        let mut enter = |row: usize, node: usize, c: &Node<4>, scale: f64| {
+        let mut enter = |row: usize, node: usize, c: &Node<D>, scale: f64| {
             let body = of_node[node];
             let about = center(&x[self.bodies[body].clone()]);
-            let p = x[node];
-            let turn =
-                c[1] * (p[0] - about.x) - c[0] * (p[1] - about.y) + c[3] * p[2] - c[2] * p[3];
-            for (k, part) in [c[0] * size, c[1] * size, turn].into_iter().enumerate() {
-                jacobian[(row, 3 * body + k)] += part / scale;
+            let ([p, d], [on, by]) = (x[node].map(Vector::from), c.map(Vector::from));
+            for k in 0..D {
+                jacobian[(row, free * body + k)] += on[k] * size / scale;
+            }
+            let turns = [moment(&(p - about), &on), moment(&d, &by)];
+            for (i, k) in spins(D).enumerate() {
+                jacobian[(row, free * body + D + i)] += (turns[0][k] + turns[1][k]) / scale;
             }
         };
         for (row, linear) in self.linear.iter().enumerate() {
@@ -417,49 +434,52 @@ impl System {
 }
 
 /// What a row is more than it is to equal.
-fn missing(linear: &crate::system::Linear, x: &[Node<4>], work: &Work) -> f64 {
+fn missing<const D: usize>(linear: &Linear<D>, x: &[Node<D>], work: &Work<D>) -> f64 {
     let value: f64 = (linear.row.terms.iter())
-        .map(|(node, c)| dot(c, &x[*node]))
+        .map(|(node, c)| product(c, &x[*node]))
         .sum();
     value - linear.target.derivatives(&work.drives)[0]
 }
 
-fn linear_size(linear: &crate::system::Linear, size: f64) -> f64 {
+fn linear_size<const D: usize>(linear: &Linear<D>, size: f64) -> f64 {
     let positions = linear.on_second[0].norm() > 0.0;
     if positions { size } else { 1.0 }
 }
 
-fn constraint_size(constraint: &Constraint, size: f64) -> f64 {
+fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64 {
     match constraint.kind {
         ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
         ConstraintKind::Distance(_) | ConstraintKind::Across(_) | ConstraintKind::Along(_) => size,
     }
 }
 
-fn difference(a: &[Node<4>], b: &[Node<4>]) -> Vec<Node<4>> {
+fn difference<const D: usize>(a: &[Node<D>], b: &[Node<D>]) -> Vec<Node<D>> {
     let pairs = a.iter().zip(b);
-    pairs
-        .map(|(a, b)| std::array::from_fn(|k| a[k] - b[k]))
-        .collect()
+    let difference = |(a, b): (&Node<D>, &Node<D>)| {
+        let mut difference = *a;
+        add_node(&mut difference, -1.0, b);
+        difference
+    };
+    pairs.map(difference).collect()
 }
 
 /// Largest distance from the first node, m; 1 where there is none.
-pub(in crate::system) fn extent(x: &[Node<4>]) -> f64 {
-    let way = |p: &Node<4>| (p[0] - x[0][0]).hypot(p[1] - x[0][1]);
+pub(in crate::system) fn extent<const D: usize>(x: &[Node<D>]) -> f64 {
+    let way = |p: &Node<D>| (Vector::from(p[0]) - Vector::from(x[0][0])).norm();
     let largest = x.iter().map(way).fold(0.0, f64::max);
     if largest > 0.0 { largest } else { 1.0 }
 }
 
-fn center(nodes: &[Node<4>]) -> Vector2<f64> {
-    let sum: Vector2<f64> = nodes.iter().map(|p| Vector2::new(p[0], p[1])).sum();
+fn center<const D: usize>(nodes: &[Node<D>]) -> Vector<D> {
+    let sum: Vector<D> = nodes.iter().map(|p| Vector::from(p[0])).sum();
     sum / nodes.len() as f64
 }
 
-fn move_body(nodes: &mut [Node<4>], way: Vector2<f64>, angle: f64) {
-    let (about, turn) = (center(nodes), Rotation2::new(angle));
+fn move_body<const D: usize>(nodes: &mut [Node<D>], way: Vector<D>, turn: [f64; 3]) {
+    let about = center(nodes);
     for node in nodes {
-        let p = about + way + turn * (Vector2::new(node[0], node[1]) - about);
-        let d = turn * Vector2::new(node[2], node[3]);
-        *node = [p.x, p.y, d.x, d.y];
+        let [p, d] = node.map(Vector::from);
+        let p = about + way + rotated(p - about, turn);
+        *node = [p.into(), rotated(d, turn).into()];
     }
 }

@@ -3,11 +3,11 @@
 //! The velocity field `V + omega J x` is the one that motions and joints ask for, in the least-squares sense, and
 //! where they leave it free the one that comes closest to the rates of the bodies in the mass norm.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::equilibrium::Turning;
-use crate::body::Node;
-use crate::math::vector::dot;
+use crate::body::{Node, add_node, no_node, product};
+use crate::math::space::{Vector, axis, left};
 use crate::system::{State, System, Work};
 
 /// Part of the largest singular value below which motions and joints leave a field free.
@@ -17,9 +17,9 @@ const MISSED: f64 = 1e-9;
 
 /// A motion of all bodies as one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steady {
+pub struct Steady<const D: usize = 2> {
     /// Velocity of the origin, m/s.
-    pub velocity: Vector2<f64>,
+    pub velocity: Vector<D>,
     /// Angular velocity, rad/s.
     pub rate: f64,
 }
@@ -37,17 +37,17 @@ pub enum NotSteady {
     Accelerates,
 }
 
-impl Steady {
+impl<const D: usize> Steady<D> {
     /// Its field over nodes at these coordinates.
-    pub fn rates(&self, x: &[Node<4>]) -> Vec<Node<4>> {
-        let (v, w) = (self.velocity, self.rate);
-        let rate = |p: &Node<4>| [v.x - w * p[1], v.y + w * p[0], -w * p[3], w * p[2]];
+    pub fn rates(&self, x: &[Node<D>]) -> Vec<Node<D>> {
+        let turned = |v: [f64; D]| left(v.into()) * self.rate;
+        let rate = |[p, d]: &Node<D>| [(self.velocity + turned(*p)).into(), turned(*d).into()];
         x.iter().map(rate).collect()
     }
 
     /// What it is seen from the turning frame: nothing where it does not turn.
-    pub fn turning(&self) -> Option<Turning> {
-        let center = Vector2::new(-self.velocity.y, self.velocity.x) / self.rate;
+    pub fn turning(&self) -> Option<Turning<D>> {
+        let center = left(self.velocity) / self.rate;
         (self.rate != 0.0).then_some(Turning {
             rate: self.rate,
             center,
@@ -55,7 +55,7 @@ impl Steady {
     }
 }
 
-impl System {
+impl<const D: usize> System<D> {
     /// The motion of all bodies as one that motions, joints and rates over the nodes ask for.
     ///
     /// # Errors
@@ -63,16 +63,18 @@ impl System {
     pub fn steady(
         &self,
         state: &State,
-        rates: &[Node<4>],
-        work: &mut Work,
-    ) -> Result<Steady, NotSteady> {
+        rates: &[Node<D>],
+        work: &mut Work<D>,
+    ) -> Result<Steady<D>, NotSteady> {
         let x = self.nodes_of(state, work);
         let size = self.size();
         // Unit translations, and the turn that moves a point at the distance of the size by 1.
-        let field = |k: usize| -> Vec<Node<4>> {
-            let v = Vector2::new(f64::from(u8::from(k == 0)), f64::from(u8::from(k == 1)));
-            let rate = if k == 2 { 1.0 / size } else { 0.0 };
-            Steady { velocity: v, rate }.rates(&x)
+        let field = |k: usize| -> Vec<Node<D>> {
+            let (velocity, rate) = match k {
+                2 => (Vector::zeros(), 1.0 / size),
+                k => (axis(k), 0.0),
+            };
+            Steady { velocity, rate }.rates(&x)
         };
         let fields = [field(0), field(1), field(2)];
         let (rows, targets) = self.velocity_rows(work, &fields);
@@ -89,7 +91,7 @@ impl System {
         let mut p = Vector3::new(solved[0], solved[1], solved[2]);
         p += self.free_part(&rows, &fields, rates, p, least);
         let steady = Steady {
-            velocity: Vector2::new(p[0], p[1]),
+            velocity: axis(0) * p[0] + axis(1) * p[1],
             rate: p[2] / size,
         };
         match self.keeps(&steady, &x, work) {
@@ -101,17 +103,17 @@ impl System {
     /// What rows and constraints see of three fields, and what they ask for.
     fn velocity_rows(
         &self,
-        work: &Work,
-        fields: &[Vec<Node<4>>; 3],
+        work: &Work<D>,
+        fields: &[Vec<Node<D>>; 3],
     ) -> (DMatrix<f64>, DVector<f64>) {
         let mut rows: Vec<([f64; 3], f64)> = Vec::new();
         for linear in &self.linear {
-            let of = |field: &Vec<Node<4>>| -> f64 {
+            let of = |field: &Vec<Node<D>>| -> f64 {
                 linear
                     .row
                     .terms
                     .iter()
-                    .map(|(node, c)| dot(c, &field[*node]))
+                    .map(|(node, c)| product(c, &field[*node]))
                     .sum()
             };
             let target = linear.target.derivatives(&work.drives)[1];
@@ -122,7 +124,7 @@ impl System {
             let mut row = [0.0; 3];
             constraint.gradient(&view).for_each(|node, term| {
                 for (sum, field) in row.iter_mut().zip(fields) {
-                    *sum += dot(term, &field[node]);
+                    *sum += product(term, &field[node]);
                 }
             });
             rows.push((row, -constraint.rate(&view)));
@@ -138,22 +140,23 @@ impl System {
     fn free_part(
         &self,
         rows: &DMatrix<f64>,
-        fields: &[Vec<Node<4>>; 3],
-        rates: &[Node<4>],
+        fields: &[Vec<Node<D>>; 3],
+        rates: &[Node<D>],
         p: Vector3<f64>,
         least: f64,
     ) -> Vector3<f64> {
         let normal = rows.transpose() * rows;
         let normal = Matrix3::from_fn(|i, j| normal[(i, j)]).symmetric_eigen();
         let momenta = fields.each_ref().map(|field| {
-            let mut momentum = vec![[0.0; 4]; field.len()];
+            let mut momentum = vec![no_node(); field.len()];
             self.add_inertia(1.0, field, &mut momentum);
             momentum
         });
-        let product =
-            |a: &[Node<4>], b: &[Node<4>]| -> f64 { a.iter().zip(b).map(|(a, b)| dot(a, b)).sum() };
-        let mass = Matrix3::from_fn(|i, j| product(&momenta[i], &fields[j]));
-        let given = Vector3::from_fn(|i, _| product(&momenta[i], rates)) - mass * p;
+        let inner = |a: &[Node<D>], b: &[Node<D>]| -> f64 {
+            a.iter().zip(b).map(|(a, b)| product(a, b)).sum()
+        };
+        let mass = Matrix3::from_fn(|i, j| inner(&momenta[i], &fields[j]));
+        let given = Vector3::from_fn(|i, _| inner(&momenta[i], rates)) - mass * p;
         let free: Vec<Vector3<f64>> = (0..3)
             .filter(|k| normal.eigenvalues[*k] <= least * least)
             .map(|k| normal.eigenvectors.column(k).into_owned())
@@ -172,24 +175,21 @@ impl System {
     }
 
     /// Whether motions ask for the accelerations that a steady motion has.
-    fn keeps(&self, steady: &Steady, x: &[Node<4>], work: &Work) -> bool {
+    fn keeps(&self, steady: &Steady<D>, x: &[Node<D>], work: &Work<D>) -> bool {
         let square = steady.rate * steady.rate;
         let center = steady
             .turning()
-            .map_or(Vector2::zeros(), |turning| turning.center);
+            .map_or(Vector::zeros(), |turning| turning.center);
         let largest =
             square * self.size() + work.drives.iter().fold(0.0, |m, d| f64::max(m, d[2].abs()));
         self.linear
             .iter()
             .filter(|linear| linear.target.is_driven())
             .all(|linear| {
-                let of = |(node, c): &(usize, Node<4>)| {
-                    let p = x[*node];
-                    -square
-                        * (c[0] * (p[0] - center.x)
-                            + c[1] * (p[1] - center.y)
-                            + c[2] * p[2]
-                            + c[3] * p[3])
+                let of = |(node, c): &(usize, Node<D>)| {
+                    let mut arm = x[*node];
+                    add_node(&mut arm, -1.0, &[center.into(), [0.0; D]]);
+                    -square * product(c, &arm)
                 };
                 let has: f64 = linear.row.terms.iter().map(of).sum();
                 let wants = linear.target.derivatives(&work.drives)[2];

@@ -3,11 +3,22 @@
 //! Source: second derivatives of the energy of `cable/mod.rs`.
 
 use super::{
-    BENDING, BETWEEN, Kernel, LOBATTO, Motion, RADAU, RADAU_LAST, Sample, Sampling, Square, Vector,
-    act, combine, dot, times,
+    BENDING, BETWEEN, Kernel, LOBATTO, Motion, RADAU, RADAU_LAST, Sample, Sampling, Square, TURNS,
+    Vector, act, combine, inner, times, turns,
 };
 use crate::elements::EndBlocks;
 use crate::math::lanes::Real;
+
+/// What a tangent is made of.
+#[derive(Clone, Copy)]
+pub(in crate::elements::cable) struct Factors<N> {
+    /// Weight of the geometric part, 0 or 1.
+    pub stress: N,
+    /// Weight of the squares of the strain gradients.
+    pub material: N,
+    /// Whether, in space, the size of the curvature counts alone.
+    pub of_size: bool,
+}
 
 /// A matrix over the three vectors that grows, lower triangle: products of vectors, and multiples of 1.
 struct Sum<N, const D: usize> {
@@ -39,7 +50,7 @@ impl<N: Real, const D: usize> Sum<N, D> {
 
     /// Adds the antisymmetric matrix of `act` to a block.
     #[inline(always)]
-    fn add_twist<const C: usize>(&mut self, (i, j): (usize, usize), m: &[N; C]) {
+    fn add_twist(&mut self, (i, j): (usize, usize), m: &[N; TURNS]) {
         let (block, mut k) = (&mut self.products[i][j], 0);
         for r in 0..D {
             for c in r + 1..D {
@@ -69,15 +80,14 @@ impl<N: Real, const D: usize> Sum<N, D> {
     }
 }
 
-impl<N: Real, const C: usize> Kernel<N, C> {
-    /// Tangent over the three vectors, lower triangle: `stress` weights the geometric part (0 or 1),
-    /// `material` the squares of the strain gradients.
+impl<N: Real> Kernel<N> {
+    /// Tangent over the three vectors, lower triangle.
     #[inline(always)]
     pub fn tangent<const D: usize>(
         &self,
         e: &[Vector<N, D>; 4],
         rate: Option<&[Vector<N, D>; 4]>,
-        factors: (N, N),
+        factors: Factors<N>,
     ) -> [[Square<N, D>; 3]; 3] {
         let v = self.vectors(e);
         let dv = rate.map(|rate| self.vectors(rate));
@@ -88,10 +98,7 @@ impl<N: Real, const C: usize> Kernel<N, C> {
         };
         at_axial_points!(self, add_axial_tangent((&v, &dv), factors, &mut sum));
         if self.bends {
-            let [p, q, r] = &BENDING;
-            self.add_bending_tangent(0, p, (&v, &dv), factors, &mut sum);
-            self.add_bending_tangent(1, q, (&v, &dv), factors, &mut sum);
-            self.add_bending_tangent(2, r, (&v, &dv), factors, &mut sum);
+            at_bending_points!(self, add_bending_tangent((&v, &dv), factors, &mut sum));
         }
         sum.whole()
     }
@@ -102,14 +109,14 @@ impl<N: Real, const C: usize> Kernel<N, C> {
         index: usize,
         point: &Sample,
         (v, dv): Motion<N, D>,
-        (stress, material): (N, N),
+        factors: Factors<N>,
         sum: &mut Sum<N, D>,
     ) {
         let u = combine(&point.slope, v);
         let du = dv.as_ref().map(|dv| combine(&point.slope, dv));
         let (force, f, g) = self.axial_force(index, &u, du);
-        let force = stress * force;
-        let along = material * self.axial_stiffness * f * f + force * g;
+        let force = factors.stress * force;
+        let along = factors.material * self.axial_stiffness * f * f + force * g;
         let (scaled, multiple) = (times(&u, along), force * f);
         for i in 0..3 {
             for j in 0..=i {
@@ -134,24 +141,37 @@ impl<N: Real, const C: usize> Kernel<N, C> {
         index: usize,
         point: &Sample,
         (v, dv): Motion<N, D>,
-        (stress, material): (N, N),
+        factors: Factors<N>,
         sum: &mut Sum<N, D>,
     ) {
         let at = self.line(point, v);
         let rate = dv.as_ref().map(|dv| self.line(point, dv));
         let now = self.curvature(&at);
         let weight = self.number(point.weight);
-        let m = times(&self.moment(index, &at, rate, &now), stress * weight);
+        let m = times(
+            &self.moment(index, &at, rate, &now),
+            factors.stress * weight,
+        );
         let s: [N; 3] = each!([weight; 3], i => self.number(point.slope[i]));
         let c: [N; 3] = each!([weight; 3], i => {
             self.number(point.curvature[i]) * self.inverse_length
         });
-        let stiffness = material * self.bending_stiffness * weight;
-        for k in 0..C {
-            let mut unit = [self.number(0.0); C];
-            unit[k] = now.scale;
+        let stiffness = factors.material * self.bending_stiffness * weight;
+        let (plane, straight) = self.plane::<D>(&now);
+        let of_size = D > 2 && factors.of_size;
+        for k in 0..if of_size { 1 + turns(D) } else { turns(D) } {
+            let (mut unit, mut stiffness) = ([self.number(0.0); TURNS], stiffness);
+            if k == turns(D) {
+                unit = plane;
+            } else {
+                unit[k] = self.number(1.0);
+                if of_size {
+                    stiffness = stiffness * straight;
+                }
+            }
+            let along = now.decay * inner::<N, D>(&unit, &now.value);
+            let unit = times(&unit, now.scale);
             let (by_w, across) = (act(&unit, &at.u), act(&unit, &at.w));
-            let along = now.decay * now.value[k];
             let by_u = each!(at.u, d => at.u[d].times_plus(along, across[d]));
             let mut g = [by_u; 3];
             for i in 0..3 {
@@ -164,7 +184,7 @@ impl<N: Real, const C: usize> Kernel<N, C> {
             ];
             sum.add_products(&scaled, &g);
         }
-        let along = now.decay * dot(&m, &now.value);
+        let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);
         let (mu, mw) = (act(&m, &at.u), act(&m, &at.w));
         // 4 p (p + 1) / a^2 = (2 p / a) (2 p / a + 2 / a), half of it on both sides.

@@ -12,10 +12,9 @@
 mod newton;
 mod unsymmetric;
 
-use nalgebra::Vector2;
-
 use super::held::Open;
 use crate::body::Node;
+use crate::math::space::Vector;
 use crate::math::vector::norm;
 use crate::system::{Dynamics, Model, State, System, Work};
 use newton::{Guard, Newton, stiffest};
@@ -54,11 +53,11 @@ pub struct Found {
 
 /// A steady turn of all bodies about one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turning {
+pub struct Turning<const D: usize = 2> {
     /// Rate, counter-clockwise, rad/s.
     pub rate: f64,
     /// The point, m.
-    pub center: Vector2<f64>,
+    pub center: Vector<D>,
 }
 
 /// Finds the equilibrium under gravity, inputs, loads and those of the initial state, all held as they are at the
@@ -67,18 +66,18 @@ pub struct Turning {
 ///
 /// # Errors
 /// When the smallest step of the loads does not converge; `state` is then that of the last one that did.
-pub fn find(
-    system: &System,
+pub fn find<const D: usize>(
+    system: &System<D>,
     inputs: &[f64],
-    work: &mut Work,
+    work: &mut Work<D>,
     state: &mut State,
-    turning: Option<Turning>,
+    turning: Option<Turning<D>>,
 ) -> Result<Found, NotFound> {
     let mut held = system.held_at(inputs, work, state);
     if let Some(Turning { rate, center }) = turning {
         held.turn(rate, center);
     }
-    let way = |fraction: f64, work: &Work| {
+    let way = |fraction: f64, work: &Work<D>| {
         let mut part = held.clone();
         part.scale_loads(fraction, work);
         part
@@ -104,11 +103,11 @@ pub fn find(
 
 /// Closes joints that are apart at `state` little by little, bodies unloaded: to the configuration of least strain
 /// energy near the one described.
-pub(super) fn close(
-    system: &System,
+pub(super) fn close<const D: usize>(
+    system: &System<D>,
     inputs: &[f64],
-    (open, described): (&Open, &[Node<4>]),
-    work: &mut Work,
+    (open, described): (&Open<D>, &[Node<D>]),
+    work: &mut Work<D>,
     state: &mut State,
 ) -> Result<Found, NotFound> {
     let mut held = system.held_at(inputs, work, state);
@@ -119,7 +118,7 @@ pub(super) fn close(
         let stiffness = BENT * chain.axial_stiffness() * chain.length().powi(2);
         chain.stiffen(stiffness, described);
     }
-    let way = |fraction: f64, _: &Work| {
+    let way = |fraction: f64, _: &Work<D>| {
         let mut part = held.clone();
         part.open(open, 1.0 - fraction);
         part
@@ -139,8 +138,8 @@ pub(super) fn close(
     last.follow(|_, _| ropes.clone(), work, state)
 }
 
-impl System {
-    fn held_at(&self, inputs: &[f64], work: &mut Work, state: &State) -> Self {
+impl<const D: usize> System<D> {
+    fn held_at(&self, inputs: &[f64], work: &mut Work<D>, state: &State) -> Self {
         let model = Model::new(self, inputs, work, state);
         self.place(state.time, &state.coordinates, None, model.work);
         self.held(state.time, model.work, true)
@@ -159,10 +158,10 @@ struct Path<'a> {
 
 impl Path<'_> {
     /// Follows systems from 0 to 1.
-    fn follow(
+    fn follow<const D: usize>(
         &self,
-        way: impl Fn(f64, &Work) -> System,
-        work: &mut Work,
+        way: impl Fn(f64, &Work<D>) -> System<D>,
+        work: &mut Work<D>,
         state: &mut State,
     ) -> Result<Found, NotFound> {
         let (mut reached, mut step, mut correction) = (0.0, self.first, f64::INFINITY);
@@ -218,10 +217,10 @@ impl Path<'_> {
     }
 
     /// Newton's method, and again from beside every equilibrium that is not stable.
-    fn settle(
+    fn settle<const D: usize>(
         &self,
-        system: &System,
-        work: &mut Work,
+        system: &System<D>,
+        work: &mut Work<D>,
         state: &mut State,
         guard: Guard,
     ) -> Result<Found, f64> {
@@ -231,7 +230,12 @@ impl Path<'_> {
     }
 
     /// Moves all nodes as the tangent asks for when those that joints hold move on to the next system.
-    fn predict(&self, (before, next): (&System, &System), work: &mut Work, state: &mut State) {
+    fn predict<const D: usize>(
+        &self,
+        (before, next): (&System<D>, &System<D>),
+        work: &mut Work<D>,
+        state: &mut State,
+    ) {
         let least = smallest_shift(before, self.inputs, work, state);
         let mut model = Model::new(before, self.inputs, work, state);
         Newton::new(&mut model, least, 0.0).predict(state, next);
@@ -240,7 +244,12 @@ impl Path<'_> {
 
 /// Root of the smallest multiple of the mass that regularizes the tangent: a part of the stiffest mode that is at
 /// the edge of roundoff; without stiffness, what lets the forces there are move the system by a part of its size.
-fn smallest_shift(system: &System, inputs: &[f64], work: &mut Work, state: &State) -> f64 {
+fn smallest_shift<const D: usize>(
+    system: &System<D>,
+    inputs: &[f64],
+    work: &mut Work<D>,
+    state: &State,
+) -> f64 {
     let mut model = Model::new(system, inputs, work, state);
     let stiffest = stiffest(&mut model, state);
     if stiffest > 0.0 {

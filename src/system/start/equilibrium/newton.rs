@@ -3,6 +3,7 @@
 
 use super::Found;
 use super::unsymmetric;
+use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
 use crate::system::{Accepted, Dynamics, Model, State, System};
 
@@ -45,8 +46,8 @@ pub(super) enum Guard {
 }
 
 /// An iteration on one system.
-pub(super) struct Newton<'a, 'b> {
-    model: &'a mut Model<'b>,
+pub(super) struct Newton<'a, 'b, const D: usize> {
+    model: &'a mut Model<'b, D>,
     /// Smallest shift.
     least: f64,
     /// Shift that is kept to the end, where a direction in which nothing acts is free; else 0.
@@ -60,8 +61,8 @@ pub(super) struct Newton<'a, 'b> {
     mode: Vec<f64>,
 }
 
-impl<'a, 'b> Newton<'a, 'b> {
-    pub(super) fn new(model: &'a mut Model<'b>, least: f64, kept: f64) -> Self {
+impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
+    pub(super) fn new(model: &'a mut Model<'b, D>, least: f64, kept: f64) -> Self {
         let rest = vec![0.0; model.system.coordinates()];
         Self {
             is_conservative: model.system.is_conservative(),
@@ -284,11 +285,12 @@ impl<'a, 'b> Newton<'a, 'b> {
             .elimination
             .expand(mode, &mut work.y, &mut work.other);
         let nodes = || work.other.iter();
-        let size = nodes().flatten().map(|m| m.abs()).fold(0.0, f64::max);
-        let axis = |k: usize| nodes().map(|m| m[k]).sum::<f64>();
+        let size = nodes().flatten().flatten();
+        let size = size.map(|m| m.abs()).fold(0.0, f64::max);
+        let way: Vector<D> = nodes().map(|m| Vector::from(m[0])).sum();
         let gravity = system.gravity / system.gravity.norm().max(f64::MIN_POSITIVE);
-        let pulled = gravity.x * axis(0) + gravity.y * axis(1);
-        let ways = [pulled, axis(1), axis(0)];
+        // Up is the last axis.
+        let ways = std::iter::once(gravity.dot(&way)).chain(way.iter().rev().copied());
         let way = ways.into_iter().find(|way| way.abs() > 1e-6 * size);
         way.unwrap_or(1.0).signum()
     }
@@ -308,15 +310,14 @@ impl<'a, 'b> Newton<'a, 'b> {
     }
 
     /// Moves to where the tangent says that the nodes go when held ones move on to those of the next system.
-    pub(super) fn predict(&mut self, state: &mut State, next: &System) {
+    pub(super) fn predict(&mut self, state: &mut State, next: &System<D>) {
         const PART: f64 = 1e-6;
         let (time, q) = (state.time, state.coordinates.clone());
         (self.model).acceleration(time, &q, &self.rest, &mut self.force);
         let mut part = self.model.system.clone();
         for (x, to) in part.reference.iter_mut().zip(&next.reference) {
-            x.iter_mut()
-                .zip(to)
-                .for_each(|(x, to)| *x += PART * (to - *x));
+            let pairs = x.as_flattened_mut().iter_mut().zip(to.as_flattened());
+            pairs.for_each(|(x, to)| *x += PART * (to - *x));
         }
         let mut moved = self.force.clone();
         Model::new(&part, &[], self.model.work, state)
@@ -338,7 +339,7 @@ impl<'a, 'b> Newton<'a, 'b> {
 }
 
 /// Largest eigenvalue of the stiffness by size, nearly, 1/s^2.
-pub(super) fn stiffest(model: &mut Model<'_>, state: &State) -> f64 {
+pub(super) fn stiffest<const D: usize>(model: &mut Model<'_, D>, state: &State) -> f64 {
     let n = state.coordinates.len();
     model.linearize(state.time, &state.coordinates, &vec![0.0; n]);
     let (mut x, mut size) = (seed(n), 0.0);

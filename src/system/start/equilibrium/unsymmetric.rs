@@ -4,8 +4,8 @@
 //!
 //! Source: Y. Saad, M. H. Schultz, GMRES, SIAM J. Sci. Stat. Comput. 7 (1986).
 
-use crate::body::Node;
-use crate::math::jet::{Jet, part};
+use crate::body::{Node, map_node};
+use crate::math::jet::{Jet, moving, part};
 use crate::math::vector::{dot, norm};
 use crate::system::instant::Instant;
 use crate::system::{Dynamics, Model};
@@ -16,7 +16,12 @@ const ENOUGH: f64 = 1e-13;
 
 /// Solves `(s^2 I + K) x = f` in place, where the model is linearized; `least` is the shift of the symmetric
 /// factors that stand in where those without are singular. False where no factors are found.
-pub(super) fn solve(model: &mut Model<'_>, s: f64, least: f64, x: &mut [f64]) -> bool {
+pub(super) fn solve<const D: usize>(
+    model: &mut Model<'_, D>,
+    s: f64,
+    least: f64,
+    x: &mut [f64],
+) -> bool {
     let mut shift = s;
     for _ in 0..STEPS {
         if model.inertia([shift * shift, shift]).is_some() {
@@ -83,7 +88,7 @@ pub(super) fn solve(model: &mut Model<'_>, s: f64, least: f64, x: &mut [f64]) ->
 }
 
 /// Solves with the symmetric factors, inside the tangent plane of the constraints.
-fn preconditioned(model: &mut Model<'_>, f: &[f64]) -> Vec<f64> {
+fn preconditioned<const D: usize>(model: &mut Model<'_, D>, f: &[f64]) -> Vec<f64> {
     let mut x = f.to_vec();
     model.work.project_on_tangent_plane(&mut x);
     model.solve(&mut x);
@@ -91,7 +96,7 @@ fn preconditioned(model: &mut Model<'_>, f: &[f64]) -> Vec<f64> {
 }
 
 /// `(s^2 I + K) q` with the whole tangent `K` at the configuration that the model is linearized at.
-fn apply(model: &mut Model<'_>, s: f64, q: &[f64]) -> Vec<f64> {
+fn apply<const D: usize>(model: &mut Model<'_, D>, s: f64, q: &[f64]) -> Vec<f64> {
     let mut sum = q.to_vec();
     model.apply_stiffness(&mut sum);
     sum.iter_mut().zip(q).for_each(|(sum, q)| *sum += s * s * q);
@@ -102,7 +107,7 @@ fn apply(model: &mut Model<'_>, s: f64, q: &[f64]) -> Vec<f64> {
 
 /// What the symmetric tangent leaves out: minus the derivative of the loads without a potential along `q`, less
 /// their part in the symmetric tangent.
-fn skew(model: &mut Model<'_>, q: &[f64]) -> Vec<f64> {
+fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
     let (system, time) = (model.system, Jet::from_re(model.time));
     let work = &mut *model.work;
     system.elimination.expand(q, &mut work.y, &mut work.other);
@@ -111,10 +116,8 @@ fn skew(model: &mut Model<'_>, q: &[f64]) -> Vec<f64> {
     let angles = jets(&work.angles);
     let zero = Jet::from_re(0.0);
     let pairs = work.x.iter().zip(&work.other);
-    let x: Vec<Node<4, Jet>> = pairs
-        .map(|(x, dx)| std::array::from_fn(|k| Jet::new(x[k], dx[k], 0.0)))
-        .collect();
-    let v = vec![[zero; 4]; x.len()];
+    let x: Vec<Node<D, Jet>> = pairs.map(|(x, dx)| moving(x, dx)).collect();
+    let v = vec![[[zero; D]; 2]; x.len()];
     let mut f = v.clone();
     let at = Instant {
         time,
@@ -128,7 +131,7 @@ fn skew(model: &mut Model<'_>, q: &[f64]) -> Vec<f64> {
     let loads = || (system.loads.iter()).filter(|load| !load.is_conservative());
     loads().for_each(|load| load.add_force(at, &mut f));
     for (out, f) in work.f.iter_mut().zip(&f) {
-        *out = f.map(|f| -part(f, 1));
+        *out = map_node(f, |f| -part(f, 1));
     }
     let mut force = std::mem::take(&mut work.f);
     let dx = &work.other;
@@ -136,11 +139,11 @@ fn skew(model: &mut Model<'_>, q: &[f64]) -> Vec<f64> {
         load.add_tangent(
             system.instant(model.time, work),
             &mut |a, b, block| {
-                for r in 0..4 {
-                    for c in 0..4 {
-                        force[a][r] -= block[r][c] * dx[b][c];
+                for (r, row) in block.as_flattened().iter().enumerate() {
+                    for (c, entry) in row.as_flattened().iter().enumerate() {
+                        force[a].as_flattened_mut()[r] -= entry * dx[b].as_flattened()[c];
                         if a != b {
-                            force[b][c] -= block[r][c] * dx[a][r];
+                            force[b].as_flattened_mut()[c] -= entry * dx[a].as_flattened()[r];
                         }
                     }
                 }

@@ -1,0 +1,127 @@
+//! Vectors of the plane and of space, by one set of formulas: the plane is that of the first two axes, and turns
+//! counter-clockwise about the third.
+
+use nalgebra::{Rotation3, SVector, Vector3};
+
+use super::jet::Number;
+
+/// A vector in `D` dimensions.
+pub type Vector<const D: usize, N = f64> = SVector<N, D>;
+
+/// The unit vector along an axis.
+pub fn axis<const D: usize, N: Number>(k: usize) -> Vector<D, N> {
+    Vector::from_fn(|i, _| N::of(f64::from(u8::from(i == k))))
+}
+
+/// The part in the plane, turned left by a right angle.
+pub fn left<const D: usize, N: Number>(v: Vector<D, N>) -> Vector<D, N> {
+    let mut turned = Vector::zeros();
+    (turned[0], turned[1]) = (-v[1], v[0]);
+    turned
+}
+
+/// `left(a) . b`: the third component of the cross product.
+pub fn cross<const D: usize, N: Number>(a: &Vector<D, N>, b: &Vector<D, N>) -> N {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// The part in the plane turned left by an angle (rad); what is across the plane stays.
+pub fn turned<const D: usize, N: Number>(v: Vector<D, N>, angle: N) -> Vector<D, N> {
+    let ((sin, cos), mut turned) = (angle.sin_cos(), v);
+    (turned[0], turned[1]) = (cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]);
+    turned
+}
+
+/// All components of `a x b`, in the plane the third alone.
+pub fn moment<const D: usize, N: Number>(a: &Vector<D, N>, b: &Vector<D, N>) -> [N; 3] {
+    let at = |v: &Vector<D, N>, k: usize| if k < D { v[k] } else { N::of(0.0) };
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        at(a, i) * at(b, j) - at(a, j) * at(b, i)
+    })
+}
+
+/// Axes that a body can turn about: the third in the plane.
+pub fn spins(dimension: usize) -> std::ops::Range<usize> {
+    if dimension == 2 { 2..3 } else { 0..3 }
+}
+
+/// Turned about an axis by an angle: the direction and the length of a vector.
+pub fn rotated<const D: usize>(v: Vector<D>, turn: [f64; 3]) -> Vector<D> {
+    if D == 2 {
+        return turned(v, turn[2]);
+    }
+    let turned = Rotation3::new(turn.into()) * Vector3::from_row_slice(v.as_slice());
+    Vector::from_row_slice(turned.as_slice())
+}
+
+/// `spin x v`; in the plane the third component of the spin alone counts.
+pub fn spun<const D: usize>(spin: [f64; 3], v: &[f64; D]) -> [f64; D] {
+    let at = |k: usize| if k < D { v[k] } else { 0.0 };
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        spin[i] * at(j) - spin[j] * at(i)
+    })
+}
+
+/// Unit vectors perpendicular to a unit vector and to each other, as many as there are; the first is that to the left in
+/// the plane.
+pub fn normals<const D: usize, N: Number>(
+    along: &Vector<D, N>,
+) -> impl Iterator<Item = Vector<D, N>> {
+    let along = *along;
+    // The axis that is most across it.
+    let size = |k: &usize| along[*k].plain().abs();
+    let across = (0..D)
+        .min_by(|a, b| size(a).total_cmp(&size(b)))
+        .unwrap_or(0);
+    (0..D - 1).map(move |k| {
+        if D == 2 {
+            return left(along);
+        }
+        let away = axis(across) - along * along[across];
+        let first: Vector<D, N> = away / away.norm();
+        match k {
+            0 => first,
+            _ => Vector::from_row_slice(&moment(&along, &first)[..D]),
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_are_perpendicular_unit_vectors() {
+        for along in [
+            [1.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.6, 0.0, 0.8],
+            [0.48, 0.6, 0.64],
+        ] {
+            let along = Vector::<3>::from(along);
+            let found: Vec<_> = normals(&along).collect();
+            assert_eq!(found.len(), 2);
+            assert!(found[0].dot(&found[1]).abs() < 1e-15);
+            for normal in found {
+                assert!((normal.norm() - 1.0).abs() < 1e-15 && normal.dot(&along).abs() < 1e-15);
+            }
+        }
+        let flat: Vec<_> = normals(&Vector::<2>::new(0.6, 0.8)).collect();
+        assert_eq!(flat, [Vector::<2>::new(-0.8, 0.6)]);
+    }
+
+    #[test]
+    fn a_moment_is_the_cross_product() {
+        let (a, b) = (
+            Vector::<3>::new(1.0, 2.0, 3.0),
+            Vector::<3>::new(-2.0, 0.5, 4.0),
+        );
+        assert_eq!(moment(&a, &b), <[f64; 3]>::from(a.cross(&b)));
+        assert_eq!(spun(a.into(), &b.into()), <[f64; 3]>::from(a.cross(&b)));
+        let (a, b) = (Vector::<2>::new(1.0, 2.0), Vector::<2>::new(-2.0, 0.5));
+        assert_eq!(moment(&a, &b), [0.0, 0.0, cross(&a, &b)]);
+        assert_eq!(cross(&a, &b), left(a).dot(&b));
+    }
+}

@@ -1,0 +1,73 @@
+//! The one choice between the plane and space: everything below it is compiled for both.
+
+use super::engine::{Engine, Inputs, Remarks};
+use super::{Error, Quantity, Report, Spectra, StepFailure, Variable};
+use crate::scene::{Error as SceneError, Resolved, Scene};
+use crate::system::State;
+
+/// What a step did, and why it was not finished.
+type Stepped = (Report, Result<(), StepFailure>);
+/// Points along every body.
+type Outlines = Vec<Vec<[f64; 3]>>;
+
+/// An engine of the plane or of space.
+pub(super) enum AnyEngine {
+    Plane(Box<Engine<2>>),
+    Space(Box<Engine<3>>),
+}
+
+/// Hands calls on to the engine that there is.
+macro_rules! handed_on {
+    ($(fn $name:ident([$($by:tt)+] $self:ident $(, $argument:ident: $kind:ty)*) $(-> $out:ty)?;)*) => {
+        impl AnyEngine {$(
+            pub(super) fn $name($($by)+ $self $(, $argument: $kind)*) $(-> $out)? {
+                match $self {
+                    Self::Plane(engine) => engine.$name($($argument),*),
+                    Self::Space(engine) => engine.$name($($argument),*),
+                }
+            }
+        )*}
+    };
+}
+
+handed_on! {
+    fn initial_state([&mut] self, time: f64, inputs: &[f64]) -> Result<(State, Spectra), Error>;
+    fn remarks([&] self) -> &Remarks;
+    fn redundant([&mut] self, state: &State) -> Vec<String>;
+    fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
+    fn next_doubtful([&mut] self) -> Option<&str>;
+    fn fits([&] self, state: &State) -> bool;
+    fn forget([&mut] self);
+    fn inputs_changed([&mut] self, inputs: &[f64]);
+    fn output([&mut] self, quantity: Quantity, state: &State, inputs: &[f64]) -> f64;
+    fn derivative([&mut] self, of: Quantity, order: usize, state: &State, inputs: &Inputs) -> f64;
+    fn differentiate([&mut] self, state: &State, inputs: &[f64], direction: &[f64]);
+    fn change([&mut] self, quantity: Quantity, state: &State) -> f64;
+    fn markers([&mut] self, state: &State, inputs: &[f64]) -> Vec<[f64; 3]>;
+    fn outlines([&mut] self, state: &State, inputs: &[f64], parts: &dyn Fn(usize) -> u32) -> Outlines;
+}
+
+impl AnyEngine {
+    /// Builds the system of a scene.
+    ///
+    /// # Errors
+    /// As [`Resolved::assemble`], and an integrator that cannot take the system.
+    pub(super) fn new(resolved: &Resolved<'_>, variables: &[Variable]) -> Result<Self, Error> {
+        Ok(match resolved.scene.dimension {
+            2 => Self::Plane(Box::new(Engine::new(resolved, variables)?)),
+            _ => Self::Space(Box::new(Engine::new(resolved, variables)?)),
+        })
+    }
+}
+
+/// Whether a scene makes a system.
+///
+/// # Errors
+/// As [`Resolved::assemble`], and when it is not valid.
+pub fn check(scene: &Scene) -> Result<(), SceneError> {
+    let resolved = scene.resolve()?;
+    match scene.dimension {
+        2 => resolved.assemble::<2>().map(drop),
+        _ => resolved.assemble::<3>().map(drop),
+    }
+}
