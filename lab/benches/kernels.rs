@@ -1,4 +1,4 @@
-//! CPU time of every kernel an element costs in a step: `cargo bench -p lab`. Figures are per call; the
+//! CPU time of every kernel an element costs in a step, in the plane and in space: `cargo bench -p lab`. Figures are per call; the
 //! throughput is in elements. Eigenvalues of dense matrices are timed beside those of faer.
 
 use std::hint::black_box;
@@ -17,17 +17,25 @@ const ROWS: [usize; 3] = [40, 44, 204];
 const STEP: f64 = 1e-3;
 
 /// The soft pendulum, straight.
-struct Bench {
-    system: System,
+struct Bench<const D: usize> {
+    system: System<D>,
     state: State,
-    work: Work,
+    work: Work<D>,
 }
 
-impl Bench {
+impl<const D: usize> Bench<D> {
     fn new(elements: u32) -> Self {
         let text = include_str!("../../tests/cases/soft_pendulum/scene.json");
         let mut json: serde_json::Value = serde_json::from_str(text).expect("a scene");
         json["bodies"][0]["elements"] = elements.into();
+        json["dimension"] = D.into();
+        let line = "/bodies/0/shape/line";
+        for place in ["/gravity", &format!("{line}/from"), &format!("{line}/to")] {
+            let vector = json
+                .pointer_mut(place)
+                .and_then(|place| place.as_array_mut());
+            vector.expect("a vector").resize(D, 0.0.into());
+        }
         let scene = Scene::from_json(&json.to_string()).expect("a valid scene");
         let assembled = assemble(&scene).expect("a system");
         let system = assembled.system;
@@ -52,7 +60,7 @@ impl Bench {
         &mut self,
         group: &mut BenchmarkGroup<'_, M>,
         name: &str,
-        call: impl Fn(&mut Model<'_>, &State, &mut [Vec<f64>; 3]),
+        call: impl Fn(&mut Model<'_, D>, &State, &mut [Vec<f64>; 3]),
     ) {
         let mut model = Model::new(&self.system, &[], &mut self.work, &self.state);
         let right = vec![1e-3; self.system.coordinates()];
@@ -68,56 +76,65 @@ const PLAIN: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 
 fn kernels(criterion: &mut Criterion) {
     for elements in MESHES {
-        let mut bench = Bench::new(elements);
-        let mut group = criterion.benchmark_group(format!("{elements} elements"));
-        group.throughput(Throughput::Elements(u64::from(elements)));
-        let nodes = bench.system.reference().to_vec();
-        let (rest, mut force) = (vec![no_node(); nodes.len()], vec![no_node(); nodes.len()]);
-        group.bench_function("force", |b| {
-            b.iter(|| bench.system.chains()[0].add_force(black_box(&nodes), &rest, &mut force));
-        });
-        let elimination = bench.system.elimination();
-        let (mut x, mut y) = (nodes.clone(), vec![0.0; elimination.scratch()]);
-        let mut q = bench.state.coordinates.clone();
-        group.bench_function("coordinates to nodes and forces back", |b| {
-            b.iter(|| {
-                elimination.expand(black_box(&q), &mut y, &mut x);
-                elimination.reduce(black_box(&force), &mut y, &mut q);
-            });
-        });
-        bench.model(&mut group, "acceleration", |model, at, [a, ..]| {
-            model.acceleration(0.0, &at.coordinates, &at.rates, a);
-        });
-        bench.model(&mut group, "tangent", |model, at, _| {
-            model.linearize(0.0, &at.coordinates, &at.rates);
-        });
-        bench.model(&mut group, "real factors", |model, _, _| {
-            assert!(model.factor([1.0 / (STEP * STEP), 1.0 / STEP]));
-        });
-        bench.model(&mut group, "complex factors", |model, _, _| {
-            let s = Complex::new(1.0, 1.0) / STEP;
-            assert!(model.factor_complex([s * s, s]));
-        });
-        bench.model(&mut group, "real solve", |model, _, [a, ..]| {
-            a.fill(1e-3);
-            model.solve(a);
-        });
-        bench.model(&mut group, "solve of three stages", |model, _, stages| {
-            stages.iter_mut().for_each(|stage| stage.fill(1e-3));
-            model.solve_stages(PLAIN.as_flattened(), PLAIN.as_flattened(), stages);
-        });
-        bench.model(
-            &mut group,
-            "whole Newton iteration, one stage",
-            |model, at, [a, ..]| {
-                model.acceleration(0.0, &at.coordinates, &at.rates, a);
-                model.linearize(0.0, &at.coordinates, &at.rates);
-                assert!(model.factor([1.0 / (STEP * STEP), 1.0 / STEP]));
-                model.solve(a);
-            },
-        );
-        group.finish();
+        kernels_of(criterion, elements, Bench::<2>::new(elements), "plane");
+        kernels_of(criterion, elements, Bench::<3>::new(elements), "space");
     }
+}
+
+fn kernels_of<const D: usize>(
+    criterion: &mut Criterion,
+    elements: u32,
+    mut bench: Bench<D>,
+    place: &str,
+) {
+    let mut group = criterion.benchmark_group(format!("{place}, {elements} elements"));
+    group.throughput(Throughput::Elements(u64::from(elements)));
+    let nodes = bench.system.reference().to_vec();
+    let (rest, mut force) = (vec![no_node(); nodes.len()], vec![no_node(); nodes.len()]);
+    group.bench_function("force", |b| {
+        b.iter(|| bench.system.chains()[0].add_force(black_box(&nodes), &rest, &mut force));
+    });
+    let elimination = bench.system.elimination();
+    let (mut x, mut y) = (nodes.clone(), vec![0.0; elimination.scratch()]);
+    let mut q = bench.state.coordinates.clone();
+    group.bench_function("coordinates to nodes and forces back", |b| {
+        b.iter(|| {
+            elimination.expand(black_box(&q), &mut y, &mut x);
+            elimination.reduce(black_box(&force), &mut y, &mut q);
+        });
+    });
+    bench.model(&mut group, "acceleration", |model, at, [a, ..]| {
+        model.acceleration(0.0, &at.coordinates, &at.rates, a);
+    });
+    bench.model(&mut group, "tangent", |model, at, _| {
+        model.linearize(0.0, &at.coordinates, &at.rates);
+    });
+    bench.model(&mut group, "real factors", |model, _, _| {
+        assert!(model.factor([1.0 / (STEP * STEP), 1.0 / STEP]));
+    });
+    bench.model(&mut group, "complex factors", |model, _, _| {
+        let s = Complex::new(1.0, 1.0) / STEP;
+        assert!(model.factor_complex([s * s, s]));
+    });
+    bench.model(&mut group, "real solve", |model, _, [a, ..]| {
+        a.fill(1e-3);
+        model.solve(a);
+    });
+    bench.model(&mut group, "solve of three stages", |model, _, stages| {
+        stages.iter_mut().for_each(|stage| stage.fill(1e-3));
+        model.solve_stages(PLAIN.as_flattened(), PLAIN.as_flattened(), stages);
+    });
+    bench.model(
+        &mut group,
+        "whole Newton iteration, one stage",
+        |model, at, [a, ..]| {
+            model.acceleration(0.0, &at.coordinates, &at.rates, a);
+            model.linearize(0.0, &at.coordinates, &at.rates);
+            assert!(model.factor([1.0 / (STEP * STEP), 1.0 / STEP]));
+            model.solve(a);
+        },
+    );
+    group.finish();
 }
 
 /// Bending stiffness of a free beam by differences, symmetric, and with a follower force at its end.

@@ -19,7 +19,12 @@ const SINGLE: [&str; 4] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 2] = ["initial.state=as_shaped", "initial.loads{spring_damper}"];
+const REFUSED: [&str; 3] = [
+    "initial.state=as_shaped",
+    "initial.loads{spring_damper}",
+    // In space rigid bodies are particles.
+    "bodies{rigid}.motion.spin[",
+];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`.
 const OWN: [&str; 2] = ["about.", "method.work_limit"];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.

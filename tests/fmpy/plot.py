@@ -93,7 +93,10 @@ class Shapes:
         self.bodies = header["bodies"]
         self.time = np.array([row["time"] for row in rows])
         count = len([marker for body in self.bodies for marker in body["markers"]])
-        places = seen(np.array([row["markers"] for row in rows], dtype=float).reshape(len(rows), count, -1))
+        places = np.array([row["markers"] for row in rows], dtype=float).reshape(len(rows), count, -1)
+        # What the axes of the pictures are.
+        self.axes = ("right", "up") if places.shape[-1] == 3 else ("x", "y")
+        places = seen(places)
         names = [f"{body['name']}.{marker}" for body in self.bodies for marker in body["markers"]]
         self.paths = {name: places[:, index] for index, name in enumerate(names)}
         # Time, and points along every body.
@@ -150,7 +153,7 @@ def bodies(figure, axes, shapes):
                 axes.plot(*np.array([points[0], end]).T, color=colour, linewidth=4.5, alpha=0.55, solid_capstyle="round")
             axes.plot(*points[0], marker="s", markersize=4.5, color=colour, markeredgecolor="white", markeredgewidth=0.6)
     axes.set_title("Bodies")
-    metres(axes, shapes.size)
+    metres(axes, shapes)
     bar = figure.colorbar(plt.cm.ScalarMappable(norm, COLOURS), ax=axes, shrink=0.75, pad=0.03)
     bar.set_label("t [s]")
     bar.outline.set_visible(False)
@@ -180,7 +183,7 @@ def paths(axes, shapes, reference):
             label="independent reference",
         )
     axes.set_title("Paths of markers, from the dot")
-    metres(axes, shapes.size)
+    metres(axes, shapes)
     legend(axes)
 
 
@@ -263,13 +266,13 @@ def prefixed(axis, scale, unit):
     return f"{['', 'k', 'M', 'G', 'T', 'p', 'n', 'µ', 'm'][power]}{unit}"
 
 
-def metres(axes, size):
+def metres(axes, shapes):
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.08)
-    usual = 0.1 <= size < 1e4
-    for axis, what in ((axes.xaxis, "x"), (axes.yaxis, "y")):
+    usual = 0.1 <= shapes.size < 1e4
+    for axis, what in zip((axes.xaxis, axes.yaxis), shapes.axes):
         axis.set_major_locator(MaxNLocator(6))
-        axis.set_label_text(f"{what} [{prefixed(axis, 1.0 if usual else size, 'm')}]")
+        axis.set_label_text(f"{what} [{prefixed(axis, 1.0 if usual else shapes.size, 'm')}]")
 
 
 def legend(axes):

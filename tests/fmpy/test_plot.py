@@ -64,7 +64,8 @@ def test_ready_scenes_are_drawn(scene, tmp_path):
     found, curves = panels(figure), columns(figure)
     assert list(found)[:2] == ["Bodies", "Paths of markers, from the dot"]
     for axes in list(found.values())[:2]:
-        assert (axes.get_xlabel(), axes.get_ylabel()) == ("x [m]", "y [m]")
+        names = {2: ("x [m]", "y [m]"), 3: ("right [m]", "up [m]")}[text["dimension"]]
+        assert (axes.get_xlabel(), axes.get_ylabel()) == names
     kinds = {output["kind"] for output in text["outputs"]}
     for kind, title, unit in [
         ("reaction", "Reactions", "force [N]"),
@@ -86,6 +87,16 @@ def test_ready_scenes_are_drawn(scene, tmp_path):
     check_markers(text, run, shapes, curves)
 
 
+def test_space_is_seen_from_the_front_the_right_and_above():
+    x, y, z = plot.seen(np.eye(3))
+    assert x[0] == pytest.approx(y[0]) and x[1] == pytest.approx(-y[1]) and x[0] > 0 > x[1]
+    assert z == pytest.approx([0.0, 1.0])
+    # All axes are equally long, as far as angles of 120 degrees show.
+    assert np.linalg.norm([x, y, z], axis=1) == pytest.approx([1.0, 1.0, 1.0])
+    flat = np.array([[1.0, 2.0]])
+    assert plot.seen(flat) is flat
+
+
 def check_markers(scene, run, shapes, curves):
     """Every marker is drawn, where the outputs say that it is, and lies on its body."""
     wanted = {f"{body['name']}.{marker}" for body in scene["bodies"] for marker in body["markers"]}
@@ -97,7 +108,8 @@ def check_markers(scene, run, shapes, curves):
         for name in label.split(" = "):
             if f"{name}.position[1]" not in run:
                 continue
-            places = np.stack([run[f"{name}.position[{axis}]"] for axis in (1, 2)], axis=1)
+            axes = range(1, scene["dimension"] + 1)
+            places = plot.seen(np.stack([run[f"{name}.position[{axis}]"] for axis in axes], axis=1))
             drawn = np.broadcast_to(line.get_xydata(), places.shape)
             assert np.abs(drawn - places).max() <= plot.STILL * shapes.size, name
     for number, body in enumerate(shapes.bodies):

@@ -294,18 +294,20 @@ impl<const D: usize> Builder<'_, D> {
         };
         match *kind {
             JointKind::Revolute(ends) => self.hold(joints::JointKind::Revolute, self.ends(ends)),
-            JointKind::Weld(ends, _) if D == 3 => {
-                let direction = vector(ends.second.direction);
-                self.hold(joints::JointKind::Clamp(direction), self.ends(ends));
-            }
             JointKind::Weld(ends, given) => {
-                let ends = self.ends(ends);
-                self.hold(joints::JointKind::Weld(angle(self, ends, given)), ends);
+                let (both, direction) = (self.ends(ends), vector(ends.second.direction));
+                let kind = match D {
+                    2 => joints::JointKind::Weld(angle(self, both, given)),
+                    _ => joints::JointKind::Clamp(direction),
+                };
+                self.hold(kind, both);
             }
             JointKind::Orientation(ends, given) => {
                 let ends = self.ends(ends);
-                let kind = joints::JointKind::Orientation(angle(self, ends, given));
-                self.hold(kind, ends);
+                self.hold(
+                    joints::JointKind::Orientation(angle(self, ends, given)),
+                    ends,
+                );
             }
             JointKind::Prismatic {
                 ends,
@@ -336,19 +338,7 @@ impl<const D: usize> Builder<'_, D> {
                 damping,
             } => {
                 let ends = self.ends(ends);
-                let spring = loads::Rotational {
-                    ends,
-                    angle: self.count_angle(ends),
-                    stiffness,
-                    damping,
-                    rest: angle(self, ends, rest),
-                };
-                self.parts.joints.push(Joint {
-                    kind: joints::JointKind::Revolute,
-                    ends,
-                    spring: Some(self.parts.loads.len()),
-                });
-                self.parts.loads.push(Load::Rotational(spring));
+                self.hinge(ends, angle(self, ends, rest), [stiffness, damping]);
             }
             JointKind::Along { cable, marker, .. } => {
                 let chain = &self.parts.chains[cable.id.chain];
@@ -357,6 +347,23 @@ impl<const D: usize> Builder<'_, D> {
                 self.hold(joints::JointKind::Along(cable.id.chain), ends);
             }
         }
+    }
+
+    /// A pin with a spring and a damper against rotation.
+    fn hinge(&mut self, ends: [End<D>; 2], rest: f64, [stiffness, damping]: [f64; 2]) {
+        let spring = loads::Rotational {
+            ends,
+            angle: self.count_angle(ends),
+            stiffness,
+            damping,
+            rest,
+        };
+        self.parts.joints.push(Joint {
+            kind: joints::JointKind::Revolute,
+            ends,
+            spring: Some(self.parts.loads.len()),
+        });
+        self.parts.loads.push(Load::Rotational(spring));
     }
 
     fn loads(&mut self) {

@@ -136,8 +136,8 @@ pub enum Shape {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialMotion {
-    /// Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s.
-    #[serde(default)]
+    /// Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s; zero by default.
+    #[serde(default, skip_serializing_if = "Vector::is_unsaid")]
     pub velocity: Vector,
     /// Angular velocity, counter-clockwise in the plane, rad/s.
     #[serde(default)]
@@ -145,6 +145,7 @@ pub struct InitialMotion {
     /// Velocity of deformation, m/s, beside both: its components as expressions in the material coordinate `s`,
     /// 0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; cables only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 2, max = 3))]
     pub deformation: Option<Vec<String>>,
 }
 

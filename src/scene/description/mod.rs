@@ -40,8 +40,8 @@ pub struct Scene {
     /// torsion) and particles.
     #[schemars(range(min = 2, max = 3))]
     pub dimension: usize,
-    /// Gravitational acceleration, m/s^2.
-    #[serde(default)]
+    /// Gravitational acceleration, m/s^2; zero by default.
+    #[serde(default, skip_serializing_if = "Vector::is_unsaid")]
     pub gravity: Vector,
     /// Rate of the frame that the scene is described in, about its origin, counter-clockwise, rad/s; 0 in space.
     #[serde(default)]
@@ -106,7 +106,7 @@ impl Scene {
             &mut motion.velocity
         });
         for vector in zeros.chain([&mut self.gravity]) {
-            if vector.given().is_empty() {
+            if vector.is_unsaid() {
                 *vector = Vector::zero(self.dimension.clamp(2, 3));
             }
         }

@@ -32,6 +32,11 @@ impl Vector {
         self.components
     }
 
+    /// Whether nothing is said: zero.
+    pub fn is_unsaid(&self) -> bool {
+        self.count == 0
+    }
+
     /// Those that are given.
     pub fn given(&self) -> &[f64] {
         &self.components[..self.count]

@@ -12,7 +12,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
     for body in &resolved.bodies {
         match body {
             BodyReference::Cable(cable) => add_cable(list, cable),
-            BodyReference::Rigid(rigid) => add_rigid(list, rigid),
+            BodyReference::Rigid(rigid) => add_rigid(list, rigid, resolved.scene.dimension),
         }
     }
     for (i, mass) in resolved.masses.iter().enumerate() {
@@ -60,7 +60,7 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
     list.parameters(&body.name, "of", &rows);
 }
 
-fn add_rigid(list: &mut List, rigid: &Rigid<'_>) {
+fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
     let (i, body) = (rigid.id, rigid.body);
     let (mass, inertia) = (Parameter::Mass(i), Parameter::Inertia(i));
     let about = "Moment of inertia about the centre of mass";
@@ -68,7 +68,9 @@ fn add_rigid(list: &mut List, rigid: &Rigid<'_>) {
         ("mass", "Mass", Some(KILOGRAM), mass, body.mass),
         ("inertia", about, Some(INERTIA), inertia, body.inertia),
     ];
-    list.parameters(&body.name, "of", &rows);
+    // In space rigid bodies are particles.
+    let count = if dimension == 2 { 2 } else { 1 };
+    list.parameters(&body.name, "of", &rows[..count]);
 }
 
 /// Stiffness and damping of hinges, spring-dampers and couplings.

@@ -4,5 +4,6 @@ mod dense;
 pub(in crate::system) mod frequencies;
 mod iteration;
 pub(in crate::system) mod linearization;
+mod probe;
 mod shifted;
 pub(in crate::system) mod spectrum;

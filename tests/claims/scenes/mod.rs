@@ -13,6 +13,7 @@ mod ports;
 mod rigid;
 mod sections;
 mod slides;
+mod space;
 mod tables;
 
 use serde_json::{Value, json};
@@ -35,6 +36,7 @@ pub fn all() -> Vec<Specimen> {
         methods::all(),
         tables::all(),
         initial::all(),
+        space::all(),
     ];
     parts.into_iter().flatten().collect()
 }

@@ -65,91 +65,16 @@ macro_rules! at_bending_points {
 
 mod sampling;
 mod tangent;
+mod vectors;
 
 pub(super) use sampling::Sampling;
-use sampling::{BENDING, BETWEEN, Combination, LOBATTO, RADAU, RADAU_LAST, Sample};
+use sampling::{BENDING, BETWEEN, LOBATTO, RADAU, RADAU_LAST, Sample};
 pub(super) use tangent::{Factors, transposed};
+pub(super) use vectors::TURNS;
+use vectors::{act, combine, dot, inner, times, turns, wedge};
 
-#[inline(always)]
-fn combine<N: Real, const D: usize>(weights: &Combination, v: &[Vector<N, D>; 3]) -> Vector<N, D> {
-    // Ends of an element see one vector alone; known when compiling.
-    match weights {
-        [0.0, 1.0, 0.0] => v[1],
-        [0.0, 0.0, 1.0] => v[2],
-        _ => {
-            let [p, q, r] = weights;
-            let [p, q, r] = [
-                v[0][0].constant(*p),
-                v[0][0].constant(*q),
-                v[0][0].constant(*r),
-            ];
-            each!(v[0], i => {
-                v[2][i].times_plus(r, v[1][i].times_plus(q, v[0][i] * p))
-            })
-        }
-    }
-}
-
-#[inline(always)]
-fn dot<N: Real, const K: usize>(a: &[N; K], b: &[N; K]) -> N {
-    let mut sum = a[0] * b[0];
-    for k in 1..K {
-        sum = a[k].times_plus(b[k], sum);
-    }
-    sum
-}
-
-#[inline(always)]
-fn times<N: Real, const K: usize>(a: &[N; K], factor: N) -> [N; K] {
-    each!(*a, k => a[k] * factor)
-}
-
-/// Components of a curvature: all of them in space, the first alone in the plane.
-pub(super) const TURNS: usize = 3;
 /// Curvature times length of an element below which it counts as straight.
 const FLAT: f64 = 1e-9;
-
-/// Number of planes that vectors span: components of a curvature.
-const fn turns(dimension: usize) -> usize {
-    dimension * (dimension - 1) / 2
-}
-
-/// Inner product of two curvatures.
-#[inline(always)]
-fn inner<N: Real, const D: usize>(a: &[N; TURNS], b: &[N; TURNS]) -> N {
-    let mut sum = a[0] * b[0];
-    for k in 1..turns(D) {
-        sum = a[k].times_plus(b[k], sum);
-    }
-    sum
-}
-
-/// Exterior product u ^ w: the signed area in the plane, the cross product (reordered) in space.
-#[inline(always)]
-fn wedge<N: Real, const D: usize>(u: &Vector<N, D>, w: &Vector<N, D>) -> [N; TURNS] {
-    let (mut c, mut k) = ([u[0].constant(0.0); TURNS], 0);
-    for i in 0..D {
-        for j in i + 1..D {
-            c[k] = u[i] * w[j] - u[j] * w[i];
-            k += 1;
-        }
-    }
-    c
-}
-
-/// Contraction with the exterior product: `act(m, u) . w = m . (u ^ w)`.
-#[inline(always)]
-fn act<N: Real, const D: usize>(m: &[N; TURNS], u: &Vector<N, D>) -> Vector<N, D> {
-    let (mut out, mut k) = ([u[0].constant(0.0); D], 0);
-    for i in 0..D {
-        for j in i + 1..D {
-            out[j] += m[k] * u[i];
-            out[i] = out[i] - m[k] * u[j];
-            k += 1;
-        }
-    }
-    out
-}
 
 /// `u = r'` and `w = r''`, or their rates.
 #[derive(Clone, Copy)]

@@ -3,8 +3,8 @@
 //! Source: second derivatives of the energy of `cable/mod.rs`.
 
 use super::{
-    BENDING, BETWEEN, Kernel, LOBATTO, Motion, RADAU, RADAU_LAST, Sample, Sampling, Square, TURNS,
-    Vector, act, combine, inner, times, turns,
+    BENDING, BETWEEN, Curvature, Kernel, LOBATTO, Line, Motion, RADAU, RADAU_LAST, Sample,
+    Sampling, Square, TURNS, Vector, act, combine, inner, times, turns,
 };
 use crate::elements::EndBlocks;
 use crate::math::lanes::Real;
@@ -157,8 +157,45 @@ impl<N: Real> Kernel<N> {
             self.number(point.curvature[i]) * self.inverse_length
         });
         let stiffness = factors.material * self.bending_stiffness * weight;
-        let (plane, straight) = self.plane::<D>(&now);
-        let of_size = D > 2 && factors.of_size;
+        self.add_material((&at, &now), (&s, &c), (stiffness, factors.of_size), sum);
+        let along = now.decay * inner::<N, D>(&m, &now.value);
+        let m = times(&m, now.scale);
+        let (mu, mw) = (act(&m, &at.u), act(&m, &at.w));
+        // 4 p (p + 1) / a^2 = (2 p / a) (2 p / a + 2 / a), half of it on both sides.
+        let half = along * (self.number(0.5) * now.decay + now.inverse);
+        let (mut a, mut b) = ([at.u; 3], [at.u; 3]);
+        for i in 0..3 {
+            a[i] = times(&at.u, s[i]);
+            b[i] = each!(at.u, d => {
+                at.u[d].times_plus(half * s[i], now.decay * (mw[d] * s[i] - mu[d] * c[i]))
+            });
+        }
+        sum.add_products(&a, &b);
+        sum.add_products(&b, &a);
+        for i in 0..3 {
+            for j in 0..=i {
+                let multiple = along * self.number(point.slope[i] * point.slope[j]);
+                sum.multiples[i][j] = sum.multiples[i][j] - multiple;
+                if i != j {
+                    let twist = s[i] * c[j] - c[i] * s[j];
+                    sum.add_twist((i, j), &times(&m, twist));
+                }
+            }
+        }
+    }
+
+    /// Products of the gradients of the curvature, or in space of its size alone: `s` and `c` are what the three vectors
+    /// count in `u` and `w`.
+    #[inline(always)]
+    fn add_material<const D: usize>(
+        &self,
+        (at, now): (&Line<N, D>, &Curvature<N>),
+        (s, c): (&[N; 3], &[N; 3]),
+        (stiffness, of_size): (N, bool),
+        sum: &mut Sum<N, D>,
+    ) {
+        let (plane, straight) = self.plane::<D>(now);
+        let of_size = D > 2 && of_size;
         for k in 0..if of_size { 1 + turns(D) } else { turns(D) } {
             let (mut unit, mut stiffness) = ([self.number(0.0); TURNS], stiffness);
             if k == turns(D) {
@@ -183,30 +220,6 @@ impl<N: Real> Kernel<N> {
                 times(&g[2], stiffness),
             ];
             sum.add_products(&scaled, &g);
-        }
-        let along = now.decay * inner::<N, D>(&m, &now.value);
-        let m = times(&m, now.scale);
-        let (mu, mw) = (act(&m, &at.u), act(&m, &at.w));
-        // 4 p (p + 1) / a^2 = (2 p / a) (2 p / a + 2 / a), half of it on both sides.
-        let half = along * (self.number(0.5) * now.decay + now.inverse);
-        let (mut a, mut b) = ([at.u; 3], [at.u; 3]);
-        for i in 0..3 {
-            a[i] = times(&at.u, s[i]);
-            b[i] = each!(at.u, d => {
-                at.u[d].times_plus(half * s[i], now.decay * (mw[d] * s[i] - mu[d] * c[i]))
-            });
-        }
-        sum.add_products(&a, &b);
-        sum.add_products(&b, &a);
-        for i in 0..3 {
-            for j in 0..=i {
-                let multiple = along * self.number(point.slope[i] * point.slope[j]);
-                sum.multiples[i][j] = sum.multiples[i][j] - multiple;
-                if i != j {
-                    let twist = s[i] * c[j] - c[i] * s[j];
-                    sum.add_twist((i, j), &times(&m, twist));
-                }
-            }
         }
     }
 

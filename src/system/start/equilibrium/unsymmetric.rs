@@ -76,9 +76,8 @@ pub(super) fn solve<const D: usize>(
         basis.push(w.iter().map(|w| w / rest).collect());
     }
     for i in (0..columns.len()).rev() {
-        let later: f64 = (i + 1..columns.len())
-            .map(|j| columns[j][i] * target[j])
-            .sum();
+        let term = |j: usize| columns[j][i] * target[j];
+        let later: f64 = (i + 1..columns.len()).map(term).sum();
         target[i] = (target[i] - later) / columns[i][i];
     }
     for (v, factor) in basis.iter().zip(&target[..columns.len()]) {

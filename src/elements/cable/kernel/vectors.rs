@@ -1,0 +1,89 @@
+//! Vectors and curvatures of a point of quadrature, as arrays: sums of products, and the exterior product.
+//!
+//! Source: D. Hestenes, G. Sobczyk, Clifford Algebra to Geometric Calculus (1984), section 1-1 (exterior product).
+
+use super::Vector;
+use super::sampling::Combination;
+use crate::math::lanes::Real;
+
+#[inline(always)]
+pub(super) fn combine<N: Real, const D: usize>(
+    weights: &Combination,
+    v: &[Vector<N, D>; 3],
+) -> Vector<N, D> {
+    // Ends of an element see one vector alone; known when compiling.
+    match weights {
+        [0.0, 1.0, 0.0] => v[1],
+        [0.0, 0.0, 1.0] => v[2],
+        _ => {
+            let [p, q, r] = weights;
+            let [p, q, r] = [
+                v[0][0].constant(*p),
+                v[0][0].constant(*q),
+                v[0][0].constant(*r),
+            ];
+            each!(v[0], i => {
+                v[2][i].times_plus(r, v[1][i].times_plus(q, v[0][i] * p))
+            })
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn dot<N: Real, const K: usize>(a: &[N; K], b: &[N; K]) -> N {
+    let mut sum = a[0] * b[0];
+    for k in 1..K {
+        sum = a[k].times_plus(b[k], sum);
+    }
+    sum
+}
+
+#[inline(always)]
+pub(super) fn times<N: Real, const K: usize>(a: &[N; K], factor: N) -> [N; K] {
+    each!(*a, k => a[k] * factor)
+}
+
+/// Components of a curvature: all of them in space, the first alone in the plane.
+pub(in crate::elements::cable) const TURNS: usize = 3;
+
+/// Number of planes that vectors span: components of a curvature.
+pub(super) const fn turns(dimension: usize) -> usize {
+    dimension * (dimension - 1) / 2
+}
+
+/// Inner product of two curvatures.
+#[inline(always)]
+pub(super) fn inner<N: Real, const D: usize>(a: &[N; TURNS], b: &[N; TURNS]) -> N {
+    let mut sum = a[0] * b[0];
+    for k in 1..turns(D) {
+        sum = a[k].times_plus(b[k], sum);
+    }
+    sum
+}
+
+/// Exterior product u ^ w: the signed area in the plane, the cross product (reordered) in space.
+#[inline(always)]
+pub(super) fn wedge<N: Real, const D: usize>(u: &Vector<N, D>, w: &Vector<N, D>) -> [N; TURNS] {
+    let (mut c, mut k) = ([u[0].constant(0.0); TURNS], 0);
+    for i in 0..D {
+        for j in i + 1..D {
+            c[k] = u[i] * w[j] - u[j] * w[i];
+            k += 1;
+        }
+    }
+    c
+}
+
+/// Contraction with the exterior product: `act(m, u) . w = m . (u ^ w)`.
+#[inline(always)]
+pub(super) fn act<N: Real, const D: usize>(m: &[N; TURNS], u: &Vector<N, D>) -> Vector<N, D> {
+    let (mut out, mut k) = ([u[0].constant(0.0); D], 0);
+    for i in 0..D {
+        for j in i + 1..D {
+            out[j] += m[k] * u[i];
+            out[i] = out[i] - m[k] * u[j];
+            k += 1;
+        }
+    }
+    out
+}

@@ -1,0 +1,98 @@
+//! Derivatives of forces by the coordinates of a few nodes, on numbers that carry derivatives.
+
+use nalgebra::DMatrix;
+
+use crate::body::{Assembly, Node, NodeBlock, map_node, no_block};
+use crate::math::jet::Jet;
+use crate::math::sparse::General;
+
+/// Part of a block that its transpose must differ by to count as not symmetric.
+pub(super) const SKEW: f64 = 1e-10;
+
+/// Nodal vectors that carry derivatives, of which few at a time are not zero.
+pub(super) struct Probe<const D: usize> {
+    x: Vec<Node<D, Jet>>,
+    v: Vec<Node<D, Jet>>,
+    f: Vec<Node<D, Jet>>,
+}
+
+pub(super) type Nodes<const D: usize> = [Node<D, Jet>];
+
+impl<const D: usize> Probe<D> {
+    pub(super) fn new(x: &[Node<D>], v: &[Node<D>]) -> Self {
+        let lift = |x: &[Node<D>]| x.iter().map(|x| map_node(x, Jet::from_re)).collect();
+        Self {
+            x: lift(x),
+            v: lift(v),
+            f: vec![[[Jet::from_re(0.0); D]; 2]; x.len()],
+        }
+    }
+
+    /// Minus the derivatives, by coordinates or rates, of forces on these nodes that depend on no others.
+    pub(super) fn differentiate(
+        &mut self,
+        nodes: &[usize],
+        by_rates: bool,
+        force: &dyn Fn(&Nodes<D>, &Nodes<D>, &mut Nodes<D>),
+    ) -> Blocks {
+        let mut nodes = nodes.to_vec();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let size = 2 * D * nodes.len();
+        let mut whole = DMatrix::zeros(size, size);
+        for (j, column) in nodes.iter().enumerate() {
+            for c in 0..2 * D {
+                let seeded = if by_rates { &mut self.v } else { &mut self.x };
+                seeded[*column].as_flattened_mut()[c].v1 = 1.0;
+                force(&self.x, &self.v, &mut self.f);
+                let seeded = if by_rates { &mut self.v } else { &mut self.x };
+                seeded[*column].as_flattened_mut()[c].v1 = 0.0;
+                for (i, row) in nodes.iter().enumerate() {
+                    let none = [[Jet::from_re(0.0); D]; 2];
+                    let force = std::mem::replace(&mut self.f[*row], none);
+                    for (r, force) in force.as_flattened().iter().enumerate() {
+                        whole[(2 * D * i + r, 2 * D * j + c)] = -force.v1;
+                    }
+                }
+            }
+        }
+        Blocks { nodes, whole }
+    }
+}
+
+/// A block over two nodes.
+pub(super) fn part<const D: usize>(whole: &DMatrix<f64>, i: usize, j: usize) -> NodeBlock<D> {
+    let mut block = no_block::<D>();
+    for (r, row) in block.as_flattened_mut().iter_mut().enumerate() {
+        for (c, entry) in row.as_flattened_mut().iter_mut().enumerate() {
+            *entry = whole[(2 * D * i + r, 2 * D * j + c)];
+        }
+    }
+    block
+}
+
+/// A matrix over a few nodes.
+pub(super) struct Blocks {
+    nodes: Vec<usize>,
+    pub(super) whole: DMatrix<f64>,
+}
+
+impl Blocks {
+    pub(super) fn is_symmetric(&self) -> bool {
+        (&self.whole - self.whole.transpose()).amax() <= SKEW * self.whole.amax()
+    }
+
+    pub(super) fn add<const D: usize>(
+        &self,
+        assembly: &Assembly<D>,
+        matrix: &mut General<f64>,
+        elsewhere: &mut dyn FnMut(usize, usize, f64),
+    ) {
+        for (i, row) in self.nodes.iter().enumerate() {
+            for (j, column) in self.nodes.iter().enumerate() {
+                let block = part(&self.whole, i, j);
+                assembly.add_block((*row, *column), &block, matrix, elsewhere);
+            }
+        }
+    }
+}
