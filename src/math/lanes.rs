@@ -19,6 +19,8 @@ pub trait Real:
     + Neg<Output = Self>
     + AddAssign
 {
+    /// Whether loops over a few points are written out: of numbers in lanes, on which time is spent.
+    const WRITTEN_OUT: bool = false;
     /// A constant, in as many lanes.
     fn constant(self, value: f64) -> Self;
     /// Square root.
@@ -95,6 +97,9 @@ impl<S: Simd> AddAssign for Lanes<S> {
 }
 
 impl<S: Simd> Real for Lanes<S> {
+    // One lane is what processors without vectors have.
+    const WRITTEN_OUT: bool = S::F64_LANES > 1;
+
     #[inline(always)]
     fn constant(self, value: f64) -> Self {
         Self(self.0, self.0.splat_f64s(value))

@@ -32,6 +32,11 @@ macro_rules! each {
 macro_rules! at_axial_points {
     ($self:ident, $method:ident($($argument:expr),*)) => {
         match $self.sampling {
+            sampling if !N::WRITTEN_OUT => {
+                for (index, point) in sampling.points().iter().enumerate() {
+                    $self.$method(index, point, $($argument),*);
+                }
+            }
             Sampling::Between => at_axial_points!($self, $method($($argument),*), BETWEEN),
             Sampling::Lobatto => at_axial_points!($self, $method($($argument),*), LOBATTO),
             Sampling::FreeLast => at_axial_points!($self, $method($($argument),*), RADAU),
@@ -50,7 +55,7 @@ macro_rules! at_axial_points {
 /// and takes a third of the time to compile.
 macro_rules! at_bending_points {
     ($self:ident, $method:ident($($argument:expr),*)) => {
-        if D == 2 {
+        if D == 2 && N::WRITTEN_OUT {
             let [p, q, r] = &BENDING;
             $self.$method(0, p, $($argument),*);
             $self.$method(1, q, $($argument),*);
