@@ -8,6 +8,7 @@
 
 use super::Quantity;
 use crate::integrators::Tolerance;
+use crate::math::vector::norm;
 use crate::system::{State, System};
 
 /// Errors beyond this many tolerances of an output's largest size are told of: the estimate is within a factor
@@ -17,15 +18,17 @@ const LIMIT: f64 = 10.0;
 const EVERY: u64 = 16;
 /// Part of its natural size that an output must reach for its errors to be compared with it.
 const SMALLEST: f64 = 1e-3;
+/// Most components of an output.
+const MOST: usize = 3;
 
-/// An output, with both its components where it is a vector.
+/// An output, with all its components where it is a vector.
 struct Group {
     name: String,
     members: Vec<Quantity>,
     /// What it is where the scene moves at its natural rate.
     natural: f64,
     /// Values at the sampled state.
-    values: [f64; 2],
+    values: [f64; MOST],
     largest: f64,
     /// Sum of the squares of the changes that steps made.
     squares: f64,
@@ -59,12 +62,12 @@ impl Watch {
             };
             let name = name.split('[').next().unwrap_or(name);
             match groups.iter_mut().find(|group| group.name == name) {
-                Some(group) if group.members.len() < 2 => group.members.push(quantity),
+                Some(group) if group.members.len() < MOST => group.members.push(quantity),
                 _ => groups.push(Group {
                     name: name.to_owned(),
                     members: vec![quantity],
                     natural,
-                    values: [0.0; 2],
+                    values: [0.0; MOST],
                     largest: 0.0,
                     squares: 0.0,
                     is_doubtful: false,
@@ -94,8 +97,7 @@ impl Watch {
             for (value_of, quantity) in group.values.iter_mut().zip(&group.members) {
                 *value_of = value(*quantity);
             }
-            let [a, b] = group.values;
-            group.largest = group.largest.max(a.hypot(b));
+            group.largest = group.largest.max(norm(&group.values));
         }
     }
 

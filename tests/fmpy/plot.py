@@ -280,7 +280,9 @@ def legend(axes):
     labels = axes.get_legend_handles_labels()[1]
     longest = max(map(len, labels))
     columns = max(1, min(len(labels), 52 // (longest + 7)))
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=columns, handlelength=2.4, columnspacing=1.2)
+    # As far below as the name of the axis is high, however high the axes are.
+    place = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 4.6}
+    axes.legend(**place, ncols=columns, handlelength=2.4, columnspacing=1.2)
 
 
 if __name__ == "__main__":
