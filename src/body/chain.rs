@@ -293,7 +293,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         for (lane, j) in pack.elements.clone().enumerate() {
             let [a, b] = self.nodes(j);
             for (part, (row, column)) in [(a, a), (b, a), (b, b)].into_iter().enumerate() {
-                let mut block = [[[[0.0; D]; 2]; D]; 2];
+                let mut block = no_block();
                 for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     for r in 0..D {
                         for c in 0..D {

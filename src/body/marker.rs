@@ -6,7 +6,7 @@ use super::Chain;
 use super::connectivity::{Node, Row, add_node};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, axis, left};
+use crate::math::space::{Vector, left, left_matrix};
 
 /// A point of a body, with a direction: the slope of a cable, the unit vector of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,11 +27,6 @@ pub struct Marker<N = f64> {
 
 /// Derivatives of a vector by position and direction of a node.
 pub type Partial<const D: usize> = [SMatrix<f64, D, D>; 2];
-
-/// Turns what is in the plane left by a right angle.
-fn turn<const D: usize>() -> SMatrix<f64, D, D> {
-    SMatrix::from_fn(|r, c| left(axis::<D, f64>(c))[r])
-}
 
 impl Marker {
     /// The point of a planar rigid body at `(x, y)` in its frame, m, or a particle.
@@ -116,7 +111,7 @@ impl Marker {
         [
             (
                 self.nodes[0],
-                [one * weights[0], one * weights[1] + turn() * across],
+                [one * weights[0], one * weights[1] + left_matrix() * across],
             ),
             (self.nodes[1], [one * weights[2], one * weights[3]]),
         ]

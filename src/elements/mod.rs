@@ -7,7 +7,7 @@
 pub mod cable;
 pub mod shape;
 
-use nalgebra::{DMatrix, SMatrix, SVector};
+use nalgebra::{SMatrix, SVector};
 
 use crate::math::jet::Number;
 use crate::math::lanes::{PACK, Simd};
@@ -98,9 +98,4 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     );
     /// [`Self::damping`] of a pack.
     fn pack_damping<S: Simd>(simd: S, pack: &Self::Pack, e: &NodalPack<D>, out: &mut BlockPack<D>);
-}
-
-/// The matrix of blocks over the vectors of an element.
-pub fn whole<const D: usize>(blocks: &Blocks<D>) -> DMatrix<f64> {
-    DMatrix::from_fn(4 * D, 4 * D, |r, c| blocks[r / D][c / D][(r % D, c % D)])
 }

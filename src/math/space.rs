@@ -1,7 +1,7 @@
 //! Vectors of the plane and of space, by one set of formulas: the plane is that of the first two axes, and turns
 //! counter-clockwise about the third.
 
-use nalgebra::{Rotation3, SVector, Vector3};
+use nalgebra::{Rotation3, SMatrix, SVector, Vector3};
 
 use super::jet::Number;
 
@@ -13,6 +13,16 @@ pub fn axis<const D: usize, N: Number>(k: usize) -> Vector<D, N> {
     Vector::from_fn(|i, _| N::of(f64::from(u8::from(i == k))))
 }
 
+/// All three components: across the plane there is none.
+pub fn components<const D: usize, N: Number>(v: &Vector<D, N>) -> [N; 3] {
+    std::array::from_fn(|k| if k < D { v[k] } else { N::of(0.0) })
+}
+
+/// The vector of those of three components that there are in so many dimensions.
+pub fn vector<const D: usize, N: Number>(components: [N; 3]) -> Vector<D, N> {
+    Vector::from_row_slice(&components[..D])
+}
+
 /// The part in the plane, turned left by a right angle.
 pub fn left<const D: usize, N: Number>(v: Vector<D, N>) -> Vector<D, N> {
     let mut turned = Vector::zeros();
@@ -20,24 +30,29 @@ pub fn left<const D: usize, N: Number>(v: Vector<D, N>) -> Vector<D, N> {
     turned
 }
 
+/// [`left`] as a matrix.
+pub fn left_matrix<const D: usize>() -> SMatrix<f64, D, D> {
+    SMatrix::from_fn(|r, c| left(axis::<D, f64>(c))[r])
+}
+
 /// `left(a) . b`: the third component of the cross product.
 pub fn cross<const D: usize, N: Number>(a: &Vector<D, N>, b: &Vector<D, N>) -> N {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// The part in the plane turned left by an angle (rad); what is across the plane stays.
-pub fn turned<const D: usize, N: Number>(v: Vector<D, N>, angle: N) -> Vector<D, N> {
-    let ((sin, cos), mut turned) = (angle.sin_cos(), v);
+/// The part in the plane turned left by the angle with this sine and cosine; what is across the plane stays.
+pub fn turned<const D: usize, N: Number>(v: Vector<D, N>, (sin, cos): (N, N)) -> Vector<D, N> {
+    let mut turned = v;
     (turned[0], turned[1]) = (cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]);
     turned
 }
 
 /// All components of `a x b`, in the plane the third alone.
 pub fn moment<const D: usize, N: Number>(a: &Vector<D, N>, b: &Vector<D, N>) -> [N; 3] {
-    let at = |v: &Vector<D, N>, k: usize| if k < D { v[k] } else { N::of(0.0) };
+    let (a, b) = (components(a), components(b));
     std::array::from_fn(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        at(a, i) * at(b, j) - at(a, j) * at(b, i)
+        a[i] * b[j] - a[j] * b[i]
     })
 }
 
@@ -49,19 +64,15 @@ pub fn spins(dimension: usize) -> std::ops::Range<usize> {
 /// Turned about an axis by an angle: the direction and the length of a vector.
 pub fn rotated<const D: usize>(v: Vector<D>, turn: [f64; 3]) -> Vector<D> {
     if D == 2 {
-        return turned(v, turn[2]);
+        return turned(v, turn[2].sin_cos());
     }
-    let turned = Rotation3::new(turn.into()) * Vector3::from_row_slice(v.as_slice());
-    Vector::from_row_slice(turned.as_slice())
+    vector((Rotation3::new(turn.into()) * Vector3::from(components(&v))).into())
 }
 
 /// `spin x v`; in the plane the third component of the spin alone counts.
 pub fn spun<const D: usize>(spin: [f64; 3], v: &[f64; D]) -> [f64; D] {
-    let at = |k: usize| if k < D { v[k] } else { 0.0 };
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        spin[i] * at(j) - spin[j] * at(i)
-    })
+    let v = Vector::<3>::from(components(&Vector::from(*v)));
+    vector::<D, f64>(moment(&Vector::<3>::from(spin), &v)).into()
 }
 
 /// Unit vectors perpendicular to a unit vector and to each other, as many as there are; the first is that to the left in
@@ -69,23 +80,24 @@ pub fn spun<const D: usize>(spin: [f64; 3], v: &[f64; D]) -> [f64; D] {
 pub fn normals<const D: usize, N: Number>(
     along: &Vector<D, N>,
 ) -> impl Iterator<Item = Vector<D, N>> {
-    let along = *along;
+    (0..D - 1).map(|k| normal(along, k))
+}
+
+/// One of the [`normals`], counted from 0.
+pub fn normal<const D: usize, N: Number>(along: &Vector<D, N>, k: usize) -> Vector<D, N> {
+    if D == 2 {
+        return left(*along);
+    }
     // The axis that is most across it.
     let size = |k: &usize| along[*k].plain().abs();
-    let across = (0..D)
-        .min_by(|a, b| size(a).total_cmp(&size(b)))
-        .unwrap_or(0);
-    (0..D - 1).map(move |k| {
-        if D == 2 {
-            return left(along);
-        }
-        let away = axis(across) - along * along[across];
-        let first: Vector<D, N> = away / away.norm();
-        match k {
-            0 => first,
-            _ => Vector::from_row_slice(&moment(&along, &first)[..D]),
-        }
-    })
+    let across = (0..D).min_by(|a, b| size(a).total_cmp(&size(b)));
+    let across = across.unwrap_or(0);
+    let away = axis(across) - *along * along[across];
+    let first: Vector<D, N> = away / away.norm();
+    match k {
+        0 => first,
+        _ => vector(moment(along, &first)),
+    }
 }
 
 #[cfg(test)]

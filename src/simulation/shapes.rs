@@ -3,7 +3,7 @@
 use super::engine::Engine;
 use super::{Error, Simulation};
 use crate::body::{Marker, Node};
-use crate::math::space::Vector;
+use crate::math::space::{Vector, components};
 use crate::system::{State, System};
 
 impl Simulation {
@@ -38,7 +38,9 @@ impl<const D: usize> Engine<D> {
     pub(super) fn markers(&mut self, state: &State, inputs: &[f64]) -> Vec<[f64; 3]> {
         let (assembled, x) = self.nodes(state, inputs);
         let markers = assembled.markers().iter();
-        markers.map(|marker| point(marker.position(x))).collect()
+        markers
+            .map(|marker| components(&marker.position(x)))
+            .collect()
     }
 
     /// Where points along every body are.
@@ -53,11 +55,6 @@ impl<const D: usize> Engine<D> {
     }
 }
 
-/// A point with three components.
-fn point<const D: usize>(at: Vector<D>) -> [f64; 3] {
-    std::array::from_fn(|k| if k < D { at[k] } else { 0.0 })
-}
-
 fn outlines<const D: usize>(
     system: &System<D>,
     x: &[Node<D>],
@@ -65,7 +62,7 @@ fn outlines<const D: usize>(
 ) -> Vec<Vec<[f64; 3]>> {
     let first = |body: usize| system.bodies()[body].start;
     let mut found: Vec<Vec<[f64; 3]>> = (0..system.bodies().len())
-        .map(|body| vec![point(x[first(body)][0].into())])
+        .map(|body| vec![components(&Vector::from(x[first(body)][0]))])
         .collect();
     for chain in system.chains() {
         let parts = parts(chain.elements().len());
@@ -73,7 +70,7 @@ fn outlines<const D: usize>(
         let body = (0..found.len()).find(|body| first(*body) == chain.nodes(0)[0]);
         if let Some(body) = body {
             let place = |part| Marker::along(body, chain, along(part)).position(x);
-            found[body] = (0..=parts).map(|part| point(place(part))).collect();
+            found[body] = (0..=parts).map(|part| components(&place(part))).collect();
         }
     }
     found

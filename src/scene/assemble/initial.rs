@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::body::{Node, add_node, no_node};
 use crate::math::expression::Expression;
-use crate::math::space::{Vector, spun};
+use crate::math::space::{Vector, spun, vector};
 use crate::scene::{Error, InitialMotion};
 
 /// Motions of all bodies at the start.
@@ -19,7 +19,7 @@ pub struct Motions<const D: usize = 2> {
 impl<const D: usize> Motions<D> {
     pub(super) fn push(&mut self, nodes: Range<usize>, motion: &InitialMotion) {
         self.deformation.resize(nodes.end, no_node());
-        let velocity = Vector::from_row_slice(&motion.velocity.full()[..D]);
+        let velocity = vector(motion.velocity.full());
         self.bodies.push((nodes, velocity, motion.spin.full()));
     }
 

@@ -15,7 +15,7 @@ use crate::body::{Marker, Node};
 use crate::elements::cable::{self, Inertia};
 use crate::elements::{self, Nodal};
 use crate::math::function::Function;
-use crate::math::space::{Vector, axis, turned};
+use crate::math::space::{Vector, axis, turned, vector};
 use crate::system::joints::{self, Joint};
 use crate::system::loads::{self, Load};
 use crate::system::{Angle, BuildError, CableChain, End, Lump, Parts, Signal, System};
@@ -170,14 +170,14 @@ impl<const D: usize> Builder<'_, D> {
                 let chain = CableChain::new(build_elements(cable, &mesh), first);
                 let node = |s: &f64| {
                     let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
-                    ways.map(|way| vector::<D>(way).into())
+                    ways.map(|way| vector::<D, f64>(way).into())
                 };
                 self.parts.nodes.extend(mesh.iter().map(node));
                 self.parts.chains.push(chain);
             }
             BodyReference::Rigid(rigid) => {
                 let rigid = rigid.body;
-                let direction: Vector<D> = turned(axis(0), rigid.angle);
+                let direction: Vector<D> = turned(axis(0), rigid.angle.sin_cos());
                 let position: Vector<D> = vector(rigid.position.full());
                 (self.parts.nodes).push([position.into(), direction.into()]);
                 self.parts.rigid.push((first, rigid.inertia > 0.0));
@@ -436,12 +436,7 @@ impl<const D: usize> Builder<'_, D> {
 
 /// The direction as a unit vector.
 fn unit<const D: usize>(direction: [f64; 3]) -> Vector<D> {
-    vector::<D>(direction).normalize()
-}
-
-/// The components that there are in so many dimensions.
-fn vector<const D: usize>(components: [f64; 3]) -> Vector<D> {
-    Vector::from_row_slice(&components[..D])
+    vector::<D, f64>(direction).normalize()
 }
 
 /// One number for every component of a vector.

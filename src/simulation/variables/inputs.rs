@@ -36,12 +36,12 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
 
 /// What comes in through a spring and a damper, which feel it at once.
 fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
-    let before = list.0.len();
+    let before = list.variables.len();
     add_motion(list, &coupling.motion, (port, "pulls"));
     list.mark_direct(before);
     // Coordinates come first, then their rates.
     let coordinates = coupling.motion.drives().len();
-    for (i, variable) in list.0[before..].iter_mut().enumerate() {
+    for (i, variable) in list.variables[before..].iter_mut().enumerate() {
         variable.coupling = Some(coupling.id);
         variable.sets_length = i < coordinates;
     }
@@ -82,7 +82,10 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
         InputKind::Action(action) => action.on(),
         InputKind::RestLength(load) => load,
     };
-    let (name, before) = (format!("{}.{key}", port.unwrap_or(of)), list.0.len());
+    let (name, before) = (
+        format!("{}.{key}", port.unwrap_or(of)),
+        list.variables.len(),
+    );
     let ways = &ways[..input.start.len()];
     for (axis, (start, way)) in input.start.iter().zip(ways).enumerate() {
         let name = match ways.len() {
@@ -97,7 +100,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
         list.add(name, what, Some(unit), source, Some(*start));
     }
     list.mark_direct(before);
-    for variable in &mut list.0[before..] {
+    for variable in &mut list.variables[before..] {
         variable.sets_length = matches!(input.kind, InputKind::RestLength(_));
     }
 }
@@ -145,7 +148,7 @@ fn add_motion(list: &mut List, motion: &MotionKind<'_>, (name, verb): (&str, &st
                 ),
                 MotionKind::Angle(..) | MotionKind::Displacement(..) => (name, what),
             };
-            let (place, source) = (list.0.len(), Source::Input(first + order));
+            let (place, source) = (list.variables.len(), Source::Input(first + order));
             list.add(name, what, Some(unit), source, Some(start));
             // Positions and rates go on from where they are; an acceleration may jump.
             if order == 2 {

@@ -208,12 +208,15 @@ pub fn variables(scene: &Scene) -> Vec<Variable> {
 
 /// The variables of a scene whose references are resolved.
 pub(super) fn list(scene: &Resolved<'_>) -> Vec<Variable> {
-    let mut list = List(Vec::new(), scene.scene.dimension);
+    let mut list = List {
+        variables: Vec::new(),
+        dimension: scene.scene.dimension,
+    };
     list.add("time", "Simulated time", Some(SECOND), Source::Time, None);
     parameters::add(&mut list, scene);
     inputs::add(&mut list, scene);
     outputs::add(&mut list, scene);
-    list.0
+    list.variables
 }
 
 /// Start values of all inputs, in the order of the system ([`Resolved::numbers`]).
@@ -237,7 +240,10 @@ fn component(name: &str, axis: usize) -> String {
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Variables, and how many components a vector has.
-struct List(Vec<Variable>, usize);
+struct List {
+    variables: Vec<Variable>,
+    dimension: usize,
+}
 
 impl List {
     fn add(
@@ -248,7 +254,7 @@ impl List {
         source: Source,
         start: Option<f64>,
     ) {
-        self.0.push(Variable {
+        self.variables.push(Variable {
             name: name.into(),
             description: description.into(),
             unit,
@@ -262,7 +268,7 @@ impl List {
 
     /// Inputs and outputs from this index on are direct.
     fn mark_direct(&mut self, first: usize) {
-        for variable in &mut self.0[first..] {
+        for variable in &mut self.variables[first..] {
             variable.is_direct = true;
         }
     }

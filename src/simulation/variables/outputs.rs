@@ -24,7 +24,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
 
 /// An output; the variables of a port bear its name.
 fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, port: Option<&str>) {
-    let first = list.0.len();
+    let first = list.variables.len();
     match output {
         Output::Position(m) => {
             let words = ("position", "Position of", METRE);
@@ -110,7 +110,7 @@ fn add_angular_velocity(list: &mut List, of: (&Turning<'_>, Option<&str>)) {
 fn add_angular_acceleration(list: &mut List, of: (&Turning<'_>, Option<&str>)) {
     let (key, what) = ("angular_acceleration", "Angular acceleration");
     let quantities = (Quantity::AngularAcceleration, Quantity::JointAcceleration);
-    let first = list.0.len();
+    let first = list.variables.len();
     add_angular_rate(list, of, (key, what, RADIAN_PER_SECOND_2), quantities);
     list.mark_direct(first);
 }
@@ -142,7 +142,7 @@ fn add_angular_rate(
 /// What a port that motions come into exerts on the outside.
 fn add_port_force(list: &mut List, port: &Port<'_>) {
     use Quantity::{CouplingForce, CouplingMoment, MotionForce, MotionMoment};
-    let first = list.0.len();
+    let first = list.variables.len();
     let what = format!(
         "of {} on what {} couples it to",
         port.marker.name, port.name
@@ -180,7 +180,7 @@ fn add_reaction(list: &mut List, reaction: &Reaction<'_>, is_moment: bool) {
         true => "what it drives",
         false => "its second marker",
     };
-    let first = list.0.len();
+    let first = list.variables.len();
     if is_moment {
         let what = format!("Moment of {name} on {on}");
         let (name, quantity) = (
@@ -211,7 +211,10 @@ fn add_energies(list: &mut List, resolved: &Resolved<'_>) {
         list.scalar(name, what, Some(JOULE), quantity);
     }
     if stiffnesses(resolved).into_iter().any(|k| k > 0.0) {
-        let (what, first) = ("Energy in springs, hinges and couplings", list.0.len());
+        let (what, first) = (
+            "Energy in springs, hinges and couplings",
+            list.variables.len(),
+        );
         list.scalar("energy.spring", what, Some(JOULE), SpringEnergy);
         if sets_springs(resolved) {
             list.mark_direct(first);
@@ -247,7 +250,7 @@ pub(in crate::simulation) fn sets_springs(resolved: &Resolved<'_>) -> bool {
 
 fn add_work(list: &mut List, resolved: &Resolved<'_>) {
     let what = "Work that loads, inputs and motions have done since the start";
-    let first = list.0.len();
+    let first = list.variables.len();
     list.scalar("energy.input", what, Some(JOULE), Quantity::Input);
     if sets_springs(resolved) {
         list.mark_direct(first);
@@ -351,7 +354,7 @@ impl List {
 
     /// What turns: a number in the plane, three components in space.
     fn turning(&mut self, name: &str, what: &str, unit: Unit, of: impl Fn(usize) -> Quantity) {
-        match self.1 {
+        match self.dimension {
             2 => self.scalar(name, what, Some(unit), of(2)),
             _ => self.vector(name, what, unit, of),
         }
@@ -359,7 +362,7 @@ impl List {
 
     /// The components of a vector.
     fn vector(&mut self, name: &str, what: &str, unit: Unit, quantity: impl Fn(usize) -> Quantity) {
-        for axis in 0..self.1 {
+        for axis in 0..self.dimension {
             let what = format!("{what}, component {}", AXES[axis]);
             self.scalar(&component(name, axis), &what, Some(unit), quantity(axis));
         }

@@ -4,7 +4,7 @@
 use super::{Gradient, View};
 use crate::body::{Marker, Node};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, normals};
+use crate::math::space::{Vector, normal};
 use crate::system::CableChain;
 use crate::system::end::End;
 
@@ -79,21 +79,16 @@ impl<const D: usize> Along<D> {
         (at, slope / stretch, stretch)
     }
 
-    fn normal<N: Number>(&self, tangent: &Vector<D, N>) -> Vector<D, N> {
-        let mut found = normals(tangent);
-        found.nth(self.normal).unwrap_or_else(Vector::zeros)
-    }
-
     pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let (at, tangent, _) = self.foot(view);
         let away = self.end.lift().position(view.x) - at.marker.position(view.x);
-        self.normal(&tangent).dot(&away)
+        normal(&tangent, self.normal).dot(&away)
     }
 
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let none = Vector::zeros();
         let (at, tangent, _) = self.foot(view);
-        let normal = self.normal(&tangent);
+        let normal = normal(&tangent, self.normal);
         Gradient {
             ends: [
                 (End::Body(at.marker), [-normal, none]),
@@ -108,8 +103,7 @@ impl<const D: usize> Along<D> {
         let relative = self.end.lift().velocity(view.v) - at.marker.position(view.v);
         let speed = tangent.dot(&relative) / stretch;
         let slope_rate = at.marker.direction(view.v);
-        -self
-            .normal(&tangent)
+        -normal(&tangent, self.normal)
             .dot(&(slope_rate * (N::of(2.0) * speed) + at.bend * (speed * speed)))
     }
 }

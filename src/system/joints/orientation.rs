@@ -29,7 +29,7 @@ pub(super) fn hold<const D: usize>(
     angle: f64,
 ) -> Option<ConstraintKind<D>> {
     let none = Vector::zeros();
-    let direction: Vector<D> = turned(axis(0), angle);
+    let direction: Vector<D> = turned(axis(0), angle.sin_cos());
     let [first, second] = rows.ends;
     match (first, second.is_rigid()) {
         (End::Ground(_), true) => {
@@ -40,7 +40,7 @@ pub(super) fn hold<const D: usize>(
         (End::Ground(_), false) => along(rows, &direction),
         (End::Body(_), true) if first.is_rigid() => {
             for k in 0..D {
-                let back = turned(axis(k), -angle);
+                let back = turned(axis(k), (-angle).sin_cos());
                 rows.push([none, back], [none, axis(k)], Target::Fixed(0.0));
             }
         }
@@ -68,9 +68,9 @@ impl<const D: usize> Parallel<D> {
     /// accelerations.
     fn turned<N: Number>(&self, view: &View<'_, D, N>) -> [Vector<D, N>; 3] {
         let [theta, rate, second] = self.drive.map_or([N::of(0.0); 3], |i| view.drives[i]);
-        let (angle, first) = (theta + N::of(self.angle), self.ends[0].lift());
-        let w = turned(first.direction(view.x), angle);
-        let moved = turned(first.direction_rate(view.v), angle);
+        let (turn, first) = ((theta + N::of(self.angle)).sin_cos(), self.ends[0].lift());
+        let w = turned(first.direction(view.x), turn);
+        let moved = turned(first.direction_rate(view.v), turn);
         let bias = left(moved) * (N::of(2.0) * rate) + left(w) * second - w * (rate * rate);
         [w, moved + left(w) * rate, bias]
     }
@@ -85,7 +85,7 @@ impl<const D: usize> Parallel<D> {
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let none = Vector::zeros();
         let theta = self.drive.map_or(N::of(0.0), |i| view.drives[i][0]);
-        let back = -theta - N::of(self.angle);
+        let back = (-theta - N::of(self.angle)).sin_cos();
         let [first, second] = self.ends.map(|end| end.lift());
         let (w, u) = (self.turned(view)[0], second.direction(view.x));
         // w x u = w . (-left u) = u . left w
@@ -116,8 +116,8 @@ impl<const D: usize> Parallel<D> {
         };
         let theta = self.drive.map_or(0.0, |i| view.drives[i][0]);
         // d^2 g = (R du1) x du2 = du1 . (-R^T left) du2
-        let by = |k: usize| turned(left(axis::<D, f64>(k)), -self.angle - theta);
-        let cross = SMatrix::from_fn(|r, c| -by(c)[r]) * lambda;
+        let back = (-self.angle - theta).sin_cos();
+        let cross = SMatrix::from_fn(|r, c| -turned(left(axis::<D, f64>(c)), back)[r]) * lambda;
         bilinear([(first, 1), (second, 1)], cross, add);
     }
 }

@@ -11,9 +11,7 @@
 //! Sources: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), section 3.1; J. M. Lee, Introduction to
 //! Riemannian Manifolds, 2nd ed. (2018), proposition 10.4 (variation of motions on a manifold).
 
-use nalgebra::DMatrix;
-
-use super::probe::{Blocks, Nodes, Probe, SKEW, part};
+use super::probe::{Blocks, Nodes, Probe, SKEW};
 use crate::body::{Elimination, Node, left_node, map_node, no_block, no_node};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number, moving};
@@ -31,7 +29,7 @@ pub(super) struct Linearization<'a, const D: usize> {
     pub stiffness: General<f64>,
     pub damping: General<f64>,
     /// What elements of cables add to both, element by element, and both without that.
-    pub elements: Vec<Elastic>,
+    pub elements: Vec<Elastic<D>>,
     pub others: [General<f64>; 2],
     pub borders: Vec<Border>,
     /// Whether `R` is not zero.
@@ -46,10 +44,10 @@ pub(super) struct Linearization<'a, const D: usize> {
 
 /// Tangents of one element: over the coordinates of its two nodes.
 #[derive(Clone, Debug)]
-pub(super) struct Elastic {
+pub(super) struct Elastic<const D: usize> {
     pub nodes: [usize; 2],
-    pub stiffness: DMatrix<f64>,
-    pub damping: Option<DMatrix<f64>>,
+    pub stiffness: elements::Blocks<D>,
+    pub damping: Option<elements::Blocks<D>>,
 }
 
 /// Rows and columns around the matrices, in the coordinates of one group of constraints.
@@ -140,11 +138,11 @@ impl<const D: usize> System<D> {
                             .zip(force.as_slice())
                             .for_each(|(sum, f)| *sum += *f);
                     };
-                    probe.differentiate(&nodes, false, &force).whole
+                    probe.differentiate(&nodes, false, &force).vectors()
                 } else {
-                    elements::whole(&element.stiffness(&e, &Nodal::zeros()))
+                    element.stiffness(&e, &Nodal::zeros())
                 };
-                let damping = is_damped.then(|| elements::whole(&element.damping(&e)));
+                let damping = is_damped.then(|| element.damping(&e));
                 let places = [
                     (Some(&stiffness), &mut made.stiffness),
                     (damping.as_ref(), &mut made.damping),
@@ -152,7 +150,13 @@ impl<const D: usize> System<D> {
                 for (matrix, place) in places {
                     for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                         let Some(matrix) = matrix else { continue };
-                        let block = part(matrix, a, b);
+                        let mut block = no_block();
+                        for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                            let part = &matrix[2 * a + p][2 * b + q];
+                            for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
+                                block[p][r][q][c] = part[(r, c)];
+                            }
+                        }
                         assembly.add_block((nodes[a], nodes[b]), &block, place, &mut none);
                     }
                 }

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::body::{Assembly, Node, NodeBlock, map_node, no_block};
+use crate::elements;
 use crate::math::jet::Jet;
 use crate::math::sparse::General;
 
@@ -61,7 +62,7 @@ impl<const D: usize> Probe<D> {
 }
 
 /// A block over two nodes.
-pub(super) fn part<const D: usize>(whole: &DMatrix<f64>, i: usize, j: usize) -> NodeBlock<D> {
+fn part<const D: usize>(whole: &DMatrix<f64>, i: usize, j: usize) -> NodeBlock<D> {
     let mut block = no_block::<D>();
     for (r, row) in block.as_flattened_mut().iter_mut().enumerate() {
         for (c, entry) in row.as_flattened_mut().iter_mut().enumerate() {
@@ -74,10 +75,16 @@ pub(super) fn part<const D: usize>(whole: &DMatrix<f64>, i: usize, j: usize) -> 
 /// A matrix over a few nodes.
 pub(super) struct Blocks {
     nodes: Vec<usize>,
-    pub(super) whole: DMatrix<f64>,
+    whole: DMatrix<f64>,
 }
 
 impl Blocks {
+    /// The matrix over two nodes, vector by vector.
+    pub(super) fn vectors<const D: usize>(&self) -> elements::Blocks<D> {
+        let part = |r: usize, c: usize| self.whole.fixed_view::<D, D>(r * D, c * D).into();
+        std::array::from_fn(|r| std::array::from_fn(|c| part(r, c)))
+    }
+
     pub(super) fn is_symmetric(&self) -> bool {
         (&self.whole - self.whole.transpose()).amax() <= SKEW * self.whole.amax()
     }

@@ -8,7 +8,9 @@ use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU};
 
 use super::linearization::{Border, Elastic, Linearization};
 use crate::body::{Node, add_node, no_node};
+use crate::elements::{Blocks, Nodal};
 use crate::math::row_space::RowSpace;
+use crate::math::space::Vector;
 use crate::math::sparse::{self, Factors, General};
 use crate::math::vector::dot;
 
@@ -81,7 +83,7 @@ impl<'a, const D: usize> Linearization<'a, D> {
             }
         }
         for element in &self.elements {
-            let local: Vec<DVector<f64>> = nodal.iter().map(|x| element.relative(x)).collect();
+            let local: Vec<Nodal<D>> = nodal.iter().map(|x| element.relative(x)).collect();
             let [stiffness, damping] = &mut projected;
             let matrices = [
                 (Some(&element.stiffness), stiffness),
@@ -90,7 +92,7 @@ impl<'a, const D: usize> Linearization<'a, D> {
             for (matrix, sum) in matrices {
                 let Some(matrix) = matrix else { continue };
                 for (k, right) in local.iter().enumerate() {
-                    let force = matrix * right;
+                    let force = times(matrix, right);
                     for (i, left) in local.iter().enumerate() {
                         sum[(i, k)] += left.dot(&force);
                     }
@@ -111,7 +113,8 @@ impl<'a, const D: usize> Linearization<'a, D> {
         let others: f64 = y.iter().zip(force).map(|(y, f)| (y * f).abs()).sum();
         let elastic = self.elements.iter().map(|element| {
             let e = element.relative(&x).abs();
-            e.dot(&(element.stiffness.abs() * &e))
+            let sizes = element.stiffness.map(|row| row.map(|block| block.abs()));
+            e.dot(&times(&sizes, &e))
         });
         others + elastic.sum::<f64>()
     }
@@ -168,14 +171,19 @@ impl<'a, const D: usize> Linearization<'a, D> {
     }
 }
 
-impl Elastic {
+impl<const D: usize> Elastic<D> {
     /// Displacements of the nodes relative to the position of the first.
-    fn relative<const D: usize>(&self, x: &[Node<D>]) -> DVector<f64> {
+    fn relative(&self, x: &[Node<D>]) -> Nodal<D> {
         let [a, mut b] = self.nodes.map(|node| x[node]);
         add_node(&mut b, -1.0, &[a[0], [0.0; D]]);
-        let relative = [[0.0; D], a[1], b[0], b[1]];
-        DVector::from_column_slice(relative.as_flattened())
+        [[0.0; D], a[1], b[0], b[1]].into()
     }
+}
+
+/// A matrix of blocks over the vectors of an element times such vectors.
+fn times<const D: usize>(blocks: &Blocks<D>, e: &Nodal<D>) -> Nodal<D> {
+    let row = |r: usize| (0..4).map(|c| blocks[r][c] * e.column(c)).sum();
+    Nodal::from_columns(&std::array::from_fn::<Vector<D>, 4, _>(row))
 }
 
 impl<const D: usize, T: ComplexField + sparse::Number> Shifted<'_, D, T> {

@@ -7,6 +7,7 @@ use super::dense::{general, noise, quadratic, roots, sort, symmetric};
 use super::iteration::{self, NotFound};
 use super::linearization::Linearization;
 use crate::body::{Node, add_node, no_node};
+use crate::math::space::{Vector, components};
 use crate::system::{Dynamics, Model, State, System, Work};
 
 /// Free coordinates up to which all eigenvalues are computed, with dense matrices; and up to which they are
@@ -229,9 +230,7 @@ fn refuse_turning<const D: usize>(
         add_node(x, 1.0, reference);
     }
     elimination.expand(&state.rates, &mut y, &mut v);
-    let slope = |x: &Node<D>| -> Vector3<f64> {
-        Vector3::from_fn(|k, _| x[1].get(k).copied().unwrap_or(0.0))
-    };
+    let slope = |x: &Node<D>| Vector3::from(components(&Vector::from(x[1])));
     for chain in &system.chains {
         let first = chain.nodes(0)[0];
         let nodes = first..first + chain.node_count();
