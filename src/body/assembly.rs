@@ -1,9 +1,10 @@
-//! From free coordinates `y` to nodal coordinates `x = N y` and back, for vectors and for matrices.
+//! From free coordinates `y` to nodal coordinates `x = N y` and back, for vectors and for matrices. Matrices of solves
+//! are over the free coordinates and the multipliers of constraints, which stand between them.
 
 use std::ops::Range;
 
 use super::connectivity::{Cluster, Dependent, Node, Row, clusters};
-use crate::math::sparse::{Component, General, Matrix, Pattern, Slot};
+use crate::math::sparse::{Cholesky, Component, General, Matrix, Number, Pattern, Reach, Slot};
 
 /// A matrix over two nodes: by vector and axis of the one, then of the other.
 pub type NodeBlock<const D: usize> = [[[[f64; D]; 2]; D]; 2];
@@ -22,10 +23,45 @@ enum Place {
     Tied(usize, usize),
 }
 
+/// What couples nodes.
+#[derive(Clone, Debug, Default)]
+pub struct Links {
+    /// Pairs that the mass couples.
+    pub mass: Vec<(usize, usize)>,
+    /// Pairs that stiffness and damping may couple besides.
+    pub stiffness: Vec<(usize, usize)>,
+    /// Nodes that constraints with multipliers hold, and how many constraints there are on the same nodes.
+    pub held: Vec<(Vec<usize>, usize)>,
+}
+
+/// A constraint with a multiplier.
+#[derive(Clone, Debug)]
+struct Held {
+    /// Vertex of its multiplier and place among those of this vertex.
+    vertex: usize,
+    row: usize,
+    /// The vertices that it holds.
+    on: Vec<usize>,
+}
+
+/// Numbers that stand side by side in vectors of free coordinates and in those of matrices.
+#[derive(Clone, Debug)]
+struct Run {
+    free: Range<usize>,
+    start: usize,
+}
+
 /// How nodal coordinates follow from free ones.
 #[derive(Clone, Debug)]
 pub struct Assembly<const D: usize = 2> {
+    /// Structure of matrices over the free coordinates and multipliers.
     pattern: Pattern,
+    /// That of the mass, over the free coordinates alone and in the same order.
+    of_mass: Pattern,
+    runs: Vec<Run>,
+    held: Vec<Held>,
+    /// Parts of the free coordinates without links between them.
+    components: Vec<Range<usize>>,
     places: Vec<Place>,
     vertices: Vec<usize>,
     clusters: Vec<Cluster>,
@@ -38,9 +74,8 @@ pub struct Assembly<const D: usize = 2> {
 }
 
 impl<const D: usize> Assembly<D> {
-    /// For nodes under these rows, with matrices that couple the nodes of every link. Also says which
-    /// rows depend on others.
-    pub fn new(nodes: usize, rows: &[Row<D>], links: &[(usize, usize)]) -> (Self, Vec<Dependent>) {
+    /// For nodes under these rows. Also says which rows depend on others.
+    pub fn new(nodes: usize, rows: &[Row<D>], links: &Links) -> (Self, Vec<Dependent>) {
         let (clusters, dependent) = clusters(nodes, rows);
         let mut tied = vec![None; nodes];
         for (index, cluster) in clusters.iter().enumerate() {
@@ -63,13 +98,25 @@ impl<const D: usize> Assembly<D> {
                 }),
             };
         }
-        let edges: Vec<_> = links
-            .iter()
-            .map(|(a, b)| (vertices[*a], vertices[*b]))
-            .collect();
-        let pattern = Pattern::new(&sizes, &edges);
+        let edge = |(a, b): &(usize, usize)| (vertices[*a], vertices[*b]);
+        let mass_edges: Vec<_> = links.mass.iter().map(edge).collect();
+        let first = sizes.len();
+        let held = held(&links.held, &vertices, first);
+        let mut edges = mass_edges.clone();
+        edges.extend(links.stiffness.iter().map(edge));
+        let on = |held: &Held| {
+            held.on
+                .iter()
+                .map(|v| (held.vertex, *v))
+                .collect::<Vec<_>>()
+        };
+        edges.extend(held.iter().flat_map(on));
+        let of_multipliers = links.held.iter().map(|(_, count)| *count);
+        let all: Vec<usize> = sizes.iter().copied().chain(of_multipliers).collect();
+        let pattern = Pattern::with_multipliers(&all, &edges, first);
+        let of_mass = pattern.of_part(&sizes, &mass_edges);
         let place = |node: usize| match tied[node] {
-            None => Place::Alone(pattern.range(vertices[node]).start),
+            None => Place::Alone(of_mass.range(vertices[node]).start),
             Some((index, row)) => Place::Tied(index, row),
         };
         let places: Vec<Place> = (0..nodes).map(place).collect();
@@ -86,22 +133,112 @@ impl<const D: usize> Assembly<D> {
                 Place::Tied(..) => None,
             })
             .collect();
-        let range = |v: &Option<usize>| v.map_or(0..0, |v| pattern.range(v));
+        let range = |v: &Option<usize>| v.map_or(0..0, |v| of_mass.range(v));
         let assembly = Self {
             ranges: of_cluster.iter().map(range).collect(),
+            runs: runs(&pattern, &of_mass),
+            components: components(&pattern, &sizes),
+            held,
             diagonal,
             next,
             places,
             vertices,
             clusters,
             pattern,
+            of_mass,
         };
         (assembly, dependent)
     }
 
-    /// Structure of matrices over the free coordinates.
+    /// Number of free coordinates.
+    pub fn free(&self) -> usize {
+        self.of_mass.len()
+    }
+
+    /// Structure of matrices over the free coordinates and multipliers.
     pub fn pattern(&self) -> &Pattern {
         &self.pattern
+    }
+
+    /// Structure of the mass, over the free coordinates alone.
+    pub fn of_mass(&self) -> &Pattern {
+        &self.of_mass
+    }
+
+    /// Copies free coordinates into a vector that a matrix can be applied to; multipliers become zero.
+    pub fn put<T: Number>(&self, y: &[T], into: &mut [T]) {
+        if into.len() > y.len() {
+            into.fill(T::from(0.0));
+        }
+        for (free, at) in self.runs() {
+            into[at].copy_from_slice(&y[free]);
+        }
+    }
+
+    /// Copies the free coordinates out of such a vector.
+    pub fn take<T: Number>(&self, from: &[T], y: &mut [T]) {
+        for (free, at) in self.runs() {
+            y[free].copy_from_slice(&from[at]);
+        }
+    }
+
+    /// Free coordinates, side by side, and where they stand in vectors that matrices are applied to.
+    pub fn runs(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
+        self.runs.iter().map(|Run { free, start }| {
+            let at = *start..*start + free.len();
+            (free.clone(), at)
+        })
+    }
+
+    /// Number of constraints with multipliers.
+    pub fn constraints(&self) -> usize {
+        self.held.len()
+    }
+
+    /// Where the multiplier of a constraint stands in vectors that matrices are applied to.
+    pub fn multiplier(&self, constraint: usize) -> usize {
+        let Held { vertex, row, .. } = self.held[constraint];
+        self.pattern.range(vertex).start + row
+    }
+
+    /// Where the multiplier of a constraint meets itself in matrices: a block, row and column in it.
+    pub fn corner(&self, constraint: usize) -> Option<(Slot, usize)> {
+        let Held { vertex, row, .. } = self.held[constraint];
+        let slot = self.pattern.slot(vertex, vertex)?;
+        Some((slot, row))
+    }
+
+    /// What of `W^-1 y` is not zero, of the forces `y` of a constraint.
+    pub fn reach(&self, constraint: usize, factor: &Cholesky) -> Reach {
+        factor.reach(&self.of_mass, &self.held[constraint].on)
+    }
+
+    /// Tells where in matrices a constraint's derivatives by one node stand: the block of its multiplier by the
+    /// free coordinates, row and column in it, value.
+    pub fn for_gradient(
+        &self,
+        (constraint, node): (usize, usize),
+        term: &Node<D>,
+        mut each: impl FnMut(Slot, usize, usize, f64),
+    ) {
+        let Held { vertex, row, .. } = self.held[constraint];
+        let Some(slot) = self.pattern.slot(vertex, self.vertices[node]) else {
+            return;
+        };
+        let term = term.as_flattened();
+        match self.places[node] {
+            Place::Alone(_) => {
+                let terms = term.iter().enumerate();
+                terms.for_each(|(column, value)| each(slot, row, column, *value));
+            }
+            Place::Tied(index, first) => {
+                let rows = self.clusters[index].basis.rows(first, 2 * D);
+                for (column, basis) in rows.column_iter().enumerate() {
+                    let value = basis.iter().zip(term).map(|(n, f)| n * f).sum();
+                    each(slot, row, column, value);
+                }
+            }
+        }
     }
 
     /// Nodes that rows tie together.
@@ -124,9 +261,9 @@ impl<const D: usize> Assembly<D> {
         self.pattern.component_of(self.vertices[node])
     }
 
-    /// Parts of the system without links between them.
-    pub fn components(&self) -> &[Component] {
-        self.pattern.components()
+    /// The free coordinates of parts of the system without links between them.
+    pub fn components(&self) -> &[Range<usize>] {
+        &self.components
     }
 
     /// `x = N y`.
@@ -166,22 +303,18 @@ impl<const D: usize> Assembly<D> {
         }
     }
 
-    /// Adds to `y`, of which `first` is the first number, what a force on one node gathers to.
-    pub fn gather_node(&self, node: usize, f: &Node<D>, first: usize, y: &mut [f64]) {
+    /// Adds to `y` what a force on one node gathers to.
+    pub fn gather_node(&self, node: usize, f: &Node<D>, y: &mut [f64]) {
         let f = f.as_flattened();
         match self.places[node] {
             Place::Alone(start) => {
-                let y = &mut y[start - first..];
+                let y = &mut y[start..];
                 y.iter_mut().zip(f).for_each(|(y, f)| *y += f);
             }
             Place::Tied(index, row) => {
-                // Nodes that are held or driven altogether are nowhere in `y`.
-                if self.ranges[index].is_empty() {
-                    return;
-                }
-                let range = self.ranges[index].start - first..self.ranges[index].end - first;
                 let rows = self.clusters[index].basis.rows(row, 2 * D);
-                for (y, column) in y[range].iter_mut().zip(rows.column_iter()) {
+                let y = &mut y[self.ranges[index].clone()];
+                for (y, column) in y.iter_mut().zip(rows.column_iter()) {
                     *y += column.iter().zip(f).map(|(n, f)| n * f).sum::<f64>();
                 }
             }
@@ -286,7 +419,7 @@ impl<const D: usize> Assembly<D> {
         matrix: &mut General<f64>,
         elsewhere: &mut dyn FnMut(usize, usize, f64),
     ) {
-        let [of_a, of_b] = [a, b].map(|node| self.pattern.range(self.vertices[node]));
+        let [of_a, of_b] = [a, b].map(|node| self.of_mass.range(self.vertices[node]));
         let slot = self.pattern.slot(self.vertices[a], self.vertices[b]);
         for r in 0..of_a.len() {
             for c in 0..of_b.len() {
@@ -318,4 +451,46 @@ impl<const D: usize> Assembly<D> {
             Place::Tied(index, first) => self.clusters[index].basis[(first + row, column)],
         }
     }
+}
+
+/// Constraints one by one; vertices of their multipliers are counted on from `first`.
+fn held(held: &[(Vec<usize>, usize)], vertices: &[usize], first: usize) -> Vec<Held> {
+    let mut constraints = Vec::new();
+    for (index, (nodes, count)) in held.iter().enumerate() {
+        let mut on: Vec<usize> = nodes.iter().map(|node| vertices[*node]).collect();
+        on.sort_unstable();
+        on.dedup();
+        constraints.extend((0..*count).map(|row| Held {
+            vertex: first + index,
+            row,
+            on: on.clone(),
+        }));
+    }
+    constraints
+}
+
+/// Where the free coordinates stand between multipliers.
+fn runs(pattern: &Pattern, of_mass: &Pattern) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for v in of_mass.order() {
+        let (free, start) = (of_mass.range(*v), pattern.range(*v).start);
+        match runs.last_mut() {
+            _ if free.is_empty() => {}
+            Some(run) if run.start + run.free.len() == start => run.free.end = free.end,
+            _ => runs.push(Run { free, start }),
+        }
+    }
+    runs
+}
+
+/// The free coordinates of every component of a pattern; vertices with sizes are no multipliers.
+fn components(pattern: &Pattern, sizes: &[usize]) -> Vec<Range<usize>> {
+    let mut start = 0;
+    let range = |component: &Component| {
+        let vertices = pattern.order()[component.vertices.clone()].iter();
+        let size: usize = vertices.filter_map(|v| sizes.get(*v)).sum();
+        start += size;
+        start - size..start
+    };
+    pattern.components().iter().map(range).collect()
 }

@@ -81,16 +81,19 @@ pub struct Cluster {
     pub multipliers: DMatrix<f64>,
 }
 
+/// With how many nodes each is tied together, itself among them.
+pub fn tied_with<const D: usize>(nodes: usize, rows: &[&Row<D>]) -> Vec<usize> {
+    let mut groups = Groups::of_rows(nodes, rows.iter().copied());
+    let mut sizes = vec![0; nodes];
+    (0..nodes).for_each(|node| sizes[groups.find(node)] += 1);
+    (0..nodes).map(|node| sizes[groups.find(node)]).collect()
+}
+
 /// Ties nodes together.
 ///
 /// Returns the clusters, and rows that depend on others.
 pub fn clusters<const D: usize>(nodes: usize, rows: &[Row<D>]) -> (Vec<Cluster>, Vec<Dependent>) {
-    let mut groups = Groups::new(nodes);
-    for row in rows {
-        for pair in row.terms.windows(2) {
-            groups.join(pair[0].0, pair[1].0);
-        }
-    }
+    let mut groups = Groups::of_rows(nodes, rows.iter());
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); nodes];
     let mut tied = vec![false; nodes];
     for (node, _) in rows.iter().flat_map(|row| &row.terms) {
@@ -227,6 +230,14 @@ struct Groups(Vec<usize>);
 impl Groups {
     fn new(count: usize) -> Self {
         Self((0..count).collect())
+    }
+
+    fn of_rows<'a, const D: usize>(nodes: usize, rows: impl Iterator<Item = &'a Row<D>>) -> Self {
+        let mut groups = Self::new(nodes);
+        for pair in rows.flat_map(|row| row.terms.windows(2)) {
+            groups.join(pair[0].0, pair[1].0);
+        }
+        groups
     }
 
     fn find(&mut self, mut i: usize) -> usize {

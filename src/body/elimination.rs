@@ -11,14 +11,14 @@
 
 use super::assembly::Assembly;
 use super::connectivity::Node;
-use crate::math::sparse::{Cholesky, Matrix};
+use crate::math::sparse::{Cholesky, Matrix, Reach};
 
 /// The transformation `T`.
 #[derive(Clone, Debug)]
 pub struct Elimination<const D: usize = 2> {
     /// Nodal coordinates from free ones.
     pub assembly: Assembly<D>,
-    /// Mass over the free coordinates, kg.
+    /// Mass over the free coordinates, kg; nothing at multipliers.
     pub mass: Matrix<f64>,
     /// `W`.
     factor: Cholesky,
@@ -27,7 +27,8 @@ pub struct Elimination<const D: usize = 2> {
 impl<const D: usize> Elimination<D> {
     /// With this mass over the free coordinates. `None` where it is not positive definite.
     pub fn new(assembly: Assembly<D>, mass: Matrix<f64>) -> Option<Self> {
-        let factor = Cholesky::new(assembly.pattern(), &mass)?;
+        let of_mass = mass.part(assembly.pattern(), assembly.of_mass());
+        let factor = Cholesky::new(assembly.of_mass(), &of_mass)?;
         Some(Self {
             assembly,
             mass,
@@ -37,12 +38,12 @@ impl<const D: usize> Elimination<D> {
 
     /// Number of independent coordinates `q`.
     pub fn coordinates(&self) -> usize {
-        self.assembly.pattern().len()
+        self.assembly.free()
     }
 
     /// Length of the scratch vector `y` of the calls below.
     pub fn scratch(&self) -> usize {
-        self.assembly.pattern().len()
+        self.assembly.free()
     }
 
     /// `x = T q`, for rates and increments alike.
@@ -60,39 +61,38 @@ impl<const D: usize> Elimination<D> {
     /// Free coordinates `y = W^-T q`.
     pub fn displacements(&self, q: &[f64], y: &mut [f64]) {
         y.copy_from_slice(q);
-        self.factor.backward(self.assembly.pattern(), y);
+        self.factor.backward(self.assembly.of_mass(), y);
     }
 
     /// `q = W^-1 y` of forces `y` on the free coordinates.
     pub fn project(&self, y: &[f64], q: &mut [f64]) {
         q.copy_from_slice(y);
-        self.factor.forward(self.assembly.pattern(), q);
+        self.factor.forward(self.assembly.of_mass(), q);
     }
 
-    /// `x <- W^-1 x` for one component of the system.
-    pub fn project_component(&self, component: usize, x: &mut [f64]) {
-        let pattern = self.assembly.pattern();
-        self.factor.forward_component(pattern, component, x);
+    /// What of `W^-1 y` is not zero, of the forces `y` of a constraint.
+    pub fn reach(&self, constraint: usize) -> Reach {
+        self.assembly.reach(constraint, &self.factor)
+    }
+
+    /// `y <- W^-1 y` where it is not zero.
+    pub fn project_within(&self, reach: &Reach, y: &mut [f64]) {
+        self.factor
+            .forward_within(self.assembly.of_mass(), reach, y);
     }
 
     /// `x <- W^-1 x`.
     pub fn project_in_place(&self, x: &mut [f64]) {
-        self.factor.forward(self.assembly.pattern(), x);
-    }
-
-    /// `y <- W y` for one component of the system.
-    pub fn forces_component(&self, component: usize, y: &mut [f64]) {
-        let pattern = self.assembly.pattern();
-        self.factor.multiply_component(pattern, component, y);
+        self.factor.forward(self.assembly.of_mass(), x);
     }
 
     /// Forces on the free coordinates from those on `q`: `y <- W y`.
     pub fn forces(&self, y: &mut [f64]) {
-        self.factor.multiply(self.assembly.pattern(), y);
+        self.factor.multiply(self.assembly.of_mass(), y);
     }
 
     /// Displacements `q` from those of the free coordinates: `y <- W^T y`.
     pub fn coordinates_of(&self, y: &mut [f64]) {
-        self.factor.multiply_transposed(self.assembly.pattern(), y);
+        self.factor.multiply_transposed(self.assembly.of_mass(), y);
     }
 }

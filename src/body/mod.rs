@@ -2,20 +2,22 @@
 //! between nodes and their elimination, and the structured tangent solve.
 
 mod assembly;
-mod border;
 mod chain;
 mod connectivity;
 mod elimination;
+mod jacobian;
 mod marker;
 mod stages;
 mod tangent;
 
-pub use assembly::{Assembly, NodeBlock, no_block};
+pub use assembly::{Assembly, Links, NodeBlock, no_block};
 pub use chain::Chain;
 pub use connectivity::{
     Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, left_node, map_node, no_node, product,
+    tied_with,
 };
 pub use elimination::Elimination;
+pub use jacobian::{Jacobian, Rows};
 pub use marker::{Marker, Partial};
 pub use stages::STAGES;
 pub use tangent::Tangent;

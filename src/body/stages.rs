@@ -268,7 +268,7 @@ impl Floating {
 /// Components that uniform translation of all their nodes does not strain.
 fn floating<const D: usize>(elimination: &Elimination<D>, grounded: &[usize]) -> Vec<Floating> {
     let assembly = &elimination.assembly;
-    let n = elimination.scratch();
+    let (n, all) = (elimination.scratch(), assembly.pattern().len());
     let mut held = vec![false; assembly.components().len()];
     for node in grounded {
         held[assembly.component(*node)] = true;
@@ -279,6 +279,7 @@ fn floating<const D: usize>(elimination: &Elimination<D>, grounded: &[usize]) ->
         unit[0][axis] = 1.0;
         let x = vec![unit; assembly.nodes()];
         let (mut y, mut product) = (vec![0.0; n], vec![0.0; n]);
+        let [mut padded, mut sum] = [vec![0.0; all], vec![0.0; all]];
         assembly.gather(&x, &mut y);
         let mut back = x.clone();
         assembly.spread(&y, &mut back);
@@ -289,17 +290,19 @@ fn floating<const D: usize>(elimination: &Elimination<D>, grounded: &[usize]) ->
                 held[assembly.component(node)] = true;
             }
         }
+        assembly.put(&y, &mut padded);
         elimination
             .mass
-            .multiply(assembly.pattern(), &y, &mut product);
+            .multiply(assembly.pattern(), &padded, &mut sum);
+        assembly.take(&sum, &mut product);
         translation.push(y);
         momentum.push(product);
     }
     let components = assembly.components().iter().zip(held);
     components
-        .filter(|(component, held)| !held && !component.variables.is_empty())
-        .map(|(component, _)| {
-            let range = component.variables.clone();
+        .filter(|(range, held)| !held && !range.is_empty())
+        .map(|(range, _)| {
+            let range = range.clone();
             let part = |of: &Vec<f64>| of[range.clone()].to_vec();
             Floating {
                 mass: dot(&translation[0][range.clone()], &momentum[0][range.clone()]),
@@ -327,12 +330,10 @@ impl<const D: usize> Tangent<D> {
         for (i, q) in q.iter_mut().enumerate() {
             elimination.forces(q);
             self.stages.turn_back(assembly, i, q);
-            if !self.borders.is_empty() {
-                self.x.copy_from_slice(q);
-                elimination.project_in_place(&mut self.x);
-                for border in &mut self.borders {
-                    border.set_normal(i, &self.x);
-                }
+            if assembly.constraints() > 0 {
+                self.y.copy_from_slice(q);
+                elimination.project_in_place(&mut self.y);
+                self.held.measure(i, &self.y);
             }
         }
         match q.len() {
@@ -356,54 +357,55 @@ impl<const D: usize> Tangent<D> {
         let [forward, back] = [forward, back].map(|matrix| matrix.as_chunks::<S>().0);
         // The real system comes first.
         let (has_real, first) = (S % 2 == 1, S % 2);
-        for k in 0..self.x.len() {
-            let y: [f64; S] = std::array::from_fn(|i| q[i][k]);
-            if has_real {
-                self.x[k] = product(&forward[0], &y);
-            }
-            if S > 1 {
-                let [re, im] = [first, first + 1].map(|row| product(&forward[row], &y));
-                self.z[k] = Complex::new(re, im);
+        for (free, at) in assembly.runs() {
+            for (k, at) in free.zip(at) {
+                let y: [f64; S] = std::array::from_fn(|i| q[i][k]);
+                if has_real {
+                    self.x[at] = product(&forward[0], &y);
+                }
+                if S > 1 {
+                    let [re, im] = [first, first + 1].map(|row| product(&forward[row], &y));
+                    self.z[at] = Complex::new(re, im);
+                }
             }
         }
+        self.ask_of_constraints(assembly, forward);
         if has_real {
             self.real.solve(assembly.pattern(), &mut self.x);
         }
         if S > 1 {
             self.complex.solve(assembly.pattern(), &mut self.z);
         }
-        self.correct_stages(forward);
-        for k in 0..self.x.len() {
-            let solution: [f64; S] = std::array::from_fn(|i| match i {
-                0 if has_real => self.x[k],
-                i if i == first => self.z[k].re,
-                _ => self.z[k].im,
-            });
-            for (q, row) in q.iter_mut().zip(back) {
-                q[k] = product(row, &solution);
+        for (free, at) in assembly.runs() {
+            for (k, at) in free.zip(at) {
+                let solution: [f64; S] = std::array::from_fn(|i| match i {
+                    0 if has_real => self.x[at],
+                    i if i == first => self.z[at].re,
+                    _ => self.z[at].im,
+                });
+                for (q, row) in q.iter_mut().zip(back) {
+                    q[k] = product(row, &solution);
+                }
             }
         }
     }
 
-    fn correct_stages<const S: usize>(&mut self, forward: &[[f64; S]]) {
+    /// Sets how far solutions are to leave the tangent plane of the constraints.
+    fn ask_of_constraints<const S: usize>(&mut self, assembly: &Assembly<D>, forward: &[[f64; S]]) {
         let (real, complex) = (1.0 / self.inertia.0, self.inertia.1.inv());
         let (has_real, first) = (S % 2 == 1, S % 2);
-        for border in &mut self.borders {
-            let rows = (&border.forces[..], border.rank);
-            let normal = &border.normal;
-            let mixed = |row: usize, i: usize| {
-                let of_stages = std::array::from_fn(|stage| normal[stage][i]);
-                product(&forward[row], &of_stages)
-            };
+        for constraint in 0..assembly.constraints() {
+            let place = assembly.multiplier(constraint);
+            (self.x[place], self.z[place]) = (0.0, Complex::new(0.0, 0.0));
+        }
+        for (place, parts) in self.held.parts() {
+            let of_stages = std::array::from_fn(|stage| parts[stage]);
+            let mixed = |row: usize| product(&forward[row], &of_stages);
             if has_real {
-                let x = &mut self.x[border.range.clone()];
-                border.real.correct(rows, |i| real * mixed(0, i), x);
+                self.x[place] = real * mixed(0);
             }
             if S > 1 {
-                let z = &mut self.z[border.range.clone()];
-                let target =
-                    |i: usize| complex * Complex::new(mixed(first, i), mixed(first + 1, i));
-                border.complex.correct(rows, target, z);
+                self.z[place] = complex * Complex::new(mixed(first), mixed(first + 1));
             }
         }
     }

@@ -1,15 +1,24 @@
 //! The tangent over the free coordinates, and solves with it in the coordinates `q` without any dense
 //! matrix: `(m I + r T^T R T + T^T K T)^-1 = W^T (m M + r R + K)^-1 W`, one sparse solve.
+//!
+//! Acceleration keeps to the constraints, so a Newton correction may leave their tangent plane only as far as inertia
+//! alone says. With `A` the matrix above and `G` the derivatives of the constraints by the free coordinates that is
+//! `[A G^T; G 0] [d; nu] = [f; G M^-1 f / m]`. Multipliers are eliminated after the nodes that they touch, so their pivots
+//! are negative; every other pivot is positive where the tangent is definite on what constraints leave free.
+//!
+//! Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14
+//! (2005), sections 3.4 (inertia) and 7 (symmetric indefinite factors).
 
 use nalgebra::Complex;
 
-use super::border::Border;
+use super::connectivity::Node;
 use super::elimination::Elimination;
-use super::stages::Stages;
-use crate::math::row_space::RowSpace;
+use super::jacobian::{Jacobian, Rows};
+use super::stages::{STAGES, Stages};
 use crate::math::sparse::{Matrix, Number};
 
-/// Stiffness and damping over the free coordinates, and the factors of a combination with the mass.
+/// Stiffness and damping over the free coordinates, and the factors of a combination with the mass. Rows and columns
+/// of multipliers stand with the stiffness.
 #[derive(Clone, Debug)]
 pub struct Tangent<const D: usize> {
     /// Stiffness `K`.
@@ -21,7 +30,9 @@ pub struct Tangent<const D: usize> {
     pub(super) complex: Matrix<Complex<f64>>,
     /// Weights of inertia that the factors were made with, 1/s^2.
     pub(super) inertia: (f64, Complex<f64>),
-    pub(super) borders: Vec<Border<f64, Complex<f64>>>,
+    pub(super) held: Held,
+    /// Scratch: free coordinates; vectors that matrices are applied to.
+    pub(super) y: Vec<f64>,
     pub(super) x: Vec<f64>,
     product: Vec<f64>,
     pub(super) z: Vec<Complex<f64>>,
@@ -29,22 +40,48 @@ pub struct Tangent<const D: usize> {
     pub stages: Stages<D>,
 }
 
+/// The constraints where the tangent was made.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    /// Their derivatives by `q`.
+    rows: Rows,
+    /// Where the multipliers of those that count stand in vectors that matrices are applied to.
+    places: Vec<Option<usize>>,
+    /// Parts of the stages along the rows.
+    parts: [Vec<f64>; STAGES],
+}
+
+impl Held {
+    /// Keeps the parts of a stage's `q` along the rows.
+    pub(super) fn measure(&mut self, stage: usize, q: &[f64]) {
+        for (row, part) in self.parts[stage].iter_mut().enumerate() {
+            *part = self.rows.product(row, q);
+        }
+    }
+
+    /// Where the multipliers of constraints stand, and the parts of the stages along them.
+    pub(super) fn parts(&self) -> impl Iterator<Item = (usize, [f64; STAGES])> {
+        let places = self.places.iter().enumerate();
+        places.filter_map(|(row, place)| {
+            let parts = std::array::from_fn(|stage| self.parts[stage][row]);
+            place.map(|place| (place, parts))
+        })
+    }
+}
+
 impl<const D: usize> Tangent<D> {
-    /// Storage. `borders` lists, for components with non-linear constraints, how many; `grounded` are
-    /// nodes that something else than rows ties to the ground; `elastic` says which belong to cables.
+    /// Storage. `jacobian` is that of the constraints; `grounded` are nodes that something else than rows ties to the
+    /// ground; `elastic` says which belong to cables.
     pub fn new(
         elimination: &Elimination<D>,
         is_damped: bool,
-        borders: &[(usize, usize)],
+        jacobian: &Jacobian,
         grounded: &[usize],
         elastic: &[bool],
     ) -> Self {
         let pattern = elimination.assembly.pattern();
         let zeros = Matrix::zeros(pattern);
-        let border = |(component, count): &(usize, usize)| {
-            let range = pattern.components()[*component].variables.clone();
-            Border::new(*component, range, *count)
-        };
+        let parts = vec![0.0; jacobian.rows().count()];
         Self {
             stages: Stages::new(elimination, grounded, elastic),
             stiffness: zeros.clone(),
@@ -53,7 +90,12 @@ impl<const D: usize> Tangent<D> {
             real: zeros,
             complex: Matrix::zeros(pattern),
             inertia: (0.0, Complex::new(0.0, 0.0)),
-            borders: borders.iter().map(border).collect(),
+            held: Held {
+                places: vec![None; parts.len()],
+                rows: jacobian.rows().clone(),
+                parts: [parts.clone(), parts.clone(), parts],
+            },
+            y: vec![0.0; elimination.assembly.free()],
             x: vec![0.0; pattern.len()],
             product: vec![0.0; pattern.len()],
             z: vec![Complex::new(0.0, 0.0); pattern.len()],
@@ -68,16 +110,36 @@ impl<const D: usize> Tangent<D> {
         }
     }
 
-    /// Takes over the Jacobian of the constraints of border `i`.
-    pub fn set_border(&mut self, elimination: &Elimination<D>, i: usize, rows: &RowSpace) {
-        let border = &mut self.borders[i];
-        border.set_units(rows);
-        let n = border.range.len();
-        let used = border.rank * n;
-        border.forces[..used].copy_from_slice(&border.units[..used]);
-        for row in border.forces[..used].chunks_exact_mut(n) {
-            elimination.forces_component(border.component, row);
+    /// Takes over the Jacobian of constraints; those of the assembly are told by their indices.
+    pub fn hold(&mut self, elimination: &Elimination<D>, jacobian: &Jacobian, all: &[usize]) {
+        let assembly = &elimination.assembly;
+        self.held.rows.copy_from(jacobian.rows());
+        for constraint in 0..assembly.constraints() {
+            // The multiplier of what does not count is zero.
+            if let Some((slot, row)) = assembly.corner(constraint) {
+                self.stiffness.values[slot.entry(row, row)] = -1.0;
+            }
         }
+        for (row, constraint) in all.iter().enumerate() {
+            let counts = jacobian.is_independent(row);
+            self.held.places[row] = counts.then(|| assembly.multiplier(*constraint));
+            if let Some((slot, row)) = assembly.corner(*constraint).filter(|_| counts) {
+                self.stiffness.values[slot.entry(row, row)] = 0.0;
+            }
+        }
+    }
+
+    /// Adds the derivatives of a constraint by one node.
+    pub fn add_gradient(
+        &mut self,
+        elimination: &Elimination<D>,
+        (constraint, node): (usize, usize),
+        term: &Node<D>,
+    ) {
+        let assembly = &elimination.assembly;
+        assembly.for_gradient((constraint, node), term, |slot, row, column, value| {
+            self.stiffness.values[slot.entry(row, column)] += value;
+        });
     }
 
     /// Factors `m M + r R + K` for real weights `[m, r]`. False when it is not positive definite where the
@@ -121,19 +183,10 @@ impl<const D: usize> Tangent<D> {
 
     /// Factors what was combined; how many of its eigenvalues are negative where the constraints leave freedom.
     fn factor_combined(&mut self, elimination: &Elimination<D>) -> Option<usize> {
-        let pattern = elimination.assembly.pattern();
-        let mut negative = self.real.factor(pattern)?;
-        for border in &mut self.borders {
-            let (n, used) = (border.range.len(), border.rank * border.range.len());
-            let schur = &mut border.real;
-            schur.solutions[..used].copy_from_slice(&border.forces[..used]);
-            for row in schur.solutions[..used].chunks_exact_mut(n) {
-                self.real.solve_component(pattern, border.component, row);
-            }
-            let held = schur.factor(&border.forces, border.rank, n)?;
-            negative = negative.checked_sub(held)?;
-        }
-        Some(negative)
+        let assembly = &elimination.assembly;
+        let negative = self.real.factor(assembly.pattern())?;
+        // One pivot of every multiplier is.
+        negative.checked_sub(assembly.constraints())
     }
 
     /// Factors `m M + r R + K` for complex weights `[m, r]`. False at a vanishing pivot.
@@ -152,52 +205,30 @@ impl<const D: usize> Tangent<D> {
             &mut self.complex,
         );
         let pattern = elimination.assembly.pattern();
-        if self.complex.factor(pattern).is_none() {
-            return false;
-        }
-        for border in &mut self.borders {
-            let (n, used) = (border.range.len(), border.rank * border.range.len());
-            let schur = &mut border.complex;
-            for (y, u) in schur.solutions[..used].iter_mut().zip(&border.forces) {
-                *y = Complex::new(*u, 0.0);
-            }
-            for row in schur.solutions[..used].chunks_exact_mut(n) {
-                self.complex.solve_component(pattern, border.component, row);
-            }
-            if schur.factor(&border.forces, border.rank, n).is_none() {
-                return false;
-            }
-        }
-        true
+        self.complex.factor(pattern).is_some()
     }
 
     /// Solves in place with the real factors, in the coordinates `q`.
     pub fn solve(&mut self, elimination: &Elimination<D>, q: &mut [f64]) {
-        for border in &mut self.borders {
-            border.set_normal(0, q);
-        }
+        let assembly = &elimination.assembly;
+        self.held.measure(0, q);
         elimination.forces(q);
-        self.real.solve(elimination.assembly.pattern(), q);
+        assembly.put(q, &mut self.x);
         let scale = 1.0 / self.inertia.0;
         // Where inertia has no say a correction stays in the tangent plane.
         let scale = if scale.is_finite() { scale } else { 0.0 };
-        for border in &mut self.borders {
-            let (rows, normal) = ((&border.forces[..], border.rank), &border.normal[0]);
-            let d = &mut q[border.range.clone()];
-            border.real.correct(rows, |i| scale * normal[i], d);
+        for (place, [part, ..]) in self.held.parts() {
+            self.x[place] = scale * part;
         }
+        self.real.solve(assembly.pattern(), &mut self.x);
+        assembly.take(&self.x, q);
         elimination.coordinates_of(q);
     }
 
     /// `T^T R T q`, in place; does nothing to an undamped system but set zero.
     pub fn apply_damping(&mut self, elimination: &Elimination<D>, q: &mut [f64]) {
         if self.is_damped {
-            apply(
-                &self.damping,
-                elimination,
-                (&mut self.x, &mut self.product),
-                q,
-            );
+            self.apply(elimination, |tangent| &tangent.damping, q);
         } else {
             q.fill(0.0);
         }
@@ -205,25 +236,25 @@ impl<const D: usize> Tangent<D> {
 
     /// `T^T K T q`, in place.
     pub fn apply_stiffness(&mut self, elimination: &Elimination<D>, q: &mut [f64]) {
-        apply(
-            &self.stiffness,
-            elimination,
-            (&mut self.x, &mut self.product),
-            q,
-        );
+        self.apply(elimination, |tangent| &tangent.stiffness, q);
     }
-}
 
-/// `T^T A T q`, in place.
-fn apply<const D: usize>(
-    matrix: &Matrix<f64>,
-    elimination: &Elimination<D>,
-    (y, product): (&mut [f64], &mut [f64]),
-    q: &mut [f64],
-) {
-    elimination.displacements(q, y);
-    matrix.multiply(elimination.assembly.pattern(), y, product);
-    elimination.project(product, q);
+    /// `T^T A T q`, in place.
+    fn apply(
+        &mut self,
+        elimination: &Elimination<D>,
+        matrix: impl Fn(&Self) -> &Matrix<f64>,
+        q: &mut [f64],
+    ) {
+        let assembly = &elimination.assembly;
+        elimination.displacements(q, &mut self.y);
+        assembly.put(&self.y, &mut self.x);
+        let mut product = std::mem::take(&mut self.product);
+        matrix(self).multiply(assembly.pattern(), &self.x, &mut product);
+        self.product = product;
+        assembly.take(&self.product, &mut self.y);
+        elimination.project(&self.y, q);
+    }
 }
 
 /// `out = m M + r R + K`.

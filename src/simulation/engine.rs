@@ -455,7 +455,7 @@ impl<const D: usize> Engine<D> {
         self.forget();
         self.evaluate(Evaluated::Dynamics, state, inputs);
         if self.derivatives.is_none() {
-            let derivatives = Derivatives::new(&self.assembled.system, &self.work);
+            let derivatives = Derivatives::new(&self.assembled.system);
             self.derivatives = Some(Box::new(derivatives));
         }
     }

@@ -6,12 +6,15 @@ use std::ops::Range;
 use nalgebra::SMatrix;
 
 use super::end::{Angle, End, coupling};
-use super::joints::{Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
+use super::joints::{
+    Coincident, Constraint, ConstraintKind, Joint, JointKind, Linear, Target, Unit, View,
+};
 use super::loads::Load;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, System};
 use crate::body::{
-    Assembly, Dependent, Elimination, Marker, Node, Row, add_node, no_node, product,
+    Assembly, Dependent, Elimination, Links, Marker, Node, Row, add_node, no_node, product,
+    tied_with,
 };
 use crate::math::function::Function;
 use crate::math::space::Vector;
@@ -19,6 +22,9 @@ use crate::math::sparse::Matrix;
 
 /// Part of a gradient that counts as none.
 const NOTHING: f64 = 1e-12;
+
+/// Most nodes that pins tie together and are eliminated with (docs/decisions/0029-constraints-at-linear-cost.md).
+const TIED: usize = 8;
 
 /// Mass in a point of a body: a point mass, or a rigid body about its centre of mass.
 #[derive(Clone, Copy, Debug)]
@@ -87,11 +93,12 @@ impl<const D: usize> System<D> {
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
         let chains_damped = parts.chains.iter().any(CableChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
+        let grounded = grounded(&parts, &nonlinear);
         let mut system = Self {
             reference: parts.nodes,
             is_driven_by_time: false,
             has_breaks: false,
-            grounded: grounded(&parts.loads, &nonlinear, parts.rotation, &parts.bodies),
+            grounded,
             is_damped: chains_damped || loads_damped,
             needs_rates: loads_damped || parts.rotation != 0.0 || parts.tracks_work,
             chains: parts.chains,
@@ -104,7 +111,7 @@ impl<const D: usize> System<D> {
             driven: Vec::new(),
             constraints: Vec::new(),
             settled: Vec::new(),
-            groups: Vec::new(),
+            multipliers: Vec::new(),
             redundant,
             drives: parts.drives,
             loads: parts.loads,
@@ -123,7 +130,7 @@ impl<const D: usize> System<D> {
         (system.has_breaks, system.is_driven_by_time) = (has_breaks, is_driven_by_time);
         system.settle();
         system.weigh();
-        system.group(nonlinear);
+        system.keep(nonlinear);
         system.needs_rates |= !system.constraints.is_empty();
         Ok(system)
     }
@@ -190,8 +197,8 @@ impl<const D: usize> System<D> {
         self.weight = weight;
     }
 
-    /// Sorts non-linear constraints by component. One that nothing free can violate drops out.
-    fn group(&mut self, nonlinear: Vec<Constraint<D>>) {
+    /// Keeps non-linear constraints, but for those that nothing free can violate.
+    fn keep(&mut self, nonlinear: Vec<Constraint<D>>) {
         let assembly = &self.elimination.assembly;
         let slides = nonlinear.iter().filter_map(|c| match &c.kind {
             ConstraintKind::Along(along) if c.is_slide() => {
@@ -208,38 +215,28 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel: &travel,
         };
-        let mut sorted: Vec<(usize, Constraint<D>)> = Vec::new();
-        let mut y = vec![0.0; assembly.pattern().len()];
-        for constraint in nonlinear {
+        let mut y = vec![0.0; assembly.free()];
+        let is_free = |constraint: &Constraint<D>| {
             y.fill(0.0);
             let mut size = 0.0;
             constraint.gradient(&view).for_each(|node, term| {
-                assembly.gather_node(node, term, 0, &mut y);
+                assembly.gather_node(node, term, &mut y);
                 size += product(term, term);
             });
-            let left = y.iter().position(|y| y.abs() > NOTHING * f64::sqrt(size));
-            let home = left.and_then(|at| {
-                let holds = |c: &crate::math::sparse::Component| c.variables.contains(&at);
-                assembly.components().iter().position(holds)
-            });
-            match home {
-                Some(component) => sorted.push((component, constraint)),
-                None => {
-                    self.redundant.extend(constraint.joint);
-                    if !matches!(constraint.kind, ConstraintKind::Along(_)) {
-                        self.settled.push(constraint);
-                    }
-                }
+            y.iter().any(|y| y.abs() > NOTHING * f64::sqrt(size))
+        };
+        let free: Vec<bool> = nonlinear.iter().map(is_free).collect();
+        for (index, (constraint, is_free)) in nonlinear.into_iter().zip(free).enumerate() {
+            if is_free {
+                self.multipliers.push(index);
+                self.constraints.push(constraint);
+                continue;
+            }
+            self.redundant.extend(constraint.joint);
+            if !matches!(constraint.kind, ConstraintKind::Along(_)) {
+                self.settled.push(constraint);
             }
         }
-        sorted.sort_by_key(|(component, _)| *component);
-        for (component, _) in &sorted {
-            match self.groups.last_mut() {
-                Some((last, count)) if last == component => *count += 1,
-                _ => self.groups.push((*component, 1)),
-            }
-        }
-        self.constraints = sorted.into_iter().map(|(_, c)| c).collect();
         self.slides = vec![0; travel.len()];
         for (index, constraint) in self.constraints.iter().enumerate() {
             if let ConstraintKind::Along(along) = &constraint.kind {
@@ -294,28 +291,67 @@ fn constraints<const D: usize>(parts: &Parts<D>) -> (Vec<Linear<D>>, Vec<Constra
     for (index, joint) in parts.joints.iter().enumerate() {
         joint.constraints(index, &mut linear, &mut nonlinear);
     }
+    release_pins(parts, &mut linear, &mut nonlinear);
     (linear, nonlinear)
 }
 
-/// Pairs of nodes that mass, stiffness or constraints couple.
-fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Vec<(usize, usize)> {
-    let mut links = Vec::new();
-    for chain in &parts.chains {
-        links.extend((0..chain.elements().len()).map(|j| <(usize, usize)>::from(chain.nodes(j))));
-    }
-    let mut tie = |nodes: Vec<usize>| {
-        for (i, a) in nodes.iter().enumerate() {
-            links.extend(nodes[i + 1..].iter().map(|b| (*a, *b)));
+/// Pins that would tie many rigid bodies together keep multipliers instead of being eliminated: what is tied together is
+/// dense.
+fn release_pins<const D: usize>(
+    parts: &Parts<D>,
+    linear: &mut Vec<Linear<D>>,
+    nonlinear: &mut Vec<Constraint<D>>,
+) {
+    let rows: Vec<&Row<D>> = linear.iter().map(|linear| &linear.row).collect();
+    let tied = tied_with(parts.nodes.len(), &rows);
+    let is_released = |index: usize| {
+        let joint = &parts.joints[index];
+        let joins = joint.ends.iter().all(|end| end.is_rigid());
+        let mut nodes = joint.ends.iter().filter_map(|end| end.nodes().next());
+        match (&joint.kind, nodes.next(), nodes.next()) {
+            (JointKind::Revolute, Some(a), Some(_)) => {
+                joins && tied[a] > std::env::var("TIED").map_or(TIED, |t| t.parse().unwrap_or(TIED))
+            }
+            _ => false,
         }
     };
-    for constraint in nonlinear {
-        tie(constraint.nodes(&parts.chains));
+    linear.retain(|linear| !linear.joint.is_some_and(is_released));
+    for index in (0..parts.joints.len()).filter(|index| is_released(*index)) {
+        let pin = Coincident::pin(parts.joints[index].ends);
+        nonlinear.extend(pin.map(|c| Constraint::of(index, ConstraintKind::Coincident(c))));
     }
-    for load in parts.loads.iter().chain(&parts.initial_loads) {
-        tie(load.ends().iter().flat_map(End::nodes).collect());
+}
+
+/// What mass, stiffness and constraints couple.
+fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Links {
+    let mut links = Links::default();
+    for chain in &parts.chains {
+        let elements = 0..chain.elements().len();
+        (links.mass).extend(elements.map(|j| <(usize, usize)>::from(chain.nodes(j))));
     }
     for lump in &parts.lumps {
-        tie(lump.marker.nodes.to_vec());
+        let [a, b] = lump.marker.nodes;
+        links.mass.push((a, b));
+    }
+    let mut tie = |nodes: &[usize]| {
+        for (i, a) in nodes.iter().enumerate() {
+            (links.stiffness).extend(nodes[i + 1..].iter().map(|b| (*a, *b)));
+        }
+    };
+    for load in parts.loads.iter().chain(&parts.initial_loads) {
+        tie(&load.ends().iter().flat_map(End::nodes).collect::<Vec<_>>());
+    }
+    let mut joint = None;
+    for constraint in nonlinear {
+        let nodes = constraint.nodes(&parts.chains);
+        if constraint.is_stiff() {
+            tie(&nodes);
+        }
+        match links.held.last_mut() {
+            Some((on, count)) if joint == constraint.joint && *on == nodes => *count += 1,
+            _ => links.held.push((nodes, 1)),
+        }
+        joint = constraint.joint;
     }
     links
 }
@@ -360,17 +396,12 @@ fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64>
 }
 
 /// Nodes that something besides rows ties to the ground.
-fn grounded<const D: usize>(
-    loads: &[Load<D>],
-    nonlinear: &[Constraint<D>],
-    rotation: f64,
-    bodies: &[Range<usize>],
-) -> Vec<usize> {
-    if rotation != 0.0 {
-        return bodies.iter().map(|nodes| nodes.start).collect();
+fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Vec<usize> {
+    if parts.rotation != 0.0 {
+        return parts.bodies.iter().map(|nodes| nodes.start).collect();
     }
     let mut nodes = Vec::new();
-    for load in loads {
+    for load in &parts.loads {
         let is_grounded = match load {
             Load::Spring(spring) => spring.ends.iter().any(|end| end.marker().is_none()),
             Load::Coupling(_) => true,
@@ -381,7 +412,7 @@ fn grounded<const D: usize>(
         }
     }
     for constraint in nonlinear.iter().filter(|c| c.is_grounded()) {
-        nodes.extend(constraint.nodes(&[]));
+        nodes.extend(constraint.nodes(&parts.chains));
     }
     nodes
 }

@@ -60,12 +60,12 @@ pub struct System<const D: usize = 2> {
     /// For every linear row, its cluster and place there, unless it repeats others.
     holds: Vec<Option<(usize, usize)>>,
     driven: Vec<DrivenRow<D>>,
-    /// Non-linear constraints, those of one component together.
+    /// Non-linear constraints.
     constraints: Vec<Constraint<D>>,
     /// Those that nothing free can violate, though a motion might.
     settled: Vec<Constraint<D>>,
-    /// Component and number of its constraints.
-    groups: Vec<(usize, usize)>,
+    /// For each of them its multiplier, as the assembly counts them.
+    multipliers: Vec<usize>,
     /// Joints with a row that repeats others.
     redundant: Vec<usize>,
     drives: Vec<Drive>,

@@ -1,9 +1,8 @@
 //! Scratch of a system: nothing allocates in a step.
 
-use super::motion::multipliers::Group;
 use super::signal::Course;
 use super::{State, System};
-use crate::body::{Node, Tangent, no_node};
+use crate::body::{Jacobian, Node, Tangent, no_node};
 
 /// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
 #[derive(Clone, Debug)]
@@ -33,7 +32,12 @@ pub struct Work<const D: usize = 2> {
     pub(super) travel: Vec<f64>,
     /// The state accepted last, to go back to from a step that leaves a cable.
     pub(super) before: State,
-    pub(super) groups: Vec<Group>,
+    /// Jacobian of the non-linear constraints, and their multipliers at the last acceleration.
+    pub(super) jacobian: Jacobian,
+    pub(super) lambda: Vec<f64>,
+    /// What constraints ask for, and what they would say if nothing were asked.
+    pub(super) right: Vec<f64>,
+    pub(super) unread: Vec<f64>,
     pub(super) tangent: Tangent<D>,
     /// Power that comes in and that is dissipated at the last acceleration, W.
     pub(super) power: [f64; 2],
@@ -48,6 +52,8 @@ impl<const D: usize> Work<D> {
             let first = chain.nodes(0)[0];
             elastic[first..first + chain.node_count()].fill(true);
         }
+        let jacobian = Jacobian::new(&system.elimination, &system.multipliers);
+        let lambda = vec![0.0; system.constraints.len()];
         Self {
             x: nodes.clone(),
             v: nodes.clone(),
@@ -64,23 +70,24 @@ impl<const D: usize> Work<D> {
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
             before: system.blank_state(0.0),
-            groups: Group::all(system),
+            right: lambda.clone(),
+            unread: lambda.clone(),
+            lambda,
             tangent: Tangent::new(
                 &system.elimination,
                 system.is_damped,
-                &system.groups,
+                &jacobian,
                 &system.grounded,
                 &elastic,
             ),
+            jacobian,
             power: [0.0; 2],
         }
     }
 
     /// Takes the part of `q` out that constraints do not allow, with the Jacobians of the last acceleration.
     pub(super) fn project_on_tangent_plane(&mut self, q: &mut [f64]) {
-        for group in &mut self.groups {
-            group.rows.take_out(&mut q[group.coordinates.clone()]);
-        }
+        self.jacobian.bring(|_| 0.0, q, &mut self.unread);
     }
 
     /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.

@@ -12,6 +12,7 @@ mod differences;
 mod driven;
 mod elements;
 mod frames;
+mod links;
 mod mechanics;
 mod mechanism;
 mod motion;

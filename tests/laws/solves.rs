@@ -1,6 +1,6 @@
 //! Solves with the tangent in the coordinates `q`, against dense matrices and differences.
 
-use flexbody::body::{Tangent, add_node};
+use flexbody::body::{Jacobian, Tangent, add_node};
 use flexbody::elements::{Element, Nodal};
 use flexbody::system::loads::{Force, Load, Moment};
 use flexbody::system::{Dynamics, End, Model, Signal, System, fastest};
@@ -298,8 +298,13 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
         let elimination = system.elimination();
         let body = &system.chains()[0];
         let elastic = vec![true; x.len()];
-        let mut tangent: Tangent<2> =
-            Tangent::new(elimination, body.is_damped(), &[], &[], &elastic);
+        let mut tangent: Tangent<2> = Tangent::new(
+            elimination,
+            body.is_damped(),
+            &Jacobian::new(elimination, &[]),
+            &[],
+            &elastic,
+        );
         tangent.clear();
         let assembly = &elimination.assembly;
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);

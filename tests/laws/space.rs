@@ -1,6 +1,6 @@
 //! Chains of cables in space: what bodies of the plane promise holds for any dimension.
 
-use flexbody::body::{Assembly, Chain, Elimination, Node, Row, Tangent, map_node};
+use flexbody::body::{Assembly, Chain, Elimination, Jacobian, Links, Node, Row, Tangent, map_node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Nodal, Strain};
 use flexbody::math::sparse::Matrix;
@@ -79,9 +79,12 @@ fn case((elements, joints, noise): Numbers) -> Case {
             _ => push(vec![(node, unit(2)), (other, map_node(&unit(2), |x| -x))]),
         }
     }
-    let links: Vec<_> = (1..chain.node_count())
-        .map(|node| (node - 1, node))
-        .collect();
+    let links = Links {
+        mass: (1..chain.node_count())
+            .map(|node| (node - 1, node))
+            .collect(),
+        ..Links::default()
+    };
     let (assembly, _) = Assembly::new(chain.node_count(), &rows, &links);
     let mut mass = Matrix::zeros(assembly.pattern());
     chain.add_mass(&assembly, &mut mass);
@@ -153,7 +156,13 @@ impl Case {
 
     fn tangent(&self, x: &[Node<3>]) -> Tangent<3> {
         let elastic = vec![true; x.len()];
-        let mut tangent: Tangent<3> = Tangent::new(&self.elimination, false, &[], &[], &elastic);
+        let mut tangent: Tangent<3> = Tangent::new(
+            &self.elimination,
+            false,
+            &Jacobian::new(&self.elimination, &[]),
+            &[],
+            &elastic,
+        );
         tangent.clear();
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);
         self.chain

@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use crate::anonymous;
 use crate::linker::Linker;
+use crate::package::PACKAGE;
 use crate::platform::Platform;
 use crate::process;
 
@@ -97,12 +98,19 @@ impl Workspace {
         .with_context(|| format!("building the shared library for {}", platform.folder()))
     }
 
-    /// Builds the `flexbody` program and returns where it is.
+    /// Builds the `flexbody` program, as `cargo test` does, and returns where it is.
     pub fn binary(&self) -> Result<PathBuf> {
-        self.program("flexbody")
+        let mut command = self.cargo("build");
+        command
+            .args(["--package", PACKAGE, "--bin", PACKAGE])
+            .args(["--message-format", "json-render-diagnostics"]);
+        product(&mut command, PACKAGE, |artifact| {
+            artifact["executable"].as_str()
+        })
+        .context("building the flexbody program")
     }
 
-    /// Builds the program of a package, named like it, and returns where it is.
+    /// Builds the program of a package, named like it, for release and returns where it is.
     pub fn program(&self, package: &str) -> Result<PathBuf> {
         let mut command = self.cargo("build");
         self.executable(command.args(["--bin", package]), package)

@@ -1,6 +1,6 @@
 //! The product's elimination: clusters by QR, the rest by its sparse Cholesky factor.
 
-use flexbody::body::{Assembly, Elimination, Row};
+use flexbody::body::{Assembly, Elimination, Links, Row};
 use flexbody::math::sparse::Matrix;
 
 use super::Transformation;
@@ -18,9 +18,12 @@ pub fn new(rod: &Rod) -> Option<Product> {
         terms: vec![(0, [along, [0.0; 2]])],
         is_driven: false,
     };
-    let links: Vec<_> = (0..rod.count())
-        .map(|j| rod.chain.nodes(j).into())
-        .collect();
+    let links = Links {
+        mass: (0..rod.count())
+            .map(|j| rod.chain.nodes(j).into())
+            .collect(),
+        ..Links::default()
+    };
     let (assembly, _) = Assembly::new(
         rod.reference.len(),
         &[held([1.0, 0.0]), held([0.0, 1.0])],

@@ -141,7 +141,7 @@ impl Partition {
         let (mut i, mut largest) = (0, 0.0);
         let system = model.system;
         system.visit_constraints(time, q, v, model.work, |row| {
-            self.rows[i * n..][row.coordinates.clone()].copy_from_slice(row.gradient);
+            self.rows[i * n..(i + 1) * n].copy_from_slice(&row.gradient(n));
             let missing = match v {
                 None => row.value(),
                 Some(_) => row.rate(),

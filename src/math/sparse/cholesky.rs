@@ -30,6 +30,15 @@ struct Piece {
     size: usize,
 }
 
+/// Where `W^-1 x` is not zero for some `x`.
+#[derive(Clone, Debug)]
+pub struct Reach {
+    /// Pieces to go through, and how many columns of each may be skipped.
+    pieces: Vec<(usize, usize)>,
+    /// The variables that are not zero, in order.
+    pub variables: Vec<Range<usize>>,
+}
+
 /// A column of L: two vectors of a node, `p` and `s`, and those of the next one.
 #[derive(Clone, Copy, Debug)]
 struct Link {
@@ -94,28 +103,72 @@ impl Cholesky {
 
     /// `x <- W^-1 x`.
     pub fn forward(&self, pattern: &Pattern, x: &mut [f64]) {
-        self.forward_steps(pattern, 0..self.pieces.len(), 0, x);
+        for (piece, step) in self.pieces.iter().zip(&pattern.steps) {
+            self.forward_piece(pattern, (piece, step), 0, x);
+        }
         scale(x, &self.inverse_roots);
     }
 
-    /// `x <- W^-1 x` for one component; `x` holds the variables of this component alone.
-    pub fn forward_component(&self, pattern: &Pattern, component: usize, x: &mut [f64]) {
-        let component = &pattern.components()[component];
-        let variables = component.variables.clone();
-        self.forward_steps(pattern, component.steps.clone(), variables.start, x);
-        scale(x, &self.inverse_roots[variables]);
+    /// `x <- W^-1 x` where `x` is zero but at vertices that it was made for.
+    pub fn forward_within(&self, pattern: &Pattern, reach: &Reach, x: &mut [f64]) {
+        for &(piece, skipped) in &reach.pieces {
+            self.forward_piece(
+                pattern,
+                (&self.pieces[piece], &pattern.steps[piece]),
+                skipped,
+                x,
+            );
+        }
+        for range in &reach.variables {
+            scale(&mut x[range.clone()], &self.inverse_roots[range.clone()]);
+        }
     }
 
-    fn forward_steps(&self, pattern: &Pattern, steps: Range<usize>, base: usize, x: &mut [f64]) {
-        for (piece, step) in self.pieces[steps.clone()].iter().zip(&pattern.steps[steps]) {
-            if piece.links.is_empty() {
-                let step = std::slice::from_ref(step);
-                kernels::forward(pattern, step, &self.factors.values, base, x);
-            } else {
-                let x = &mut x[piece.start - base..];
-                of_size!(piece.size, B => forward_links::<{ B / 2 }>(&piece.links, x));
+    /// One piece, but for its first columns.
+    fn forward_piece(
+        &self,
+        pattern: &Pattern,
+        (piece, step): (&Piece, &Step),
+        skipped: usize,
+        x: &mut [f64],
+    ) {
+        if piece.links.is_empty() {
+            kernels::forward(pattern, &[step.skip(skipped)], &self.factors.values, x);
+        } else {
+            let x = &mut x[piece.start + skipped * piece.size..];
+            of_size!(piece.size, B => forward_links::<{ B / 2 }>(&piece.links[skipped..], x));
+        }
+    }
+
+    /// What of `W^-1 x` is not zero where `x` is not zero at some vertices alone.
+    pub fn reach(&self, pattern: &Pattern, vertices: &[usize]) -> Reach {
+        let mut reached = vec![false; pattern.columns.len()];
+        let own = vertices.iter().filter(|v| !pattern.range(**v).is_empty());
+        own.for_each(|v| reached[pattern.column_of[*v]] = true);
+        for j in 0..reached.len() {
+            if reached[j] {
+                let rows = &pattern.rows[pattern.columns[j].rows.clone()];
+                rows.iter().for_each(|row| reached[row.column] = true);
             }
         }
+        let mut reach = Reach {
+            pieces: Vec::new(),
+            variables: Vec::new(),
+        };
+        for (index, piece) in self.pieces.iter().enumerate() {
+            // A column of a run reaches the next one.
+            if let Some(first) = piece.columns.clone().find(|j| reached[*j]) {
+                reach.pieces.push((index, first - piece.columns.start));
+            }
+        }
+        for column in (pattern.columns.iter().zip(reached)).filter_map(|(c, r)| r.then_some(c)) {
+            let end = column.start + column.size;
+            match reach.variables.last_mut() {
+                Some(last) if last.end == column.start => last.end = end,
+                _ => reach.variables.push(column.start..end),
+            }
+        }
+        reach
     }
 
     /// `x <- W^-T x`.
@@ -124,7 +177,7 @@ impl Cholesky {
         for (piece, step) in self.pieces.iter().zip(&pattern.steps).rev() {
             if piece.links.is_empty() {
                 let step = std::slice::from_ref(step);
-                kernels::backward::<f64, false>(pattern, step, &self.factors.values, 0, x);
+                kernels::backward::<f64, false>(pattern, step, &self.factors.values, x);
             } else {
                 let x = &mut x[piece.start..];
                 of_size!(piece.size, B => backward_links::<{ B / 2 }>(&piece.links, x));
@@ -135,25 +188,13 @@ impl Cholesky {
     /// `x <- W x`.
     pub fn multiply(&self, pattern: &Pattern, x: &mut [f64]) {
         scale(x, &self.roots);
-        self.multiply_steps(pattern, 0..self.pieces.len(), 0, x);
-    }
-
-    /// `x <- W x` for one component; `x` holds the variables of this component alone.
-    pub fn multiply_component(&self, pattern: &Pattern, component: usize, x: &mut [f64]) {
-        let component = &pattern.components()[component];
-        let variables = component.variables.clone();
-        scale(x, &self.roots[variables.clone()]);
-        self.multiply_steps(pattern, component.steps.clone(), variables.start, x);
-    }
-
-    fn multiply_steps(&self, pattern: &Pattern, steps: Range<usize>, base: usize, x: &mut [f64]) {
-        for piece in self.pieces[steps].iter().rev() {
+        for piece in self.pieces.iter().rev() {
             if piece.links.is_empty() {
                 for column in pattern.columns[piece.columns.clone()].iter().rev() {
-                    kernels::multiply_lower(pattern, column, &self.factors.values, base, x);
+                    kernels::multiply_lower(pattern, column, &self.factors.values, x);
                 }
             } else {
-                let x = &mut x[piece.start - base..];
+                let x = &mut x[piece.start..];
                 of_size!(piece.size, B => multiply_links::<{ B / 2 }>(&piece.links, x));
             }
         }

@@ -29,14 +29,33 @@ pub(super) fn factor<T: Number>(pattern: &Pattern, values: &mut [T]) -> Option<u
     Some(negative)
 }
 
-/// `x <- L^-1 x` over some steps; `x` holds the variables from number `base` on.
-pub(super) fn forward<T: Number>(
+/// L D L^T in place of a matrix whose columns are single numbers, without those of little pivots.
+pub(super) fn factor_semidefinite(
     pattern: &Pattern,
-    steps: &[Step],
-    values: &[T],
-    base: usize,
-    x: &mut [T],
+    values: &mut [f64],
+    (least, squares): (f64, &[f64]),
+    counts: &mut [bool],
 ) {
+    for column in &pattern.columns {
+        let pivot = values[column.at];
+        let rows = &pattern.rows[column.rows.clone()];
+        let stays = pivot.is_finite() && pivot > least * squares[column.start];
+        counts[column.start] = stays;
+        let inverse = if stays { 1.0 / pivot } else { 0.0 };
+        values[column.at] = inverse;
+        let mut targets = pattern.targets[column.targets..].iter();
+        for (a, row) in rows.iter().enumerate() {
+            let entry = values[row.at];
+            values[row.at] = entry * inverse;
+            for (left, target) in rows[..=a].iter().zip(&mut targets) {
+                values[*target] -= entry * values[left.at];
+            }
+        }
+    }
+}
+
+/// `x <- L^-1 x` over some steps.
+pub(super) fn forward<T: Number>(pattern: &Pattern, steps: &[Step], values: &[T], x: &mut [T]) {
     for step in steps {
         match step {
             Step::Chain {
@@ -44,28 +63,26 @@ pub(super) fn forward<T: Number>(
                 values: run,
                 variables,
             } => {
-                let x = &mut x[variables.start - base..variables.end - base + size];
+                let x = &mut x[variables.start..variables.end + size];
                 of_size!(size, B => chains::forward::<T, B>(&values[run.clone()], x));
             }
             Step::Column(j) => {
                 let column = &pattern.columns[*j];
                 match column.size {
-                    4 => forward_column(4, pattern, column, values, base, x),
-                    6 => forward_column(6, pattern, column, values, base, x),
-                    size => forward_column(size, pattern, column, values, base, x),
+                    4 => forward_column(4, pattern, column, values, x),
+                    6 => forward_column(6, pattern, column, values, x),
+                    size => forward_column(size, pattern, column, values, x),
                 }
             }
         }
     }
 }
 
-/// `x <- L^-T x`, or `x <- L^-T D^-1 x` if `SCALE`, over some steps; `x` holds the variables from
-/// number `base` on.
+/// `x <- L^-T x`, or `x <- L^-T D^-1 x` if `SCALE`, over some steps.
 pub(super) fn backward<T: Number, const SCALE: bool>(
     pattern: &Pattern,
     steps: &[Step],
     values: &[T],
-    base: usize,
     x: &mut [T],
 ) {
     for step in steps.iter().rev() {
@@ -75,15 +92,15 @@ pub(super) fn backward<T: Number, const SCALE: bool>(
                 values: run,
                 variables,
             } => {
-                let x = &mut x[variables.start - base..variables.end - base + size];
+                let x = &mut x[variables.start..variables.end + size];
                 of_size!(size, B => chains::backward::<T, B, SCALE>(&values[run.clone()], x));
             }
             Step::Column(j) => {
                 let column = &pattern.columns[*j];
                 match column.size {
-                    4 => backward_column::<T, SCALE>(4, pattern, column, values, base, x),
-                    6 => backward_column::<T, SCALE>(6, pattern, column, values, base, x),
-                    size => backward_column::<T, SCALE>(size, pattern, column, values, base, x),
+                    4 => backward_column::<T, SCALE>(4, pattern, column, values, x),
+                    6 => backward_column::<T, SCALE>(6, pattern, column, values, x),
+                    size => backward_column::<T, SCALE>(size, pattern, column, values, x),
                 }
             }
         }
@@ -206,18 +223,17 @@ fn forward_column<T: Number>(
     pattern: &Pattern,
     column: &Column,
     values: &[T],
-    base: usize,
     x: &mut [T],
 ) {
     let (diagonal, mut rest) = values[column.at..].split_at(size * size);
-    let offset = column.start - base + size;
+    let offset = column.start + size;
     let (x, later) = x.split_at_mut(offset);
     let x = &mut x[offset - size..];
     substitute(size, diagonal, x);
     for row in &pattern.rows[column.rows.clone()] {
         let (block, remaining) = rest.split_at(row.size * size);
         rest = remaining;
-        let y = &mut later[row.start - base - offset..][..row.size];
+        let y = &mut later[row.start - offset..][..row.size];
         for (y, line) in y.iter_mut().zip(block.chunks_exact(size)) {
             *y = *y - dot(line, x);
         }
@@ -230,11 +246,10 @@ fn backward_column<T: Number, const SCALE: bool>(
     pattern: &Pattern,
     column: &Column,
     values: &[T],
-    base: usize,
     x: &mut [T],
 ) {
     let (diagonal, mut rest) = values[column.at..].split_at(size * size);
-    let offset = column.start - base + size;
+    let offset = column.start + size;
     let (x, later) = x.split_at_mut(offset);
     let x = &mut x[offset - size..];
     if SCALE {
@@ -245,7 +260,7 @@ fn backward_column<T: Number, const SCALE: bool>(
     for row in &pattern.rows[column.rows.clone()] {
         let (block, remaining) = rest.split_at(row.size * size);
         rest = remaining;
-        let y = &later[row.start - base - offset..][..row.size];
+        let y = &later[row.start - offset..][..row.size];
         for (y, line) in y.iter().zip(block.chunks_exact(size)) {
             for (x, entry) in x.iter_mut().zip(line) {
                 *x = *x - *entry * *y;
@@ -291,14 +306,8 @@ fn multiply_column<T: Number>(
 }
 
 /// The part of one column in `x <- L x`; later columns come first.
-pub(super) fn multiply_lower(
-    pattern: &Pattern,
-    column: &Column,
-    values: &[f64],
-    base: usize,
-    x: &mut [f64],
-) {
-    let (size, start) = (column.size, column.start - base);
+pub(super) fn multiply_lower(pattern: &Pattern, column: &Column, values: &[f64], x: &mut [f64]) {
+    let (size, start) = (column.size, column.start);
     let (diagonal, mut rest) = values[column.at..].split_at(size * size);
     let end = start + size;
     let (x, later) = x.split_at_mut(end);
@@ -306,7 +315,7 @@ pub(super) fn multiply_lower(
     for row in &pattern.rows[column.rows.clone()] {
         let (block, remaining) = rest.split_at(row.size * size);
         rest = remaining;
-        let y = &mut later[row.start - base - end..][..row.size];
+        let y = &mut later[row.start - end..][..row.size];
         for (y, line) in y.iter_mut().zip(block.chunks_exact(size)) {
             *y += dot(line, x);
         }

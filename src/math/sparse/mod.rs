@@ -15,7 +15,7 @@ mod pattern;
 #[cfg(test)]
 mod tests;
 
-pub use cholesky::Cholesky;
+pub use cholesky::{Cholesky, Reach};
 pub use general::{Factors, General};
 pub use pattern::{Component, Pattern, Slot};
 
@@ -80,6 +80,24 @@ impl<T: Number> Matrix<T> {
         }
     }
 
+    /// The blocks of this matrix, over `whole`, that `part` stores: [`Pattern::of_part`] of it.
+    pub fn part(&self, whole: &Pattern, part: &Pattern) -> Self {
+        let mut blocks = Self::zeros(part);
+        let vertices: Vec<usize> = part.vertices().copied().collect();
+        for (&v, column) in vertices.iter().zip(&part.columns) {
+            let size = column.size;
+            let later = part.rows[column.rows.clone()].iter();
+            let later = later.map(|row| (vertices[row.column], row.at, row.size));
+            for (w, to, height) in later.chain([(v, column.at, size)]) {
+                if let Some(slot) = whole.slot(w, v) {
+                    let from = &self.values[slot.at..slot.at + size * height];
+                    blocks.values[to..to + size * height].copy_from_slice(from);
+                }
+            }
+        }
+        blocks
+    }
+
     /// `y = A x` with the matrix not yet factored and its diagonal blocks filled on both sides of
     /// the diagonal.
     pub fn multiply(&self, pattern: &Pattern, x: &[T], y: &mut [T]) {
@@ -95,19 +113,20 @@ impl<T: Number> Matrix<T> {
 
     /// Solves in place with the factors.
     pub fn solve(&self, pattern: &Pattern, x: &mut [T]) {
-        kernels::forward(pattern, &pattern.steps, &self.values, 0, x);
-        kernels::backward::<T, true>(pattern, &pattern.steps, &self.values, 0, x);
+        kernels::forward(pattern, &pattern.steps, &self.values, x);
+        kernels::backward::<T, true>(pattern, &pattern.steps, &self.values, x);
     }
+}
 
-    /// Solves for one component in place with the factors; `x` holds the variables of this
-    /// component alone.
-    pub fn solve_component(&self, pattern: &Pattern, component: usize, x: &mut [T]) {
-        let component = &pattern.components()[component];
-        let (steps, base) = (
-            &pattern.steps[component.steps.clone()],
-            component.variables.start,
-        );
-        kernels::forward(pattern, steps, &self.values, base, x);
-        kernels::backward::<T, true>(pattern, steps, &self.values, base, x);
+impl Matrix<f64> {
+    /// Factors a positive semidefinite matrix of numbers, not of blocks, in place. A row whose pivot is less than
+    /// `least` times its square drops out: what solves say of it is zero. `counts` tells of every row whether it stays.
+    pub fn factor_semidefinite(
+        &mut self,
+        pattern: &Pattern,
+        least: (f64, &[f64]),
+        counts: &mut [bool],
+    ) {
+        kernels::factor_semidefinite(pattern, &mut self.values, least, counts);
     }
 }

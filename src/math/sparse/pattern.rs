@@ -38,7 +38,6 @@ pub struct Component {
     pub variables: Range<usize>,
     /// Where the vertices stand in [`Pattern::order`].
     pub vertices: Range<usize>,
-    pub(super) steps: Range<usize>,
 }
 
 /// Columns eliminated in one go.
@@ -55,6 +54,23 @@ pub(super) enum Step {
         /// The variables of the columns.
         variables: Range<usize>,
     },
+}
+
+impl Step {
+    /// The step but for its first columns.
+    pub fn skip(&self, columns: usize) -> Self {
+        let mut step = self.clone();
+        if let Self::Chain {
+            size,
+            values,
+            variables,
+        } = &mut step
+        {
+            values.start += columns * 2 * *size * *size;
+            variables.start += columns * *size;
+        }
+        step
+    }
 }
 
 /// The block sizes for which runs have loops of their own: nodes of cables in the plane and in space.
@@ -138,18 +154,82 @@ impl Pattern {
     ///
     /// If an edge names a vertex that does not exist.
     pub fn new(sizes: &[usize], edges: &[(usize, usize)]) -> Self {
-        let mut graph = vec![BTreeSet::new(); sizes.len()];
+        Self::with_multipliers(sizes, edges, sizes.len())
+    }
+
+    /// The same where vertices from number `first` on are multipliers: rows and columns of constraints, without
+    /// anything on the diagonal. Each is eliminated after the last vertex that it has an edge to, where its pivot is
+    /// negative; none of them are linked to each other. All others are eliminated as if a multiplier linked its vertices
+    /// in the order in which its edges tell of them.
+    ///
+    /// Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005),
+    /// section 7.
+    ///
+    /// # Panics
+    ///
+    /// If an edge names a vertex that does not exist.
+    pub fn with_multipliers(sizes: &[usize], edges: &[(usize, usize)], first: usize) -> Self {
+        let mut held: Vec<Vec<usize>> = vec![Vec::new(); sizes.len() - first];
+        let mut plain = Vec::with_capacity(edges.len());
         for &(v, w) in edges {
-            if v != w && sizes[v] > 0 && sizes[w] > 0 {
-                graph[v].insert(w);
-                graph[w].insert(v);
+            match v.max(w) {
+                last if last < first => plain.push((v, w)),
+                last => held[last - first].push(v.min(w)),
             }
+        }
+        for vertices in &mut held {
+            vertices.retain(|v| sizes[*v] > 0);
+            plain.extend(vertices.windows(2).map(|pair| (pair[0], pair[1])));
+        }
+        let order = least_degree(&sizes[..first], &plain);
+        let mut place = vec![0; first];
+        order.iter().enumerate().for_each(|(k, v)| place[*v] = k);
+        let mut after: Vec<Vec<usize>> = vec![Vec::new(); first];
+        let mut alone = Vec::new();
+        for (index, vertices) in held.iter().enumerate() {
+            match vertices.iter().max_by_key(|v| place[**v]) {
+                Some(last) => after[*last].push(first + index),
+                None => alone.push(first + index),
+            }
+        }
+        let with_multipliers = order
+            .iter()
+            .flat_map(|v| [*v].into_iter().chain(after[*v].clone()));
+        let order: Vec<usize> = with_multipliers.chain(alone).collect();
+        let mut graph = graph(sizes, edges);
+        let parts = parts(&graph);
+        Self::in_order(sizes, order, &parts, &mut graph)
+    }
+
+    /// The pattern of some of the edges over the first `sizes.len()` vertices, in the same order and as one
+    /// component.
+    pub fn of_part(&self, sizes: &[usize], edges: &[(usize, usize)]) -> Self {
+        let mut graph = graph(sizes, edges);
+        let order = self.order.iter().copied();
+        let order: Vec<usize> = order.filter(|v| *v < sizes.len()).collect();
+        let whole = [order.clone()];
+        Self::in_order(sizes, order, &whole, &mut graph)
+    }
+
+    /// With the vertices in elimination order, and the components of their graph in this order; the graph is taken
+    /// apart.
+    fn in_order(
+        sizes: &[usize],
+        order: Vec<usize>,
+        parts: &[Vec<usize>],
+        graph: &mut [BTreeSet<usize>],
+    ) -> Self {
+        let below = order.iter().map(|v| take_out(*v, graph, |_, _| {}));
+        let below: Vec<Vec<usize>> = below.collect();
+        let mut component_of = vec![0; sizes.len()];
+        for (c, part) in parts.iter().enumerate() {
+            part.iter().for_each(|&v| component_of[v] = c);
         }
         let mut pattern = Self {
             ranges: vec![0..0; sizes.len()],
             column_of: vec![0; sizes.len()],
-            component_of: vec![0; sizes.len()],
-            order: Vec::with_capacity(sizes.len()),
+            component_of,
+            order,
             components: Vec::new(),
             columns: Vec::new(),
             steps: Vec::new(),
@@ -157,22 +237,9 @@ impl Pattern {
             targets: Vec::new(),
             stored: 0,
         };
-        let parts = parts(&graph);
-        let mut below = Vec::with_capacity(sizes.len());
-        let degree = |near: &BTreeSet<usize>| near.iter().map(|&w| sizes[w]).sum();
-        let mut degrees: Vec<usize> = graph.iter().map(degree).collect();
-        for (c, part) in parts.iter().enumerate() {
-            for &v in part {
-                pattern.component_of[v] = c;
-            }
-            eliminate(part, sizes, &mut graph, &mut degrees, |v, neighbours| {
-                pattern.order.push(v);
-                below.push(neighbours);
-            });
-        }
         pattern.lay_out(sizes, &below);
         pattern.find_steps();
-        pattern.find_components(&parts);
+        pattern.find_components(parts);
         pattern.find_targets();
         pattern
     }
@@ -244,23 +311,14 @@ impl Pattern {
     }
 
     fn find_components(&mut self, parts: &[Vec<usize>]) {
-        let (mut vertices, mut variables, mut steps) = (0..0, 0..0, 0..0);
+        let (mut vertices, mut variables) = (0..0, 0..0);
         for part in parts {
             vertices = vertices.end..vertices.end + part.len();
             let size: usize = part.iter().map(|&v| self.ranges[v].len()).sum();
             variables = variables.end..variables.end + size;
-            let start = |step: &Step| match step {
-                Step::Column(j) => self.columns[*j].start,
-                Step::Chain { variables, .. } => variables.start,
-            };
-            let end = self
-                .steps
-                .partition_point(|step| start(step) < variables.end);
-            steps = steps.end..end;
             self.components.push(Component {
                 variables: variables.clone(),
                 vertices: vertices.clone(),
-                steps: steps.clone(),
             });
         }
     }
@@ -285,6 +343,12 @@ impl Pattern {
         let found = rows.partition_point(|r| r.column < row);
         rows.get(found)
             .map_or((false, 0), |r| (r.column == row, r.at))
+    }
+
+    /// The vertices with variables, column by column.
+    pub(super) fn vertices(&self) -> impl Iterator<Item = &usize> {
+        let order = self.order.iter();
+        order.filter(|&&v| !self.ranges[v].is_empty())
     }
 
     /// Number of variables: the length of every vector.
@@ -363,34 +427,59 @@ fn parts(graph: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
     parts
 }
 
-/// Takes the vertices of `part` out of the graph by least degree, joining the neighbours of each,
-/// and tells of every vertex with the neighbours it then has.
-fn eliminate(
-    part: &[usize],
-    sizes: &[usize],
-    graph: &mut [BTreeSet<usize>],
-    degrees: &mut [usize],
-    mut tell: impl FnMut(usize, Vec<usize>),
-) {
-    const ELIMINATED: usize = usize::MAX;
-    let mut queue: BinaryHeap<_> = part.iter().map(|&v| Reverse((degrees[v], v))).collect();
-    while let Some(Reverse((degree, v))) = queue.pop() {
-        if degrees[v] != degree {
-            continue; // out of date
+/// The neighbours of every vertex.
+fn graph(sizes: &[usize], edges: &[(usize, usize)]) -> Vec<BTreeSet<usize>> {
+    let mut graph = vec![BTreeSet::new(); sizes.len()];
+    for &(v, w) in edges {
+        if v != w && sizes[v] > 0 && sizes[w] > 0 {
+            graph[v].insert(w);
+            graph[w].insert(v);
         }
-        degrees[v] = ELIMINATED;
-        let neighbours: Vec<usize> = std::mem::take(&mut graph[v]).into_iter().collect();
-        for &u in &neighbours {
-            graph[u].remove(&v);
-            let mut degree = degrees[u] - sizes[v];
-            for &w in &neighbours {
-                if w != u && graph[u].insert(w) {
-                    degree += sizes[w];
-                }
-            }
-            degrees[u] = degree;
-            queue.push(Reverse((degree, u)));
-        }
-        tell(v, neighbours);
     }
+    graph
+}
+
+/// Takes a vertex out of the graph, joining its neighbours, which are returned; tells of every new pair of them, both
+/// ways round.
+fn take_out(
+    v: usize,
+    graph: &mut [BTreeSet<usize>],
+    mut joined: impl FnMut(usize, usize),
+) -> Vec<usize> {
+    let neighbours: Vec<usize> = std::mem::take(&mut graph[v]).into_iter().collect();
+    for &u in &neighbours {
+        graph[u].remove(&v);
+        for &w in &neighbours {
+            if w != u && graph[u].insert(w) {
+                joined(u, w);
+            }
+        }
+    }
+    neighbours
+}
+
+/// The vertices in the order of least degree (variables of the neighbours, those that elimination joins among them),
+/// at ties by lowest index, one component after the other in the order of their lowest vertices.
+fn least_degree(sizes: &[usize], edges: &[(usize, usize)]) -> Vec<usize> {
+    const ELIMINATED: usize = usize::MAX;
+    let mut graph = graph(sizes, edges);
+    let degree = |near: &BTreeSet<usize>| near.iter().map(|&w| sizes[w]).sum();
+    let mut degrees: Vec<usize> = graph.iter().map(degree).collect();
+    let mut order = Vec::with_capacity(sizes.len());
+    for part in parts(&graph) {
+        let mut queue: BinaryHeap<_> = part.iter().map(|&v| Reverse((degrees[v], v))).collect();
+        while let Some(Reverse((degree, v))) = queue.pop() {
+            if degrees[v] != degree {
+                continue; // out of date
+            }
+            degrees[v] = ELIMINATED;
+            let neighbours = take_out(v, &mut graph, |u, w| degrees[u] += sizes[w]);
+            for &u in &neighbours {
+                degrees[u] -= sizes[v];
+                queue.push(Reverse((degrees[u], u)));
+            }
+            order.push(v);
+        }
+    }
+    order
 }

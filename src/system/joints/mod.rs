@@ -3,6 +3,7 @@
 
 mod across;
 mod along;
+mod coincident;
 mod distance;
 mod motion;
 mod orientation;
@@ -13,7 +14,7 @@ mod weld;
 
 pub use across::Across;
 pub use along::Along;
-
+pub use coincident::Coincident;
 pub use distance::Distance;
 pub use orientation::Parallel;
 pub use unit::Unit;
@@ -172,6 +173,8 @@ pub enum ConstraintKind<const D: usize = 2> {
     Across(Across<D>),
     /// A point on a chain.
     Along(Along<D>),
+    /// A component of two points that coincide.
+    Coincident(Coincident<D>),
 }
 
 macro_rules! each {
@@ -182,13 +185,14 @@ macro_rules! each {
             ConstraintKind::Distance($c) => $call,
             ConstraintKind::Across($c) => $call,
             ConstraintKind::Along($c) => $call,
+            ConstraintKind::Coincident($c) => $call,
         }
     };
 }
 
 impl<const D: usize> Constraint<D> {
     /// That of a joint, by its index.
-    fn of(joint: usize, kind: ConstraintKind<D>) -> Self {
+    pub(super) fn of(joint: usize, kind: ConstraintKind<D>) -> Self {
         Self {
             joint: Some(joint),
             kind,
@@ -229,6 +233,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::Across(c) => c.stiffness(lambda, add),
             // Small beside inertia, and the blocks move with the point.
             ConstraintKind::Along(_) => {}
+            ConstraintKind::Coincident(_) => {}
         }
     }
 
@@ -238,6 +243,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
             ConstraintKind::Distance(c) => c.length,
             ConstraintKind::Across(c) => c.size,
+            ConstraintKind::Coincident(c) => c.size,
             ConstraintKind::Along(c) => chains[c.chain].length(),
         }
     }
@@ -249,11 +255,21 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::Parallel(c) => c.ends.iter().flat_map(End::nodes).collect(),
             ConstraintKind::Distance(c) => c.ends.iter().flat_map(End::nodes).collect(),
             ConstraintKind::Across(c) => c.ends.iter().flat_map(End::nodes).collect(),
+            ConstraintKind::Coincident(c) => c.ends.iter().flat_map(End::nodes).collect(),
             ConstraintKind::Along(c) => {
-                let chain = chains[c.chain].nodes(0)[0];
-                c.end.nodes().chain([chain]).collect()
+                let first = chains[c.chain].nodes(0)[0];
+                let chain = first..first + chains[c.chain].node_count();
+                c.end.nodes().chain(chain).collect()
             }
         }
+    }
+
+    /// Whether its force has a stiffness that is told block by block of these nodes.
+    pub fn is_stiff(&self) -> bool {
+        !matches!(
+            self.kind,
+            ConstraintKind::Along(_) | ConstraintKind::Coincident(_)
+        )
     }
 
     /// Whether it is the first one of a slide along a chain.
@@ -269,6 +285,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::Parallel(c) => c.ends.iter().any(ground),
             ConstraintKind::Distance(c) => c.ends.iter().any(ground),
             ConstraintKind::Across(c) => c.ends.iter().any(ground),
+            ConstraintKind::Coincident(c) => c.ends.iter().any(ground),
             ConstraintKind::Along(c) => ground(&c.end),
         }
     }

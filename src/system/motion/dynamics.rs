@@ -372,10 +372,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn take_out_normal(&mut self, a: &mut [f64]) {
-        for group in &mut self.work.groups {
-            let range = group.coordinates.clone();
-            group.rows.take_out(&mut a[range]);
-        }
+        self.work.project_on_tangent_plane(a);
     }
 
     fn apply_damping(&mut self, x: &mut [f64]) {

@@ -156,13 +156,17 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel,
         };
-        for (i, group) in work.groups.iter().enumerate() {
-            for (constraint, lambda) in group.multiplied(&self.constraints) {
-                constraint.stiffness(lambda, &view, &mut |a, b, block| {
-                    assembly.add(a, b, block, &mut tangent.stiffness);
+        tangent.hold(&self.elimination, &work.jacobian, &self.multipliers);
+        for (row, constraint) in self.constraints.iter().enumerate() {
+            constraint.stiffness(work.lambda[row], &view, &mut |a, b, block| {
+                assembly.add(a, b, block, &mut tangent.stiffness);
+            });
+            if work.jacobian.is_independent(row) {
+                let index = self.multipliers[row];
+                constraint.gradient(&view).for_each(|node, term| {
+                    tangent.add_gradient(&self.elimination, (index, node), term);
                 });
             }
-            tangent.set_border(&self.elimination, i, &group.rows);
         }
     }
 
@@ -177,12 +181,10 @@ impl<const D: usize> System<D> {
         self.add_inertia(1.0, &work.other, &mut work.supply);
         let mut supply = std::mem::take(&mut work.supply);
         let view = self.view(work);
-        for group in &work.groups {
-            for (constraint, lambda) in group.multiplied(&self.constraints) {
-                constraint.gradient(&view).for_each(|node, term| {
-                    add(&[(node, *term)], lambda, &mut supply);
-                });
-            }
+        for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
+            constraint.gradient(&view).for_each(|node, term| {
+                add(&[(node, *term)], *lambda, &mut supply);
+            });
         }
         work.supply = supply;
     }
@@ -193,8 +195,7 @@ impl<const D: usize> System<D> {
         if !self.drives.is_empty() {
             self.supply(a, work);
         }
-        let groups = work.groups.iter();
-        let multiplied = groups.flat_map(|group| group.multiplied(&self.constraints));
+        let multiplied = self.constraints.iter().zip(work.lambda.iter().copied());
         let at = self.instant(time, work);
         self.power(at, &self.view(work), &work.supply, multiplied)
     }

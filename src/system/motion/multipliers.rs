@@ -11,36 +11,19 @@
 //! Geometric Numerical Integration, 2nd ed., section IV.4; minimum norm in singular configurations:
 //! F. E. Udwadia, R. E. Kalaba, Analytical Dynamics (1996).
 
-use std::ops::Range;
-
-use crate::body::{Node, no_node, product};
+use crate::body::{Node, Rows, no_node, product};
 use crate::math::jet::Number;
-use crate::math::row_space::RowSpace;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::{System, Work};
 
 /// Most iterations of a projection.
 const ITERATIONS: usize = 20;
-/// Part of a row of the Jacobian that others must leave for it to count: of accelerations, and of
-/// projections. Close to a singular configuration (at a distance `d`) a residual of roundoff tilts the
-/// dependent row by `1e-15 / d^2`; leaving it out lets inertia rule for a time in proportion to `d`. These are
-/// in between (docs/decisions/0009-constraints.md).
-const RANK: f64 = 1e-4;
-const PROJECTED_RANK: f64 = 1e-5;
+/// Part of a row of the Jacobian that others must leave for it to count. Close to a singular configuration (at a
+/// distance `d`) a residual of roundoff tilts the dependent row by `1e-15 / d^2`; leaving it out lets inertia rule for
+/// a time in proportion to `d`. This is in between (docs/decisions/0029-constraints-at-linear-cost.md).
+const RANK: f64 = 1e-3;
 /// Residual at which positions are on the constraints.
 const EXACT: f64 = 2e-15;
-
-/// Constraints of one component of a system.
-#[derive(Clone, Debug)]
-pub(in crate::system) struct Group {
-    pub(in crate::system) component: usize,
-    /// Its constraints and its coordinates.
-    pub(in crate::system) constraints: Range<usize>,
-    pub(in crate::system) coordinates: Range<usize>,
-    pub(in crate::system) rows: RowSpace,
-    right: Vec<f64>,
-    pub(in crate::system) lambda: Vec<f64>,
-}
 
 /// A non-linear constraint `g(q, t) = 0` at a time, coordinates and rates.
 pub struct ConstraintRow<'a, const D: usize> {
@@ -48,10 +31,8 @@ pub struct ConstraintRow<'a, const D: usize> {
     view: &'a View<'a, D>,
     /// Its size, which residuals are relative to.
     pub size: f64,
-    /// The coordinates of its component of the system.
-    pub coordinates: Range<usize>,
-    /// Its derivatives by them, a row of `J`.
-    pub gradient: &'a [f64],
+    rows: &'a Rows,
+    row: usize,
 }
 
 impl<const D: usize> ConstraintRow<'_, D> {
@@ -64,51 +45,29 @@ impl<const D: usize> ConstraintRow<'_, D> {
     pub fn rate(&self) -> f64 {
         constraint_rate(self.constraint, self.view)
     }
-}
 
-impl Group {
-    pub(in crate::system) fn all<const D: usize>(system: &System<D>) -> Vec<Self> {
-        let mut first = 0;
-        let groups = system.groups.iter().map(|(component, count)| {
-            let part = &system.elimination.assembly.components()[*component];
-            let coordinates = part.variables.clone();
-            let constraints = first..first + count;
-            first += count;
-            Self {
-                component: *component,
-                rows: RowSpace::new(*count, coordinates.len()),
-                coordinates,
-                constraints,
-                right: vec![0.0; *count],
-                lambda: vec![0.0; *count],
-            }
-        });
-        groups.collect()
+    /// Its derivatives by the coordinates, a row of `J`.
+    pub fn gradient(&self, coordinates: usize) -> Vec<f64> {
+        let mut gradient = vec![0.0; coordinates];
+        self.rows.add(self.row, 1.0, &mut gradient);
+        gradient
     }
 }
 
 impl<const D: usize> System<D> {
-    /// Fills in the Jacobians at the nodal coordinates in `work`; their rows are not orthonormal yet.
+    /// Fills in the Jacobian at the nodal coordinates in `work`; it is not factored yet.
     fn jacobians(&self, work: &mut Work<D>) {
-        let mut groups = std::mem::take(&mut work.groups);
-        let view = self.view(work);
-        for group in &mut groups {
-            let first = group.coordinates.start;
-            for (i, constraint) in self.constraints[group.constraints.clone()]
-                .iter()
-                .enumerate()
-            {
-                let row = group.rows.row_mut(i);
-                row.fill(0.0);
-                constraint.gradient(&view).for_each(|node, term| {
-                    self.elimination
-                        .assembly
-                        .gather_node(node, term, first, row);
-                });
-                self.elimination.project_component(group.component, row);
-            }
+        let view = View {
+            x: &work.x,
+            v: &work.v,
+            drives: &work.drives,
+            chains: &self.chains,
+            travel: &work.travel,
+        };
+        for (row, constraint) in self.constraints.iter().enumerate() {
+            let gradient = constraint.gradient(&view);
+            (work.jacobian).fill(&self.elimination, row, |tell| gradient.for_each(tell));
         }
-        work.groups = groups;
     }
 
     /// Shows every non-linear constraint at a time, coordinates and, where its rate is read, rates.
@@ -123,17 +82,14 @@ impl<const D: usize> System<D> {
         self.place(time, q, v, work);
         self.jacobians(work);
         let view = self.view(work);
-        for group in &work.groups {
-            let constraints = self.constraints[group.constraints.clone()].iter();
-            for (i, constraint) in constraints.enumerate() {
-                visit(ConstraintRow {
-                    constraint,
-                    view: &view,
-                    size: constraint.size(&self.chains),
-                    coordinates: group.coordinates.clone(),
-                    gradient: group.rows.unit(i),
-                });
-            }
+        for (row, constraint) in self.constraints.iter().enumerate() {
+            visit(ConstraintRow {
+                constraint,
+                view: &view,
+                size: constraint.size(&self.chains),
+                rows: work.jacobian.rows(),
+                row,
+            });
         }
     }
 
@@ -151,24 +107,18 @@ impl<const D: usize> System<D> {
     /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`.
     pub(in crate::system) fn constrain(&self, work: &mut Work<D>, a: &mut [f64]) {
         self.jacobians(work);
-        let mut groups = std::mem::take(&mut work.groups);
         self.driven_acceleration(&work.drives, &mut work.other);
+        let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
-        for group in &mut groups {
-            let constraints = &self.constraints[group.constraints.clone()];
-            for (right, constraint) in group.right.iter_mut().zip(constraints) {
-                *right = -constraint.bias(&view);
-                constraint.gradient(&view).for_each(|node, term| {
-                    *right -= product(term, &work.other[node]);
-                });
-            }
-            group.rows.factor(RANK);
-            let a = &mut a[group.coordinates.clone()];
-            group.rows.take_out(a);
-            group.rows.add_least(&group.right, a);
-            group.rows.multipliers(&mut group.lambda);
+        for (right, constraint) in right.iter_mut().zip(&self.constraints) {
+            *right = -constraint.bias(&view);
+            constraint.gradient(&view).for_each(|node, term| {
+                *right -= product(term, &work.other[node]);
+            });
         }
-        work.groups = groups;
+        work.jacobian.factor(RANK);
+        work.jacobian.bring(|row| right[row], a, &mut work.lambda);
+        work.right = right;
     }
 
     /// Nodal accelerations of what is driven.
@@ -214,18 +164,17 @@ impl<const D: usize> System<D> {
         work: &mut Work<D>,
         missing: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
     ) {
-        let mut groups = std::mem::take(&mut work.groups);
+        let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
-        for group in &mut groups {
-            let constraints = &self.constraints[group.constraints.clone()];
-            for (right, constraint) in group.right.iter_mut().zip(constraints) {
-                *right = -missing(constraint, &view);
-            }
-            let q = &mut q[group.coordinates.clone()];
-            group.rows.factor(PROJECTED_RANK);
-            group.rows.add_least(&group.right, q);
+        for (right, constraint) in right.iter_mut().zip(&self.constraints) {
+            *right = -missing(constraint, &view);
         }
-        work.groups = groups;
+        work.jacobian.factor(RANK);
+        let mut change = std::mem::take(&mut work.a);
+        change.fill(0.0);
+        (work.jacobian).bring(|row| right[row], &mut change, &mut work.unread);
+        q.iter_mut().zip(&change).for_each(|(q, c)| *q += c);
+        (work.right, work.a) = (right, change);
     }
 
     /// Largest residual of positions, relative to the size of the constraint.
@@ -263,17 +212,17 @@ impl<const D: usize> System<D> {
         work.follow(state);
         self.place(state.time, &state.coordinates, None, work);
         self.jacobians(work);
-        for group in &mut work.groups {
-            group.rows.factor(part);
-            for row in group.rows.dependent() {
-                let constraint = &self.constraints[group.constraints.start + row];
-                match (constraint.joint, &constraint.kind) {
-                    (Some(joint), _) => joints.push(joint),
-                    (None, ConstraintKind::Unit(unit)) => {
-                        bodies.extend(self.bodies.iter().position(|b| b.contains(&unit.node)));
-                    }
-                    (None, _) => {}
+        work.jacobian.factor(part);
+        for (row, constraint) in self.constraints.iter().enumerate() {
+            if work.jacobian.is_independent(row) {
+                continue;
+            }
+            match (constraint.joint, &constraint.kind) {
+                (Some(joint), _) => joints.push(joint),
+                (None, ConstraintKind::Unit(unit)) => {
+                    bodies.extend(self.bodies.iter().position(|b| b.contains(&unit.node)));
                 }
+                (None, _) => {}
             }
         }
         joints.sort_unstable();
@@ -294,17 +243,6 @@ fn constraint_rate<const D: usize, N: Number>(
         }
     });
     rate
-}
-
-impl Group {
-    /// Its constraints with their multipliers.
-    pub(in crate::system) fn multiplied<'a, const D: usize>(
-        &'a self,
-        constraints: &'a [Constraint<D>],
-    ) -> impl Iterator<Item = (&'a Constraint<D>, f64)> {
-        let own = &constraints[self.constraints.clone()];
-        own.iter().zip(self.lambda.iter().copied())
-    }
 }
 
 /// The larger number; unlike `f64::max` it does not hide a NaN.

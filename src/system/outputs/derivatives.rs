@@ -9,9 +9,8 @@
 //!
 //! Source: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 13.
 
-use crate::body::{Node, add_node, left_node, map_node, no_node};
+use crate::body::{Node, add_node, left_node, map_node, no_node, product};
 use crate::math::jet::{Jet, Number, part, set_part};
-use crate::math::vector::dot;
 use crate::system::signal::Drive;
 use crate::system::{Evaluation, State, System, Work};
 
@@ -29,14 +28,9 @@ pub struct Derivatives<const D: usize> {
     /// One derivative of a nodal vector, and another one.
     one: Vec<Node<D>>,
     other: Vec<Node<D>>,
-    borders: Vec<Border>,
-}
-
-/// Derivatives of the constraints of a component.
-#[derive(Clone, Debug)]
-struct Border {
-    /// Rows of the first and second derivative of the Jacobian, one after the other.
-    rows: [Vec<f64>; 2],
+    /// Nodal accelerations of the free coordinates and their derivatives.
+    moved: [Vec<Node<D>>; 2],
+    /// What constraints ask for.
     right: Vec<f64>,
     /// Multipliers and their derivatives.
     lambda: [Vec<f64>; 3],
@@ -44,26 +38,21 @@ struct Border {
 
 impl<const D: usize> Derivatives<D> {
     /// Storage for a system.
-    pub fn new(system: &System<D>, work: &Work<D>) -> Self {
+    pub fn new(system: &System<D>) -> Self {
         let nodes = vec![[[Jet::from_re(0.0); D]; 2]; system.reference.len()];
         let q = vec![0.0; system.coordinates()];
-        let border = |group: &crate::system::motion::multipliers::Group| {
-            let (count, length) = (group.constraints.len(), group.coordinates.len());
-            let (rows, lambda) = (vec![0.0; count * length], vec![0.0; count]);
-            Border {
-                rows: [rows.clone(), rows],
-                right: lambda.clone(),
-                lambda: [lambda.clone(), lambda.clone(), lambda],
-            }
-        };
+        let none = vec![no_node(); system.reference.len()];
+        let lambda = vec![0.0; system.constraints.len()];
         Self {
             values: Evaluation::new(system),
             f: nodes.clone(),
             driven: nodes,
             q: [q.clone(), q],
-            one: vec![no_node(); system.reference.len()],
-            other: vec![no_node(); system.reference.len()],
-            borders: work.groups.iter().map(border).collect(),
+            one: none.clone(),
+            other: none.clone(),
+            moved: [none.clone(), none],
+            right: lambda.clone(),
+            lambda: [lambda.clone(), lambda.clone(), lambda],
         }
     }
 
@@ -239,10 +228,18 @@ impl<const D: usize> Derivatives<D> {
                 (driven.zip(c.as_flattened())).for_each(|(d, c)| *d += second * Jet::of(*c));
             }
         }
+        if !system.constraints.is_empty() {
+            self.turn_constraints(system, k, work);
+        }
         let q = &mut self.q[k - 1];
         system.elimination.reduce(&self.one, &mut work.y, q);
         if !system.constraints.is_empty() {
-            self.constrain(system, k, work);
+            let (jacobian, right) = (&mut work.jacobian, &self.right);
+            jacobian.bring(|row| right[row], q, &mut self.lambda[k]);
+            for (row, value) in self.values.lambda.iter_mut().enumerate() {
+                value.re = self.lambda[0][row];
+                set_part(value, k, self.lambda[k][row]);
+            }
         }
         let (elimination, q) = (&system.elimination, &self.q[k - 1]);
         elimination.expand(q, &mut work.y, &mut self.other);
@@ -257,65 +254,33 @@ impl<const D: usize> Derivatives<D> {
         }
     }
 
-    /// Takes what constraints ask for out of derivative `k` of the accelerations.
-    fn constrain(&mut self, system: &System<D>, k: usize, work: &mut Work<D>) {
-        let mut multiplied = std::mem::take(&mut self.values.lambda);
-        let mut groups = std::mem::take(&mut work.groups);
+    /// What constraints ask of derivative `k` of the accelerations; what their multipliers so far do to it as the
+    /// Jacobian changes is taken out of the forces.
+    fn turn_constraints(&mut self, system: &System<D>, k: usize, work: &mut Work<D>) {
+        let below = if k == 1 { &work.a } else { &self.q[0] };
+        let moved = &mut self.moved[k - 1];
+        system.elimination.expand(below, &mut work.y, moved);
+        self.lambda[0].copy_from_slice(&work.lambda);
         let view = self.values.view(system);
-        for (group, border) in groups.iter_mut().zip(&mut self.borders) {
-            border.lambda[0].copy_from_slice(&group.lambda);
-            let (range, n) = (group.coordinates.clone(), group.coordinates.len());
-            border.rows.iter_mut().for_each(|rows| rows.fill(0.0));
-            for (i, constraint) in system.constraints[group.constraints.clone()]
-                .iter()
-                .enumerate()
-            {
-                let mut right = -constraint.bias(&view);
-                constraint.gradient(&view).for_each(|node, term| {
-                    let driven = self.driven[node].as_flattened();
-                    for (term, driven) in term.as_flattened().iter().zip(driven) {
-                        right -= *term * *driven;
-                    }
-                    for (order, rows) in border.rows.iter_mut().enumerate() {
-                        let term = map_node(term, |term| part(term, order + 1));
-                        let row = &mut rows[i * n..(i + 1) * n];
-                        let assembly = &system.elimination.assembly;
-                        assembly.gather_node(node, &term, range.start, row);
-                    }
-                });
-                border.right[i] = part(right, k);
-            }
-            for row in border
-                .rows
-                .iter_mut()
-                .flat_map(|rows| rows.chunks_exact_mut(n))
-            {
-                system.elimination.project_component(group.component, row);
-            }
-            let (low, high) = self.q.split_at_mut(k - 1);
-            let a = &mut high[0][range.clone()];
-            // Order of the Jacobian, how often it counts, and the acceleration that goes with it.
-            let first = (0, k as f64, if k == 1 { &work.a[..] } else { &low[0][..] });
-            let second = (1, if k == 1 { 0.0 } else { 1.0 }, &work.a[..]);
-            for (order, times, below) in [first, second] {
-                let multipliers = &border.lambda[k - 1 - order.min(k - 1)];
-                for (i, row) in border.rows[order].chunks_exact(n).enumerate() {
-                    border.right[i] -= times * dot(row, &below[range.clone()]);
-                    let force = times * multipliers[i];
-                    a.iter_mut().zip(row).for_each(|(a, row)| *a -= force * row);
+        for (row, constraint) in system.constraints.iter().enumerate() {
+            let bias = constraint.bias(&view);
+            let mut right = -part(bias, k);
+            constraint.gradient(&view).for_each(|node, term| {
+                let driven = self.driven[node].as_flattened();
+                for (term, driven) in term.as_flattened().iter().zip(driven) {
+                    right -= part(*term * *driven, k);
                 }
-            }
-            group.rows.take_out(a);
-            group.rows.add_least(&border.right, a);
-            group.rows.multipliers(&mut border.lambda[k]);
-            for (i, number) in group.constraints.clone().enumerate() {
-                let value = &mut multiplied[number];
-                value.re = border.lambda[0][i];
-                set_part(value, k, border.lambda[k][i]);
-            }
+                // Derivatives of a product: of the Jacobian by the order, of the other factor by the rest.
+                for order in 1..=k {
+                    let times = if (k, order) == (2, 1) { 2.0 } else { 1.0 };
+                    let term = map_node(term, |term| part(term, order));
+                    right -= times * product(&term, &self.moved[k - order][node]);
+                    let force = times * self.lambda[k - order][row];
+                    add_node(&mut self.one[node], -force, &term);
+                }
+            });
+            self.right[row] = right;
         }
-        work.groups = groups;
-        self.values.lambda = multiplied;
     }
 
     /// Forces that linear constraints supply.

@@ -96,13 +96,7 @@ impl<const D: usize> Evaluation<D> {
         self.drives.copy_from_slice(&work.drives);
         self.acceleration.copy_from_slice(&work.other);
         self.supply.copy_from_slice(&work.supply);
-        let multiplied = work
-            .groups
-            .iter()
-            .flat_map(|g| g.multiplied(&system.constraints));
-        for (lambda, (_, value)) in self.lambda.iter_mut().zip(multiplied) {
-            *lambda = value;
-        }
+        self.lambda.copy_from_slice(&work.lambda);
     }
 }
 

@@ -28,10 +28,11 @@ pub(super) fn sort(found: &mut [Complex<f64>]) {
     }
 }
 
-/// Size of the roundoff in eigenvalues of `K`.
-pub(super) fn noise(squares: &[f64]) -> f64 {
-    let size = squares.iter().fold(0.0_f64, |m, k| m.max(k.abs()));
-    ROUNDOFF * squares.len() as f64 * size
+/// Size of the roundoff in eigenvalues of `K`, from theirs and that of the terms which `K` is summed from.
+pub(super) fn noise(squares: impl ExactSizeIterator<Item = f64>, terms: f64) -> f64 {
+    let count = squares.len() as f64;
+    let size = squares.fold(terms, |m, k| m.max(k.abs()));
+    ROUNDOFF * count * size
 }
 
 /// Eigenvalues `s` from those of `K`, `s^2 = -k`; what is below the noise is zero, twice.
@@ -58,7 +59,7 @@ pub(super) fn symmetric(stiffness: &DMatrix<f64>) -> Option<Vec<f64>> {
     let entry = |i: usize, j: usize| 0.5 * (stiffness[(i, j)] + stiffness[(j, i)]);
     let found = symmetric_eigenvalues(stiffness.nrows(), entry);
     let mut squares = found?;
-    let noise = noise(&squares);
+    let noise = noise(squares.iter().copied(), 0.0);
     squares
         .iter_mut()
         .filter(|k| k.abs() <= noise)

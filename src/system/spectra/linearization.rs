@@ -15,6 +15,7 @@ use super::probe::{Blocks, Nodes, Probe, SKEW};
 use crate::body::{Elimination, Node, left_node, map_node, no_block, no_node};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number, moving};
+use crate::math::row_space::RowSpace;
 use crate::math::space::Vector;
 use crate::math::sparse::General;
 use crate::system::end::End;
@@ -22,7 +23,8 @@ use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::{System, Work};
 
-/// `K` and `R` over the free coordinates, and what constraints make of them.
+/// `K` and `R` over the free coordinates, and what constraints make of them: rows and columns of multipliers stand with
+/// `K`.
 #[derive(Clone, Debug)]
 pub(super) struct Linearization<'a, const D: usize> {
     pub elimination: &'a Elimination<D>,
@@ -31,15 +33,15 @@ pub(super) struct Linearization<'a, const D: usize> {
     /// What elements of cables add to both, element by element, and both without that.
     pub elements: Vec<Elastic<D>>,
     pub others: [General<f64>; 2],
-    pub borders: Vec<Border>,
+    pub border: Border,
     /// Whether `R` is not zero.
     pub is_damped: bool,
     /// Whether `K` is symmetric but for loads that follow, and moves no block out of its place.
     pub is_symmetric: bool,
     /// The first load whose force has no potential.
     pub follower: Option<usize>,
-    /// Orthonormal directions in `q` that constraints hold: first coordinate, the others from there on.
-    pub units: Vec<(usize, Vec<f64>)>,
+    /// Orthonormal directions in `q` that constraints hold.
+    pub units: Vec<Vec<f64>>,
 }
 
 /// Tangents of one element: over the coordinates of its two nodes.
@@ -50,14 +52,11 @@ pub(super) struct Elastic<const D: usize> {
     pub damping: Option<elements::Blocks<D>>,
 }
 
-/// Rows and columns around the matrices, in the coordinates of one group of constraints.
+/// Products `column row^T` that add to `K`, over the free coordinates.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Border {
-    pub start: usize,
     pub columns: Vec<Vec<f64>>,
     pub rows: Vec<Vec<f64>>,
-    /// How many come first that add products `column row^T` to `K`; others are constraints.
-    pub products: usize,
 }
 
 impl<const D: usize> System<D> {
@@ -79,7 +78,7 @@ impl<const D: usize> System<D> {
             damping: General::zeros(pattern),
             elements: Vec::new(),
             others: [General::zeros(pattern), General::zeros(pattern)],
-            borders: work.groups.iter().map(|_| Border::default()).collect(),
+            border: Border::default(),
             is_damped: self.rotation != 0.0,
             is_symmetric: true,
             follower: None,
@@ -88,28 +87,45 @@ impl<const D: usize> System<D> {
         let mut probe = Probe::new(&work.x, &work.v);
         self.linearize_loads(time, work, at_rest, &mut probe, &mut made);
         self.linearize_frame(&mut made);
-        let mut elsewhere = vec![Vec::new(); work.groups.len()];
-        for (group, elsewhere) in work.groups.iter().zip(&mut elsewhere) {
-            for (constraint, lambda) in group.multiplied(&self.constraints) {
-                let blocks = self.linearize_constraint(work, (constraint, lambda), &mut probe);
-                let assembly = &self.elimination.assembly;
-                blocks.add(assembly, &mut made.stiffness, &mut |r, c, value| {
-                    elsewhere.push((r, c, value));
-                });
-            }
-            made.is_symmetric &= elsewhere.is_empty();
+        let mut elsewhere = Vec::new();
+        for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
+            let blocks = self.linearize_constraint(work, (constraint, *lambda), &mut probe);
+            let assembly = &self.elimination.assembly;
+            blocks.add(assembly, &mut made.stiffness, &mut |r, c, value| {
+                elsewhere.push((r, c, value));
+            });
         }
+        made.is_symmetric &= elsewhere.is_empty();
         made.others = [made.stiffness.clone(), made.damping.clone()];
         self.linearize_chains(work, at_rest, &mut probe, &mut made);
-        for (index, elsewhere) in elsewhere.iter().enumerate() {
-            let turning = if at_rest {
-                None
-            } else {
-                self.turning_rows(work, index)
-            };
-            made.borders[index] = self.border(work, index, elsewhere, turning, &mut made);
-        }
+        self.add_multipliers(work, &mut made.stiffness);
+        add_elsewhere(&elsewhere, self.coordinates(), &mut made.border);
+        self.add_turning(work, at_rest, &mut made);
         made
+    }
+
+    /// The rows and columns of multipliers.
+    fn add_multipliers(&self, work: &Work<D>, stiffness: &mut General<f64>) {
+        let (assembly, view) = (&self.elimination.assembly, self.view(work));
+        let mut counts = vec![false; assembly.constraints()];
+        for (row, constraint) in self.constraints.iter().enumerate() {
+            if !work.jacobian.is_independent(row) {
+                continue;
+            }
+            let index = self.multipliers[row];
+            counts[index] = true;
+            constraint.gradient(&view).for_each(|node, term| {
+                assembly.for_gradient((index, node), term, |slot, row, column, value| {
+                    stiffness.add_entry(slot, row, column, value);
+                    stiffness.add_entry(slot.flipped(), column, row, value);
+                });
+            });
+        }
+        for (constraint, counts) in counts.into_iter().enumerate() {
+            if let Some((slot, row)) = assembly.corner(constraint).filter(|_| !counts) {
+                stiffness.add_entry(slot, row, row, -1.0);
+            }
+        }
     }
 
     fn linearize_chains(
@@ -316,14 +332,44 @@ impl<const D: usize> System<D> {
         probe.differentiate(&nodes, false, &force)
     }
 
-    /// Rates of the rows of a group's Jacobian, in `q`; nothing where they do not turn.
-    fn turning_rows(&self, work: &Work<D>, index: usize) -> Option<Vec<Vec<f64>>> {
-        let group = &work.groups[index];
+    /// What constraints hold, and what their turning adds to `K`.
+    fn add_turning(&self, work: &Work<D>, at_rest: bool, made: &mut Linearization<'_, D>) {
+        let (elimination, n) = (&self.elimination, self.coordinates());
+        let independent =
+            (0..self.constraints.len()).filter(|row| work.jacobian.is_independent(*row));
+        let independent: Vec<usize> = independent.collect();
+        let mut space = RowSpace::new(independent.len(), n);
+        for (i, row) in independent.iter().enumerate() {
+            space.row_mut(i).fill(0.0);
+            work.jacobian.rows().add(*row, 1.0, space.row_mut(i));
+        }
+        space.factor(0.0);
+        made.units = (0..space.rank()).map(|i| space.unit(i).to_vec()).collect();
         let is_still = work.v.iter().all(|v| *v == no_node())
             && work.drives.iter().all(|drive| drive[1] == 0.0);
-        if is_still {
-            return None;
+        if at_rest || is_still || made.units.is_empty() {
+            return;
         }
+        made.is_symmetric = false;
+        let rates = space.combine(&self.turning_rows(work, &independent));
+        let padded = vec![0.0; elimination.assembly.pattern().len()];
+        let (mut y, mut x, mut sum) = (vec![0.0; n], padded.clone(), padded);
+        for (unit, mut rate) in made.units.iter().zip(rates) {
+            // - (R Q^T + D^T) D
+            elimination.forces(&mut rate);
+            elimination.displacements(unit, &mut y);
+            let assembly = &elimination.assembly;
+            assembly.put(&y, &mut x);
+            made.damping.multiply(assembly.pattern(), &x, &mut sum);
+            assembly.take(&sum, &mut y);
+            let column = rate.iter().zip(&y).map(|(rate, damped)| -(rate + damped));
+            made.border.columns.push(column.collect());
+            made.border.rows.push(rate);
+        }
+    }
+
+    /// Rates of some rows of the Jacobian, in `q`.
+    fn turning_rows(&self, work: &Work<D>, rows: &[usize]) -> Vec<Vec<f64>> {
         let pairs = work.x.iter().zip(&work.v);
         let x: Vec<Node<D, Jet>> = pairs.map(|(x, v)| moving(x, v)).collect();
         let v = work.v.iter().map(|v| map_node(v, Jet::from_re));
@@ -345,84 +391,33 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel: &travel,
         };
-        let constraints = self.constraints[group.constraints.clone()].iter();
-        let rows = constraints.map(|constraint| {
-            let mut row = vec![0.0; group.coordinates.len()];
-            constraint.gradient(&view).for_each(|node, term| {
-                let assembly = &self.elimination.assembly;
-                assembly.gather_node(
-                    node,
-                    &map_node(term, |t| t.v1),
-                    group.coordinates.start,
-                    &mut row,
-                );
-            });
-            self.elimination
-                .project_component(group.component, &mut row);
-            row
+        let rates = rows.iter().map(|row| {
+            let mut rate = vec![0.0; self.coordinates()];
+            self.constraints[*row]
+                .gradient(&view)
+                .for_each(|node, term| {
+                    let term = map_node(term, |t| t.v1);
+                    (self.elimination.assembly).gather_node(node, &term, &mut rate);
+                });
+            self.elimination.project_in_place(&mut rate);
+            rate
         });
-        Some(rows.collect())
+        rates.collect()
     }
+}
 
-    /// What the constraints of a group, and entries of `K` that are stored nowhere, put around the matrices.
-    fn border(
-        &self,
-        work: &Work<D>,
-        index: usize,
-        elsewhere: &[(usize, usize, f64)],
-        turning: Option<Vec<Vec<f64>>>,
-        made: &mut Linearization<'_, D>,
-    ) -> Border {
-        let (group, elimination) = (&work.groups[index], &self.elimination);
-        let (range, n) = (group.coordinates.clone(), group.coordinates.len());
-        let mut border = Border {
-            start: range.start,
-            ..Border::default()
-        };
-        let mut places: Vec<usize> = elsewhere.iter().map(|(_, c, _)| *c).collect();
-        places.sort_unstable();
-        places.dedup();
-        for place in places {
-            let (mut column, mut row) = (vec![0.0; n], vec![0.0; n]);
-            row[place - range.start] = 1.0;
-            for (r, _, value) in elsewhere.iter().filter(|(_, c, _)| *c == place) {
-                column[r - range.start] += value;
-            }
-            border.columns.push(column);
-            border.rows.push(row);
+/// Entries of `K` that are stored nowhere: row, column, value.
+fn add_elsewhere(entries: &[(usize, usize, f64)], coordinates: usize, border: &mut Border) {
+    let mut places: Vec<usize> = entries.iter().map(|(_, c, _)| *c).collect();
+    places.sort_unstable();
+    places.dedup();
+    for place in places {
+        let (mut column, mut row) = (vec![0.0; coordinates], vec![0.0; coordinates]);
+        row[place] = 1.0;
+        for (r, _, value) in entries.iter().filter(|(_, c, _)| *c == place) {
+            column[*r] += value;
         }
-        let units: Vec<Vec<f64>> = (0..group.rows.rank())
-            .map(|i| group.rows.unit(i).to_vec())
-            .collect();
-        let turning = turning
-            .map(|rows| group.rows.combine(&rows))
-            .unwrap_or_default();
-        for (unit, rate) in units.iter().zip(turning) {
-            // - (R Q^T + D^T) D
-            let mut column = rate;
-            elimination.forces_component(group.component, &mut column);
-            border.rows.push(column.clone());
-            let (mut q, mut y) = (
-                vec![0.0; elimination.coordinates()],
-                vec![0.0; elimination.scratch()],
-            );
-            q[range.clone()].copy_from_slice(unit);
-            elimination.displacements(&q, &mut y);
-            made.damping
-                .multiply(elimination.assembly.pattern(), &y, &mut q);
-            let pairs = column.iter_mut().zip(&q[range.clone()]);
-            pairs.for_each(|(c, damped)| *c = -(*c + damped));
-            border.columns.push(column);
-            made.is_symmetric = false;
-        }
-        border.products = border.rows.len();
-        for unit in units {
-            let mut row = unit.clone();
-            elimination.forces_component(group.component, &mut row);
-            border.columns.push(row.clone());
-            border.rows.push(row);
-            made.units.push((range.start, unit));
-        }
-        border
+        border.columns.push(column);
+        border.rows.push(row);
     }
 }

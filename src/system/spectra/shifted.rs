@@ -6,7 +6,7 @@
 
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU};
 
-use super::linearization::{Border, Elastic, Linearization};
+use super::linearization::{Elastic, Linearization};
 use crate::body::{Node, add_node, no_node};
 use crate::elements::{Blocks, Nodal};
 use crate::math::row_space::RowSpace;
@@ -14,16 +14,15 @@ use crate::math::space::Vector;
 use crate::math::sparse::{self, Factors, General};
 use crate::math::vector::dot;
 
-/// Solutions for the columns of a border, and the factors of its Schur complement.
-type BorderFactors<T> = (Vec<Vec<T>>, LU<T, Dyn, Dyn>);
-
 /// Factors of `s^2 I + s R + K` for one `s`.
 pub(super) struct Shifted<'a, const D: usize, T: ComplexField> {
     of: &'a Linearization<'a, D>,
     factors: Factors<T>,
-    /// For every border its solutions and the factors of what remains.
-    borders: Vec<BorderFactors<T>>,
-    y: Vec<T>,
+    /// Solutions for the columns of the border, and the factors of its Schur complement.
+    solutions: Vec<Vec<T>>,
+    rest: LU<T, Dyn, Dyn>,
+    /// Scratch: free coordinates with multipliers.
+    x: Vec<T>,
 }
 
 impl<'a, const D: usize> Linearization<'a, D> {
@@ -35,9 +34,18 @@ impl<'a, const D: usize> Linearization<'a, D> {
     /// `R q`, in place; `y` and `product` are scratch as long as the free coordinates.
     pub fn apply_damping(&self, q: &mut [f64], y: &mut [f64], product: &mut [f64]) {
         self.elimination.displacements(q, y);
-        self.damping
-            .multiply(self.elimination.assembly.pattern(), y, product);
+        self.multiply(&self.damping, y, product);
         self.elimination.project(product, q);
+    }
+
+    /// A matrix times free coordinates.
+    fn multiply(&self, matrix: &General<f64>, y: &[f64], product: &mut [f64]) {
+        let assembly = &self.elimination.assembly;
+        let zeros = vec![0.0; assembly.pattern().len()];
+        let (mut x, mut sum) = (zeros.clone(), zeros);
+        assembly.put(y, &mut x);
+        matrix.multiply(assembly.pattern(), &x, &mut sum);
+        assembly.take(&sum, product);
     }
 
     /// `K` and `R` in an orthonormal basis of the motions that keep the constraints.
@@ -62,19 +70,12 @@ impl<'a, const D: usize> Linearization<'a, D> {
             assembly.spread(&y, &mut x);
             nodal.push(x);
             for (which, matrix) in self.others.iter().enumerate() {
-                matrix.multiply(assembly.pattern(), &y, &mut product);
-                for border in self.borders.iter().filter(|_| which == 0) {
-                    let pairs = border
-                        .columns
-                        .iter()
-                        .zip(&border.rows)
-                        .take(border.products);
-                    for (column, row) in pairs {
-                        let range = border.start..border.start + row.len();
-                        let factor = dot(row, &y[range.clone()]);
-                        let to = product[range].iter_mut().zip(column);
-                        to.for_each(|(to, c)| *to += factor * c);
-                    }
+                self.multiply(matrix, &y, &mut product);
+                let pairs = self.border.columns.iter().zip(&self.border.rows);
+                for (column, row) in pairs.filter(|_| which == 0) {
+                    let factor = dot(row, &y);
+                    let to = product.iter_mut().zip(column);
+                    to.for_each(|(to, c)| *to += factor * c);
                 }
                 self.elimination.project(&product, &mut out);
                 for (i, left) in columns.iter().enumerate() {
@@ -109,14 +110,18 @@ impl<'a, const D: usize> Linearization<'a, D> {
         self.elimination.displacements(q, &mut y);
         assembly.spread(&y, &mut x);
         let mut force = vec![0.0; q.len()];
-        self.others[0].multiply(assembly.pattern(), &y, &mut force);
+        self.multiply(&self.others[0], &y, &mut force);
         let others: f64 = y.iter().zip(force).map(|(y, f)| (y * f).abs()).sum();
+        let products = self.border.columns.iter().zip(&self.border.rows);
+        let products: f64 = products
+            .map(|(column, row)| (dot(column, &y) * dot(row, &y)).abs())
+            .sum();
         let elastic = self.elements.iter().map(|element| {
             let e = element.relative(&x).abs();
             let sizes = element.stiffness.map(|row| row.map(|block| block.abs()));
             e.dot(&times(&sizes, &e))
         });
-        others + elastic.sum::<f64>()
+        others + products + elastic.sum::<f64>()
     }
 
     /// Orthonormal columns that the held directions leave.
@@ -131,12 +136,10 @@ impl<'a, const D: usize> Linearization<'a, D> {
             row.fill(0.0);
             row[k] = 1.0;
             for _ in 0..2 {
-                for (start, unit) in &self.units {
-                    let part = &mut row[*start..start + unit.len()];
-                    let factor = dot(unit, part);
-                    part.iter_mut()
-                        .zip(unit)
-                        .for_each(|(x, u)| *x -= factor * u);
+                for unit in &self.units {
+                    let factor = dot(unit, row);
+                    let pairs = row.iter_mut().zip(unit);
+                    pairs.for_each(|(x, u)| *x -= factor * u);
                 }
             }
             // What is nothing but roundoff is no direction.
@@ -160,13 +163,11 @@ impl<'a, const D: usize> Linearization<'a, D> {
         let mut shifted = Shifted {
             of: self,
             factors: matrix.factor(pattern)?,
-            borders: Vec::with_capacity(self.borders.len()),
-            y: vec![<T as From<f64>>::from(0.0); pattern.len()],
+            solutions: Vec::new(),
+            rest: DMatrix::zeros(0, 0).lu(),
+            x: vec![<T as From<f64>>::from(0.0); pattern.len()],
         };
-        for border in &self.borders {
-            let factored = shifted.factor_border(border);
-            shifted.borders.push(factored);
-        }
+        shifted.factor_border();
         Some(shifted)
     }
 }
@@ -187,47 +188,47 @@ fn times<const D: usize>(blocks: &Blocks<D>, e: &Nodal<D>) -> Nodal<D> {
 }
 
 impl<const D: usize, T: ComplexField + sparse::Number> Shifted<'_, D, T> {
-    fn factor_border(&mut self, border: &Border) -> BorderFactors<T> {
-        let pattern = self.of.elimination.assembly.pattern();
+    fn factor_border(&mut self) {
         let real = <T as From<f64>>::from;
-        let solve = |column: &Vec<f64>| {
-            let range = border.start..border.start + column.len();
-            self.y.fill(real(0.0));
-            let place = self.y[range.clone()].iter_mut().zip(column);
-            place.for_each(|(y, c)| *y = real(*c));
-            self.factors.solve(pattern, &mut self.y);
-            self.y[range].to_vec()
-        };
-        let solutions: Vec<Vec<T>> = border.columns.iter().map(solve).collect();
+        let border = &self.of.border;
+        let mut solutions = Vec::with_capacity(border.columns.len());
+        for column in &border.columns {
+            let mut y: Vec<T> = column.iter().map(|c| real(*c)).collect();
+            self.solve_sparse(&mut y);
+            solutions.push(y);
+        }
         let m = solutions.len();
         let rest = DMatrix::from_fn(m, m, |i, j| {
-            let corner = f64::from(u8::from(i == j && i < border.products));
+            let corner = f64::from(u8::from(i == j));
             -(real(corner) + product(&border.rows[i], &solutions[j]))
         });
-        (solutions, rest.lu())
+        (self.solutions, self.rest) = (solutions, rest.lu());
+    }
+
+    /// Solves in place over the free coordinates, but for the border.
+    fn solve_sparse(&mut self, y: &mut [T]) {
+        let assembly = &self.of.elimination.assembly;
+        assembly.put(y, &mut self.x);
+        self.factors.solve(assembly.pattern(), &mut self.x);
+        assembly.take(&self.x, y);
     }
 
     /// Solves in place over the free coordinates, among motions that keep the constraints. False where that is
     /// singular.
     fn solve_free(&mut self, y: &mut [T]) -> bool {
-        let pattern = self.of.elimination.assembly.pattern();
-        self.factors.solve(pattern, y);
-        for (border, (solutions, rest)) in self.of.borders.iter().zip(&self.borders) {
-            let Some(n) = border.rows.first().map(Vec::len) else {
-                continue;
-            };
-            let y = &mut y[border.start..border.start + n];
-            let mut nu = DVector::from_iterator(
-                border.rows.len(),
-                border.rows.iter().map(|row| -product(row, y)),
-            );
-            if !rest.solve_mut(&mut nu) {
-                return false;
-            }
-            for (nu, solution) in nu.iter().zip(solutions) {
-                let pairs = y.iter_mut().zip(solution);
-                pairs.for_each(|(y, s)| *y -= *nu * *s);
-            }
+        self.solve_sparse(y);
+        if self.solutions.is_empty() {
+            return true;
+        }
+        let rows = self.of.border.rows.iter();
+        let nu = rows.map(|row| -product(row, y));
+        let mut nu = DVector::from_iterator(self.solutions.len(), nu);
+        if !self.rest.solve_mut(&mut nu) {
+            return false;
+        }
+        for (nu, solution) in nu.iter().zip(&self.solutions) {
+            let pairs = y.iter_mut().zip(solution);
+            pairs.for_each(|(y, s)| *y -= *nu * *s);
         }
         true
     }
@@ -256,10 +257,11 @@ impl<const D: usize> Shifted<'_, D, Complex<f64>> {
         let mut phases: Vec<_> = (blocks)
             .map(|(pivots, is_odd)| phase(is_odd, &mut pivots.iter().copied()))
             .collect();
-        phases.extend(self.borders.iter().map(|(_, rest)| {
-            let is_odd = rest.p().determinant::<f64>() < 0.0;
-            phase(is_odd, &mut rest.u().diagonal().iter().copied())
-        }));
+        if !self.solutions.is_empty() {
+            let is_odd = self.rest.p().determinant::<f64>() < 0.0;
+            let pivots = self.rest.u();
+            phases.push(phase(is_odd, &mut pivots.diagonal().iter().copied()));
+        }
         phases
     }
 }

@@ -202,14 +202,17 @@ fn all<const D: usize>(linear: &Linearization<'_, D>) -> Result<Vec<Complex<f64>
     if linear.is_damped {
         return quadratic(&stiffness, &damping).ok_or(SpectrumError::NotFinite);
     }
+    let basis = linear.basis();
+    let terms = basis.column_iter().map(|q| linear.size(q.as_slice()));
+    let terms = terms.fold(0.0, f64::max);
     if linear.is_symmetric {
         let squares = symmetric(&stiffness).ok_or(SpectrumError::NotFinite)?;
         let real = squares.iter().map(|k| Complex::new(*k, 0.0));
-        return Ok(roots(real, noise(&squares)));
+        return Ok(roots(real, noise(squares.iter().copied(), terms)));
     }
     let squares = general(&stiffness).ok_or(SpectrumError::NotFinite)?;
-    let size = squares.iter().map(|k| k.norm()).collect::<Vec<_>>();
-    Ok(roots(squares.into_iter(), noise(&size)))
+    let noise = noise(squares.iter().map(|k| k.norm()), terms);
+    Ok(roots(squares.into_iter(), noise))
 }
 
 /// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an

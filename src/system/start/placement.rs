@@ -449,7 +449,10 @@ fn linear_size<const D: usize>(linear: &Linear<D>, size: f64) -> f64 {
 fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64 {
     match constraint.kind {
         ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
-        ConstraintKind::Distance(_) | ConstraintKind::Across(_) | ConstraintKind::Along(_) => size,
+        ConstraintKind::Distance(_)
+        | ConstraintKind::Across(_)
+        | ConstraintKind::Along(_)
+        | ConstraintKind::Coincident(_) => size,
     }
 }
 

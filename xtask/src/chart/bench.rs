@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 
 use crate::cargo::Workspace;
+use crate::package::PACKAGE;
 use crate::process::{prepared, shown, stdout};
 use crate::table::Table;
 
@@ -152,7 +153,7 @@ impl<'a> Bench<'a> {
     /// Builds the programs.
     pub fn new(workspace: &'a Workspace) -> Result<Self> {
         Ok(Self {
-            program: workspace.binary()?,
+            program: workspace.program(PACKAGE)?,
             lab: workspace.program("lab")?,
             scratch: workspace.target("chart"),
             files: Cell::new(0),

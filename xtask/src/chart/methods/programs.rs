@@ -10,6 +10,7 @@ use serde_json::Value;
 use super::super::numbers::median;
 use super::{LONG, Plan, Setting};
 use crate::cargo::Workspace;
+use crate::package::PACKAGE;
 use crate::process::{prepared, shown};
 use crate::table::Table;
 
@@ -48,7 +49,7 @@ impl Programs {
     pub fn new(workspace: &Workspace, with_diffsol: bool) -> Result<Self> {
         let diffsol = || workspace.program_apart("lab/diffsol", "lab-diffsol");
         Ok(Self {
-            product: workspace.binary()?,
+            product: workspace.program(PACKAGE)?,
             lab: workspace.program("lab")?,
             diffsol: with_diffsol.then(diffsol).transpose()?,
             scratch: workspace.target("chart"),

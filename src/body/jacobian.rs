@@ -1,0 +1,232 @@
+//! Non-linear constraints in the coordinates `q`: rows `J = G T` of their Jacobian, short where bodies are many, and
+//! the least change of `q` that satisfies them. `J J^T` is sparse: only constraints on one body meet in it.
+//!
+//! Rows may depend on each other, always or in singular configurations. In the elimination of `J J^T` the pivot of a
+//! row is the square of what the rows before it leave of it; where that is too little the row drops out, and what
+//! is left gives the solution of minimum norm. Each solution is refined once, since `J J^T` squares the condition.
+//!
+//! Sources: A. Bjorck, Numerical Methods for Least Squares Problems (1996), sections 2.7.4 (rank by the pivots) and
+//! 6.6.5 (refinement of semi-normal equations).
+
+use std::ops::Range;
+
+use super::connectivity::Node;
+use super::elimination::Elimination;
+use crate::math::sparse::{Matrix, Pattern, Reach};
+use crate::math::vector::dot;
+
+/// Sparse rows over `q`.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    pieces: Vec<Piece>,
+    /// Pieces of every row.
+    of_row: Vec<Range<usize>>,
+    values: Vec<f64>,
+}
+
+/// Numbers of a row that stand side by side.
+#[derive(Clone, Debug)]
+struct Piece {
+    coordinates: Range<usize>,
+    at: usize,
+}
+
+impl Rows {
+    fn new(reaches: &[Reach]) -> Self {
+        let (mut pieces, mut of_row, mut at) = (Vec::new(), Vec::new(), 0);
+        for reach in reaches {
+            let first = pieces.len();
+            for range in &reach.variables {
+                pieces.push(Piece {
+                    coordinates: range.clone(),
+                    at,
+                });
+                at += range.len();
+            }
+            of_row.push(first..pieces.len());
+        }
+        Self {
+            pieces,
+            of_row,
+            values: vec![0.0; at],
+        }
+    }
+
+    /// Number of rows.
+    pub fn count(&self) -> usize {
+        self.of_row.len()
+    }
+
+    /// The numbers of a row that are not zero, piece by piece, and where they stand.
+    pub fn pieces(&self, row: usize) -> impl Iterator<Item = (Range<usize>, &[f64])> {
+        let pieces = self.pieces[self.of_row[row].clone()].iter();
+        pieces.map(|piece| {
+            let range = piece.coordinates.clone();
+            (
+                range.clone(),
+                &self.values[piece.at..piece.at + range.len()],
+            )
+        })
+    }
+
+    /// Product of a row with `q`.
+    pub fn product(&self, row: usize, q: &[f64]) -> f64 {
+        let products = self.pieces(row).map(|(range, row)| dot(row, &q[range]));
+        products.sum()
+    }
+
+    /// Adds a multiple of a row to `q`.
+    pub fn add(&self, row: usize, factor: f64, q: &mut [f64]) {
+        for (range, row) in self.pieces(row) {
+            let pairs = q[range].iter_mut().zip(row);
+            pairs.for_each(|(q, row)| *q += factor * row);
+        }
+    }
+
+    /// Takes over the numbers of rows of the same structure.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.values.copy_from_slice(&other.values);
+    }
+}
+
+/// A part of the product of two rows.
+#[derive(Clone, Debug)]
+struct Overlap {
+    /// Entry of `J J^T`.
+    entry: usize,
+    /// Where the numbers of both rows stand, and how many.
+    at: [usize; 2],
+    length: usize,
+}
+
+/// The Jacobian and the factors of `J J^T`.
+#[derive(Clone, Debug)]
+pub struct Jacobian {
+    rows: Rows,
+    reaches: Vec<Reach>,
+    overlaps: Vec<Overlap>,
+    pattern: Pattern,
+    factors: Matrix<f64>,
+    /// Where rows stand in vectors over `pattern`.
+    place: Vec<usize>,
+    /// Squares of rows, and whether each counts, as `pattern` has them.
+    squares: Vec<f64>,
+    counts: Vec<bool>,
+    missing: Vec<f64>,
+    /// Scratch: free coordinates, zero between calls.
+    y: Vec<f64>,
+}
+
+impl Jacobian {
+    /// Storage for some of the constraints of an assembly.
+    pub fn new<const D: usize>(elimination: &Elimination<D>, constraints: &[usize]) -> Self {
+        let reaches: Vec<Reach> = constraints.iter().map(|c| elimination.reach(*c)).collect();
+        let rows = Rows::new(&reaches);
+        let meetings = meetings(&rows);
+        let edges: Vec<(usize, usize)> = meetings.iter().map(|(rows, _, _)| *rows).collect();
+        let pattern = Pattern::new(&vec![1; rows.count()], &edges);
+        let overlap = |((i, j), at, length): &((usize, usize), [usize; 2], usize)| Overlap {
+            entry: pattern.slot(*i, *j).map_or(0, |slot| slot.at),
+            at: *at,
+            length: *length,
+        };
+        Self {
+            overlaps: meetings.iter().map(overlap).collect(),
+            place: (0..rows.count()).map(|i| pattern.range(i).start).collect(),
+            factors: Matrix::zeros(&pattern),
+            squares: vec![0.0; rows.count()],
+            counts: vec![false; rows.count()],
+            missing: vec![0.0; rows.count()],
+            y: vec![0.0; elimination.assembly.free()],
+            reaches,
+            pattern,
+            rows,
+        }
+    }
+
+    /// The rows.
+    pub fn rows(&self) -> &Rows {
+        &self.rows
+    }
+
+    /// Whether a row counts: the others do not give it.
+    pub fn is_independent(&self, row: usize) -> bool {
+        self.counts[self.place[row]]
+    }
+
+    /// Fills in a row from the derivatives of a constraint by nodes: `terms` tells them one by one.
+    pub fn fill<const D: usize>(
+        &mut self,
+        elimination: &Elimination<D>,
+        row: usize,
+        terms: impl FnOnce(&mut dyn FnMut(usize, &Node<D>)),
+    ) {
+        let y = &mut self.y;
+        terms(&mut |node, term| elimination.assembly.gather_node(node, term, y));
+        elimination.project_within(&self.reaches[row], y);
+        for piece in &self.rows.pieces[self.rows.of_row[row].clone()] {
+            let (range, at) = (piece.coordinates.clone(), piece.at);
+            self.rows.values[at..at + range.len()].copy_from_slice(&y[range.clone()]);
+            y[range].fill(0.0);
+        }
+    }
+
+    /// Factors `J J^T`. A row of which others leave less than `least`, relative to its size, does not count.
+    pub fn factor(&mut self, least: f64) {
+        self.factors.values.fill(0.0);
+        for Overlap { entry, at, length } in &self.overlaps {
+            let [a, b] = at.map(|at| &self.rows.values[at..at + length]);
+            self.factors.values[*entry] += dot(a, b);
+        }
+        for (row, place) in self.place.iter().enumerate() {
+            let corner = self.pattern.slot(row, row).map_or(0, |slot| slot.at);
+            self.squares[*place] = self.factors.values[corner];
+        }
+        let (factors, least) = (&mut self.factors, least * least);
+        factors.factor_semidefinite(&self.pattern, (least, &self.squares), &mut self.counts);
+    }
+
+    /// Changes `q` by the least that makes `J q = right` as far as rows count. What was taken out of it is
+    /// `J^T lambda`, zero for rows that do not count.
+    pub fn bring(&mut self, right: impl Fn(usize) -> f64, q: &mut [f64], lambda: &mut [f64]) {
+        lambda.fill(0.0);
+        for _ in 0..2 {
+            for (row, place) in self.place.iter().enumerate() {
+                self.missing[*place] = match self.counts[*place] {
+                    true => self.rows.product(row, q) - right(row),
+                    false => 0.0,
+                };
+            }
+            self.factors.solve(&self.pattern, &mut self.missing);
+            for (row, (place, lambda)) in self.place.iter().zip(&mut *lambda).enumerate() {
+                let part = self.missing[*place];
+                if part != 0.0 {
+                    self.rows.add(row, -part, q);
+                    *lambda += part;
+                }
+            }
+        }
+    }
+}
+
+/// Where two rows, the earlier one second, have numbers at the same coordinates.
+fn meetings(rows: &Rows) -> Vec<((usize, usize), [usize; 2], usize)> {
+    let mut pieces: Vec<(usize, &Piece)> = Vec::new();
+    for (row, range) in rows.of_row.iter().enumerate() {
+        pieces.extend(rows.pieces[range.clone()].iter().map(|piece| (row, piece)));
+    }
+    pieces.sort_by_key(|(row, piece)| (piece.coordinates.start, *row));
+    let mut meetings = Vec::new();
+    let mut open: Vec<(usize, &Piece)> = Vec::new();
+    for (row, piece) in pieces {
+        let start = piece.coordinates.start;
+        open.retain(|(_, other)| other.coordinates.end > start);
+        open.push((row, piece));
+        for (other, before) in &open {
+            let length = piece.coordinates.end.min(before.coordinates.end) - start;
+            let at = [piece.at, before.at + start - before.coordinates.start];
+            meetings.push(((row.max(*other), row.min(*other)), at, length));
+        }
+    }
+    meetings
+}

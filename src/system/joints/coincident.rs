@@ -1,0 +1,45 @@
+//! Points of two bodies coincide, along one axis: `n . (r2 - r1) = 0`. What a pin holds where it joins so many bodies
+//! that eliminating it would tie all of them together.
+
+use super::{Gradient, View};
+use crate::math::jet::Number;
+use crate::math::space::{Vector, axis};
+use crate::system::end::End;
+
+/// Two points that coincide along an axis.
+#[derive(Clone, Debug)]
+pub struct Coincident<const D: usize> {
+    /// The points.
+    pub ends: [End<D>; 2],
+    /// Index of the axis.
+    pub axis: usize,
+    /// What residuals are relative to, m.
+    pub size: f64,
+}
+
+impl<const D: usize> Coincident<D> {
+    /// The pin between two ends, axis by axis.
+    pub fn pin(ends: [End<D>; 2]) -> impl Iterator<Item = Self> {
+        let arm = |end: &End<D>| end.marker().map_or(0.0, |marker| marker.arm());
+        let size = ends.iter().map(arm).fold(0.0, f64::max);
+        let size = if size > 0.0 { size } else { 1.0 };
+        (0..D).map(move |axis| Self { ends, axis, size })
+    }
+
+    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let [a, b] = self.ends.map(|end| end.lift().position(view.x));
+        b[self.axis] - a[self.axis]
+    }
+
+    pub(super) fn gradient<N: Number>(&self, _: &View<'_, D, N>) -> Gradient<D, N> {
+        let (none, along) = (Vector::zeros(), axis(self.axis));
+        let [a, b] = self.ends.map(|end| end.lift());
+        Gradient {
+            ends: [(a, [-along, none]), (b, [along, none])],
+        }
+    }
+
+    pub(super) fn bias<N: Number>(&self, _: &View<'_, D, N>) -> N {
+        N::of(0.0)
+    }
+}
