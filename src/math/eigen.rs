@@ -201,6 +201,26 @@ mod tests {
         }
     }
 
+    /// Four eigenvalues that are zero but for roundoff: what the iteration was once left with.
+    #[test]
+    fn ends_on_nearly_defective_matrices() {
+        let rows = [
+            [1.2e-10, 5.8e-5, 5.0e-3, -1.7e-2],
+            [-5.3e-12, 7.7e-8, 6.5e-6, 7.4e-4],
+            [0.0, -8.9e-10, -7.5e-8, -8.5e-6],
+            [0.0, 0.0, 2.3e-11, -1.7e-9],
+        ];
+        // Beside others of size 1, which the roundoff is measured by.
+        let entry = |i: usize, j: usize| match (i < 4, j < 4) {
+            (true, true) => rows[i][j],
+            (false, false) => 2.0 * noise(i, j),
+            _ => 0.0,
+        };
+        let found = eigenvalues(12, entry).expect("eigenvalues");
+        let small = found.iter().filter(|z| z.0.hypot(z.1) < 1e-6);
+        assert_eq!((found.len(), small.count()), (12, 4));
+    }
+
     #[test]
     fn finds_the_eigenvalues_of_a_chain() {
         // Fixed-fixed chain of springs: 2 - 2 cos(k pi / (n + 1)).

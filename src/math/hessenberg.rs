@@ -6,10 +6,14 @@
 //! a chain of springs and gyroscopes (docs/decisions/0024-a-good-guest.md).
 
 use nalgebra::DMatrix;
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
 
 /// Sweeps until one eigenvalue or pair splits off; every [`EXCEPTIONAL`]-th takes shifts of its own.
 const SWEEPS: usize = 60;
 const EXCEPTIONAL: usize = 10;
+/// Sweeps after which rows that stay together are scaled anew: eigenvalues that are equal but for roundoff leave tiny
+/// entries below the diagonal and large ones above.
+const SCALED: usize = 20;
 
 /// Eigenvalues (real and imaginary part) of a Hessenberg matrix of finite entries not far from 1,
 /// in no order. Returns `None` when the iteration does not converge.
@@ -25,6 +29,9 @@ pub fn eigenvalues(mut h: DMatrix<f64>) -> Option<Vec<(f64, f64)>> {
             _ if sweeps == SWEEPS => return None,
             _ => {
                 sweeps += 1;
+                if sweeps % SCALED == 0 {
+                    scale(&mut h, start, end);
+                }
                 let shifts = shifts(&h, end, sweeps % EXCEPTIONAL == 0);
                 sweep(&mut h, start, end, shifts);
                 continue;
@@ -33,6 +40,14 @@ pub fn eigenvalues(mut h: DMatrix<f64>) -> Option<Vec<(f64, f64)>> {
         (end, sweeps) = (start, 0);
     }
     Some(values)
+}
+
+/// Balances the rows `start..end`, which are coupled to no others as far as eigenvalues go.
+fn scale(h: &mut DMatrix<f64>, start: usize, end: usize) {
+    let count = end - start;
+    let mut block = h.view((start, start), (count, count)).into_owned();
+    balance_parlett_reinsch(&mut block);
+    h.view_mut((start, start), (count, count)).copy_from(&block);
 }
 
 /// First row of the last block of rows before `end` that is coupled to no row above it but for roundoff.
