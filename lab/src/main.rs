@@ -9,6 +9,8 @@ mod failures;
 mod formulations;
 mod integrate;
 mod integrators;
+#[cfg(test)]
+mod laws;
 mod outputs;
 mod overhead;
 mod scene;

@@ -3,8 +3,9 @@
 
 use std::ops::Range;
 
-use super::connectivity::{Cluster, Dependent, Node, Row, clusters};
-use crate::math::sparse::{Cholesky, Component, General, Matrix, Number, Pattern, Reach, Slot};
+use super::connectivity::{Cluster, Dependent, Node, Row, clusters, no_node};
+use super::layout::{Entry, Held, Run, Tied, components, entries, held, runs, vertices};
+use crate::math::sparse::{Cholesky, General, Matrix, Number, Pattern, Reach, Slot};
 
 /// A matrix over two nodes: by vector and axis of the one, then of the other.
 pub type NodeBlock<const D: usize> = [[[[f64; D]; 2]; D]; 2];
@@ -34,23 +35,6 @@ pub struct Links {
     pub held: Vec<(Vec<usize>, usize)>,
 }
 
-/// A constraint with a multiplier.
-#[derive(Clone, Debug)]
-struct Held {
-    /// Vertex of its multiplier and place among those of this vertex.
-    vertex: usize,
-    row: usize,
-    /// The vertices that it holds.
-    on: Vec<usize>,
-}
-
-/// Numbers that stand side by side in vectors of free coordinates and in those of matrices.
-#[derive(Clone, Debug)]
-struct Run {
-    free: Range<usize>,
-    start: usize,
-}
-
 /// How nodal coordinates follow from free ones.
 #[derive(Clone, Debug)]
 pub struct Assembly<const D: usize = 2> {
@@ -65,6 +49,9 @@ pub struct Assembly<const D: usize = 2> {
     places: Vec<Place>,
     vertices: Vec<usize>,
     clusters: Vec<Cluster>,
+    /// What of all their bases is not zero, and which entries belong to every node.
+    entries: Vec<Entry>,
+    of_node: Vec<Range<usize>>,
     /// Where the free coordinates of every cluster are.
     ranges: Vec<Range<usize>>,
     /// Block of a node that is alone with itself.
@@ -77,40 +64,20 @@ impl<const D: usize> Assembly<D> {
     /// For nodes under these rows. Also says which rows depend on others.
     pub fn new(nodes: usize, rows: &[Row<D>], links: &Links) -> (Self, Vec<Dependent>) {
         let (clusters, dependent) = clusters(nodes, rows);
-        let mut tied = vec![None; nodes];
+        let mut tied: Vec<Tied> = vec![None; nodes];
         for (index, cluster) in clusters.iter().enumerate() {
             for (row, node) in cluster.nodes.iter().enumerate() {
                 tied[*node] = Some((index, row * 2 * D));
             }
         }
-        // Vertices in the order of their first node, so that chains stay in order.
-        let (mut vertices, mut sizes) = (vec![0; nodes], Vec::new());
-        let mut of_cluster = vec![None; clusters.len()];
-        for node in 0..nodes {
-            vertices[node] = match tied[node] {
-                None => {
-                    sizes.push(2 * D);
-                    sizes.len() - 1
-                }
-                Some((index, _)) => *of_cluster[index].get_or_insert_with(|| {
-                    sizes.push(clusters[index].basis.ncols());
-                    sizes.len() - 1
-                }),
-            };
-        }
+        let (vertices, sizes, of_cluster) = vertices::<D>(&tied, &clusters);
         let edge = |(a, b): &(usize, usize)| (vertices[*a], vertices[*b]);
         let mass_edges: Vec<_> = links.mass.iter().map(edge).collect();
         let first = sizes.len();
         let held = held(&links.held, &vertices, first);
         let mut edges = mass_edges.clone();
         edges.extend(links.stiffness.iter().map(edge));
-        let on = |held: &Held| {
-            held.on
-                .iter()
-                .map(|v| (held.vertex, *v))
-                .collect::<Vec<_>>()
-        };
-        edges.extend(held.iter().flat_map(on));
+        edges.extend(held.iter().flat_map(Held::edges));
         let of_multipliers = links.held.iter().map(|(_, count)| *count);
         let all: Vec<usize> = sizes.iter().copied().chain(of_multipliers).collect();
         let pattern = Pattern::with_multipliers(&all, &edges, first);
@@ -134,8 +101,12 @@ impl<const D: usize> Assembly<D> {
             })
             .collect();
         let range = |v: &Option<usize>| v.map_or(0..0, |v| of_mass.range(v));
+        let ranges: Vec<Range<usize>> = of_cluster.iter().map(range).collect();
+        let (entries, of_node) = entries::<D>(&clusters, &ranges, nodes);
         let assembly = Self {
-            ranges: of_cluster.iter().map(range).collect(),
+            ranges,
+            entries,
+            of_node,
             runs: runs(&pattern, &of_mass),
             components: components(&pattern, &sizes),
             held,
@@ -231,11 +202,11 @@ impl<const D: usize> Assembly<D> {
                 let terms = term.iter().enumerate();
                 terms.for_each(|(column, value)| each(slot, row, column, *value));
             }
-            Place::Tied(index, first) => {
-                let rows = self.clusters[index].basis.rows(first, 2 * D);
-                for (column, basis) in rows.column_iter().enumerate() {
-                    let value = basis.iter().zip(term).map(|(n, f)| n * f).sum();
-                    each(slot, row, column, value);
+            Place::Tied(index, _) => {
+                let start = self.ranges[index].start;
+                for entry in &self.entries[self.of_node[node].clone()] {
+                    let value = entry.value * term[entry.coordinate];
+                    each(slot, row, entry.free - start, value);
                 }
             }
         }
@@ -274,14 +245,11 @@ impl<const D: usize> Assembly<D> {
                     .copy_from_slice(&y[*start..start + 2 * D]);
             }
         }
-        for (cluster, range) in self.clusters.iter().zip(&self.ranges) {
-            let y = &y[range.clone()];
-            for (i, node) in cluster.nodes.iter().enumerate() {
-                for (k, x) in x[*node].as_flattened_mut().iter_mut().enumerate() {
-                    let row = cluster.basis.row(i * 2 * D + k);
-                    *x = row.iter().zip(y).map(|(n, y)| n * y).sum();
-                }
-            }
+        for node in self.clusters.iter().flat_map(|cluster| &cluster.nodes) {
+            x[*node] = no_node();
+        }
+        for entry in &self.entries {
+            x[entry.node].as_flattened_mut()[entry.coordinate] += entry.value * y[entry.free];
         }
     }
 
@@ -292,14 +260,11 @@ impl<const D: usize> Assembly<D> {
                 y[*start..start + 2 * D].copy_from_slice(f.as_flattened());
             }
         }
-        for (cluster, range) in self.clusters.iter().zip(&self.ranges) {
-            for (y, column) in y[range.clone()].iter_mut().zip(cluster.basis.column_iter()) {
-                let nodes = cluster
-                    .nodes
-                    .iter()
-                    .flat_map(|node| f[*node].as_flattened());
-                *y = nodes.zip(column.iter()).map(|(f, n)| n * f).sum();
-            }
+        for range in &self.ranges {
+            y[range.clone()].fill(0.0);
+        }
+        for entry in &self.entries {
+            y[entry.free] += entry.value * f[entry.node].as_flattened()[entry.coordinate];
         }
     }
 
@@ -311,11 +276,9 @@ impl<const D: usize> Assembly<D> {
                 let y = &mut y[start..];
                 y.iter_mut().zip(f).for_each(|(y, f)| *y += f);
             }
-            Place::Tied(index, row) => {
-                let rows = self.clusters[index].basis.rows(row, 2 * D);
-                let y = &mut y[self.ranges[index].clone()];
-                for (y, column) in y.iter_mut().zip(rows.column_iter()) {
-                    *y += column.iter().zip(f).map(|(n, f)| n * f).sum::<f64>();
+            Place::Tied(..) => {
+                for entry in &self.entries[self.of_node[node].clone()] {
+                    y[entry.free] += entry.value * f[entry.coordinate];
                 }
             }
         }
@@ -451,46 +414,4 @@ impl<const D: usize> Assembly<D> {
             Place::Tied(index, first) => self.clusters[index].basis[(first + row, column)],
         }
     }
-}
-
-/// Constraints one by one; vertices of their multipliers are counted on from `first`.
-fn held(held: &[(Vec<usize>, usize)], vertices: &[usize], first: usize) -> Vec<Held> {
-    let mut constraints = Vec::new();
-    for (index, (nodes, count)) in held.iter().enumerate() {
-        let mut on: Vec<usize> = nodes.iter().map(|node| vertices[*node]).collect();
-        on.sort_unstable();
-        on.dedup();
-        constraints.extend((0..*count).map(|row| Held {
-            vertex: first + index,
-            row,
-            on: on.clone(),
-        }));
-    }
-    constraints
-}
-
-/// Where the free coordinates stand between multipliers.
-fn runs(pattern: &Pattern, of_mass: &Pattern) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
-    for v in of_mass.order() {
-        let (free, start) = (of_mass.range(*v), pattern.range(*v).start);
-        match runs.last_mut() {
-            _ if free.is_empty() => {}
-            Some(run) if run.start + run.free.len() == start => run.free.end = free.end,
-            _ => runs.push(Run { free, start }),
-        }
-    }
-    runs
-}
-
-/// The free coordinates of every component of a pattern; vertices with sizes are no multipliers.
-fn components(pattern: &Pattern, sizes: &[usize]) -> Vec<Range<usize>> {
-    let mut start = 0;
-    let range = |component: &Component| {
-        let vertices = pattern.order()[component.vertices.clone()].iter();
-        let size: usize = vertices.filter_map(|v| sizes.get(*v)).sum();
-        start += size;
-        start - size..start
-    };
-    pattern.components().iter().map(range).collect()
 }

@@ -193,7 +193,12 @@ fn assemble(
             reflect(vector, *tau, &mut column[i..]);
         }
         for (value, at) in column.iter().zip(order) {
-            q[(*at, k)] = *value;
+            // What roundoff alone left is zero, and need not be multiplied with.
+            q[(*at, k)] = if value.abs() > f64::EPSILON {
+                *value
+            } else {
+                0.0
+            };
         }
     }
     let mut multipliers = q.columns(0, rank).transpose();

@@ -1,4 +1,4 @@
-//! Non-linear constraints in the coordinates `q`: rows `J = G T` of their Jacobian, short where bodies are many, and
+//! Non-linear constraints in the coordinates `q`: rows of their Jacobian `J = C_x T`, short where bodies are many, and
 //! the least change of `q` that satisfies them. `J J^T` is sparse: only constraints on one body meet in it.
 //!
 //! Rows may depend on each other, always or in singular configurations. In the elimination of `J J^T` the pivot of a
@@ -89,14 +89,14 @@ impl Rows {
     }
 }
 
-/// A part of the product of two rows.
+/// A part of the product of two rows, in numbers short enough for many to fit in the cache.
 #[derive(Clone, Debug)]
 struct Overlap {
     /// Entry of `J J^T`.
-    entry: usize,
+    entry: u32,
     /// Where the numbers of both rows stand, and how many.
-    at: [usize; 2],
-    length: usize,
+    at: [u32; 2],
+    length: u32,
 }
 
 /// The Jacobian and the factors of `J J^T`.
@@ -109,6 +109,8 @@ pub struct Jacobian {
     factors: Matrix<f64>,
     /// Where rows stand in vectors over `pattern`.
     place: Vec<usize>,
+    /// Where rows meet themselves.
+    corners: Vec<usize>,
     /// Squares of rows, and whether each counts, as `pattern` has them.
     squares: Vec<f64>,
     counts: Vec<bool>,
@@ -125,14 +127,16 @@ impl Jacobian {
         let meetings = meetings(&rows);
         let edges: Vec<(usize, usize)> = meetings.iter().map(|(rows, _, _)| *rows).collect();
         let pattern = Pattern::new(&vec![1; rows.count()], &edges);
+        let entry = |i: usize, j: usize| pattern.slot(i, j).map_or(0, |slot| slot.at);
         let overlap = |((i, j), at, length): &((usize, usize), [usize; 2], usize)| Overlap {
-            entry: pattern.slot(*i, *j).map_or(0, |slot| slot.at),
-            at: *at,
-            length: *length,
+            entry: entry(*i, *j) as u32,
+            at: at.map(|at| at as u32),
+            length: *length as u32,
         };
         Self {
             overlaps: meetings.iter().map(overlap).collect(),
             place: (0..rows.count()).map(|i| pattern.range(i).start).collect(),
+            corners: (0..rows.count()).map(|i| entry(i, i)).collect(),
             factors: Matrix::zeros(&pattern),
             squares: vec![0.0; rows.count()],
             counts: vec![false; rows.count()],
@@ -175,12 +179,11 @@ impl Jacobian {
     pub fn factor(&mut self, least: f64) {
         self.factors.values.fill(0.0);
         for Overlap { entry, at, length } in &self.overlaps {
-            let [a, b] = at.map(|at| &self.rows.values[at..at + length]);
-            self.factors.values[*entry] += dot(a, b);
+            let [a, b] = at.map(|at| &self.rows.values[at as usize..(at + length) as usize]);
+            self.factors.values[*entry as usize] += dot(a, b);
         }
-        for (row, place) in self.place.iter().enumerate() {
-            let corner = self.pattern.slot(row, row).map_or(0, |slot| slot.at);
-            self.squares[*place] = self.factors.values[corner];
+        for (place, corner) in self.place.iter().zip(&self.corners) {
+            self.squares[*place] = self.factors.values[*corner];
         }
         let (factors, least) = (&mut self.factors, least * least);
         factors.factor_semidefinite(&self.pattern, (least, &self.squares), &mut self.counts);
@@ -189,15 +192,35 @@ impl Jacobian {
     /// Changes `q` by the least that makes `J q = right` as far as rows count. What was taken out of it is
     /// `J^T lambda`, zero for rows that do not count.
     pub fn bring(&mut self, right: impl Fn(usize) -> f64, q: &mut [f64], lambda: &mut [f64]) {
+        self.bring_in(2, right, q, lambda);
+    }
+
+    /// The same without refinement: for an iteration that begins anew with what is missing.
+    pub fn bring_roughly(
+        &mut self,
+        right: impl Fn(usize) -> f64,
+        q: &mut [f64],
+        lambda: &mut [f64],
+    ) {
+        self.bring_in(1, right, q, lambda);
+    }
+
+    fn bring_in(
+        &mut self,
+        passes: usize,
+        right: impl Fn(usize) -> f64,
+        q: &mut [f64],
+        lambda: &mut [f64],
+    ) {
         lambda.fill(0.0);
-        for _ in 0..2 {
+        for _ in 0..passes {
             for (row, place) in self.place.iter().enumerate() {
                 self.missing[*place] = match self.counts[*place] {
                     true => self.rows.product(row, q) - right(row),
                     false => 0.0,
                 };
             }
-            self.factors.solve(&self.pattern, &mut self.missing);
+            self.factors.solve_numbers(&self.pattern, &mut self.missing);
             for (row, (place, lambda)) in self.place.iter().zip(&mut *lambda).enumerate() {
                 let part = self.missing[*place];
                 if part != 0.0 {

@@ -6,6 +6,7 @@ mod chain;
 mod connectivity;
 mod elimination;
 mod jacobian;
+mod layout;
 mod marker;
 mod stages;
 mod tangent;

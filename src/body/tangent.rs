@@ -2,8 +2,8 @@
 //! matrix: `(m I + r T^T R T + T^T K T)^-1 = W^T (m M + r R + K)^-1 W`, one sparse solve.
 //!
 //! Acceleration keeps to the constraints, so a Newton correction may leave their tangent plane only as far as inertia
-//! alone says. With `A` the matrix above and `G` the derivatives of the constraints by the free coordinates that is
-//! `[A G^T; G 0] [d; nu] = [f; G M^-1 f / m]`. Multipliers are eliminated after the nodes that they touch, so their pivots
+//! alone says. With `A` the matrix above and `C_y` the derivatives of the constraints by the free coordinates that is
+//! `[A C_y^T; C_y 0] [d; nu] = [f; C_y M^-1 f / m]`. Multipliers are eliminated after the nodes that they touch, so their pivots
 //! are negative; every other pivot is positive where the tangent is definite on what constraints leave free.
 //!
 //! Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14
@@ -166,8 +166,7 @@ impl<const D: usize> Tangent<D> {
     /// Factors `K - shift M`. Returns how many eigenvalues of `K` are below the shift where the constraints
     /// leave freedom (Sylvester's law of inertia); nothing at a vanishing pivot.
     ///
-    /// Source: B. N. Parlett, The Symmetric Eigenvalue Problem (1998), section 3.3; of the border, as
-    /// [`Border`]: theorem 3.1 there.
+    /// Source: B. N. Parlett, The Symmetric Eigenvalue Problem (1998), section 3.3.
     pub fn factor_below(&mut self, elimination: &Elimination<D>, shift: f64) -> Option<usize> {
         // What is held does not move: inertia has no say.
         self.inertia.0 = f64::INFINITY;

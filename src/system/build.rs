@@ -309,9 +309,7 @@ fn release_pins<const D: usize>(
         let joins = joint.ends.iter().all(|end| end.is_rigid());
         let mut nodes = joint.ends.iter().filter_map(|end| end.nodes().next());
         match (&joint.kind, nodes.next(), nodes.next()) {
-            (JointKind::Revolute, Some(a), Some(_)) => {
-                joins && tied[a] > std::env::var("TIED").map_or(TIED, |t| t.parse().unwrap_or(TIED))
-            }
+            (JointKind::Revolute, Some(a), Some(_)) => joins && tied[a] > TIED,
             _ => false,
         }
     };

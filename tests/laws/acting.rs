@@ -9,9 +9,9 @@ use flexbody::system::{Angle, End, Signal};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-use crate::differences::{Outcome, check, within};
-use crate::frames::{Frame, along, ends, frame, frames, slope, wave};
-use crate::mechanism::{Acting, Body, Point, Wave};
+use crate::laws::differences::{Outcome, check, within};
+use crate::laws::frames::{Frame, along, ends, frame, frames, slope, wave};
+use crate::laws::mechanism::{Acting, Body, Point, Wave};
 
 const CASES: u32 = 200;
 

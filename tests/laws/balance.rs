@@ -6,10 +6,10 @@ use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
 use flexbody::system::{Evaluation, Model, System, fastest};
 use proptest::prelude::*;
 
-use crate::built::{Moving, moving};
-use crate::differences::{Outcome, check, within};
-use crate::mechanism::Mechanism;
-use crate::random::{ALL, mechanisms};
+use crate::laws::built::{Moving, moving};
+use crate::laws::differences::{Outcome, check, within};
+use crate::laws::mechanism::Mechanism;
+use crate::laws::random::{ALL, mechanisms};
 
 const CASES: u32 = 60;
 

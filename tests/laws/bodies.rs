@@ -5,10 +5,10 @@ use flexbody::system::Evaluation;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-use crate::chain::{
+use crate::laws::chain::{
     Chain, ORDINARY, Spread, chains, expand, expansion, flat, project, reduction, state,
 };
-use crate::differences::{Outcome, check, within};
+use crate::laws::differences::{Outcome, check, within};
 
 const CASES: u32 = 128;
 

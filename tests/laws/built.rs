@@ -10,8 +10,8 @@ use flexbody::system::{
 use nalgebra::Vector2;
 use proptest::test_runner::TestCaseError;
 
-use crate::chain::project;
-use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
+use crate::laws::chain::project;
+use crate::laws::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
 
 /// A system in a state.
 pub struct Moving {

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::specimen::{decades, noise, strains};
+use crate::laws::specimen::{decades, noise, strains};
 
 /// What a joint to the ground holds.
 #[derive(Clone, Copy, Debug, PartialEq)]

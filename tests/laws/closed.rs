@@ -9,10 +9,10 @@ use flexbody::system::{Model, fastest, natural_frequencies};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 
-use crate::built::{Moving, moving};
-use crate::differences::{check, within};
-use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
-use crate::random::{ALL, Scope, mechanisms};
+use crate::laws::built::{Moving, moving};
+use crate::laws::differences::{check, within};
+use crate::laws::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
+use crate::laws::random::{ALL, Scope, mechanisms};
 
 const G: f64 = 9.81;
 

@@ -5,7 +5,7 @@ use flexbody::body::{Elimination, Tangent};
 use flexbody::elements::{Element, Nodal};
 use nalgebra::{DMatrix, DVector, Matrix2x4, Rotation2, Vector2};
 
-use crate::mechanism::{Acting, Body, Hold, Kind, Mechanism, Place, Point, left};
+use crate::laws::mechanism::{Acting, Body, Hold, Kind, Mechanism, Place, Point, left};
 
 /// `T^T K T`, column by column.
 pub fn reduced_stiffness<const D: usize>(

@@ -6,10 +6,10 @@ use nalgebra::Vector2;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::built::Moving;
-use crate::closed::{bodies, ground, hold, on, rigid, started, still};
-use crate::differences::{Outcome, check, derivative, within};
-use crate::mechanism::{Body, Kind, Wave};
+use crate::laws::built::Moving;
+use crate::laws::closed::{bodies, ground, hold, on, rigid, started, still};
+use crate::laws::differences::{Outcome, check, derivative, within};
+use crate::laws::mechanism::{Body, Kind, Wave};
 
 const G: f64 = 9.81;
 

@@ -5,8 +5,8 @@ use flexbody::elements::{Element, Nodal, shape};
 use nalgebra::{DMatrix, SMatrix, SVector};
 use proptest::prelude::*;
 
-use crate::differences::{Outcome, apply, derivative, directions, scaled, within};
-use crate::specimen::{RigidMotion, Specimen};
+use crate::laws::differences::{Outcome, apply, derivative, directions, scaled, within};
+use crate::laws::specimen::{RigidMotion, Specimen};
 
 /// Gauss-Legendre with 4 points on [0, 1], exact to degree 7: enough for products of cubics.
 fn gauss_4() -> [(f64, f64); 4] {

@@ -9,9 +9,9 @@ use nalgebra::{DMatrix, DVector, Rotation2, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::differences::{Outcome, check, within};
-use crate::mechanism::{At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
-use crate::random::pair;
+use crate::laws::differences::{Outcome, check, within};
+use crate::laws::mechanism::{At, Body, Hold, Kind, Mechanism, Place, Point, Wave};
+use crate::laws::random::pair;
 
 const CASES: u32 = 200;
 

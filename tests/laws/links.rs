@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector, Vector2};
 
 use flexbody::system::Model;
 
-use crate::built::Moving;
-use crate::closed::{bodies, ground, hold, on, rigid, started};
-use crate::mechanism::{Kind, Mechanism};
+use crate::laws::built::Moving;
+use crate::laws::closed::{bodies, ground, hold, on, rigid, started};
+use crate::laws::mechanism::{Kind, Mechanism};
 
 const LENGTH: f64 = 0.7;
 const MASS: f64 = 1.3;

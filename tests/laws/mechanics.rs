@@ -3,10 +3,10 @@
 
 use std::cell::Cell;
 
-use crate::built::moving;
-use crate::differences::{Outcome, check, within};
-use crate::mechanism::Mechanism;
-use crate::random::{ALL, Scope, mechanisms};
+use crate::laws::built::moving;
+use crate::laws::differences::{Outcome, check, within};
+use crate::laws::mechanism::Mechanism;
+use crate::laws::random::{ALL, Scope, mechanisms};
 
 const CASES: u32 = 300;
 

@@ -6,7 +6,7 @@ use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use crate::differences::{Outcome, check, within};
+use crate::laws::differences::{Outcome, check, within};
 
 const CASES: u32 = 12;
 

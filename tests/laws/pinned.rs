@@ -6,7 +6,7 @@ use flexbody::elements::{Element, Strain};
 use flexbody::system::{Evaluation, Parts, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use crate::chain::{Chain, Held, Hold, expansion, flat};
+use crate::laws::chain::{Chain, Held, Hold, expansion, flat};
 
 const GRAVITY: f64 = -9.81;
 

@@ -3,9 +3,9 @@
 use flexbody::elements::{Element, Nodal, Strain};
 use nalgebra::SVector;
 
-use crate::differences::{Outcome, apply, check, derivative, within};
-use crate::elements;
-use crate::specimen::{Specimen, planar, rigid_motion};
+use crate::laws::differences::{Outcome, apply, check, derivative, within};
+use crate::laws::elements;
+use crate::laws::specimen::{Specimen, planar, rigid_motion};
 
 type Planar = Specimen<2>;
 

@@ -5,11 +5,11 @@ use flexbody::system::{Model, NotAssembled};
 use nalgebra::{Rotation2, Vector2};
 use proptest::prelude::*;
 
-use crate::built::{Moving, moving};
-use crate::chain::{expand, project};
-use crate::differences::{Outcome, check, within};
-use crate::mechanism::{At, Body, Hold, Kind, Mechanism, Place, Point};
-use crate::random::{ALL, mechanisms};
+use crate::laws::built::{Moving, moving};
+use crate::laws::chain::{expand, project};
+use crate::laws::differences::{Outcome, check, within};
+use crate::laws::mechanism::{At, Body, Hold, Kind, Mechanism, Place, Point};
+use crate::laws::random::{ALL, mechanisms};
 
 const CASES: u32 = 200;
 

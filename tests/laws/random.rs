@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave, left};
+use crate::laws::mechanism::{Acting, At, Body, Hold, Kind, Mechanism, Place, Point, Wave, left};
 
 /// What may be part of a mechanism.
 #[derive(Clone, Copy)]

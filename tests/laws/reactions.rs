@@ -6,8 +6,8 @@ use flexbody::system::{End, Evaluation, Parts, Signal, State, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::prelude::*;
 
-use crate::chain::{Chain, ORDINARY, Spread, chains, flat, state};
-use crate::differences::{Outcome, check, within};
+use crate::laws::chain::{Chain, ORDINARY, Spread, chains, flat, state};
+use crate::laws::differences::{Outcome, check, within};
 
 const CASES: u32 = 96;
 

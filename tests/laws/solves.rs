@@ -7,9 +7,11 @@ use flexbody::system::{Dynamics, End, Model, Signal, System, fastest};
 use nalgebra::{Complex, DMatrix, DVector, Rotation2, Vector2};
 use proptest::prelude::*;
 
-use crate::chain::{Chain, ORDINARY, chains, diagonal, expand, expansion, flat, project, state};
-use crate::dense::reduced_stiffness;
-use crate::differences::{Outcome, check, derivative, within};
+use crate::laws::chain::{
+    Chain, ORDINARY, chains, diagonal, expand, expansion, flat, project, state,
+};
+use crate::laws::dense::reduced_stiffness;
+use crate::laws::differences::{Outcome, check, derivative, within};
 
 const CASES: u32 = 96;
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -8,9 +8,9 @@ use nalgebra::{Complex, DMatrix, DVector, Rotation3, Vector3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use crate::dense::reduced_stiffness;
-use crate::differences::{Outcome, check, within};
-use crate::specimen::{decades, noise};
+use crate::laws::dense::reduced_stiffness;
+use crate::laws::differences::{Outcome, check, within};
+use crate::laws::specimen::{decades, noise};
 
 const CASES: u32 = 64;
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -3,9 +3,9 @@
 use flexbody::elements::cable::Cable;
 use flexbody::elements::{Element, Nodal, Strain};
 
-use crate::differences::{apply, check, scaled, within};
-use crate::elements;
-use crate::specimen::{planar, rigid_motion, spatial};
+use crate::laws::differences::{apply, check, scaled, within};
+use crate::laws::elements;
+use crate::laws::specimen::{planar, rigid_motion, spatial};
 
 const CASES: u32 = 128;
 

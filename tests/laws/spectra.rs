@@ -8,9 +8,9 @@ use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::system::{Eigenvalue, SpectrumError, eigenvalues, linearized, natural_frequencies};
 use nalgebra::Complex;
 
-use crate::built::Moving;
-use crate::closed::{bodies, ground, hold, on, rigid, started, still};
-use crate::mechanism::{Acting, At, Body, Kind, Mechanism, Place, Point};
+use crate::laws::built::Moving;
+use crate::laws::closed::{bodies, ground, hold, on, rigid, started, still};
+use crate::laws::mechanism::{Acting, At, Body, Kind, Mechanism, Place, Point};
 
 /// Eigenvalues of a mechanism at rest or as it moves.
 fn spectrum(mechanism: &Mechanism, moves: bool, count: usize) -> Vec<Eigenvalue> {

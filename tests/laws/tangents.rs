@@ -8,12 +8,12 @@ use flexbody::system::{Dynamics, Evaluation, Model, System, linearized};
 use nalgebra::{Complex, DMatrix, DVector};
 use proptest::prelude::*;
 
-use crate::built::moving;
-use crate::chain::expand;
-use crate::dense::{Orthogonal, orthogonal};
-use crate::differences::{Outcome, check, derivative, within};
-use crate::mechanism::Mechanism;
-use crate::random::{ALL, Scope, mechanisms};
+use crate::laws::built::moving;
+use crate::laws::chain::expand;
+use crate::laws::dense::{Orthogonal, orthogonal};
+use crate::laws::differences::{Outcome, check, derivative, within};
+use crate::laws::mechanism::Mechanism;
+use crate::laws::random::{ALL, Scope, mechanisms};
 
 const CASES: u32 = 100;
 const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -18,6 +18,8 @@ mod alpha;
 mod dopri5;
 mod energy_momentum;
 mod gauss;
+#[cfg(test)]
+mod mechanisms;
 mod midpoint;
 mod newton;
 mod nystrom;

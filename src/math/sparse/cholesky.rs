@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::pattern::{Step, of_size};
+use super::pattern::{Column, Step, of_size};
 use super::{Matrix, Pattern, kernels};
 
 /// Cholesky factor W, lower triangular in elimination order, of a positive definite A = W W^T,
@@ -28,6 +28,8 @@ struct Piece {
     start: usize,
     /// Variables of a column.
     size: usize,
+    /// Whether `L` is the identity here: a body that nothing couples.
+    is_identity: bool,
 }
 
 /// Where `W^-1 x` is not zero for some `x`.
@@ -103,7 +105,8 @@ impl Cholesky {
 
     /// `x <- W^-1 x`.
     pub fn forward(&self, pattern: &Pattern, x: &mut [f64]) {
-        for (piece, step) in self.pieces.iter().zip(&pattern.steps) {
+        let pieces = self.pieces.iter().zip(&pattern.steps);
+        for (piece, step) in pieces.filter(|(piece, _)| !piece.is_identity) {
             self.forward_piece(pattern, (piece, step), 0, x);
         }
         scale(x, &self.inverse_roots);
@@ -157,7 +160,8 @@ impl Cholesky {
         };
         for (index, piece) in self.pieces.iter().enumerate() {
             // A column of a run reaches the next one.
-            if let Some(first) = piece.columns.clone().find(|j| reached[*j]) {
+            let first = piece.columns.clone().find(|j| reached[*j]);
+            if let Some(first) = first.filter(|_| !piece.is_identity) {
                 reach.pieces.push((index, first - piece.columns.start));
             }
         }
@@ -174,7 +178,8 @@ impl Cholesky {
     /// `x <- W^-T x`.
     pub fn backward(&self, pattern: &Pattern, x: &mut [f64]) {
         scale(x, &self.inverse_roots);
-        for (piece, step) in self.pieces.iter().zip(&pattern.steps).rev() {
+        let pieces = self.pieces.iter().zip(&pattern.steps).rev();
+        for (piece, step) in pieces.filter(|(piece, _)| !piece.is_identity) {
             if piece.links.is_empty() {
                 let step = std::slice::from_ref(step);
                 kernels::backward::<f64, false>(pattern, step, &self.factors.values, x);
@@ -188,7 +193,7 @@ impl Cholesky {
     /// `x <- W x`.
     pub fn multiply(&self, pattern: &Pattern, x: &mut [f64]) {
         scale(x, &self.roots);
-        for piece in self.pieces.iter().rev() {
+        for piece in self.pieces.iter().rev().filter(|piece| !piece.is_identity) {
             if piece.links.is_empty() {
                 for column in pattern.columns[piece.columns.clone()].iter().rev() {
                     kernels::multiply_lower(pattern, column, &self.factors.values, x);
@@ -202,7 +207,7 @@ impl Cholesky {
 
     /// `x <- W^T x`.
     pub fn multiply_transposed(&self, pattern: &Pattern, x: &mut [f64]) {
-        for piece in &self.pieces {
+        for piece in self.pieces.iter().filter(|piece| !piece.is_identity) {
             if piece.links.is_empty() {
                 for column in &pattern.columns[piece.columns.clone()] {
                     kernels::multiply_lower_transposed(pattern, column, &self.factors.values, x);
@@ -237,14 +242,26 @@ fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
         };
         let columns = first..first + count;
         first += count;
+        let is_identity = match step {
+            Step::Column(j) => is_identity(&pattern.columns[*j], &factors.values),
+            Step::Chain { .. } => false,
+        };
         Piece {
             columns,
             links: links.unwrap_or_default(),
             start,
             size,
+            is_identity,
         }
     };
     pattern.steps.iter().map(piece).collect()
+}
+
+/// Whether a column of L has nothing but ones on the diagonal.
+fn is_identity(column: &Column, values: &[f64]) -> bool {
+    let size = column.size;
+    let mut below = (0..size).flat_map(|r| (0..r).map(move |c| column.at + r * size + c));
+    column.rows.is_empty() && below.all(|at| values[at] == 0.0)
 }
 
 /// The nodes of a run: two vectors each.

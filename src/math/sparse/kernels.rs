@@ -54,6 +54,23 @@ pub(super) fn factor_semidefinite(
     }
 }
 
+/// Solves in place with the factors of a matrix whose columns are single numbers.
+pub(super) fn solve_numbers(pattern: &Pattern, values: &[f64], x: &mut [f64]) {
+    for column in &pattern.columns {
+        let own = x[column.start];
+        for row in &pattern.rows[column.rows.clone()] {
+            x[row.start] -= values[row.at] * own;
+        }
+    }
+    for column in pattern.columns.iter().rev() {
+        let mut own = x[column.start] * values[column.at];
+        for row in &pattern.rows[column.rows.clone()] {
+            own -= values[row.at] * x[row.start];
+        }
+        x[column.start] = own;
+    }
+}
+
 /// `x <- L^-1 x` over some steps.
 pub(super) fn forward<T: Number>(pattern: &Pattern, steps: &[Step], values: &[T], x: &mut [T]) {
     for step in steps {

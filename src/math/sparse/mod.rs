@@ -129,4 +129,9 @@ impl Matrix<f64> {
     ) {
         kernels::factor_semidefinite(pattern, &mut self.values, least, counts);
     }
+
+    /// Solves in place with the factors of a matrix of numbers.
+    pub fn solve_numbers(&self, pattern: &Pattern, x: &mut [f64]) {
+        kernels::solve_numbers(pattern, &self.values, x);
+    }
 }

@@ -331,7 +331,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         self.operations += 1;
         let system = self.system;
         if !system.constraints.is_empty() {
-            // Multipliers stiffen, and the border needs the Jacobian here.
+            // Multipliers stiffen, and solves need the Jacobian here.
             let mut a = std::mem::take(&mut self.work.a);
             self.acceleration(time, q, v, &mut a);
             self.work.a = a;

@@ -107,14 +107,19 @@ impl<const D: usize> System<D> {
     /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`.
     pub(in crate::system) fn constrain(&self, work: &mut Work<D>, a: &mut [f64]) {
         self.jacobians(work);
-        self.driven_acceleration(&work.drives, &mut work.other);
+        let is_driven = !self.driven.is_empty();
+        if is_driven {
+            self.driven_acceleration(&work.drives, &mut work.other);
+        }
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
         for (right, constraint) in right.iter_mut().zip(&self.constraints) {
             *right = -constraint.bias(&view);
-            constraint.gradient(&view).for_each(|node, term| {
-                *right -= product(term, &work.other[node]);
-            });
+            if is_driven {
+                constraint.gradient(&view).for_each(|node, term| {
+                    *right -= product(term, &work.other[node]);
+                });
+            }
         }
         work.jacobian.factor(RANK);
         work.jacobian.bring(|row| right[row], a, &mut work.lambda);
@@ -145,7 +150,7 @@ impl<const D: usize> System<D> {
             }
             before = residual;
             self.jacobians(work);
-            self.correct(q, work, Constraint::value);
+            self.correct(q, work, false, Constraint::value);
         }
         before
     }
@@ -154,14 +159,16 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work<D>) {
         self.jacobians(work);
         self.place_rates(v, work);
-        self.correct(v, work, constraint_rate);
+        self.correct(v, work, true, constraint_rate);
     }
 
-    /// Adds what takes `missing` away to first order, with the Jacobians in `work`.
+    /// Adds what takes `missing` away to first order, with the Jacobians in `work`: to roundoff, or as exactly as an
+    /// iteration needs.
     fn correct(
         &self,
         q: &mut [f64],
         work: &mut Work<D>,
+        to_roundoff: bool,
         missing: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
     ) {
         let mut right = std::mem::take(&mut work.right);
@@ -172,7 +179,11 @@ impl<const D: usize> System<D> {
         work.jacobian.factor(RANK);
         let mut change = std::mem::take(&mut work.a);
         change.fill(0.0);
-        (work.jacobian).bring(|row| right[row], &mut change, &mut work.unread);
+        let wanted = |row: usize| right[row];
+        match to_roundoff {
+            true => (work.jacobian).bring(wanted, &mut change, &mut work.unread),
+            false => (work.jacobian).bring_roughly(wanted, &mut change, &mut work.unread),
+        }
         q.iter_mut().zip(&change).for_each(|(q, c)| *q += c);
         (work.right, work.a) = (right, change);
     }

@@ -1,4 +1,4 @@
-//! CPU time of a step against the number of bodies, apart from each other and pinned in a chain.
+//! CPU time of a step against the number of bodies, apart from each other, pinned in a chain and in loops.
 
 use anyhow::Result;
 use serde_json::{Value, json};
@@ -19,67 +19,63 @@ const ELEMENTS: u32 = 8;
 const SPREAD: f64 = 0.6;
 const METHODS: [&str; 2] = ["radau", "rk4"];
 
+/// How bodies are joined.
+#[derive(Clone, Copy, PartialEq)]
+enum Joined {
+    Apart,
+    Chain,
+    /// Uprights pinned to the ground and rods between their heads: a four-bar linkage each.
+    Loops,
+}
+
 /// A way to put bodies together.
 struct Family {
     name: &'static str,
     is_rigid: bool,
-    is_chain: bool,
+    joined: Joined,
     counts: &'static [u32],
 }
 
-const FAMILIES: [Family; 4] = [
+const FAMILIES: [Family; 5] = [
     Family {
         name: "cables apart",
         is_rigid: false,
-        is_chain: false,
+        joined: Joined::Apart,
         counts: &[1, 10, 100],
     },
     Family {
         name: "chain of cables",
         is_rigid: false,
-        is_chain: true,
+        joined: Joined::Chain,
         counts: &[1, 10, 100],
     },
     Family {
         name: "rigid apart",
         is_rigid: true,
-        is_chain: false,
+        joined: Joined::Apart,
         counts: &[1, 10, 100],
     },
     Family {
         name: "chain of rigid",
         is_rigid: true,
-        is_chain: true,
-        counts: &[1, 3, 10, 30, 100],
+        joined: Joined::Chain,
+        counts: &[1, 3, 10, 30, 100, 300, 1000],
+    },
+    Family {
+        name: "loops of rigid",
+        is_rigid: true,
+        joined: Joined::Loops,
+        counts: &[1, 3, 10, 20, 40, 80, 200],
     },
 ];
 
 impl Family {
     /// The scene of a number of bodies.
     fn scene(&self, count: u32) -> Value {
-        let (mut bodies, mut joints) = (Vec::new(), Vec::new());
-        for index in 0..count {
-            let (from, angle) = if self.is_chain {
-                ([LENGTH * f64::from(index), 0.0], 0.0)
-            } else {
-                let part = f64::from(index) / f64::from(count.max(2) - 1);
-                ([0.0, 0.0], -SPREAD * part)
-            };
-            bodies.push(if self.is_rigid {
-                rigid(index, from, angle)
-            } else {
-                cable(index, from, angle)
-            });
-            let before = match index.checked_sub(1) {
-                Some(before) if self.is_chain => format!("link{before}.end"),
-                _ => "ground".to_owned(),
-            };
-            joints.push(json!({
-                "name": format!("pin{index}"),
-                "kind": "revolute",
-                "markers": [before, format!("link{index}.start")],
-            }));
-        }
+        let (bodies, joints) = match self.joined {
+            Joined::Loops => loops(count),
+            _ => self.links(count),
+        };
         json!({
             "name": "bodies",
             "dimension": 2,
@@ -91,6 +87,68 @@ impl Family {
             "experiment": { "stop_time": STOP_TIME, "step": STOP_TIME },
         })
     }
+
+    fn links(&self, count: u32) -> (Vec<Value>, Vec<Value>) {
+        let is_chain = self.joined == Joined::Chain;
+        let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+        for index in 0..count {
+            let (from, angle) = if is_chain {
+                ([LENGTH * f64::from(index), 0.0], 0.0)
+            } else {
+                let part = f64::from(index) / f64::from(count.max(2) - 1);
+                ([0.0, 0.0], -SPREAD * part)
+            };
+            bodies.push(if self.is_rigid {
+                rigid(index, from, angle)
+            } else {
+                cable(index, from, angle)
+            });
+            let before = match index.checked_sub(1) {
+                Some(before) if is_chain => format!("link{before}.end"),
+                _ => "ground".to_owned(),
+            };
+            joints.push(json!({
+                "name": format!("pin{index}"),
+                "kind": "revolute",
+                "markers": [before, format!("link{index}.start")],
+            }));
+        }
+        (bodies, joints)
+    }
+}
+
+/// Rods of 1 m and 1 kg, the uprights upright and moving to the right with 1 m/s at their heads: IFToMM's benchmark A02.
+fn loops(count: u32) -> (Vec<Value>, Vec<Value>) {
+    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    let rod = |name: String, position: [f64; 2], angle: f64, spin: f64, velocity: f64| {
+        json!({
+            "name": name,
+            "element": "rigid",
+            "mass": 1.0,
+            "inertia": 1.0 / 12.0,
+            "position": position,
+            "angle": angle,
+            "motion": { "velocity": [velocity, 0.0], "spin": spin },
+            "markers": { "start": [-0.5, 0.0], "end": [0.5, 0.0] },
+        })
+    };
+    let pin = |first: String, second: String| {
+        let name = format!("{first} {second}").replace(['.', ' '], "_");
+        json!({ "name": name, "kind": "revolute", "markers": [first, second] })
+    };
+    for index in 0..=count {
+        let x = f64::from(index);
+        let name = format!("upright{index}");
+        joints.push(pin("ground".into(), format!("{name}.start")));
+        bodies.push(rod(name, [x, 0.5], std::f64::consts::FRAC_PI_2, -1.0, 0.5));
+        if let Some(before) = index.checked_sub(1) {
+            let name = format!("rod{index}");
+            joints.push(pin(format!("upright{before}.end"), format!("{name}.start")));
+            joints.push(pin(format!("upright{index}.end"), format!("{name}.end")));
+            bodies.push(rod(name, [x - 0.5, 1.0], 0.0, 0.0, 1.0));
+        }
+    }
+    (bodies, joints)
 }
 
 /// A cable of the soft pendulum's section and material.
@@ -208,7 +266,13 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
     };
     let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
     page::write_csv(&bench.output("bodies.csv"), &header, &cells)?;
-    let marks = [Mark::Dot, Mark::Triangle, Mark::Ring, Mark::Square];
+    let marks = [
+        Mark::Dot,
+        Mark::Triangle,
+        Mark::Ring,
+        Mark::Square,
+        Mark::Dot,
+    ];
     let panel = |&(name, quantity): &Quantity| {
         let line = |(index, family): (usize, &Family)| {
             let own = points(rows, family, quantity);
@@ -216,10 +280,10 @@ fn write(bench: &Bench, rows: &[Row]) -> Result<()> {
             Line::new(family.name, scaled.collect(), index, marks[index])
         };
         let mut lines: Vec<Line> = FAMILIES.iter().enumerate().map(line).collect();
-        lines.push(Line::guide("proportional", (1.0, 3.0), 100.0, 1.0));
+        lines.push(Line::guide("proportional", (1.0, 3.0), 1000.0, 1.0));
         Panel {
             title: name.into(),
-            x: Axis::counts("bodies", &[1, 3, 10, 30, 100]),
+            x: Axis::counts("bodies or loops", &[1, 3, 10, 30, 100, 300, 1000]),
             y: Axis::log("CPU time / µs"),
             lines,
         }

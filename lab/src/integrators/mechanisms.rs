@@ -1,35 +1,15 @@
 //! Coordinate partitioning on the random mechanisms of the law tests: it moves as projection does.
-#![expect(dead_code, reason = "the law tests use more of what they share")]
-
-#[path = "../../tests/laws/built.rs"]
-mod built;
-#[path = "../../tests/laws/chain.rs"]
-mod chain;
-#[path = "../../tests/laws/dense.rs"]
-mod dense;
-#[path = "../../tests/laws/differences.rs"]
-mod differences;
-#[path = "../../tests/laws/mechanism.rs"]
-mod mechanism;
-#[path = "../src/integrators/partitioning.rs"]
-mod partitioning;
-#[path = "../src/integrators/probe.rs"]
-mod probe;
-#[path = "../../tests/laws/random.rs"]
-mod random;
-#[path = "../../tests/laws/specimen.rs"]
-mod specimen;
 
 use std::cell::Cell;
 
 use flexbody::integrators::{Rk4, Tolerance, advance};
 use flexbody::system::{Dynamics, Model, fastest};
 
-use built::moving;
-use differences::{Outcome, check, within};
-use mechanism::Mechanism;
-use probe::Probe;
-use random::{ALL, mechanisms};
+use super::probe::Probe;
+use crate::laws::built::moving;
+use crate::laws::differences::{Outcome, check, within};
+use crate::laws::mechanism::Mechanism;
+use crate::laws::random::{ALL, mechanisms};
 
 const CASES: u32 = 60;
 
@@ -69,7 +49,7 @@ fn both_ways(mechanism: &Mechanism, seen: &Cell<u32>) -> Outcome {
         ends.push(mechanism.apart(&moving.evaluated().x));
     }
     let (a, b) = (&accelerations[0], &accelerations[1]);
-    let size = a.iter().fold(1.0, |most, a| a.abs().max(most));
+    let size = a.iter().fold(1.0_f64, |most, a: &f64| a.abs().max(most));
     let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs() / size);
     within("acceleration", apart.fold(0.0, f64::max), 1e-9)?;
     seen.set(seen.get() + 1);

@@ -1,0 +1,134 @@
+//! Where free coordinates and multipliers stand: in vectors of the former alone, and in those that matrices are applied
+//! to, where multipliers stand between them.
+
+use std::ops::Range;
+
+use super::connectivity::Cluster;
+use crate::math::sparse::{Component, Pattern};
+
+/// A constraint with a multiplier.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    /// Vertex of its multiplier and place among those of this vertex.
+    pub vertex: usize,
+    pub row: usize,
+    /// The vertices that it holds.
+    pub on: Vec<usize>,
+}
+
+/// An entry of the basis of a cluster that is not zero.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    /// Free coordinate.
+    pub free: usize,
+    /// Node and coordinate of it.
+    pub node: usize,
+    pub coordinate: usize,
+    pub value: f64,
+}
+
+impl Held {
+    pub fn edges(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.on.iter().map(|v| (self.vertex, *v))
+    }
+}
+
+/// Numbers that stand side by side in vectors of free coordinates and in those of matrices.
+#[derive(Clone, Debug)]
+pub(super) struct Run {
+    pub free: Range<usize>,
+    pub start: usize,
+}
+
+/// Constraints one by one; vertices of their multipliers are counted on from `first`.
+pub(super) fn held(held: &[(Vec<usize>, usize)], vertices: &[usize], first: usize) -> Vec<Held> {
+    let mut constraints = Vec::new();
+    for (index, (nodes, count)) in held.iter().enumerate() {
+        let mut on: Vec<usize> = nodes.iter().map(|node| vertices[*node]).collect();
+        on.sort_unstable();
+        on.dedup();
+        constraints.extend((0..*count).map(|row| Held {
+            vertex: first + index,
+            row,
+            on: on.clone(),
+        }));
+    }
+    constraints
+}
+
+/// Where the free coordinates stand between multipliers.
+pub(super) fn runs(pattern: &Pattern, of_mass: &Pattern) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for v in of_mass.order() {
+        let (free, start) = (of_mass.range(*v), pattern.range(*v).start);
+        match runs.last_mut() {
+            _ if free.is_empty() => {}
+            Some(run) if run.start + run.free.len() == start => run.free.end = free.end,
+            _ => runs.push(Run { free, start }),
+        }
+    }
+    runs
+}
+
+/// The free coordinates of every component of a pattern; vertices with sizes are no multipliers.
+pub(super) fn components(pattern: &Pattern, sizes: &[usize]) -> Vec<Range<usize>> {
+    let mut start = 0;
+    let range = |component: &Component| {
+        let vertices = pattern.order()[component.vertices.clone()].iter();
+        let size: usize = vertices.filter_map(|v| sizes.get(*v)).sum();
+        start += size;
+        start - size..start
+    };
+    pattern.components().iter().map(range).collect()
+}
+
+/// A node's cluster and its first row in the basis, if it is tied.
+pub(super) type Tied = Option<(usize, usize)>;
+
+/// Vertices of all nodes and their sizes, in the order of their first node so that chains stay in order; those of
+/// clusters.
+pub(super) fn vertices<const D: usize>(
+    tied: &[Tied],
+    clusters: &[Cluster],
+) -> (Vec<usize>, Vec<usize>, Vec<Option<usize>>) {
+    let mut sizes = Vec::new();
+    let mut of_cluster = vec![None; clusters.len()];
+    let vertex = |tied: &Tied| match tied {
+        None => {
+            sizes.push(2 * D);
+            sizes.len() - 1
+        }
+        Some((index, _)) => *of_cluster[*index].get_or_insert_with(|| {
+            sizes.push(clusters[*index].basis.ncols());
+            sizes.len() - 1
+        }),
+    };
+    let vertices = tied.iter().map(vertex).collect();
+    (vertices, sizes, of_cluster)
+}
+
+/// What of the bases of clusters is not zero, node by node, and where that of every node stands.
+pub(super) fn entries<const D: usize>(
+    clusters: &[Cluster],
+    ranges: &[Range<usize>],
+    nodes: usize,
+) -> (Vec<Entry>, Vec<Range<usize>>) {
+    let (mut entries, mut of_node) = (Vec::new(), vec![0..0; nodes]);
+    for (cluster, range) in clusters.iter().zip(ranges) {
+        for (row, node) in cluster.nodes.iter().enumerate() {
+            let first = entries.len();
+            for coordinate in 0..2 * D {
+                let basis = cluster.basis.row(2 * D * row + coordinate);
+                let stored = basis.iter().enumerate().filter(|(_, value)| **value != 0.0);
+                entries.extend(stored.map(|(column, value)| Entry {
+                    free: range.start + column,
+                    node: *node,
+                    coordinate,
+                    value: *value,
+                }));
+            }
+            of_node[*node] = first..entries.len();
+        }
+    }
+    (entries, of_node)
+}
