@@ -1,5 +1,4 @@
-//! The row space of a small number of long rows, rank-revealing: the rows of a constraint Jacobian may
-//! depend on each other, always or only in singular configurations.
+//! The row space of a small number of long rows, rank-revealing, for what is computed once: eigenvalues.
 //!
 //! Source: modified Gram-Schmidt with column pivoting and a second pass ("twice is enough"):
 //! G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed., sections 5.2.8, 5.4.1 and 5.5.5.
@@ -18,9 +17,6 @@ pub struct RowSpace {
     /// Sizes of the rows as they were filled in.
     sizes: Vec<f64>,
     rank: usize,
-    /// Parts along `Q` that were taken out and added last.
-    taken: Vec<f64>,
-    added: Vec<f64>,
 }
 
 impl RowSpace {
@@ -33,8 +29,6 @@ impl RowSpace {
             pivots: (0..count).collect(),
             sizes: vec![0.0; count],
             rank: 0,
-            taken: vec![0.0; count],
-            added: vec![0.0; count],
         }
     }
 
@@ -46,11 +40,6 @@ impl RowSpace {
     /// Number of independent rows.
     pub fn rank(&self) -> usize {
         self.rank
-    }
-
-    /// Rows that depend on others.
-    pub fn dependent(&self) -> &[usize] {
-        &self.pivots[self.rank..]
     }
 
     /// Row `i`, to be filled in before [`RowSpace::factor`].
@@ -131,30 +120,6 @@ impl RowSpace {
         }
     }
 
-    /// `x -= Q^T Q x`.
-    pub fn take_out(&mut self, x: &mut [f64]) {
-        for i in 0..self.rank {
-            let unit = &self.rows[i * self.length..(i + 1) * self.length];
-            let part = dot(unit, x);
-            subtract(part, unit, x);
-            self.taken[i] = part;
-        }
-    }
-
-    /// Adds the smallest `x` with `A x = b` as far as independent rows go: `x += Q^T R^-T b`.
-    pub fn add_least(&mut self, b: &[f64], x: &mut [f64]) {
-        let count = self.count();
-        for i in 0..self.rank {
-            let column = &self.r[i * count..(i + 1) * count];
-            let before = dot(&column[..i], &self.added[..i]);
-            let pivot = self.pivots[i];
-            let part = (b[pivot] / self.sizes[pivot] - before) / column[i];
-            self.added[i] = part;
-            let unit = &self.rows[i * self.length..(i + 1) * self.length];
-            subtract(-part, unit, x);
-        }
-    }
-
     /// Combines other rows, as many and as long as these, as the orthonormal ones were: `R^-T P^T D^-1`
     /// times them; so many as the rank.
     pub fn combine(&self, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
@@ -171,25 +136,6 @@ impl RowSpace {
             combined.push(row);
         }
         combined
-    }
-
-    /// Multipliers `A^T lambda` of all that was taken out less all that was added last; zero for
-    /// dependent rows.
-    pub fn multipliers(&self, lambda: &mut [f64]) {
-        let count = self.count();
-        lambda.fill(0.0);
-        for i in (0..self.rank).rev() {
-            let mut value = self.taken[i] - self.added[i];
-            for j in i + 1..self.rank {
-                value -= self.r[j * count + i] * lambda[self.pivots[j]];
-            }
-            lambda[self.pivots[i]] = value / self.r[i * count + i];
-        }
-        for (lambda, size) in lambda.iter_mut().zip(&self.sizes) {
-            if *size > 0.0 {
-                *lambda /= size;
-            }
-        }
     }
 }
 
@@ -217,21 +163,22 @@ mod tests {
     ];
 
     #[test]
-    fn keeps_the_rows_and_recovers_multipliers() {
-        let mut space = filled(&ROWS);
+    fn units_are_orthonormal_and_span_the_rows() {
+        let space = filled(&ROWS);
         assert_eq!(space.rank(), 3);
-        let (start, b) = ([0.3, -1.0, 2.0, 0.7], [0.1, -0.4, 2.5]);
-        let mut x = start;
-        space.take_out(&mut x);
-        space.add_least(&b, &mut x);
-        for (row, b) in ROWS.iter().zip(b) {
-            assert!((dot(row, &x) - b).abs() < 1e-14);
+        for i in 0..3 {
+            for j in 0..3 {
+                let expected = f64::from(u8::from(i == j));
+                assert!((dot(space.unit(i), space.unit(j)) - expected).abs() < 1e-15);
+            }
         }
-        let mut lambda = [0.0; 3];
-        space.multipliers(&mut lambda);
-        for i in 0..4 {
-            let force: f64 = ROWS.iter().zip(lambda).map(|(row, l)| row[i] * l).sum();
-            assert!((start[i] - x[i] - force).abs() < 1e-14);
+        for row in ROWS {
+            let mut left = row;
+            for i in 0..3 {
+                let unit = space.unit(i);
+                subtract(dot(unit, &row), unit, &mut left);
+            }
+            assert!(norm(&left) < 1e-14);
         }
     }
 
@@ -249,7 +196,7 @@ mod tests {
     fn finds_dependent_rows() {
         let sum: [f64; 4] = std::array::from_fn(|i| ROWS[0][i] - ROWS[2][i]);
         let space = filled(&[ROWS[0], ROWS[1], ROWS[2], sum]);
-        assert_eq!((space.rank(), space.dependent().len()), (3, 1));
+        assert_eq!(space.rank(), 3);
         assert_eq!(filled(&[[0.0; 4]]).rank(), 0);
     }
 }

@@ -107,7 +107,8 @@ impl Scene {
 
     /// The JSON Schema of a scene, pretty-printed.
     pub fn json_schema() -> String {
-        let schema = schemars::schema_for!(Scene);
+        let mut schema = schemars::schema_for!(Scene);
+        description::tell_apart(&mut schema);
         let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
         text.push('\n');
         text

@@ -88,6 +88,12 @@ fn length(node: &Value) -> Option<u64> {
     least.filter(|_| node["minItems"] == node["maxItems"])
 }
 
+/// What tells a variant from others: a key, and what stands there.
+fn tag(node: &Value) -> Option<(&'static str, &str)> {
+    let constant = |key: &'static str| Some((key, node["properties"][key]["const"].as_str()?));
+    constant("element").or_else(|| constant("kind"))
+}
+
 fn is_null(node: &&Value) -> bool {
     node["type"] == "null"
 }
@@ -148,9 +154,8 @@ impl Schema {
             ("object", Value::Object(found)) => {
                 let required = node["required"].as_array();
                 let known = |key: &Value| key.as_str().is_some_and(|key| found.contains_key(key));
-                let tag = node["properties"]["element"]["const"].as_str();
                 required.is_none_or(|keys| keys.iter().all(known))
-                    && tag.is_none_or(|tag| value["element"] == tag)
+                    && tag(node).is_none_or(|(key, tag)| value[key] == tag)
             }
             _ => false,
         }
@@ -242,11 +247,8 @@ impl Schema {
 
     fn walk_alternative(&self, node: &Value, at: &At, value: Option<&Value>, out: &mut Vec<Place>) {
         let inner = self.resolve(node);
-        let suffix = match (
-            inner["properties"]["element"]["const"].as_str(),
-            kind(inner),
-        ) {
-            (Some(element), _) => format!("{{{element}}}"),
+        let suffix = match (tag(inner), kind(inner)) {
+            (Some((_, tag)), _) => format!("{{{tag}}}"),
             (None, "number") => "#number".into(),
             (None, "string") => "#expression".into(),
             _ => String::new(),
@@ -272,50 +274,33 @@ impl Schema {
         let Some(properties) = node["properties"].as_object() else {
             panic!("{}: an object of which the schema says nothing", at.key);
         };
-        // What has a kind has other keys for each of them.
-        let kinds = properties
-            .get("kind")
-            .and_then(|node| variants(self.resolve(node)));
-        let kinds = kinds.map(|all| match value.and_then(|value| value["kind"].as_str()) {
-            Some(kind) => vec![kind.to_owned()],
-            None => all,
-        });
-        let places = match kinds {
-            Some(kinds) => kinds
-                .iter()
-                .map(|kind| at.named(&format!("{{{kind}}}")))
-                .collect(),
-            None => vec![at],
-        };
-        for at in places {
-            for (key, property) in properties {
-                let required = node["required"]
-                    .as_array()
-                    .is_some_and(|r| r.contains(&json!(key)));
-                let dot = if at.key.is_empty() { "" } else { "." };
-                // The kind of a part is in its key already.
-                let word = if key == "kind" {
-                    String::new()
-                } else {
-                    format!("{dot}{key}")
-                };
-                let mut below = at.down(&word, key);
-                if !required && at.samples.is_none() {
-                    below.removal = Some(below.pointer.clone());
-                }
-                let found = value.and_then(|value| value.get(key));
-                if found.is_none() && at.samples.is_none() {
-                    if required {
-                        continue;
-                    }
-                    let samples = self.samples(property);
-                    if samples.is_empty() {
-                        continue;
-                    }
-                    below.samples = Some(samples);
-                }
-                self.walk(property, below, found, out);
+        for (key, property) in properties {
+            let required = node["required"]
+                .as_array()
+                .is_some_and(|r| r.contains(&json!(key)));
+            let dot = if at.key.is_empty() { "" } else { "." };
+            // The kind of a part is in its key already.
+            let word = if key == "kind" {
+                String::new()
+            } else {
+                format!("{dot}{key}")
+            };
+            let mut below = at.down(&word, key);
+            if !required && at.samples.is_none() {
+                below.removal = Some(below.pointer.clone());
             }
+            let found = value.and_then(|value| value.get(key));
+            if found.is_none() && at.samples.is_none() {
+                if required {
+                    continue;
+                }
+                let samples = self.samples(property);
+                if samples.is_empty() {
+                    continue;
+                }
+                below.samples = Some(samples);
+            }
+            self.walk(property, below, found, out);
         }
     }
 

@@ -101,7 +101,10 @@ fn declared_rust(workspace: &Workspace) -> Result<()> {
 /// What FMUs are made of is compiled meanwhile: linking with optimization keeps one core busy.
 fn rust_tests(workspace: &Workspace) -> Result<()> {
     std::thread::scope(|scope| {
-        let products = scope.spawn(|| workspace.library(PACKAGE, Platform::host()?));
+        let products = scope.spawn(|| {
+            workspace.library(PACKAGE, Platform::host()?)?;
+            workspace.binary()
+        });
         let tested = run(workspace.cargo("test").arg("--workspace"));
         let built = products.join().expect("a build that does not panic");
         tested.and(built.map(drop))

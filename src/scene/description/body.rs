@@ -52,10 +52,12 @@ pub struct RigidBody {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
     /// Mass, kg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
     /// Moment of inertia about the centre of mass, kg m^2; 0 (and where nothing is said) is a particle, which
     /// does not turn.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub inertia: f64,
     /// Centre of mass at the start, m.
     pub position: Vector,
@@ -75,11 +77,14 @@ pub struct RigidBody {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub youngs_modulus: f64,
     /// Density, kg/m^3.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: f64,
     /// Kelvin-Voigt damping: ratio of viscosity to stiffness, s.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub damping_time: f64,
 }
 
@@ -88,8 +93,10 @@ pub struct Material {
 #[serde(deny_unknown_fields)]
 pub struct Section {
     /// Area, m^2.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub area: f64,
     /// Second moment of area, m^4; 0 is a cable without bending stiffness.
+    #[schemars(range(min = 0.0))]
     pub second_moment: f64,
 }
 
@@ -156,9 +163,11 @@ pub struct Mass {
     /// Where it sits: `body.marker`.
     pub marker: String,
     /// Mass, kg.
+    #[schemars(range(min = 0.0))]
     pub mass: f64,
     /// Moment of inertia that turns with the slope, kg m^2; markers of cables only.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub inertia: f64,
 }
 

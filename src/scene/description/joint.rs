@@ -29,12 +29,15 @@ pub struct Joint {
     pub angle: Option<f64>,
     /// `distance` only: length of the link, m; the distance at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: Option<f64>,
     /// `hinge` only: stiffness against rotation, N m/rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub stiffness: Option<f64>,
     /// `hinge` only: damping of rotation, N m s/rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
 }
 

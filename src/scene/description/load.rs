@@ -38,9 +38,11 @@ pub struct Load {
     pub value: Option<LoadValue>,
     /// `spring_damper`: stiffness, N/m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub stiffness: Option<f64>,
     /// `spring_damper`: damping, N s/m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
     /// `spring_damper`: length at rest, m; the distance at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -4,6 +4,7 @@ mod about;
 mod body;
 mod initial;
 mod joint;
+mod kinds;
 mod load;
 mod output;
 mod port;
@@ -19,6 +20,7 @@ pub use about::About;
 pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Section, Shape, Strain};
 pub use initial::{Initial, InitialState};
 pub use joint::{Joint, JointKind, Motion, MotionKind};
+pub use kinds::{Keys, Kind, tell_apart};
 pub use load::{Input, InputKind, Load, LoadKind};
 pub use output::{Output, OutputKind};
 pub use port::{Port, PortKind};
@@ -170,8 +172,10 @@ pub enum Integrator {
 #[serde(deny_unknown_fields)]
 pub struct Experiment {
     /// Stop time, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub stop_time: f64,
     /// Communication step, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub step: f64,
 }
 

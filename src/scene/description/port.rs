@@ -19,15 +19,19 @@ pub struct Port {
     /// `motion` only: stiffness of a spring between the marker and the point that comes in, N/m; the
     /// marker then stays free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub stiffness: Option<f64>,
     /// `motion` only: damping of a damper beside the spring, N s/m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
     /// With a stiffness or damping only: stiffness between the directions, N m/rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub rotational_stiffness: Option<f64>,
     /// With a stiffness or damping only: damping between the directions, N m s/rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub rotational_damping: Option<f64>,
 }
 

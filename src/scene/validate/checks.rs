@@ -5,6 +5,7 @@ use std::fmt::Display;
 
 use crate::math::function::Function;
 use crate::scene::Error;
+use crate::scene::description::Keys;
 use crate::scene::description::{Value, Vector};
 use crate::scene::marker::GROUND;
 
@@ -46,8 +47,15 @@ pub fn quoted(text: &str) -> String {
 /// An optional key: its name, whether it is there, and what would stand there.
 pub type Key = (&'static str, bool, &'static str);
 
-/// Checks that all keys of `must`, and beside them only keys of `may`, are there.
-pub fn keys(path: &str, of: &str, all: &[Key], must: &[&str], may: &[&str]) -> Result<(), Error> {
+/// Checks that the keys of a kind are there, and no others; of several alternatives the first of which anything is
+/// there, or the last.
+pub fn keys(path: &str, of: &str, all: &[Key], alternatives: &[Keys]) -> Result<(), Error> {
+    let is_meant = |(must, _): &&Keys| {
+        let mut given = all.iter().filter(|(_, is_given, _)| *is_given);
+        given.any(|(key, ..)| must.contains(key))
+    };
+    let meant = alternatives.iter().find(is_meant).or(alternatives.last());
+    let (must, may) = meant.copied().unwrap_or_default();
     for (key, is_given, what) in all {
         let place = format!("{path}.{key}");
         if must.contains(key) && !is_given {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, finite, keys, needed, not_negative, quoted};
 use crate::scene::Error;
-use crate::scene::description::{Input, InputKind, Value};
+use crate::scene::description::{Input, InputKind, Kind as _, Value};
 use crate::scene::resolved::{self, Action, LoadKind, Resolved};
 use crate::system::Signal;
 
@@ -17,14 +17,7 @@ impl Input {
             ("load", self.load.is_some(), "a name"),
             ("follower", self.follower, "true"),
         ];
-        let (must, may): (&[&str], &[&str]) = match self.kind {
-            InputKind::Force => (&["marker"], &["follower"]),
-            InputKind::Moment => (&["marker"], &[]),
-            InputKind::Torque => (&["joint"], &[]),
-            InputKind::Distributed => (&["body"], &[]),
-            InputKind::RestLength => (&["load"], &[]),
-        };
-        keys(path, "input", &all, must, may)
+        keys(path, "input", &all, self.kind.keys())
     }
 
     fn validate_start(&self, path: &str, dimension: usize) -> Result<(), Error> {

@@ -4,7 +4,7 @@ use super::checks::{
     Key, expected, finite, keys, needed, planar, positive, quoted, spring_damper, vector,
 };
 use crate::scene::Error;
-use crate::scene::description::{Joint, JointKind};
+use crate::scene::description::{Joint, JointKind, Kind as _};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{self, Ends, Resolved, SlideId, Slider};
 
@@ -18,17 +18,7 @@ impl Joint {
             ("stiffness", self.stiffness.is_some(), "a stiffness"),
             ("damping", self.damping.is_some(), "a damping"),
         ];
-        let (must, may): (&[&str], &[&str]) = match self.kind {
-            JointKind::Revolute => (&[], &["point"]),
-            JointKind::Weld => (&[], &["point", "angle"]),
-            JointKind::Slider => (&["direction"], &["point"]),
-            JointKind::Prismatic => (&[], &["point", "direction", "angle"]),
-            JointKind::Orientation => (&[], &["angle"]),
-            JointKind::Distance => (&[], &["point", "length"]),
-            JointKind::Hinge => (&[], &["point", "angle", "stiffness", "damping"]),
-            JointKind::Along => (&[], &[]),
-        };
-        keys(path, "joint", &all, must, may)
+        keys(path, "joint", &all, self.kind.keys())
     }
 
     /// In space there is nothing yet that has an angle.

@@ -2,7 +2,7 @@
 
 use super::checks::{Key, components, expected, keys, needed, not_negative, spring_damper, value};
 use crate::scene::Error;
-use crate::scene::description::{Load, LoadKind, LoadValue, Value};
+use crate::scene::description::{Kind as _, Load, LoadKind, LoadValue, Value};
 use crate::scene::resolved::{self, Action, Resolved, Spring};
 use crate::system::Signal;
 
@@ -20,14 +20,7 @@ impl Load {
             ("damping", self.damping.is_some(), "a damping"),
             ("length", self.length.is_some(), "a length"),
         ];
-        let (must, may): (&[&str], &[&str]) = match self.kind {
-            LoadKind::Force => (&["marker", "value"], &["follower"]),
-            LoadKind::Moment => (&["marker", "value"], &[]),
-            LoadKind::Torque => (&["joint", "value"], &[]),
-            LoadKind::Distributed => (&["body", "value"], &[]),
-            LoadKind::SpringDamper => (&["markers"], &["point", "stiffness", "damping", "length"]),
-        };
-        keys(path, "load", &all, must, may)
+        keys(path, "load", &all, self.kind.keys())
     }
 }
 

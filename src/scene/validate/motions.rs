@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, components, expected, keys, needed, quoted, shape, value};
 use crate::scene::Error;
-use crate::scene::description::{Motion, MotionKind, MotionValue};
+use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue};
 use crate::scene::resolved::{self, JointKind, Resolved, Slider, Turning};
 use crate::system::Drive;
 
@@ -46,15 +46,11 @@ impl<'a> Resolved<'a> {
             ("marker", motion.marker.is_some(), "a name"),
             ("joint", motion.joint.is_some(), "a name"),
         ];
-        let must: &[&str] = match (motion.kind, &motion.joint) {
-            (MotionKind::Position, _) | (MotionKind::Angle, None) => &["marker"],
-            (MotionKind::Displacement, _) | (MotionKind::Angle, Some(_)) => &["joint"],
-        };
         if motion.kind == MotionKind::Angle && motion.marker.is_some() == motion.joint.is_some() {
             let found = motion.marker.as_ref().map_or("neither", |_| "both");
             return Err(expected(path, "either a marker or a joint", found));
         }
-        keys(path, "motion", &all, must, &[])?;
+        keys(path, "motion", &all, motion.kind.keys())?;
         let [at_marker, at_joint, at_value] =
             ["marker", "joint", "value"].map(|key| format!("{path}.{key}"));
         let marker = || needed(path, "marker", "a name", motion.marker.as_deref());

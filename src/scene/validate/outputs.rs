@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, needed, planar, quoted};
 use crate::scene::Error;
-use crate::scene::description::{Output, OutputKind};
+use crate::scene::description::{Kind as _, Output, OutputKind};
 use crate::scene::resolved::{self, AngleId, JointKind, MotionKind, Reaction, Resolved, Turning};
 
 /// Most natural frequencies or eigenvalues.
@@ -12,7 +12,6 @@ const MOST_FREQUENCIES: u32 = 100;
 
 impl Output {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        use OutputKind::*;
         let all: [Key; 5] = [
             ("marker", self.marker.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
@@ -20,25 +19,12 @@ impl Output {
             ("body", self.body.is_some(), "a name"),
             ("count", self.count.is_some(), "a count"),
         ];
-        let (must, may): (&[&str], &[&str]) = match self.kind {
-            Position | Velocity | Acceleration | Strain | Curvature | AxialForce
-            | BendingMoment | ConnectivityForce => (&["marker"], &[]),
-            Angle | AngularVelocity | AngularAcceleration if self.joint.is_some() => {
-                (&["joint"], &["marker"])
-            }
-            Angle | AngularVelocity | AngularAcceleration => (&["marker"], &[]),
-            Travel => (&["joint"], &[]),
-            Reaction | ReactionMoment if self.motion.is_some() => (&["motion"], &["joint"]),
-            Reaction | ReactionMoment => (&["joint"], &[]),
-            Energy | Work | Momentum | CenterOfMass | Residual => (&[], &[]),
-            NaturalFrequency | Eigenvalue => (&[], &["body", "count"]),
-        };
-        keys(path, "output", &all, must, may)?;
+        let alternatives = self.kind.keys();
         let of = [&self.marker, &self.joint, &self.motion];
-        if of.into_iter().flatten().count() > 1 {
+        if alternatives.len() > 1 && of.into_iter().flatten().count() > 1 {
             return Err(expected(path, "one name of what is read", "two"));
         }
-        Ok(())
+        keys(path, "output", &all, alternatives)
     }
 
     fn validate_count(&self, path: &str) -> Result<(), Error> {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, not_negative, quoted, spring_damper};
 use crate::scene::Error;
-use crate::scene::description::{Port, PortKind};
+use crate::scene::description::{Kind as _, Port, PortKind};
 use crate::scene::resolved::{
     self, Action, Coupling, CouplingId, InputKind, Marker, Motion, MotionKind, Output, Resolved,
     Turning,
@@ -27,11 +27,7 @@ impl Port {
                 "a rotational damping",
             ),
         ];
-        let may = all.map(|(key, ..)| key);
-        match self.kind {
-            PortKind::Force => keys(path, "port", &all, &[], &[]),
-            PortKind::Motion => keys(path, "port", &all, &[], &may),
-        }
+        keys(path, "port", &all, self.kind.keys())
     }
 
     fn validate_springs(&self, path: &str) -> Result<(), Error> {

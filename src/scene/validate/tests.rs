@@ -1,6 +1,7 @@
 //! What scenes may say, and refusals, one line each: where, what stands there instead, and how the
 //! message begins.
 
+mod schema;
 mod space;
 
 use serde_json::{Value, json};
@@ -436,25 +437,4 @@ fn values_become_functions_and_inputs_have_their_starts() {
         panic!("a force");
     };
     assert_eq!(values.len(), 2);
-}
-
-#[test]
-fn the_schema_tells_bodies_apart_by_their_element() {
-    let schema: Value = serde_json::from_str(&Scene::json_schema()).expect("JSON");
-    let kinds = schema["$defs"]["Body"]["oneOf"]
-        .as_array()
-        .expect("kinds of bodies");
-    let elements: Vec<_> = kinds
-        .iter()
-        .map(|kind| &kind["properties"]["element"]["const"])
-        .collect();
-    assert_eq!(elements, ["cable", "rigid"]);
-    for kind in kinds {
-        assert_eq!(kind["additionalProperties"], json!(false));
-        assert!(
-            kind["required"]
-                .as_array()
-                .is_some_and(|keys| keys.contains(&json!("element")))
-        );
-    }
 }

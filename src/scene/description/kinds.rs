@@ -1,0 +1,182 @@
+//! Which keys the kinds of joints, motions, loads, inputs, outputs and ports take, beside those that all of them have:
+//! one table, which scenes are checked by and the published schema is made of.
+
+use schemars::Schema;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
+
+use super::{InputKind, JointKind, LoadKind, MotionKind, OutputKind, PortKind};
+
+/// Keys that must be there, and such that may.
+pub type Keys = (&'static [&'static str], &'static [&'static str]);
+
+/// A kind of a part.
+pub trait Kind: DeserializeOwned {
+    /// The part, as the schema names it.
+    const PART: &'static str;
+
+    /// Its keys; where there are several, one or the other.
+    fn keys(&self) -> &'static [Keys];
+}
+
+impl Kind for JointKind {
+    const PART: &'static str = "Joint";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Revolute => &[(&[], &["point"])],
+            Self::Weld => &[(&[], &["point", "angle"])],
+            Self::Slider => &[(&["direction"], &["point"])],
+            Self::Prismatic => &[(&[], &["point", "direction", "angle"])],
+            Self::Orientation => &[(&[], &["angle"])],
+            Self::Distance => &[(&[], &["point", "length"])],
+            Self::Hinge => &[(&[], &["point", "angle", "stiffness", "damping"])],
+            Self::Along => &[(&[], &[])],
+        }
+    }
+}
+
+impl Kind for MotionKind {
+    const PART: &'static str = "Motion";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Position => &[(&["marker"], &[])],
+            Self::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
+            Self::Displacement => &[(&["joint"], &[])],
+        }
+    }
+}
+
+impl Kind for LoadKind {
+    const PART: &'static str = "Load";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Force => &[(&["marker", "value"], &["follower"])],
+            Self::Moment => &[(&["marker", "value"], &[])],
+            Self::Torque => &[(&["joint", "value"], &[])],
+            Self::Distributed => &[(&["body", "value"], &[])],
+            Self::SpringDamper => &[(&["markers"], &["point", "stiffness", "damping", "length"])],
+        }
+    }
+}
+
+impl Kind for InputKind {
+    const PART: &'static str = "Input";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Force => &[(&["marker"], &["follower"])],
+            Self::Moment => &[(&["marker"], &[])],
+            Self::Torque => &[(&["joint"], &[])],
+            Self::Distributed => &[(&["body"], &[])],
+            Self::RestLength => &[(&["load"], &[])],
+        }
+    }
+}
+
+impl Kind for OutputKind {
+    const PART: &'static str = "Output";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Position
+            | Self::Velocity
+            | Self::Acceleration
+            | Self::Strain
+            | Self::Curvature
+            | Self::AxialForce
+            | Self::BendingMoment
+            | Self::ConnectivityForce => &[(&["marker"], &[])],
+            Self::Angle | Self::AngularVelocity | Self::AngularAcceleration => {
+                &[(&["joint"], &[]), (&["marker"], &[])]
+            }
+            Self::Travel => &[(&["joint"], &[])],
+            Self::Reaction | Self::ReactionMoment => &[(&["motion"], &[]), (&["joint"], &[])],
+            Self::Energy | Self::Work | Self::Momentum | Self::CenterOfMass | Self::Residual => {
+                &[(&[], &[])]
+            }
+            Self::NaturalFrequency | Self::Eigenvalue => &[(&[], &["body", "count"])],
+        }
+    }
+}
+
+impl Kind for PortKind {
+    const PART: &'static str = "Port";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Force => &[(&[], &[])],
+            Self::Motion => &[(
+                &[],
+                &[
+                    "stiffness",
+                    "damping",
+                    "rotational_stiffness",
+                    "rotational_damping",
+                ],
+            )],
+        }
+    }
+}
+
+/// Makes one titled variant for every kind of all parts, each with the keys that it takes.
+pub fn tell_apart(schema: &mut Schema) {
+    tell::<JointKind>(schema);
+    tell::<MotionKind>(schema);
+    tell::<LoadKind>(schema);
+    tell::<InputKind>(schema);
+    tell::<OutputKind>(schema);
+    tell::<PortKind>(schema);
+}
+
+fn tell<K: Kind>(schema: &mut Schema) {
+    let pointer = |name: &str| format!("/$defs/{name}");
+    let kinds = schema.pointer(&pointer(&format!("{}Kind", K::PART)));
+    let kinds = kinds.and_then(|kinds| kinds["oneOf"].as_array().cloned());
+    let kinds = kinds.unwrap_or_default().into_iter();
+    // Names, what they mean and which keys they take.
+    let kinds: Vec<(Value, &[Keys])> = kinds
+        .filter_map(|kind| {
+            let parsed: K = serde_json::from_value(kind["const"].clone()).ok()?;
+            Some((kind, parsed.keys()))
+        })
+        .collect();
+    let Some(part) = schema.pointer_mut(&pointer(K::PART)) else {
+        return;
+    };
+    let all = kinds.iter().flat_map(|(_, keys)| keys.iter());
+    let own: Vec<&str> = all.flat_map(|(must, may)| [*must, *may].concat()).collect();
+    let properties = part["properties"].as_object().cloned().unwrap_or_default();
+    let required = part["required"].as_array().cloned().unwrap_or_default();
+    let variants = kinds.iter().flat_map(|(kind, keys)| {
+        keys.iter().map(|(must, may)| {
+            let takes =
+                |key: &str| !own.contains(&key) || must.contains(&key) || may.contains(&key);
+            let taken = properties.iter().filter(|(key, _)| takes(key));
+            let mut taken: Map<String, Value> = taken
+                .map(|(key, value)| (key.clone(), value.clone()))
+                .collect();
+            taken.insert(
+                "kind".into(),
+                json!({ "type": "string", "const": kind["const"] }),
+            );
+            let demanded = required.iter().cloned();
+            let demanded = demanded.chain(must.iter().map(|key| json!(key)));
+            json!({
+                "title": kind["const"],
+                "description": kind["description"],
+                "type": "object",
+                "properties": taken,
+                "additionalProperties": false,
+                "required": demanded.collect::<Vec<_>>(),
+            })
+        })
+    });
+    let variants: Vec<Value> = variants.collect();
+    *part = json!({ "description": part["description"], "oneOf": variants });
+    if let Some(definitions) = schema.pointer_mut("/$defs").and_then(Value::as_object_mut) {
+        definitions.remove(&format!("{}Kind", K::PART));
+    }
+}
