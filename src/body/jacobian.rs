@@ -17,7 +17,7 @@ use crate::math::vector::dot;
 
 /// Sparse rows over `q`.
 #[derive(Clone, Debug)]
-pub struct Rows {
+pub struct SparseRows {
     pieces: Vec<Piece>,
     /// Pieces of every row.
     of_row: Vec<Range<usize>>,
@@ -31,7 +31,7 @@ struct Piece {
     at: usize,
 }
 
-impl Rows {
+impl SparseRows {
     fn new(reaches: &[Reach]) -> Self {
         let (mut pieces, mut of_row, mut at) = (Vec::new(), Vec::new(), 0);
         for reach in reaches {
@@ -102,7 +102,7 @@ struct Overlap {
 /// The Jacobian and the factors of `J J^T`.
 #[derive(Clone, Debug)]
 pub struct Jacobian {
-    rows: Rows,
+    rows: SparseRows,
     reaches: Vec<Reach>,
     overlaps: Vec<Overlap>,
     pattern: Pattern,
@@ -123,7 +123,7 @@ impl Jacobian {
     /// Storage for some of the constraints of an assembly.
     pub fn new<const D: usize>(elimination: &Elimination<D>, constraints: &[usize]) -> Self {
         let reaches: Vec<Reach> = constraints.iter().map(|c| elimination.reach(*c)).collect();
-        let rows = Rows::new(&reaches);
+        let rows = SparseRows::new(&reaches);
         let meetings = meetings(&rows);
         let edges: Vec<(usize, usize)> = meetings.iter().map(|(rows, _, _)| *rows).collect();
         let pattern = Pattern::new(&vec![1; rows.count()], &edges);
@@ -149,7 +149,7 @@ impl Jacobian {
     }
 
     /// The rows.
-    pub fn rows(&self) -> &Rows {
+    pub fn rows(&self) -> &SparseRows {
         &self.rows
     }
 
@@ -233,7 +233,7 @@ impl Jacobian {
 }
 
 /// Where two rows, the earlier one second, have numbers at the same coordinates.
-fn meetings(rows: &Rows) -> Vec<((usize, usize), [usize; 2], usize)> {
+fn meetings(rows: &SparseRows) -> Vec<((usize, usize), [usize; 2], usize)> {
     let mut pieces: Vec<(usize, &Piece)> = Vec::new();
     for (row, range) in rows.of_row.iter().enumerate() {
         pieces.extend(rows.pieces[range.clone()].iter().map(|piece| (row, piece)));

@@ -18,7 +18,7 @@ pub use connectivity::{
     tied_with,
 };
 pub use elimination::Elimination;
-pub use jacobian::{Jacobian, Rows};
+pub use jacobian::{Jacobian, SparseRows};
 pub use marker::{Marker, Partial};
 pub use stages::STAGES;
 pub use tangent::Tangent;

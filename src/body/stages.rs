@@ -333,7 +333,7 @@ impl<const D: usize> Tangent<D> {
             if assembly.constraints() > 0 {
                 self.y.copy_from_slice(q);
                 elimination.project_in_place(&mut self.y);
-                self.held.measure(i, &self.y);
+                self.normals.measure(i, &self.y);
             }
         }
         match q.len() {
@@ -398,7 +398,7 @@ impl<const D: usize> Tangent<D> {
             let place = assembly.multiplier(constraint);
             (self.x[place], self.z[place]) = (0.0, Complex::new(0.0, 0.0));
         }
-        for (place, parts) in self.held.parts() {
+        for (place, parts) in self.normals.parts() {
             let of_stages = std::array::from_fn(|stage| parts[stage]);
             let mixed = |row: usize| product(&forward[row], &of_stages);
             if has_real {

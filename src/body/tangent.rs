@@ -13,7 +13,7 @@ use nalgebra::Complex;
 
 use super::connectivity::Node;
 use super::elimination::Elimination;
-use super::jacobian::{Jacobian, Rows};
+use super::jacobian::{Jacobian, SparseRows};
 use super::stages::{STAGES, Stages};
 use crate::math::sparse::{Matrix, Number};
 
@@ -30,7 +30,7 @@ pub struct Tangent<const D: usize> {
     pub(super) complex: Matrix<Complex<f64>>,
     /// Weights of inertia that the factors were made with, 1/s^2.
     pub(super) inertia: (f64, Complex<f64>),
-    pub(super) held: Held,
+    pub(super) normals: Normals,
     /// Scratch: free coordinates; vectors that matrices are applied to.
     pub(super) y: Vec<f64>,
     pub(super) x: Vec<f64>,
@@ -40,18 +40,18 @@ pub struct Tangent<const D: usize> {
     pub stages: Stages<D>,
 }
 
-/// The constraints where the tangent was made.
+/// Directions that constraints hold where the tangent was made.
 #[derive(Clone, Debug)]
-pub(super) struct Held {
+pub(super) struct Normals {
     /// Their derivatives by `q`.
-    rows: Rows,
+    rows: SparseRows,
     /// Where the multipliers of those that count stand in vectors that matrices are applied to.
     places: Vec<Option<usize>>,
     /// Parts of the stages along the rows.
     parts: [Vec<f64>; STAGES],
 }
 
-impl Held {
+impl Normals {
     /// Keeps the parts of a stage's `q` along the rows.
     pub(super) fn measure(&mut self, stage: usize, q: &[f64]) {
         for (row, part) in self.parts[stage].iter_mut().enumerate() {
@@ -90,7 +90,7 @@ impl<const D: usize> Tangent<D> {
             real: zeros,
             complex: Matrix::zeros(pattern),
             inertia: (0.0, Complex::new(0.0, 0.0)),
-            held: Held {
+            normals: Normals {
                 places: vec![None; parts.len()],
                 rows: jacobian.rows().clone(),
                 parts: [parts.clone(), parts.clone(), parts],
@@ -113,7 +113,7 @@ impl<const D: usize> Tangent<D> {
     /// Takes over the Jacobian of constraints; those of the assembly are told by their indices.
     pub fn hold(&mut self, elimination: &Elimination<D>, jacobian: &Jacobian, all: &[usize]) {
         let assembly = &elimination.assembly;
-        self.held.rows.copy_from(jacobian.rows());
+        self.normals.rows.copy_from(jacobian.rows());
         for constraint in 0..assembly.constraints() {
             // The multiplier of what does not count is zero.
             if let Some((slot, row)) = assembly.corner(constraint) {
@@ -122,7 +122,7 @@ impl<const D: usize> Tangent<D> {
         }
         for (row, constraint) in all.iter().enumerate() {
             let counts = jacobian.is_independent(row);
-            self.held.places[row] = counts.then(|| assembly.multiplier(*constraint));
+            self.normals.places[row] = counts.then(|| assembly.multiplier(*constraint));
             if let Some((slot, row)) = assembly.corner(*constraint).filter(|_| counts) {
                 self.stiffness.values[slot.entry(row, row)] = 0.0;
             }
@@ -210,13 +210,13 @@ impl<const D: usize> Tangent<D> {
     /// Solves in place with the real factors, in the coordinates `q`.
     pub fn solve(&mut self, elimination: &Elimination<D>, q: &mut [f64]) {
         let assembly = &elimination.assembly;
-        self.held.measure(0, q);
+        self.normals.measure(0, q);
         elimination.forces(q);
         assembly.put(q, &mut self.x);
         let scale = 1.0 / self.inertia.0;
         // Where inertia has no say a correction stays in the tangent plane.
         let scale = if scale.is_finite() { scale } else { 0.0 };
-        for (place, [part, ..]) in self.held.parts() {
+        for (place, [part, ..]) in self.normals.parts() {
             self.x[place] = scale * part;
         }
         self.real.solve(assembly.pattern(), &mut self.x);

@@ -11,7 +11,7 @@
 //! Geometric Numerical Integration, 2nd ed., section IV.4; minimum norm in singular configurations:
 //! F. E. Udwadia, R. E. Kalaba, Analytical Dynamics (1996).
 
-use crate::body::{Node, Rows, no_node, product};
+use crate::body::{Node, SparseRows, no_node, product};
 use crate::math::jet::Number;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::{System, Work};
@@ -31,7 +31,7 @@ pub struct ConstraintRow<'a, const D: usize> {
     view: &'a View<'a, D>,
     /// Its size, which residuals are relative to.
     pub size: f64,
-    rows: &'a Rows,
+    rows: &'a SparseRows,
     row: usize,
 }
 
