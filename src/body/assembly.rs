@@ -172,11 +172,12 @@ impl<const D: usize> Assembly<D> {
         self.pattern.range(vertex).start + row
     }
 
-    /// Where the multiplier of a constraint meets itself in matrices: a block, row and column in it.
-    pub fn corner(&self, constraint: usize) -> Option<(Slot, usize)> {
+    /// Adds a number where the multiplier of a constraint meets itself in a matrix.
+    pub fn add_corner(&self, constraint: usize, value: f64, matrix: &mut Matrix<f64>) {
         let Held { vertex, row, .. } = self.held[constraint];
-        let slot = self.pattern.slot(vertex, vertex)?;
-        Some((slot, row))
+        if let Some(slot) = self.pattern.slot(vertex, vertex) {
+            matrix.values[slot.entry(row, row)] += value;
+        }
     }
 
     /// What of `W^-1 y` is not zero, of the forces `y` of a constraint.
@@ -184,13 +185,12 @@ impl<const D: usize> Assembly<D> {
         factor.reach(&self.of_mass, &self.held[constraint].on)
     }
 
-    /// Tells where in matrices a constraint's derivatives by one node stand: the block of its multiplier by the
-    /// free coordinates, row and column in it, value.
-    pub fn for_gradient(
+    /// Adds the derivatives of a constraint by one node to a matrix, in the row and column of its multiplier.
+    pub fn add_gradient(
         &self,
         (constraint, node): (usize, usize),
         term: &Node<D>,
-        mut each: impl FnMut(Slot, usize, usize, f64),
+        matrix: &mut Matrix<f64>,
     ) {
         let Held { vertex, row, .. } = self.held[constraint];
         let Some(slot) = self.pattern.slot(vertex, self.vertices[node]) else {
@@ -199,14 +199,15 @@ impl<const D: usize> Assembly<D> {
         let term = term.as_flattened();
         match self.places[node] {
             Place::Alone(_) => {
-                let terms = term.iter().enumerate();
-                terms.for_each(|(column, value)| each(slot, row, column, *value));
+                for (column, value) in term.iter().enumerate() {
+                    matrix.values[slot.entry(row, column)] += value;
+                }
             }
             Place::Tied(index, _) => {
                 let start = self.ranges[index].start;
                 for entry in &self.entries[self.of_node[node].clone()] {
                     let value = entry.value * term[entry.coordinate];
-                    each(slot, row, entry.free - start, value);
+                    matrix.values[slot.entry(row, entry.free - start)] += value;
                 }
             }
         }

@@ -115,6 +115,7 @@ pub struct Jacobian {
     squares: Vec<f64>,
     counts: Vec<bool>,
     missing: Vec<f64>,
+    lambda: Vec<f64>,
     /// Scratch: free coordinates, zero between calls.
     y: Vec<f64>,
 }
@@ -141,6 +142,7 @@ impl Jacobian {
             squares: vec![0.0; rows.count()],
             counts: vec![false; rows.count()],
             missing: vec![0.0; rows.count()],
+            lambda: vec![0.0; rows.count()],
             y: vec![0.0; elimination.assembly.free()],
             reaches,
             pattern,
@@ -189,30 +191,10 @@ impl Jacobian {
         factors.factor_semidefinite(&self.pattern, (least, &self.squares), &mut self.counts);
     }
 
-    /// Changes `q` by the least that makes `J q = right` as far as rows count. What was taken out of it is
-    /// `J^T lambda`, zero for rows that do not count.
-    pub fn bring(&mut self, right: impl Fn(usize) -> f64, q: &mut [f64], lambda: &mut [f64]) {
-        self.bring_in(2, right, q, lambda);
-    }
-
-    /// The same without refinement: for an iteration that begins anew with what is missing.
-    pub fn bring_roughly(
-        &mut self,
-        right: impl Fn(usize) -> f64,
-        q: &mut [f64],
-        lambda: &mut [f64],
-    ) {
-        self.bring_in(1, right, q, lambda);
-    }
-
-    fn bring_in(
-        &mut self,
-        passes: usize,
-        right: impl Fn(usize) -> f64,
-        q: &mut [f64],
-        lambda: &mut [f64],
-    ) {
-        lambda.fill(0.0);
+    /// Changes `q` by the least that makes `J q = right` as far as rows count. Two passes do so to roundoff; one is
+    /// enough for an iteration that begins anew with what is missing.
+    pub fn bring(&mut self, passes: usize, right: impl Fn(usize) -> f64, q: &mut [f64]) {
+        self.lambda.fill(0.0);
         for _ in 0..passes {
             for (row, place) in self.place.iter().enumerate() {
                 self.missing[*place] = match self.counts[*place] {
@@ -221,7 +203,7 @@ impl Jacobian {
                 };
             }
             self.factors.solve_numbers(&self.pattern, &mut self.missing);
-            for (row, (place, lambda)) in self.place.iter().zip(&mut *lambda).enumerate() {
+            for (row, (place, lambda)) in self.place.iter().zip(&mut self.lambda).enumerate() {
                 let part = self.missing[*place];
                 if part != 0.0 {
                     self.rows.add(row, -part, q);
@@ -229,6 +211,11 @@ impl Jacobian {
                 }
             }
         }
+    }
+
+    /// Multipliers: what [`Jacobian::bring`] took out last is `J^T lambda`, zero for rows that do not count.
+    pub fn multipliers(&self) -> &[f64] {
+        &self.lambda
     }
 }
 

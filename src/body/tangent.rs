@@ -11,7 +11,7 @@
 
 use nalgebra::Complex;
 
-use super::connectivity::Node;
+use super::assembly::Assembly;
 use super::elimination::Elimination;
 use super::jacobian::{Jacobian, SparseRows};
 use super::stages::{STAGES, Stages};
@@ -111,35 +111,12 @@ impl<const D: usize> Tangent<D> {
     }
 
     /// Takes over the Jacobian of constraints; those of the assembly are told by their indices.
-    pub fn hold(&mut self, elimination: &Elimination<D>, jacobian: &Jacobian, all: &[usize]) {
-        let assembly = &elimination.assembly;
+    pub fn hold(&mut self, assembly: &Assembly<D>, jacobian: &Jacobian, all: &[usize]) {
         self.normals.rows.copy_from(jacobian.rows());
-        for constraint in 0..assembly.constraints() {
-            // The multiplier of what does not count is zero.
-            if let Some((slot, row)) = assembly.corner(constraint) {
-                self.stiffness.values[slot.entry(row, row)] = -1.0;
-            }
-        }
         for (row, constraint) in all.iter().enumerate() {
             let counts = jacobian.is_independent(row);
             self.normals.places[row] = counts.then(|| assembly.multiplier(*constraint));
-            if let Some((slot, row)) = assembly.corner(*constraint).filter(|_| counts) {
-                self.stiffness.values[slot.entry(row, row)] = 0.0;
-            }
         }
-    }
-
-    /// Adds the derivatives of a constraint by one node.
-    pub fn add_gradient(
-        &mut self,
-        elimination: &Elimination<D>,
-        (constraint, node): (usize, usize),
-        term: &Node<D>,
-    ) {
-        let assembly = &elimination.assembly;
-        assembly.for_gradient((constraint, node), term, |slot, row, column, value| {
-            self.stiffness.values[slot.entry(row, column)] += value;
-        });
     }
 
     /// Factors `m M + r R + K` for real weights `[m, r]`. False when it is not positive definite where the

@@ -35,9 +35,8 @@ pub struct Work<const D: usize = 2> {
     /// Jacobian of the non-linear constraints, and their multipliers at the last acceleration.
     pub(super) jacobian: Jacobian,
     pub(super) lambda: Vec<f64>,
-    /// What constraints ask for, and what they would say if nothing were asked.
+    /// What constraints ask for.
     pub(super) right: Vec<f64>,
-    pub(super) unread: Vec<f64>,
     pub(super) tangent: Tangent<D>,
     /// Power that comes in and that is dissipated at the last acceleration, W.
     pub(super) power: [f64; 2],
@@ -71,7 +70,6 @@ impl<const D: usize> Work<D> {
             travel: vec![0.0; system.slides.len()],
             before: system.blank_state(0.0),
             right: lambda.clone(),
-            unread: lambda.clone(),
             lambda,
             tangent: Tangent::new(
                 &system.elimination,
@@ -87,7 +85,7 @@ impl<const D: usize> Work<D> {
 
     /// Takes the part of `q` out that constraints do not allow, with the Jacobians of the last acceleration.
     pub(super) fn project_on_tangent_plane(&mut self, q: &mut [f64]) {
-        self.jacobian.bring(|_| 0.0, q, &mut self.unread);
+        self.jacobian.bring(2, |_| 0.0, q);
     }
 
     /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.

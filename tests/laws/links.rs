@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, DVector, Vector2};
 
 use flexbody::system::Model;
 
-use crate::laws::built::Moving;
 use crate::laws::closed::{bodies, ground, hold, on, rigid, started};
 use crate::laws::mechanism::{Kind, Mechanism};
 
@@ -80,21 +79,12 @@ fn compare(count: usize, is_closed: bool) {
         let pin = hold(Kind::Revolute, ground(end[0], end[1]), last);
         mechanism.holds.push(pin);
     }
-    let Moving {
-        system,
-        mut state,
-        mut work,
-    } = started(&mechanism);
-    for (i, rate) in state.rates.iter_mut().enumerate() {
+    let mut moving = started(&mechanism);
+    for (i, rate) in moving.state.rates.iter_mut().enumerate() {
         *rate = (2.3 * i as f64).cos();
     }
-    let mut model = Model::new(&system, &[], &mut work, &state);
-    assert!(model.project(&mut state));
-    let mut moving = Moving {
-        system,
-        state,
-        work,
-    };
+    let mut model = Model::new(&moving.system, &[], &mut moving.work, &moving.state);
+    assert!(model.project(&mut moving.state));
     let values = moving.evaluated();
     let residuals = values.residuals(&moving.system);
     assert!(

@@ -248,19 +248,32 @@ impl<const D: usize> Constraint<D> {
         }
     }
 
+    /// The two ends that it joins, where there are two.
+    fn ends(&self) -> Option<&[End<D>; 2]> {
+        match &self.kind {
+            ConstraintKind::Unit(_) | ConstraintKind::Along(_) => None,
+            ConstraintKind::Parallel(c) => Some(&c.ends),
+            ConstraintKind::Distance(c) => Some(&c.ends),
+            ConstraintKind::Across(c) => Some(&c.ends),
+            ConstraintKind::Coincident(c) => Some(&c.ends),
+        }
+    }
+
     /// Nodes that it ties together.
     pub fn nodes(&self, chains: &[CableChain<D>]) -> Vec<usize> {
         match &self.kind {
             ConstraintKind::Unit(c) => vec![c.node],
-            ConstraintKind::Parallel(c) => c.ends.iter().flat_map(End::nodes).collect(),
-            ConstraintKind::Distance(c) => c.ends.iter().flat_map(End::nodes).collect(),
-            ConstraintKind::Across(c) => c.ends.iter().flat_map(End::nodes).collect(),
-            ConstraintKind::Coincident(c) => c.ends.iter().flat_map(End::nodes).collect(),
             ConstraintKind::Along(c) => {
                 let first = chains[c.chain].nodes(0)[0];
                 let chain = first..first + chains[c.chain].node_count();
                 c.end.nodes().chain(chain).collect()
             }
+            _ => self
+                .ends()
+                .into_iter()
+                .flatten()
+                .flat_map(End::nodes)
+                .collect(),
         }
     }
 
@@ -281,12 +294,8 @@ impl<const D: usize> Constraint<D> {
     pub fn is_grounded(&self) -> bool {
         let ground = |end: &End<D>| end.marker().is_none();
         match &self.kind {
-            ConstraintKind::Unit(_) => false,
-            ConstraintKind::Parallel(c) => c.ends.iter().any(ground),
-            ConstraintKind::Distance(c) => c.ends.iter().any(ground),
-            ConstraintKind::Across(c) => c.ends.iter().any(ground),
-            ConstraintKind::Coincident(c) => c.ends.iter().any(ground),
             ConstraintKind::Along(c) => ground(&c.end),
+            _ => self.ends().is_some_and(|ends| ends.iter().any(ground)),
         }
     }
 }

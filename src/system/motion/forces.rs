@@ -156,18 +156,13 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel,
         };
-        tangent.hold(&self.elimination, &work.jacobian, &self.multipliers);
-        for (row, constraint) in self.constraints.iter().enumerate() {
-            constraint.stiffness(work.lambda[row], &view, &mut |a, b, block| {
+        for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
+            constraint.stiffness(*lambda, &view, &mut |a, b, block| {
                 assembly.add(a, b, block, &mut tangent.stiffness);
             });
-            if work.jacobian.is_independent(row) {
-                let index = self.multipliers[row];
-                constraint.gradient(&view).for_each(|node, term| {
-                    tangent.add_gradient(&self.elimination, (index, node), term);
-                });
-            }
         }
+        tangent.hold(assembly, &work.jacobian, &self.multipliers);
+        self.add_multipliers(&view, &work.jacobian, &mut tangent.stiffness);
     }
 
     /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.supply`:

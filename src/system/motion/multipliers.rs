@@ -11,8 +11,9 @@
 //! Geometric Numerical Integration, 2nd ed., section IV.4; minimum norm in singular configurations:
 //! F. E. Udwadia, R. E. Kalaba, Analytical Dynamics (1996).
 
-use crate::body::{Node, SparseRows, no_node, product};
+use crate::body::{Jacobian, Node, SparseRows, no_node, product};
 use crate::math::jet::Number;
+use crate::math::sparse::Matrix;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::{System, Work};
 
@@ -104,6 +105,26 @@ impl<const D: usize> System<D> {
         }
     }
 
+    /// Adds the rows and columns of multipliers to a matrix over the free coordinates: the derivatives of the constraints
+    /// that count. A multiplier of what does not count stands alone: it is zero.
+    pub(in crate::system) fn add_multipliers(
+        &self,
+        view: &View<'_, D>,
+        jacobian: &Jacobian,
+        matrix: &mut Matrix<f64>,
+    ) {
+        let assembly = &self.elimination.assembly;
+        (0..assembly.constraints()).for_each(|index| assembly.add_corner(index, -1.0, matrix));
+        let constraints = self.constraints.iter().zip(&self.multipliers).enumerate();
+        for (_, (constraint, index)) in constraints.filter(|(row, _)| jacobian.is_independent(*row))
+        {
+            assembly.add_corner(*index, 1.0, matrix);
+            constraint.gradient(view).for_each(|node, term| {
+                assembly.add_gradient((*index, node), term, matrix);
+            });
+        }
+    }
+
     /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`.
     pub(in crate::system) fn constrain(&self, work: &mut Work<D>, a: &mut [f64]) {
         self.jacobians(work);
@@ -122,7 +143,8 @@ impl<const D: usize> System<D> {
             }
         }
         work.jacobian.factor(RANK);
-        work.jacobian.bring(|row| right[row], a, &mut work.lambda);
+        work.jacobian.bring(2, |row| right[row], a);
+        work.lambda.copy_from_slice(work.jacobian.multipliers());
         work.right = right;
     }
 
@@ -150,7 +172,7 @@ impl<const D: usize> System<D> {
             }
             before = residual;
             self.jacobians(work);
-            self.correct(q, work, false, Constraint::value);
+            self.correct(q, work, 1, Constraint::value);
         }
         before
     }
@@ -159,16 +181,15 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work<D>) {
         self.jacobians(work);
         self.place_rates(v, work);
-        self.correct(v, work, true, constraint_rate);
+        self.correct(v, work, 2, constraint_rate);
     }
 
-    /// Adds what takes `missing` away to first order, with the Jacobians in `work`: to roundoff, or as exactly as an
-    /// iteration needs.
+    /// Adds what takes `missing` away to first order, with the Jacobians in `work` and in so many passes.
     fn correct(
         &self,
         q: &mut [f64],
         work: &mut Work<D>,
-        to_roundoff: bool,
+        passes: usize,
         missing: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
     ) {
         let mut right = std::mem::take(&mut work.right);
@@ -179,11 +200,7 @@ impl<const D: usize> System<D> {
         work.jacobian.factor(RANK);
         let mut change = std::mem::take(&mut work.a);
         change.fill(0.0);
-        let wanted = |row: usize| right[row];
-        match to_roundoff {
-            true => (work.jacobian).bring(wanted, &mut change, &mut work.unread),
-            false => (work.jacobian).bring_roughly(wanted, &mut change, &mut work.unread),
-        }
+        (work.jacobian).bring(passes, |row| right[row], &mut change);
         q.iter_mut().zip(&change).for_each(|(q, c)| *q += c);
         (work.right, work.a) = (right, change);
     }

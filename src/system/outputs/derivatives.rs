@@ -235,7 +235,8 @@ impl<const D: usize> Derivatives<D> {
         system.elimination.reduce(&self.one, &mut work.y, q);
         if !system.constraints.is_empty() {
             let (jacobian, right) = (&mut work.jacobian, &self.right);
-            jacobian.bring(|row| right[row], q, &mut self.lambda[k]);
+            jacobian.bring(2, |row| right[row], q);
+            self.lambda[k].copy_from_slice(jacobian.multipliers());
             for (row, value) in self.values.lambda.iter_mut().enumerate() {
                 value.re = self.lambda[0][row];
                 set_part(value, k, self.lambda[k][row]);

@@ -17,7 +17,7 @@ use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number, moving};
 use crate::math::row_space::RowSpace;
 use crate::math::space::Vector;
-use crate::math::sparse::General;
+use crate::math::sparse::{General, Matrix};
 use crate::system::end::End;
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
@@ -98,34 +98,12 @@ impl<const D: usize> System<D> {
         made.is_symmetric &= elsewhere.is_empty();
         made.others = [made.stiffness.clone(), made.damping.clone()];
         self.linearize_chains(work, at_rest, &mut probe, &mut made);
-        self.add_multipliers(work, &mut made.stiffness);
+        let mut multipliers = Matrix::zeros(pattern);
+        self.add_multipliers(&self.view(work), &work.jacobian, &mut multipliers);
+        made.stiffness.add_symmetric(1.0, &multipliers);
         add_elsewhere(&elsewhere, self.coordinates(), &mut made.border);
         self.add_turning(work, at_rest, &mut made);
         made
-    }
-
-    /// The rows and columns of multipliers.
-    fn add_multipliers(&self, work: &Work<D>, stiffness: &mut General<f64>) {
-        let (assembly, view) = (&self.elimination.assembly, self.view(work));
-        let mut counts = vec![false; assembly.constraints()];
-        for (row, constraint) in self.constraints.iter().enumerate() {
-            if !work.jacobian.is_independent(row) {
-                continue;
-            }
-            let index = self.multipliers[row];
-            counts[index] = true;
-            constraint.gradient(&view).for_each(|node, term| {
-                assembly.for_gradient((index, node), term, |slot, row, column, value| {
-                    stiffness.add_entry(slot, row, column, value);
-                    stiffness.add_entry(slot.flipped(), column, row, value);
-                });
-            });
-        }
-        for (constraint, counts) in counts.into_iter().enumerate() {
-            if let Some((slot, row)) = assembly.corner(constraint).filter(|_| !counts) {
-                stiffness.add_entry(slot, row, row, -1.0);
-            }
-        }
     }
 
     fn linearize_chains(

@@ -48,11 +48,11 @@ impl<'a, const D: usize> Linearization<'a, D> {
         assembly.take(&sum, product);
     }
 
-    /// `K` and `R` in an orthonormal basis of the motions that keep the constraints.
-    pub fn dense(&self) -> [DMatrix<f64>; 2] {
+    /// An orthonormal basis of the motions that keep the constraints, column by column, and `K` and `R` in it.
+    pub fn dense(&self) -> (Vec<Vec<f64>>, [DMatrix<f64>; 2]) {
         let basis = self.basis();
-        let columns: Vec<Vec<f64>> = basis.column_iter().map(|c| c.as_slice().to_vec()).collect();
-        self.project(&columns)
+        let projected = self.project(&basis);
+        (basis, projected)
     }
 
     /// `K` and `R` in a basis of columns `q` that keep the constraints. Elements are summed up one by one in
@@ -125,10 +125,11 @@ impl<'a, const D: usize> Linearization<'a, D> {
     }
 
     /// Orthonormal columns that the held directions leave.
-    pub fn basis(&self) -> DMatrix<f64> {
+    fn basis(&self) -> Vec<Vec<f64>> {
         let n = self.elimination.coordinates();
+        let axis = |k: usize| (0..n).map(|i| f64::from(u8::from(i == k))).collect();
         if self.units.is_empty() {
-            return DMatrix::identity(n, n);
+            return (0..n).map(axis).collect();
         }
         let mut rows = RowSpace::new(n, n);
         for k in 0..n {
@@ -148,7 +149,8 @@ impl<'a, const D: usize> Linearization<'a, D> {
             }
         }
         rows.factor(1e-7);
-        DMatrix::from_fn(n, self.modes().min(rows.rank()), |i, j| rows.unit(j)[i])
+        let columns = 0..self.modes().min(rows.rank());
+        columns.map(|k| rows.unit(k).to_vec()).collect()
     }
 
     /// Factors `s^2 I + s R + K`. `None` where that is singular.

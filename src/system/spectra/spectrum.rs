@@ -68,8 +68,10 @@ pub fn linearized<const D: usize>(
     state: &State,
 ) -> [DMatrix<f64>; 3] {
     let linear = at(system, inputs, work, state);
-    let [stiffness, damping] = linear.dense();
-    [linear.basis(), stiffness, damping]
+    let (basis, [stiffness, damping]) = linear.dense();
+    let columns = |i: usize, k: usize| basis[k][i];
+    let basis = DMatrix::from_fn(linear.elimination.coordinates(), basis.len(), columns);
+    [basis, stiffness, damping]
 }
 
 /// The equations linearized at a state as it is.
@@ -119,7 +121,7 @@ pub fn natural_frequencies<const D: usize>(
     if system.rotation == 0.0 {
         let squares = match &linear {
             linear if is_small(linear, count) => {
-                symmetric(&linear.dense()[0]).ok_or(SpectrumError::NotFinite)?
+                symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
             }
             linear if linear.is_symmetric => iteration::lowest(system, work, linear, count)?,
             linear => {
@@ -132,7 +134,7 @@ pub fn natural_frequencies<const D: usize>(
         return Ok(squares.iter().take(count).map(signed).collect());
     }
     let found = if is_small(&linear, count) {
-        let [stiffness, damping] = linear.dense();
+        let (_, [stiffness, damping]) = linear.dense();
         quadratic(&stiffness, &damping).ok_or(SpectrumError::NotFinite)?
     } else {
         iteration::slowest(system, work, &linear, count)?
@@ -198,13 +200,11 @@ pub fn eigenvalues<const D: usize>(
 
 /// All eigenvalues, by dense matrices; of a pair the one with the positive imaginary part.
 fn all<const D: usize>(linear: &Linearization<'_, D>) -> Result<Vec<Complex<f64>>, SpectrumError> {
-    let [stiffness, damping] = linear.dense();
+    let (basis, [stiffness, damping]) = linear.dense();
     if linear.is_damped {
         return quadratic(&stiffness, &damping).ok_or(SpectrumError::NotFinite);
     }
-    let basis = linear.basis();
-    let terms = basis.column_iter().map(|q| linear.size(q.as_slice()));
-    let terms = terms.fold(0.0, f64::max);
+    let terms = basis.iter().map(|q| linear.size(q)).fold(0.0, f64::max);
     if linear.is_symmetric {
         let squares = symmetric(&stiffness).ok_or(SpectrumError::NotFinite)?;
         let real = squares.iter().map(|k| Complex::new(*k, 0.0));
@@ -272,6 +272,5 @@ fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
 
 fn is_small<const D: usize>(linear: &Linearization<'_, D>, count: usize) -> bool {
     let n = linear.elimination.coordinates();
-    // The elimination as printed has no other solves.
-    n <= SMALL || (n <= MIDDLE && SHARE * count > n) || n != linear.elimination.scratch()
+    n <= SMALL || (n <= MIDDLE && SHARE * count > n)
 }
