@@ -3,8 +3,8 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    Action, Ends, First, Joint, JointKind, Load, LoadKind, Motion, MotionKind, Port, PortKind,
-    Scene, Turning, Value,
+    Action, Ends, Hold, Joint, Load, LoadKind, Motion, MotionKind, Port, PortKind, Scene, Turning,
+    Value,
 };
 use crate::system::Drive;
 
@@ -12,8 +12,13 @@ use crate::system::Drive;
 pub(super) fn parts(scene: &Scene) -> String {
     let resolved = scene.resolved();
     let joints = resolved.joints.iter().map(|joint| {
-        let (kind, between, holds) = joint_in_words(scene.dimension, joint);
-        row(&[&code(joint.name), kind, &between, &holds])
+        let kind = joint.kind.declaration().name;
+        let holds = joint
+            .holds
+            .iter()
+            .map(|hold| hold_in_words(scene.dimension, joint, hold));
+        let holds = holds.collect::<Vec<_>>().join("; ");
+        row(&[&code(joint.name), kind, &ends_in_words(&joint.ends), &holds])
     });
     let motions = resolved.motions.iter().map(|motion| {
         let what = format!("{} {}", driven(motion), code(motion.kind.of()));
@@ -107,11 +112,7 @@ fn crosses(port: &Port<'_>) -> String {
 }
 
 fn ends_in_words(ends: &Ends<'_>) -> String {
-    let first = match ends.first {
-        First::Ground(_) => "ground",
-        First::Marker(marker) => marker.name,
-    };
-    format!("{}, {}", code(first), code(ends.second.name))
+    format!("{}, {}", code(ends.first_name()), code(ends.second.name))
 }
 
 /// The point of the ground, where one is given.
@@ -129,69 +130,31 @@ fn given(before: &str, value: Option<f64>, unit: &str) -> String {
     })
 }
 
-/// Kind of a joint, what it joins and what it holds.
-fn joint_in_words(dimension: usize, joint: &Joint<'_>) -> (&'static str, String, String) {
-    match &joint.kind {
-        JointKind::Revolute(ends) => {
-            let holds = format!("the position{}", at_point(dimension, ends));
-            ("revolute", ends_in_words(ends), holds)
+/// What a joint holds.
+fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold<'_>) -> String {
+    let point = at_point(dimension, &joint.ends);
+    match hold {
+        Hold::Position => format!("the position{point}"),
+        Hold::Line(direction) => {
+            let axes = if joint.ends.is_grounded() {
+                ""
+            } else {
+                " of the first"
+            };
+            let along = vector(dimension, *direction);
+            format!("the position on a line along {along}{axes}{point}")
         }
-        JointKind::Weld(ends, angle) => {
-            let (point, angle) = (at_point(dimension, ends), given(" at", *angle, "rad"));
-            let holds = format!("position{point} and direction{angle}");
-            ("weld", ends_in_words(ends), holds)
-        }
-        JointKind::Slider(slider) => {
-            let ends = slider.ends();
-            let (along, point) = (
-                vector(dimension, slider.direction),
-                at_point(dimension, &ends),
-            );
-            let holds = format!("the position on a line along {along}{point}");
-            ("slider", ends_in_words(&ends), holds)
-        }
-        JointKind::Prismatic {
-            ends,
-            direction,
-            angle,
-        } => {
-            let (along, angle) = (vector(dimension, *direction), given(" at", *angle, "rad"));
-            let line = format!(
-                "the position on a line along {along} of the first{}",
-                at_point(dimension, ends)
-            );
-            let holds = format!("{line} and the direction{angle}");
-            ("prismatic", ends_in_words(ends), holds)
-        }
-        JointKind::Orientation(ends, angle) => {
-            let holds = format!("the direction{}", given(" at", *angle, "rad"));
-            ("orientation", ends_in_words(ends), holds)
-        }
-        JointKind::Distance(ends, length) => {
-            let length = given(" of", *length, "m");
-            let holds = format!("the distance{length}{}", at_point(dimension, ends));
-            ("distance", ends_in_words(ends), holds)
-        }
-        JointKind::Hinge {
-            ends,
+        Hold::Direction(angle) => format!("the direction{}", given(" at", *angle, "rad")),
+        Hold::Distance(length) => format!("the distance{}{point}", given(" of", *length, "m")),
+        Hold::Curve(..) => "the position on the line of the cable".into(),
+        Hold::Spring {
             rest,
             stiffness,
             damping,
         } => {
-            let (point, rest) = (
-                at_point(dimension, ends),
-                given(", at rest at", *rest, "rad"),
-            );
             let [k, c] = [*stiffness, *damping].map(number);
-            let holds = format!(
-                "the position{point}; {k} N m/rad and {c} N m s/rad against rotation{rest}"
-            );
-            ("hinge", ends_in_words(ends), holds)
-        }
-        JointKind::Along { cable, marker, .. } => {
-            let between = format!("{}, {}", code(&cable.body.name), code(marker.name));
-            let holds = "the position on the line of the cable".into();
-            ("along", between, holds)
+            let rest = given(", at rest at", *rest, "rad");
+            format!("{k} N m/rad and {c} N m s/rad against rotation{rest}")
         }
     }
 }
@@ -235,14 +198,8 @@ fn load_in_words(dimension: usize, load: &Load<'_>) -> (&'static str, String, St
             (what, code(action.on()), values(as_written))
         }
         LoadKind::Spring(spring) => {
-            let first = match spring.ends.first {
-                First::Ground(_) => code("ground"),
-                First::Marker(marker) => code(marker.name),
-            };
-            let (point, second) = (
-                at_point(dimension, &spring.ends),
-                code(spring.ends.second.name),
-            );
+            let (first, second) = (spring.ends.first_name(), spring.ends.second.name);
+            let point = at_point(dimension, &spring.ends);
             let [k, c] = [spring.stiffness, spring.damping].map(number);
             let length = spring.given.map_or(String::new(), |length| {
                 format!(", length at rest {} m", value(length))
@@ -250,7 +207,7 @@ fn load_in_words(dimension: usize, load: &Load<'_>) -> (&'static str, String, St
             let size = format!("{k} N/m, {c} N s/m{length}");
             (
                 "spring and damper",
-                format!("{first}{point}, {second}"),
+                format!("{}{point}, {}", code(first), code(second)),
                 size,
             )
         }

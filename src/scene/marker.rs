@@ -1,10 +1,10 @@
 //! Bodies and markers: how they are found by name, and where they are at the start.
 
 use super::resolved::{
-    Action, BodyReference, Cable, CableId, Ends, First, Joint, JointKind, Marker, MarkerId,
-    MotionKind, Pivot, Place, Resolved, Rigid, RigidId, Slider, Turning,
+    Action, BodyReference, Cable, CableId, Ends, First, Hold, Joint, Marker, MarkerId, MotionKind,
+    Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
 };
-use super::{Body, CableBody, RigidBody, Scene};
+use super::{Body, CableBody, RigidBody, Scene, Symbol};
 use crate::math::vector::{dot, norm};
 use crate::system::Drive;
 
@@ -189,6 +189,7 @@ impl<'a> Ends<'a> {
         let first = match self.first {
             First::Ground(point) => point.unwrap_or(second),
             First::Marker(marker) => marker.position,
+            First::Cable(_) => second,
         };
         [first, second]
     }
@@ -202,7 +203,7 @@ impl<'a> Ends<'a> {
     /// Direction of the second end less that of the first as described, from -pi to pi, rad.
     pub fn angle(&self) -> f64 {
         let a = match self.first {
-            First::Ground(_) => [1.0, 0.0, 0.0],
+            First::Ground(_) | First::Cable(_) => [1.0, 0.0, 0.0],
             First::Marker(marker) => marker.direction,
         };
         let b = self.second.direction;
@@ -213,7 +214,7 @@ impl<'a> Ends<'a> {
     pub fn point(&self) -> Option<[f64; 3]> {
         match self.first {
             First::Ground(point) => point,
-            First::Marker(_) => None,
+            First::Marker(_) | First::Cable(_) => None,
         }
     }
 
@@ -222,63 +223,85 @@ impl<'a> Ends<'a> {
         matches!(self.first, First::Ground(_))
     }
 
+    /// Name of the first end.
+    pub fn first_name(&self) -> &'a str {
+        match self.first {
+            First::Ground(_) => GROUND,
+            First::Marker(marker) => marker.name,
+            First::Cable(cable) => &cable.body.name,
+        }
+    }
+
     /// The markers of both ends.
     pub(super) fn markers(&self) -> Vec<Marker<'a>> {
         match self.first {
-            First::Ground(_) => vec![self.second],
+            First::Ground(_) | First::Cable(_) => vec![self.second],
             First::Marker(first) => vec![first, self.second],
         }
     }
 }
 
-impl<'a> Slider<'a> {
-    /// The ground and what slides.
-    pub fn ends(&self) -> Ends<'a> {
-        Ends {
-            first: First::Ground(self.point),
-            second: self.marker,
-        }
-    }
-}
-
 impl<'a> Joint<'a> {
-    /// Its second end: what it holds.
-    pub fn second(&self) -> Marker<'a> {
-        match self.kind {
-            JointKind::Revolute(ends)
-            | JointKind::Weld(ends, _)
-            | JointKind::Orientation(ends, _)
-            | JointKind::Distance(ends, _)
-            | JointKind::Prismatic { ends, .. }
-            | JointKind::Hinge { ends, .. } => ends.second,
-            JointKind::Slider(slider) => slider.marker,
-            JointKind::Along { marker, .. } => marker,
-        }
+    /// How it is drawn.
+    pub fn symbol(&self) -> Symbol {
+        self.kind.declaration().symbol
     }
 
-    /// Its ends, unless the first is a cable as a whole.
-    fn ends(&self) -> Option<Ends<'a>> {
-        match self.kind {
-            JointKind::Revolute(ends)
-            | JointKind::Weld(ends, _)
-            | JointKind::Orientation(ends, _)
-            | JointKind::Distance(ends, _)
-            | JointKind::Prismatic { ends, .. }
-            | JointKind::Hinge { ends, .. } => Some(ends),
-            JointKind::Slider(slider) => Some(slider.ends()),
-            JointKind::Along { .. } => None,
-        }
+    /// Stiffness (N m/rad) and damping (N m s/rad) of its spring.
+    pub fn spring(&self) -> Option<[f64; 2]> {
+        self.holds.iter().find_map(|hold| match hold {
+            Hold::Spring {
+                stiffness, damping, ..
+            } => Some([*stiffness, *damping]),
+            _ => None,
+        })
     }
 
-    /// The point of the ground, where one is given, m.
-    pub fn point(&self) -> Option<[f64; 3]> {
-        self.ends()?.point()
+    /// Whether it holds the direction of what it joins.
+    pub(super) fn holds_direction(&self) -> bool {
+        self.holds
+            .iter()
+            .any(|hold| matches!(hold, Hold::Direction(_)))
     }
 
-    /// The markers at both ends; the cable that it slides on has none.
-    pub(super) fn markers(&self) -> Vec<Marker<'a>> {
-        self.ends()
-            .map_or(vec![self.second()], |ends| ends.markers())
+    /// Whether it holds a position or a distance.
+    pub(super) fn holds_position(&self) -> bool {
+        let turns = |hold: &Hold<'_>| matches!(hold, Hold::Direction(_) | Hold::Spring { .. });
+        !self.holds.iter().all(turns)
+    }
+
+    /// As a joint with an angle: its ends turn about one point.
+    pub(super) fn pivot(&self) -> Option<Pivot<'a>> {
+        let is_pivot = matches!(
+            self.holds[..],
+            [Hold::Position] | [Hold::Position, Hold::Spring { .. }]
+        );
+        is_pivot.then_some(Pivot {
+            name: self.name,
+            joint: self.holder,
+            ends: self.ends,
+        })
+    }
+
+    /// As a slider on a fixed line.
+    pub(super) fn slider(&self) -> Option<Slider<'a>> {
+        let [Hold::Line(direction)] = self.holds[..] else {
+            return None;
+        };
+        let (name, ends) = (self.name, self.ends);
+        Some(Slider {
+            name,
+            ends,
+            direction,
+        })
+    }
+
+    /// The slide along a cable that it is.
+    pub(super) fn slide(&self) -> Option<SlideId> {
+        self.holds.iter().find_map(|hold| match hold {
+            Hold::Curve(_, slide) => Some(*slide),
+            _ => None,
+        })
     }
 }
 
@@ -315,7 +338,7 @@ impl<'a> MotionKind<'a> {
         match self {
             Self::Angle(turning, _) => turning.marker(),
             Self::Position(marker, _) => *marker,
-            Self::Displacement(slider, _) => slider.marker,
+            Self::Displacement(slider, _) => slider.ends.second,
         }
     }
 
@@ -336,8 +359,8 @@ impl<'a> MotionKind<'a> {
             }
             Self::Angle(Turning::Pivot(pivot), _) => vec![pivot.ends.angle()],
             Self::Position(marker, drives) => marker.position[..drives.len()].to_vec(),
-            Self::Displacement(slider, _) => vec![slider.point.map_or(0.0, |point| {
-                let way = difference(slider.marker.position, point);
+            Self::Displacement(slider, _) => vec![slider.ends.point().map_or(0.0, |point| {
+                let way = difference(slider.ends.second.position, point);
                 dot(&way, &slider.direction) / length(slider.direction)
             })],
         }

@@ -41,7 +41,7 @@ impl<'a> Resolved<'a> {
     fn loaded_markers(&self) -> Vec<Marker<'a>> {
         let mut found: Vec<Marker<'a>> = self.masses.iter().map(|mass| mass.marker).collect();
         found.extend(self.ports.iter().map(|port| port.marker));
-        found.extend(self.joints.iter().flat_map(|joint| joint.markers()));
+        found.extend(self.joints.iter().flat_map(|joint| joint.ends.markers()));
         found.extend(self.motions.iter().filter_map(|motion| match motion.kind {
             MotionKind::Position(marker, _) => Some(marker),
             MotionKind::Angle(Turning::Marker(marker), _) => Some(marker),

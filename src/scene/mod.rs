@@ -21,12 +21,12 @@ use serde::Deserialize;
 pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, Body, CableBody, Experiment, Initial, InitialMotion, InitialState, Integrator,
-    Interpolation, Material, Method, RigidBody, Scene, Section, Shape, Spin, Strain, Table, Value,
-    Vector,
+    Interpolation, Material, Method, RigidBody, Scene, Section, Shape, Spin, Strain, Symbol, Table,
+    Value, Vector,
 };
 pub use resolved::{
-    Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Holder,
-    HolderId, Input, InputKind, Joint, JointKind, Load, LoadKind, Marker, MarkerId, Mass, Motion,
+    Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Hold,
+    Holder, HolderId, Input, InputKind, Joint, Load, LoadKind, Marker, MarkerId, Mass, Motion,
     MotionKind, Output, Pivot, Place, Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId,
     Slider, Spring, Turning,
 };

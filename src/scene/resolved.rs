@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::description::{CableBody, Port as GivenPort, RigidBody, Scene, Value};
+use super::description::{CableBody, JointKind, Port as GivenPort, RigidBody, Scene, Value};
 use crate::system::{Drive, Signal};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
@@ -104,12 +104,14 @@ pub enum First<'a> {
     Ground(Option<[f64; 3]>),
     /// A marker.
     Marker(Marker<'a>),
+    /// A cable as a whole.
+    Cable(Cable<'a>),
 }
 
 /// The two ends of a joint or a spring.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends<'a> {
-    /// The ground or a marker.
+    /// The ground, a marker or a cable.
     pub first: First<'a>,
     /// A marker of another body.
     pub second: Marker<'a>,
@@ -131,10 +133,8 @@ pub struct Pivot<'a> {
 pub struct Slider<'a> {
     /// Name of the joint.
     pub name: &'a str,
-    /// A point of the line, m; where the marker is at the start if none is given.
-    pub point: Option<[f64; 3]>,
-    /// What it holds.
-    pub marker: Marker<'a>,
+    /// The ground and what it holds.
+    pub ends: Ends<'a>,
     /// Direction of the line, of any length.
     pub direction: [f64; 3],
 }
@@ -160,57 +160,41 @@ pub struct Mass<'a> {
 }
 
 /// A joint.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Joint<'a> {
     /// Name.
     pub name: &'a str,
     /// Which holder it is.
     pub holder: HolderId,
+    /// As described.
+    pub kind: JointKind,
+    /// What it joins.
+    pub ends: Ends<'a>,
     /// What it holds.
-    pub kind: JointKind<'a>,
+    pub holds: Vec<Hold<'a>>,
 }
 
 /// What a joint holds. Angles (rad) and lengths (m) that are not given are those at the start.
 #[derive(Clone, Copy, Debug)]
-pub enum JointKind<'a> {
+pub enum Hold<'a> {
     /// The position.
-    Revolute(Ends<'a>),
-    /// The position and the direction at this angle from that of the first end.
-    Weld(Ends<'a>, Option<f64>),
-    /// The marker on a fixed line.
-    Slider(Slider<'a>),
-    /// The marker on a line through the first end, and the direction at an angle from that end's.
-    Prismatic {
-        /// What it joins.
-        ends: Ends<'a>,
-        /// Direction of the line in the axes of the first end, of any length.
-        direction: [f64; 3],
-        /// The angle.
-        angle: Option<f64>,
-    },
-    /// The direction at this angle from that of the first end.
-    Orientation(Ends<'a>, Option<f64>),
-    /// This distance.
-    Distance(Ends<'a>, Option<f64>),
-    /// The position; a spring and a damper act against rotation.
-    Hinge {
-        /// What it joins.
-        ends: Ends<'a>,
+    Position,
+    /// The position on a line through the first end: its direction in the axes of that end, of any length.
+    Line([f64; 3]),
+    /// The direction, at this angle from that of the first end.
+    Direction(Option<f64>),
+    /// The distance.
+    Distance(Option<f64>),
+    /// The position on the curve of a cable, and which slide that is.
+    Curve(Cable<'a>, SlideId),
+    /// The direction, by a spring and a damper.
+    Spring {
         /// Angle at rest.
         rest: Option<f64>,
         /// Stiffness, N m/rad.
         stiffness: f64,
         /// Damping, N m s/rad.
         damping: f64,
-    },
-    /// The marker on the line of a cable.
-    Along {
-        /// The cable.
-        cable: Cable<'a>,
-        /// What slides on it.
-        marker: Marker<'a>,
-        /// Which slide it is.
-        slide: SlideId,
     },
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::integrators::{Method, Nystrom, RKN43, Radau, Rk4, Tolerance, VERLET};
-use crate::scene::{Error, Integrator, JointKind, LoadKind, Resolved};
+use crate::scene::{Error, Integrator, LoadKind, Resolved};
 use crate::system::{State, System, Work, fastest};
 
 /// Explicit methods pay up to a frequency of this many natural rates, times the cube root of the inverse
@@ -118,12 +118,9 @@ fn spring_rate(resolved: &Resolved<'_>, size: f64, mass: f64) -> f64 {
         LoadKind::Spring(spring) => Some(spring.stiffness),
         LoadKind::Action { .. } => None,
     });
-    let of_hinges = resolved.joints.iter().filter_map(|joint| match joint.kind {
-        JointKind::Hinge { stiffness, .. } => Some(stiffness),
-        _ => None,
-    });
+    let of_hinges = resolved.joints.iter().filter_map(|joint| joint.spring());
     let stiffest = of_springs
-        .chain(of_hinges.map(|stiffness| stiffness / (size * size)))
+        .chain(of_hinges.map(|[stiffness, _]| stiffness / (size * size)))
         .fold(0.0, f64::max);
     (stiffest / mass).sqrt()
 }

@@ -6,9 +6,7 @@ use std::ops::Range;
 use nalgebra::SMatrix;
 
 use super::end::{Angle, End, coupling};
-use super::joints::{
-    Coincident, Constraint, ConstraintKind, Joint, JointKind, Linear, Target, Unit, View,
-};
+use super::joints::{Coincident, Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
 use super::loads::Load;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, System};
@@ -289,7 +287,7 @@ fn constraints<const D: usize>(parts: &Parts<D>) -> (Vec<Linear<D>>, Vec<Constra
         }
     }
     for (index, joint) in parts.joints.iter().enumerate() {
-        joint.constraints(index, &mut linear, &mut nonlinear);
+        joint.constraints((index, &parts.nodes), &mut linear, &mut nonlinear);
     }
     release_pins(parts, &mut linear, &mut nonlinear);
     (linear, nonlinear)
@@ -308,8 +306,8 @@ fn release_pins<const D: usize>(
         let joint = &parts.joints[index];
         let joins = joint.ends.iter().all(|end| end.is_rigid());
         let mut nodes = joint.ends.iter().filter_map(|end| end.nodes().next());
-        match (&joint.kind, nodes.next(), nodes.next()) {
-            (JointKind::Revolute, Some(a), Some(_)) => joins && tied[a] > TIED,
+        match (nodes.next(), nodes.next()) {
+            (Some(a), Some(_)) => joint.is_pin() && joins && tied[a] > TIED,
             _ => false,
         }
     };

@@ -1,7 +1,7 @@
 //! From the description of a mechanism to the product's system.
 
 use flexbody::body::{Marker, Node};
-use flexbody::system::joints::{Joint, JointKind};
+use flexbody::system::joints::{Joint, Primitive};
 use flexbody::system::loads::{Distributed, Force, Load, Moment, Rotational, Spring};
 use flexbody::system::{
     Accepted, Angle, BuildError, CableChain, Drive, End, Evaluation, Lump, Model, NotAssembled,
@@ -60,29 +60,31 @@ impl Mechanism {
             drives.push(Drive::Function(wave.function()));
             drives.len() - 1
         };
-        let kind = match &hold.kind {
-            Kind::Revolute | Kind::Hinge(_) => JointKind::Revolute,
-            Kind::Weld(angle) => JointKind::Weld(*angle),
-            Kind::Slider(along) => JointKind::Slider(*along),
-            Kind::Orientation(angle) => JointKind::Orientation(*angle),
-            Kind::Prismatic(along, angle) => JointKind::Prismatic {
-                along: *along,
-                angle: *angle,
-                size: 1.0,
-            },
-            Kind::Distance(length) => JointKind::Distance(*length),
+        let holds = match &hold.kind {
+            Kind::Revolute | Kind::Hinge(_) => vec![Primitive::Coincident],
+            Kind::Weld(angle) => vec![Primitive::Coincident, Primitive::Direction(*angle)],
+            Kind::Slider(along) => vec![Primitive::Line(*along)],
+            Kind::Orientation(angle) => vec![Primitive::Direction(*angle)],
+            Kind::Prismatic(along, angle) => {
+                vec![Primitive::Line(*along), Primitive::Direction(*angle)]
+            }
+            Kind::Distance(length) => vec![Primitive::Distance(*length)],
             Kind::Along => {
                 let Point::On(place) = hold.ends[0] else {
                     panic!("a cable");
                 };
-                JointKind::Along(self.chain(place.body))
+                vec![Primitive::Curve(self.chain(place.body))]
             }
-            Kind::DrivenAngle(wave) => JointKind::DrivenAngle(drive(wave)),
-            Kind::DrivenPosition([a, b]) => JointKind::DrivenPosition([drive(a), drive(b)]),
-            Kind::DrivenWay(along, wave) => JointKind::DrivenWay(*along, drive(wave)),
+            Kind::DrivenAngle(wave) => vec![Primitive::DrivenDirection(drive(wave))],
+            Kind::DrivenPosition([a, b]) => {
+                vec![Primitive::DrivenPosition([drive(a), drive(b)])]
+            }
+            Kind::DrivenWay(along, wave) => {
+                vec![Primitive::DrivenDistance(*along, drive(wave))]
+            }
         };
         Joint {
-            kind,
+            holds,
             ends: hold.ends.map(|end| self.product_end(end)),
             spring: None,
         }

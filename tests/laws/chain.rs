@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use flexbody::body::{Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Blocks, Element, Nodal};
-use flexbody::system::joints::{Joint, JointKind};
+use flexbody::system::joints::{Joint, Primitive};
 use flexbody::system::loads::Load;
 use flexbody::system::{CableChain, End, Parts, State, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
@@ -147,15 +147,15 @@ impl Chain {
     fn joint(&self, held: &Held) -> Joint {
         let [position, slope] = self.nodes[held.node];
         let angle = slope.y.atan2(slope.x);
-        let kind = match held.hold {
-            Hold::Revolute => JointKind::Revolute,
-            Hold::Weld => JointKind::Weld(angle),
-            Hold::Slider(along) => JointKind::Slider(along),
-            Hold::Orientation => JointKind::Orientation(angle),
+        let holds = match held.hold {
+            Hold::Revolute => vec![Primitive::Coincident],
+            Hold::Weld => vec![Primitive::Coincident, Primitive::Direction(angle)],
+            Hold::Slider(along) => vec![Primitive::Line(along)],
+            Hold::Orientation => vec![Primitive::Direction(angle)],
         };
         let second = End::Body(self.marker(held.node));
         Joint {
-            kind,
+            holds,
             ends: [End::Ground(position), second],
             spring: None,
         }

@@ -62,7 +62,7 @@ impl Frame {
     fn constraints(&self, hold: &Hold) -> (Vec<Constraint>, Vec<Drive>) {
         let (mut linear, mut nonlinear, mut drives) = (Vec::new(), Vec::new(), Vec::new());
         let joint = self.made.joint(hold, &mut drives);
-        joint.constraints(0, &mut linear, &mut nonlinear);
+        joint.constraints((0, &self.x), &mut linear, &mut nonlinear);
         (nonlinear, drives)
     }
 

@@ -3,7 +3,7 @@
 use flexbody::body::{Marker, Node};
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Strain};
-use flexbody::system::joints::{Joint, JointKind};
+use flexbody::system::joints::{Joint, Primitive};
 use flexbody::system::{CableChain, End, Evaluation, Parts, System, Work};
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -47,7 +47,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
     }
     let chain = CableChain::new(cables.to_vec(), 0);
     let pin = Joint {
-        kind: JointKind::Revolute,
+        holds: vec![Primitive::Coincident],
         ends: [
             End::Ground(Vector2::zeros()),
             End::Body(Marker::inside(0, &chain, 0, 0.0)),

@@ -3,7 +3,7 @@
 use super::picture::{Picture, Place};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
-use crate::scene::{Ends, First, Joint, JointKind, LoadKind, MotionKind, Place as On, PortKind};
+use crate::scene::{Ends, First, Hold, Joint, LoadKind, MotionKind, Place as On, PortKind, Symbol};
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
 fn outward(place: &Place<'_>) -> [f64; 2] {
@@ -21,47 +21,52 @@ impl Picture<'_> {
     }
 
     fn joint(&mut self, joint: &Joint<'_>) {
-        let place = self.place(joint.second());
+        let (ends, place) = (&joint.ends, self.place(joint.ends.second));
         let (second, unit) = (place.point, self.unit);
-        match &joint.kind {
-            JointKind::Revolute(ends) => self.pin(ends),
-            JointKind::Hinge { ends, .. } => {
+        match joint.symbol() {
+            Symbol::Pin => self.pin(ends),
+            Symbol::Spiral => {
                 symbols::spiral(&mut self.canvas, second, unit);
                 self.pin(ends);
             }
-            JointKind::Weld(ends, _) if ends.is_grounded() => {
+            Symbol::Weld if ends.is_grounded() => {
                 let [first, _] = self.ends(ends);
                 symbols::weld(&mut self.canvas, first, outward(&place), unit);
             }
-            JointKind::Weld(..) => {
-                symbols::block(&mut self.canvas, second, place.direction, unit);
-            }
-            JointKind::Slider(slider) => {
-                let along = self.way(slider.direction);
+            Symbol::Weld => symbols::block(&mut self.canvas, second, place.direction, unit),
+            Symbol::Slider => {
+                let along = self.along(joint);
                 symbols::slider(&mut self.canvas, second, along, unit);
             }
-            JointKind::Prismatic {
-                ends, direction, ..
-            } => {
-                let [a, b] = self.way(*direction);
-                let [x, y] = match ends.first {
-                    First::Ground(_) => [1.0, 0.0],
-                    First::Marker(first) => self.place(first).direction,
-                };
-                let along = [a * x - b * y, a * y + b * x];
+            Symbol::Prismatic => {
+                let along = self.along(joint);
                 symbols::prismatic(&mut self.canvas, second, along, ends.is_grounded(), unit);
             }
-            JointKind::Orientation(..) => {
+            Symbol::Orientation => {
                 symbols::orientation(&mut self.canvas, second, place.direction, unit);
             }
-            JointKind::Distance(ends, _) => {
+            Symbol::Link => {
                 let [first, second] = self.ends(ends);
                 symbols::link(&mut self.canvas, first, second, unit);
                 self.foot(ends, first);
                 symbols::pin(&mut self.canvas, second, unit);
             }
-            JointKind::Along { .. } => symbols::ring(&mut self.canvas, second, unit),
+            Symbol::Ring => symbols::ring(&mut self.canvas, second, unit),
         }
+    }
+
+    /// Direction of the line that a joint holds its second marker on.
+    fn along(&self, joint: &Joint<'_>) -> [f64; 2] {
+        let given = joint.holds.iter().find_map(|hold| match hold {
+            Hold::Line(direction) => Some(*direction),
+            _ => None,
+        });
+        let [a, b] = self.way(given.unwrap_or_default());
+        let [x, y] = match joint.ends.first {
+            First::Marker(first) => self.place(first).direction,
+            First::Ground(_) | First::Cable(_) => [1.0, 0.0],
+        };
+        [a * x - b * y, a * y + b * x]
     }
 
     /// A pin between two bodies, or between the ground and one.

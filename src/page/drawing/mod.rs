@@ -47,7 +47,10 @@ pub fn icon(scene: &Scene) -> String {
 fn bounds(resolved: &Resolved<'_>) -> [Point; 2] {
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
-    let joints = resolved.joints.iter().filter_map(|joint| joint.point());
+    let joints = resolved
+        .joints
+        .iter()
+        .filter_map(|joint| joint.ends.point());
     let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
         LoadKind::Spring(spring) => spring.ends.point(),
         LoadKind::Action { .. } => None,

@@ -6,8 +6,8 @@ use super::picture::{BODY, FAINT, INK, Picture};
 use crate::page::canvas::{LINE, Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{
-    Action as Kind, BodyReference, CableBody, Ends, JointKind, LoadKind, Place as On, PortKind,
-    RigidBody,
+    Action as Kind, BodyReference, CableBody, Ends, LoadKind, Place as On, PortKind, RigidBody,
+    Symbol,
 };
 
 /// With more bodies than this, names would only cover each other.
@@ -100,9 +100,9 @@ impl<'a> Picture<'a> {
     /// Names of joints, motions and ports at their second markers.
     fn add_joints(&self, labels: &mut [Label<'a>]) {
         let resolved = self.resolved;
-        let is_link = |kind: &JointKind<'_>| matches!(kind, JointKind::Distance(..));
-        let joints = resolved.joints.iter().filter(|j| !is_link(&j.kind));
-        let joints = joints.map(|joint| (joint.second(), joint.name, FAINT));
+        let joints = resolved.joints.iter();
+        let joints = joints.filter(|joint| joint.symbol() != Symbol::Link);
+        let joints = joints.map(|joint| (joint.ends.second, joint.name, FAINT));
         let motions = resolved.motions.iter();
         let motions = motions.map(|m| (m.kind.marker(), m.name, symbols::MOTION));
         let is_force = |kind: &PortKind<'_>| matches!(kind, PortKind::Force { .. });
@@ -181,8 +181,8 @@ impl<'a> Picture<'a> {
             }
         }
         for joint in &self.resolved.joints {
-            if let JointKind::Distance(ends, _) = &joint.kind {
-                self.name_link(ends, joint.name, FAINT);
+            if joint.symbol() == Symbol::Link {
+                self.name_link(&joint.ends, joint.name, FAINT);
             }
         }
     }

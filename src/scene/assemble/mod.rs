@@ -7,7 +7,7 @@ mod ports;
 pub use initial::Motions;
 
 use super::resolved::{
-    self, Action, BodyReference, CouplingId, Ends, First, InputKind, JointKind, LoadKind, MarkerId,
+    self, Action, BodyReference, CouplingId, Ends, First, Hold, InputKind, LoadKind, MarkerId,
     Output, Place, Resolved, Spring, Turning,
 };
 use super::{CableBody, Error, Scene, Strain};
@@ -16,7 +16,7 @@ use crate::elements::cable::{self, Inertia};
 use crate::elements::{self, Nodal};
 use crate::math::function::Function;
 use crate::math::space::{Vector, axis, turned, vector};
-use crate::system::joints::{self, Joint};
+use crate::system::joints::{Joint, Primitive};
 use crate::system::loads::{self, Load};
 use crate::system::{Angle, BuildError, CableChain, End, Lump, Parts, Signal, System};
 
@@ -242,6 +242,10 @@ impl<const D: usize> Builder<'_, D> {
                 End::Ground(point.map_or(here, vector))
             }
             First::Marker(marker) => End::Body(self.marker(marker)),
+            First::Cable(cable) => {
+                let chain = &self.parts.chains[cable.id.chain];
+                End::Body(Marker::along(cable.id.body, chain, 0.5 * chain.length()))
+            }
         };
         [first, End::Body(second)]
     }
@@ -276,94 +280,74 @@ impl<const D: usize> Builder<'_, D> {
         }
     }
 
-    fn hold(&mut self, kind: joints::JointKind<D>, ends: [End<D>; 2]) {
-        let spring = None;
-        self.parts.joints.push(Joint { kind, ends, spring });
+    fn hold(&mut self, primitive: Primitive<D>, ends: [End<D>; 2]) {
+        self.parts.joints.push(Joint {
+            holds: vec![primitive],
+            ends,
+            spring: None,
+        });
     }
 
     fn joints(&mut self) {
         for joint in &self.resolved.joints {
-            self.joint(&joint.kind);
+            let ends = self.ends(joint.ends);
+            let holds = joint.holds.iter();
+            let holds = holds.filter_map(|hold| self.primitive(hold, joint, ends));
+            let holds = holds.collect();
+            let springs = joint.holds.iter();
+            let spring = springs.filter_map(|hold| self.spring_of(hold, ends)).next();
+            self.parts.joints.push(Joint {
+                holds,
+                ends,
+                spring,
+            });
         }
     }
 
-    fn joint(&mut self, kind: &JointKind<'_>) {
-        // From the direction of the first end to that of the second at the start, where none is given.
-        let angle = |builder: &Self, ends: [End<D>; 2], given: Option<f64>| {
-            given.unwrap_or_else(|| Angle { ends }.value(&builder.parts.nodes, 0.0))
+    /// From the direction of the first end to that of the second at the start, where none is given.
+    fn angle(&self, ends: [End<D>; 2], given: Option<f64>) -> f64 {
+        given.unwrap_or_else(|| Angle { ends }.value(&self.parts.nodes, 0.0))
+    }
+
+    /// The equations of what a joint holds; none of a spring.
+    fn primitive(
+        &self,
+        hold: &Hold<'_>,
+        joint: &resolved::Joint<'_>,
+        ends: [End<D>; 2],
+    ) -> Option<Primitive<D>> {
+        Some(match *hold {
+            Hold::Position => Primitive::Coincident,
+            Hold::Line(direction) => Primitive::Line(unit(direction)),
+            Hold::Direction(given) if D == 2 => Primitive::Direction(self.angle(ends, given)),
+            Hold::Direction(_) => Primitive::Clamped(vector(joint.ends.second.direction)),
+            Hold::Distance(given) => {
+                Primitive::Distance(given.unwrap_or_else(|| self.distance_at_start(&ends)))
+            }
+            Hold::Curve(cable, _) => Primitive::Curve(cable.id.chain),
+            Hold::Spring { .. } => return None,
+        })
+    }
+
+    /// Appends the spring of a hinge to the loads; its place there.
+    fn spring_of(&mut self, hold: &Hold<'_>, ends: [End<D>; 2]) -> Option<usize> {
+        let Hold::Spring {
+            rest,
+            stiffness,
+            damping,
+        } = *hold
+        else {
+            return None;
         };
-        match *kind {
-            JointKind::Revolute(ends) => self.hold(joints::JointKind::Revolute, self.ends(ends)),
-            JointKind::Weld(ends, given) => {
-                let (both, direction) = (self.ends(ends), vector(ends.second.direction));
-                let kind = match D {
-                    2 => joints::JointKind::Weld(angle(self, both, given)),
-                    _ => joints::JointKind::Clamp(direction),
-                };
-                self.hold(kind, both);
-            }
-            JointKind::Orientation(ends, given) => {
-                let ends = self.ends(ends);
-                self.hold(
-                    joints::JointKind::Orientation(angle(self, ends, given)),
-                    ends,
-                );
-            }
-            JointKind::Prismatic {
-                ends,
-                direction,
-                angle: given,
-            } => {
-                let ends = self.ends(ends);
-                let kind = joints::JointKind::Prismatic {
-                    along: unit(direction),
-                    angle: angle(self, ends, given),
-                    size: self.distance_at_start(&ends),
-                };
-                self.hold(kind, ends);
-            }
-            JointKind::Slider(slider) => {
-                let kind = joints::JointKind::Slider(unit(slider.direction));
-                self.hold(kind, self.ends(slider.ends()));
-            }
-            JointKind::Distance(ends, given) => {
-                let ends = self.ends(ends);
-                let length = given.unwrap_or_else(|| self.distance_at_start(&ends));
-                self.hold(joints::JointKind::Distance(length), ends);
-            }
-            JointKind::Hinge {
-                ends,
-                rest,
-                stiffness,
-                damping,
-            } => {
-                let ends = self.ends(ends);
-                self.hinge(ends, angle(self, ends, rest), [stiffness, damping]);
-            }
-            JointKind::Along { cable, marker, .. } => {
-                let chain = &self.parts.chains[cable.id.chain];
-                let first = Marker::along(cable.id.body, chain, 0.5 * chain.length());
-                let ends = [End::Body(first), End::Body(self.marker(marker))];
-                self.hold(joints::JointKind::Along(cable.id.chain), ends);
-            }
-        }
-    }
-
-    /// A pin with a spring and a damper against rotation.
-    fn hinge(&mut self, ends: [End<D>; 2], rest: f64, [stiffness, damping]: [f64; 2]) {
         let spring = loads::Rotational {
             ends,
+            rest: self.angle(ends, rest),
             angle: self.count_angle(ends),
             stiffness,
             damping,
-            rest,
         };
-        self.parts.joints.push(Joint {
-            kind: joints::JointKind::Revolute,
-            ends,
-            spring: Some(self.parts.loads.len()),
-        });
         self.parts.loads.push(Load::Rotational(spring));
+        Some(self.parts.loads.len() - 1)
     }
 
     fn loads(&mut self) {

@@ -2,7 +2,8 @@
 
 use super::{Builder, unit};
 use crate::scene::resolved::{MotionKind, PortKind};
-use crate::system::{Drive, joints};
+use crate::system::Drive;
+use crate::system::joints::Primitive;
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn motions(&mut self) {
@@ -20,18 +21,17 @@ impl<const D: usize> Builder<'_, D> {
     fn motion(&mut self, motion: &MotionKind<'_>) {
         match motion {
             MotionKind::Angle(turning, drive) => {
-                let kind = joints::JointKind::DrivenAngle(self.drive(drive));
-                self.hold(kind, self.turning(turning));
+                let driven = Primitive::DrivenDirection(self.drive(drive));
+                self.hold(driven, self.turning(turning));
             }
             MotionKind::Position(marker, drives) => {
                 let drives = std::array::from_fn(|k| self.drive(&drives[k]));
-                let kind = joints::JointKind::DrivenPosition(drives);
-                self.hold(kind, self.on_marker(*marker));
+                self.hold(Primitive::DrivenPosition(drives), self.on_marker(*marker));
             }
             MotionKind::Displacement(slider, drive) => {
                 let along = unit(slider.direction);
-                let kind = joints::JointKind::DrivenWay(along, self.drive(drive));
-                self.hold(kind, self.ends(slider.ends()));
+                let driven = Primitive::DrivenDistance(along, self.drive(drive));
+                self.hold(driven, self.ends(slider.ends));
             }
         }
     }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{MotionValue, Vector};
+use super::{Keys, Kind, MotionValue, Vector};
 
 /// A joint between two markers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -61,6 +61,86 @@ pub enum JointKind {
     Hinge,
     /// Holds the marker on the line of a cable.
     Along,
+}
+
+/// What keys, checks, equations, outputs, words and the symbol of a kind of joint derive from.
+#[derive(Clone, Copy, Debug)]
+pub struct Declaration {
+    /// Its name in scenes.
+    pub name: &'static str,
+    /// Its keys.
+    pub keys: &'static [Keys],
+    /// What it holds.
+    pub holds: &'static [Condition],
+    /// Whether its first end is the ground.
+    pub is_grounded: bool,
+    /// How it is drawn.
+    pub symbol: Symbol,
+}
+
+/// What a joint holds of its second marker, as the first one sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// The position, at that of the first marker.
+    Position,
+    /// The position, on a line through the first marker.
+    Line,
+    /// The direction.
+    Direction,
+    /// The distance.
+    Distance,
+    /// The position, on the curve of a cable, which stands in place of the first marker.
+    Curve,
+    /// The direction, by a spring and a damper.
+    Spring,
+}
+
+/// How a joint is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Symbol {
+    /// A circle, on a foot where one end is the ground.
+    Pin,
+    /// A spiral spring around a pin.
+    Spiral,
+    /// A hatched wall, or a block between two bodies.
+    Weld,
+    /// A sleeve on a rail.
+    Slider,
+    /// A sleeve on a line through a body.
+    Prismatic,
+    /// A circle with a bar.
+    Orientation,
+    /// A rod between two pins.
+    Link,
+    /// A ring around a cable.
+    Ring,
+}
+
+impl JointKind {
+    /// The one declaration of the kind.
+    #[rustfmt::skip] // a table
+    pub fn declaration(self) -> Declaration {
+        use Condition::{Curve, Direction, Distance, Line, Position, Spring};
+        let (name, keys, holds, symbol): (_, &[Keys], &[Condition], _) = match self {
+            Self::Revolute => ("revolute", &[(&[], &["point"])], &[Position], Symbol::Pin),
+            Self::Weld => ("weld", &[(&[], &["point", "angle"])], &[Position, Direction], Symbol::Weld),
+            Self::Slider => ("slider", &[(&["direction"], &["point"])], &[Line], Symbol::Slider),
+            Self::Prismatic => ("prismatic", &[(&[], &["point", "direction", "angle"])], &[Line, Direction], Symbol::Prismatic),
+            Self::Orientation => ("orientation", &[(&[], &["angle"])], &[Direction], Symbol::Orientation),
+            Self::Distance => ("distance", &[(&[], &["point", "length"])], &[Distance], Symbol::Link),
+            Self::Hinge => ("hinge", &[(&[], &["point", "angle", "stiffness", "damping"])], &[Position, Spring], Symbol::Spiral),
+            Self::Along => ("along", &[(&[], &[])], &[Curve], Symbol::Ring),
+        };
+        Declaration { name, keys, holds, is_grounded: self == Self::Slider, symbol }
+    }
+}
+
+impl Kind for JointKind {
+    const PART: &'static str = "Joint";
+
+    fn keys(&self) -> &'static [Keys] {
+        self.declaration().keys
+    }
 }
 
 /// A driven motion.

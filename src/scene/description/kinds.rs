@@ -19,23 +19,6 @@ pub trait Kind: DeserializeOwned {
     fn keys(&self) -> &'static [Keys];
 }
 
-impl Kind for JointKind {
-    const PART: &'static str = "Joint";
-
-    fn keys(&self) -> &'static [Keys] {
-        match self {
-            Self::Revolute => &[(&[], &["point"])],
-            Self::Weld => &[(&[], &["point", "angle"])],
-            Self::Slider => &[(&["direction"], &["point"])],
-            Self::Prismatic => &[(&[], &["point", "direction", "angle"])],
-            Self::Orientation => &[(&[], &["angle"])],
-            Self::Distance => &[(&[], &["point", "length"])],
-            Self::Hinge => &[(&[], &["point", "angle", "stiffness", "damping"])],
-            Self::Along => &[(&[], &[])],
-        }
-    }
-}
-
 impl Kind for MotionKind {
     const PART: &'static str = "Motion";
 

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 pub use about::About;
 pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Section, Shape, Strain};
 pub use initial::{Initial, InitialState};
-pub use joint::{Joint, JointKind, Motion, MotionKind};
+pub use joint::{Condition, Declaration, Joint, JointKind, Motion, MotionKind, Symbol};
 pub use kinds::{Keys, Kind, tell_apart};
 pub use load::{Input, InputKind, Load, LoadKind};
 pub use output::{Output, OutputKind};

@@ -1,12 +1,10 @@
 //! Checks of joints.
 
-use super::checks::{
-    Key, expected, finite, keys, needed, planar, positive, quoted, spring_damper, vector,
-};
+use super::checks::{Key, expected, finite, keys, planar, positive, quoted, spring_damper, vector};
 use crate::scene::Error;
-use crate::scene::description::{Joint, JointKind, Kind as _};
+use crate::scene::description::{Condition, Declaration, Joint, Kind as _};
 use crate::scene::marker::GROUND;
-use crate::scene::resolved::{self, Ends, Resolved, SlideId, Slider};
+use crate::scene::resolved::{self, Ends, First, Hold, Resolved, SlideId};
 
 impl Joint {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
@@ -21,21 +19,29 @@ impl Joint {
         keys(path, "joint", &all, self.kind.keys())
     }
 
-    /// In space there is nothing yet that has an angle.
+    /// In space nothing has an angle yet, but a cable has a direction.
     fn validate_dimension(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        let instead = "revolute, slider, distance or along, or weld from the ground to a cable,";
-        let found = match self.kind {
-            JointKind::Prismatic => "prismatic",
-            JointKind::Orientation => "orientation",
-            JointKind::Hinge => "hinge",
-            JointKind::Weld if self.markers[0] != GROUND => "weld between two bodies",
-            JointKind::Weld if self.angle.is_some() => {
-                let place = format!("{path}.angle");
-                return planar(&place, dimension, "nothing", "an angle");
+        let Declaration { name, holds, .. } = self.kind.declaration();
+        let instead = "revolute, slider, distance or along, or weld, orientation or prismatic from the ground \
+                       to a cable,";
+        let kind = format!("{path}.kind");
+        if holds.contains(&Condition::Spring) {
+            return planar(&kind, dimension, instead, name);
+        }
+        if holds.contains(&Condition::Direction) {
+            if self.markers[0] != GROUND {
+                planar(
+                    &kind,
+                    dimension,
+                    instead,
+                    &format!("{name} between two bodies"),
+                )?;
             }
-            _ => return Ok(()),
-        };
-        planar(&format!("{path}.kind"), dimension, instead, found)
+            if self.angle.is_some() {
+                planar(&format!("{path}.angle"), dimension, "nothing", "an angle")?;
+            }
+        }
+        Ok(())
     }
 
     fn validate_numbers(&self, path: &str, dimension: usize) -> Result<(), Error> {
@@ -64,98 +70,95 @@ impl<'a> Resolved<'a> {
             let path = format!("joints[{index}]");
             joint.validate_keys(&path)?;
             joint.validate_dimension(&path, self.scene.dimension)?;
-            let kind = self.resolve_joint(&path, joint)?;
+            let ends = self.joint_ends(&path, joint)?;
+            joint.validate_numbers(&path, self.scene.dimension)?;
+            let holds = joint.kind.declaration().holds.iter();
+            let holds =
+                holds.map(|condition| self.resolve_condition(&path, joint, *condition, &ends));
+            let holds = holds.collect::<Result<_, _>>()?;
             let holder = self.hold(&path, &joint.name);
             self.joints.push(resolved::Joint {
                 name: &joint.name,
                 holder,
-                kind,
+                kind: joint.kind,
+                ends,
+                holds,
             });
         }
         Ok(())
     }
 
-    fn resolve_slide(
-        &self,
-        path: &str,
-        joint: &'a Joint,
-    ) -> Result<resolved::JointKind<'a>, Error> {
-        let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));
-        let cable = self.require_cable(&first, &joint.markers[0])?;
-        let marker = self.require_marker(&second, &joint.markers[1])?;
-        self.require_two(path, [cable.id.body, marker.place.body_index()])?;
-        let is_slide =
-            |joint: &&resolved::Joint| matches!(joint.kind, resolved::JointKind::Along { .. });
-        Ok(resolved::JointKind::Along {
-            cable,
-            marker,
-            slide: SlideId(self.joints.iter().filter(is_slide).count()),
-        })
-    }
-
-    /// What a joint between two ends joins; their values are checked.
+    /// What a joint joins.
     fn joint_ends(&self, path: &str, joint: &'a Joint) -> Result<Ends<'a>, Error> {
+        let Declaration {
+            holds, is_grounded, ..
+        } = joint.kind.declaration();
         let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));
         let [a, b] = &joint.markers;
-        if joint.kind == JointKind::Slider && a != GROUND {
+        if is_grounded && a != GROUND {
             return Err(expected(&first, "\"ground\"", quoted(a)));
         }
-        let ends = self.require_pair(path, &joint.markers, joint.point)?;
-        use JointKind::{Hinge, Orientation, Prismatic, Weld};
-        if joint.kind == Weld && self.scene.dimension == 3 {
-            self.require_cable_marker(&second, b)?;
-        } else if matches!(joint.kind, Weld | Orientation | Hinge | Prismatic) {
-            if a != GROUND {
-                self.require_turning(&first, a)?;
-            }
-            self.require_turning(&second, b)?;
+        if holds.contains(&Condition::Curve) {
+            let cable = self.require_cable(&first, a)?;
+            let marker = self.require_marker(&second, b)?;
+            self.require_two(path, [cable.id.body, marker.place.body_index()])?;
+            let first = First::Cable(cable);
+            return Ok(Ends {
+                first,
+                second: marker,
+            });
         }
-        joint.validate_numbers(path, self.scene.dimension)?;
+        let ends = self.require_pair(path, &joint.markers, joint.point)?;
+        let turns = |of: &Condition| matches!(of, Condition::Direction | Condition::Spring);
+        if !holds.iter().any(turns) {
+            return Ok(ends);
+        }
+        if self.scene.dimension == 3 {
+            self.require_cable_marker(&second, b)?;
+            return Ok(ends);
+        }
+        if a != GROUND {
+            self.require_turning(&first, a)?;
+        }
+        self.require_turning(&second, b)?;
         Ok(ends)
     }
 
-    fn resolve_joint(
+    /// A condition of a joint with its values.
+    fn resolve_condition(
         &self,
         path: &str,
-        joint: &'a Joint,
-    ) -> Result<resolved::JointKind<'a>, Error> {
-        use resolved::JointKind as Kind;
-        let ends = || self.joint_ends(path, joint);
-        Ok(match joint.kind {
-            JointKind::Revolute => Kind::Revolute(ends()?),
-            JointKind::Weld => Kind::Weld(ends()?, joint.angle),
-            JointKind::Slider => Kind::Slider(Slider {
-                name: &joint.name,
-                point: joint.point.map(|point| point.full()),
-                marker: ends()?.second,
-                direction: needed(path, "direction", "a direction [x, y]", joint.direction)?.full(),
-            }),
-            JointKind::Prismatic => Kind::Prismatic {
-                ends: ends()?,
-                direction: joint.direction.map_or([1.0, 0.0, 0.0], |of| of.full()),
-                angle: joint.angle,
-            },
-            JointKind::Orientation => Kind::Orientation(ends()?, joint.angle),
-            JointKind::Distance => {
-                let ends = ends()?;
-                if joint.length.is_none() && ends.distance() <= 0.0 {
-                    let wanted = "a length, since the markers are at the same place at the start";
-                    return Err(expected(&format!("{path}.length"), wanted, "nothing"));
-                }
-                Kind::Distance(ends, joint.length)
+        joint: &Joint,
+        condition: Condition,
+        ends: &Ends<'a>,
+    ) -> Result<Hold<'a>, Error> {
+        Ok(match condition {
+            Condition::Position => Hold::Position,
+            Condition::Line => {
+                // By default the direction of the first end itself.
+                Hold::Line(joint.direction.map_or([1.0, 0.0, 0.0], |of| of.full()))
             }
-            JointKind::Hinge => {
-                let (ends, stiffness) = (ends()?, (joint.stiffness, "N m/rad"));
+            Condition::Direction => Hold::Direction(joint.angle),
+            Condition::Distance if joint.length.is_none() && ends.distance() <= 0.0 => {
+                let wanted = "a length, since the markers are at the same place at the start";
+                return Err(expected(&format!("{path}.length"), wanted, "nothing"));
+            }
+            Condition::Distance => Hold::Distance(joint.length),
+            Condition::Curve => {
+                let cable = self.require_cable(path, &joint.markers[0])?;
+                let slides = self.joints.iter().filter_map(|joint| joint.slide());
+                Hold::Curve(cable, SlideId(slides.count()))
+            }
+            Condition::Spring => {
+                let stiffness = (joint.stiffness, "N m/rad");
                 let [stiffness, damping] =
                     spring_damper(path, stiffness, (joint.damping, "N m s/rad"))?;
-                Kind::Hinge {
-                    ends,
+                Hold::Spring {
                     rest: joint.angle,
                     stiffness,
                     damping,
                 }
             }
-            JointKind::Along => self.resolve_slide(path, joint)?,
         })
     }
 }

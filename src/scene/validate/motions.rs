@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::checks::{Key, components, expected, keys, needed, quoted, shape, value};
 use crate::scene::Error;
 use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue};
-use crate::scene::resolved::{self, JointKind, Resolved, Slider, Turning};
+use crate::scene::resolved::{self, Resolved, Slider, Turning};
 use crate::system::Drive;
 
 /// Most derivatives that the master sets with a motion.
@@ -76,10 +76,8 @@ impl<'a> Resolved<'a> {
     }
 
     fn require_slider(&self, path: &str, name: &str) -> Result<Slider<'a>, Error> {
-        match self.require_joint(path, name)?.kind {
-            JointKind::Slider(slider) => Ok(slider),
-            _ => Err(expected(path, "a slider", quoted(name))),
-        }
+        let slider = self.require_joint(path, name)?.slider();
+        slider.ok_or_else(|| expected(path, "a slider", quoted(name)))
     }
 
     fn one_drive(&mut self, path: &str, given: &MotionValue) -> Result<Drive, Error> {

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::checks::{Key, expected, keys, needed, planar, quoted};
 use crate::scene::Error;
 use crate::scene::description::{Kind as _, Output, OutputKind};
-use crate::scene::resolved::{self, AngleId, JointKind, MotionKind, Reaction, Resolved, Turning};
+use crate::scene::resolved::{self, AngleId, MotionKind, Reaction, Resolved, Turning};
 
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
@@ -134,10 +134,9 @@ impl<'a> Resolved<'a> {
 
     fn travel(&self, path: &str, name: &str) -> Result<resolved::Output<'a>, Error> {
         let joint = self.require_joint(path, name)?;
-        match joint.kind {
-            JointKind::Along { slide, .. } => Ok(resolved::Output::Travel(joint.name, slide)),
-            _ => Err(expected(path, "a joint of kind along", quoted(name))),
-        }
+        let slide = joint.slide();
+        let slide = slide.ok_or_else(|| expected(path, "a joint of kind along", quoted(name)))?;
+        Ok(resolved::Output::Travel(joint.name, slide))
     }
 
     fn reaction(&self, path: &str, output: &'a Output) -> Result<Reaction<'a>, Error> {
@@ -151,18 +150,9 @@ impl<'a> Resolved<'a> {
         if is_moment {
             planar(&path, self.scene.dimension, "no moment", &quoted(name))?;
         }
-        let (wanted, offered) = match (is_moment, joint.kind) {
-            (false, kind) => (
-                "a joint that transmits a force",
-                !matches!(kind, JointKind::Orientation(..)),
-            ),
-            (true, kind) => (
-                "a joint that transmits a moment",
-                matches!(
-                    kind,
-                    JointKind::Weld(..) | JointKind::Orientation(..) | JointKind::Prismatic { .. }
-                ),
-            ),
+        let (wanted, offered) = match is_moment {
+            false => ("a joint that transmits a force", joint.holds_position()),
+            true => ("a joint that transmits a moment", joint.holds_direction()),
         };
         if !offered {
             return Err(expected(&path, wanted, quoted(name)));

@@ -3,7 +3,7 @@
 use super::checks::{expected, planar, quoted, vector};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
-    BodyReference, Cable, Ends, First, Joint, JointKind, Marker, Pivot, Place, Resolved,
+    BodyReference, Cable, Ends, First, Joint, Marker, Pivot, Place, Resolved,
 };
 use crate::scene::{Error, Vector};
 
@@ -98,8 +98,8 @@ impl<'a> Resolved<'a> {
         ))
     }
 
-    pub(super) fn require_joint(&self, path: &str, name: &str) -> Result<Joint<'a>, Error> {
-        let found = self.joints.iter().find(|joint| joint.name == name).copied();
+    pub(super) fn require_joint(&self, path: &str, name: &str) -> Result<&Joint<'a>, Error> {
+        let found = self.joints.iter().find(|joint| joint.name == name);
         found.ok_or_else(|| expected(path, "a joint of this scene", quoted(name)))
     }
 
@@ -108,11 +108,10 @@ impl<'a> Resolved<'a> {
         let instead =
             "nothing that has an angle or takes a moment, which a cable without torsion does not,";
         planar(path, self.scene.dimension, instead, &quoted(name))?;
-        let found = self.require_joint(path, name)?;
-        let (JointKind::Revolute(ends) | JointKind::Hinge { ends, .. }) = found.kind else {
+        let Some(pivot) = self.require_joint(path, name)?.pivot() else {
             return Err(expected(path, "a revolute joint or a hinge", quoted(name)));
         };
-        for marker in ends.markers() {
+        for marker in pivot.ends.markers() {
             if !marker.place.turns() {
                 let body = quoted(marker.place.body().name());
                 let found = format!("{}, where {body} has no inertia", quoted(name));
@@ -123,10 +122,6 @@ impl<'a> Resolved<'a> {
                 ));
             }
         }
-        Ok(Pivot {
-            name: found.name,
-            joint: found.holder,
-            ends,
-        })
+        Ok(pivot)
     }
 }

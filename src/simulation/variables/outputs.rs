@@ -3,8 +3,7 @@
 use super::unit::*;
 use super::{AXES, HolderId, List, MarkerId, Quantity, Source, Unit, component};
 use crate::scene::{
-    InputKind, JointKind, LoadKind, Marker, Output, Port, PortKind, Reaction, Resolved, SlideId,
-    Turning,
+    InputKind, LoadKind, Marker, Output, Port, PortKind, Reaction, Resolved, SlideId, Turning,
 };
 
 /// Adds the outputs of a scene.
@@ -228,10 +227,8 @@ fn stiffnesses(resolved: &Resolved<'_>) -> Vec<f64> {
         LoadKind::Spring(spring) => Some(spring.stiffness),
         LoadKind::Action { .. } => None,
     });
-    let hinges = resolved.joints.iter().filter_map(|joint| match joint.kind {
-        JointKind::Hinge { stiffness, .. } => Some(stiffness),
-        _ => None,
-    });
+    let hinges = resolved.joints.iter().filter_map(|joint| joint.spring());
+    let hinges = hinges.map(|[stiffness, _]| stiffness);
     let couplings = resolved.ports.iter().filter_map(|port| match &port.kind {
         PortKind::Coupling { position, angle } => {
             let turning = angle.as_ref().map_or(0.0, |angle| angle.stiffness);

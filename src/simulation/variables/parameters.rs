@@ -2,7 +2,7 @@
 
 use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
-use crate::scene::{BodyReference, Cable, JointKind, LoadKind, PortKind, Resolved, Rigid};
+use crate::scene::{BodyReference, Cable, LoadKind, PortKind, Resolved, Rigid};
 
 /// Key, meaning, unit, what it stands for, start value.
 type Row<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
@@ -77,13 +77,10 @@ fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
     for (i, joint) in resolved.joints.iter().enumerate() {
-        if let JointKind::Hinge {
-            stiffness, damping, ..
-        } = joint.kind
-        {
+        if let Some(starts) = joint.spring() {
             let units = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
             let parameters = [HingeStiffness(i), HingeDamping(i)];
-            list.damper(joint.name, units, parameters, [stiffness, damping]);
+            list.damper(joint.name, units, parameters, starts);
         }
     }
     for (i, load) in resolved.loads.iter().enumerate() {

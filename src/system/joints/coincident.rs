@@ -1,7 +1,7 @@
-//! Points of two bodies coincide, along one axis: `n . (r2 - r1) = 0`. What a pin holds where it joins so many bodies
-//! that eliminating it would tie all of them together.
+//! Points of two bodies coincide: linear rows. Where a pin joins so many bodies that eliminating it would tie all of them
+//! together, a constraint along every axis, `n . (r2 - r1) = 0`.
 
-use super::{Gradient, View};
+use super::{ConstraintKind, Gradient, Rows, Target, View};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis};
 use crate::system::end::End;
@@ -15,6 +15,14 @@ pub struct Coincident<const D: usize> {
     pub axis: usize,
     /// What residuals are relative to, m.
     pub size: f64,
+}
+
+/// Holds the position.
+pub(super) fn hold<const D: usize>(rows: &mut Rows<'_, D>) -> Option<ConstraintKind<D>> {
+    for k in 0..D {
+        rows.hold_position(axis(k), Target::Fixed);
+    }
+    None
 }
 
 impl<const D: usize> Coincident<D> {

@@ -1,6 +1,6 @@
 //! Distance link: a massless rigid rod, `(d.d - L^2) / (2 L) = 0`.
 
-use super::{Gradient, View};
+use super::{ConstraintKind, Gradient, Rows, View};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::{Add, End, isotropic};
@@ -12,6 +12,12 @@ pub struct Distance<const D: usize> {
     pub ends: [End<D>; 2],
     /// Length, m.
     pub length: f64,
+}
+
+/// Holds the distance of the ends, m.
+pub(super) fn hold<const D: usize>(rows: &Rows<'_, D>, length: f64) -> Option<ConstraintKind<D>> {
+    let ends = *rows.ends;
+    Some(ConstraintKind::Distance(Distance { ends, length }))
 }
 
 impl<const D: usize> Distance<D> {

@@ -1,22 +1,19 @@
-//! Joints and motions: one file a kind. What is linear in nodal coordinates becomes rows of `Phi`; the
-//! rest becomes constraints with multipliers.
+//! Joints and motions: what they are made of, one file a primitive. What is linear in nodal coordinates becomes rows of
+//! `Phi`; the rest becomes constraints with multipliers.
 
-mod across;
-mod along;
 mod coincident;
+mod direction;
 mod distance;
+mod line;
 mod motion;
-mod orientation;
-mod revolute;
-mod slider;
+mod point_on_curve;
 mod unit;
-mod weld;
 
-pub use across::Across;
-pub use along::Along;
 pub use coincident::Coincident;
+pub use direction::Parallel;
 pub use distance::Distance;
-pub use orientation::Parallel;
+pub use line::Across;
+pub use point_on_curve::Along;
 pub use unit::Unit;
 
 use super::CableChain;
@@ -25,56 +22,34 @@ use crate::body::{Node, Row};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
-/// What a joint or a motion holds.
+/// What joints and motions are made of: a condition on the second end, seen from the first.
 #[derive(Clone, Debug)]
-pub enum JointKind<const D: usize = 2> {
-    /// The position of one end on the other: a pin.
-    Revolute,
-    /// The position, and the direction at this angle from that of the first end (rad).
-    Weld(f64),
-    /// The position, and the direction of a cable along this unit vector (first end: ground).
-    Clamp(Vector<D>),
-    /// The position across this unit direction (first end: ground).
-    Slider(Vector<D>),
-    /// The position across a line through the first end, and the direction.
-    Prismatic {
-        /// Unit direction of the line in the axes of the first end.
-        along: Vector<D>,
-        /// Angle of the direction from that of the first end, rad.
-        angle: f64,
-        /// Distance of the ends at the start, m.
-        size: f64,
-    },
-    /// The direction, at this angle from that of the first end (rad).
-    Orientation(f64),
+pub enum Primitive<const D: usize = 2> {
+    /// Both ends are at one place.
+    Coincident,
+    /// The second end is on the line through the first one along this unit vector, given in the axes of the first end.
+    Line(Vector<D>),
+    /// The direction is at this angle from that of the first end (rad).
+    Direction(f64),
+    /// The direction of a cable is along this unit vector (first end: ground).
+    Clamped(Vector<D>),
     /// The distance, m.
     Distance(f64),
-    /// The second end on this chain.
-    Along(usize),
-    /// The direction, at a driven angle from that of the first end.
-    DrivenAngle(usize),
-    /// The position at driven coordinates (first end: ground).
+    /// The second end is on this chain.
+    Curve(usize),
+    /// The direction is at a driven angle from that of the first end.
+    DrivenDirection(usize),
+    /// The position has driven coordinates (first end: ground).
     DrivenPosition([usize; D]),
-    /// The position along this unit direction at a driven way from the first end (ground).
-    DrivenWay(Vector<D>, usize),
-}
-
-impl<const D: usize> JointKind<D> {
-    /// Driven coordinates that it follows.
-    pub fn drives(&self) -> &[usize] {
-        match self {
-            Self::DrivenAngle(drive) | Self::DrivenWay(_, drive) => std::slice::from_ref(drive),
-            Self::DrivenPosition(drives) => drives,
-            _ => &[],
-        }
-    }
+    /// The position along this unit vector is at a driven distance from the first end (ground).
+    DrivenDistance(Vector<D>, usize),
 }
 
 /// A joint or a motion.
 #[derive(Clone, Debug)]
 pub struct Joint<const D: usize = 2> {
     /// What it holds.
-    pub kind: JointKind<D>,
+    pub holds: Vec<Primitive<D>>,
     /// What it joins.
     pub ends: [End<D>; 2],
     /// Index of its rotational spring among the loads: a hinge.
@@ -323,52 +298,68 @@ impl<const D: usize, N: Number> Gradient<D, N> {
 }
 
 impl<const D: usize> Joint<D> {
-    /// What the joint adds to the linear and to the non-linear constraints; `index` is its own.
+    /// Driven coordinates that it follows.
+    pub fn drives(&self) -> impl Iterator<Item = usize> {
+        self.holds
+            .iter()
+            .flat_map(|primitive| match primitive {
+                Primitive::DrivenDirection(drive) | Primitive::DrivenDistance(_, drive) => {
+                    std::slice::from_ref(drive)
+                }
+                Primitive::DrivenPosition(drives) => drives,
+                _ => &[],
+            })
+            .copied()
+    }
+
+    /// The distance that it holds, m.
+    pub fn length(&self) -> Option<f64> {
+        self.holds.iter().find_map(|primitive| match primitive {
+            Primitive::Distance(length) => Some(*length),
+            _ => None,
+        })
+    }
+
+    /// Whether it holds one position on the other and nothing else.
+    pub fn is_pin(&self) -> bool {
+        matches!(self.holds[..], [Primitive::Coincident])
+    }
+
+    /// What the joint adds to the linear and to the non-linear constraints; `index` is its own, `nodes` are where bodies
+    /// are at the start.
     pub fn constraints(
         &self,
-        index: usize,
+        (index, nodes): (usize, &[Node<D>]),
         linear: &mut Vec<Linear<D>>,
         nonlinear: &mut Vec<Constraint<D>>,
     ) {
         let mut rows = Rows {
             joint: index,
             ends: &self.ends,
+            nodes,
             linear,
         };
-        let kind = match &self.kind {
-            JointKind::Revolute => return revolute::hold(&mut rows),
-            JointKind::Weld(angle) => weld::hold(&mut rows, *angle),
-            JointKind::Clamp(direction) => return weld::clamp(&mut rows, direction),
-            JointKind::Slider(along) => return slider::hold(&mut rows, *along),
-            JointKind::Prismatic { along, angle, size } => {
-                let held = orientation::hold(&mut rows, *angle);
-                nonlinear.extend(held.map(|kind| Constraint::of(index, kind)));
-                across::hold(&mut rows, *along, *size)
-            }
-            JointKind::Orientation(angle) => orientation::hold(&mut rows, *angle),
-            JointKind::Distance(length) => Some(ConstraintKind::Distance(Distance {
-                ends: self.ends,
-                length: *length,
-            })),
-            JointKind::Along(chain) => {
-                let before = nonlinear.iter();
-                let slide = before.filter(|c| c.is_slide()).count();
-                nonlinear.extend((0..D - 1).map(|normal| {
-                    let along = Along {
-                        chain: *chain,
-                        end: self.ends[1],
-                        slide,
-                        normal,
-                    };
-                    Constraint::of(index, ConstraintKind::Along(along))
-                }));
-                return;
-            }
-            JointKind::DrivenAngle(drive) => motion::angle(&mut rows, *drive),
-            JointKind::DrivenPosition(drives) => return motion::position(&mut rows, *drives),
-            JointKind::DrivenWay(along, drive) => return motion::way(&mut rows, *along, *drive),
-        };
-        nonlinear.extend(kind.map(|kind| Constraint::of(index, kind)));
+        for primitive in &self.holds {
+            let kind = match primitive {
+                Primitive::Coincident => coincident::hold(&mut rows),
+                Primitive::Line(along) => line::hold(&mut rows, *along),
+                Primitive::Direction(angle) => direction::hold(&mut rows, *angle),
+                Primitive::Clamped(along) => direction::clamp(&mut rows, along),
+                Primitive::Distance(length) => distance::hold(&rows, *length),
+                Primitive::Curve(chain) => {
+                    let slide = nonlinear.iter().filter(|c| c.is_slide()).count();
+                    let held = point_on_curve::hold(&rows, *chain, slide);
+                    nonlinear.extend(held.map(|kind| Constraint::of(index, kind)));
+                    None
+                }
+                Primitive::DrivenDirection(drive) => motion::direction(&mut rows, *drive),
+                Primitive::DrivenPosition(drives) => motion::position(&mut rows, *drives),
+                Primitive::DrivenDistance(along, drive) => {
+                    motion::distance(&mut rows, *along, *drive)
+                }
+            };
+            nonlinear.extend(kind.map(|kind| Constraint::of(index, kind)));
+        }
     }
 }
 
@@ -376,6 +367,7 @@ impl<const D: usize> Joint<D> {
 struct Rows<'a, const D: usize> {
     joint: usize,
     ends: &'a [End<D>; 2],
+    nodes: &'a [Node<D>],
     linear: &'a mut Vec<Linear<D>>,
 }
 

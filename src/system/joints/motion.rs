@@ -1,4 +1,4 @@
-//! Motions: positions, ways along lines and angles that follow a driven coordinate.
+//! What is driven: positions, distances along lines and angles that follow a driven coordinate.
 //!
 //! Positions are linear in nodal coordinates. So is the direction of a rigid body driven against the
 //! ground; a driven slope, or an angle between two bodies, is not.
@@ -8,21 +8,30 @@ use crate::math::space::{Vector, axis};
 use super::{ConstraintKind, Parallel, Rows, Target};
 use crate::system::end::End;
 
-/// The second end is where two driven coordinates say.
-pub(super) fn position<const D: usize>(rows: &mut Rows<'_, D>, drives: [usize; D]) {
+/// The second end is where driven coordinates say.
+pub(super) fn position<const D: usize>(
+    rows: &mut Rows<'_, D>,
+    drives: [usize; D],
+) -> Option<ConstraintKind<D>> {
     let none = Vector::zeros();
     for (k, drive) in drives.into_iter().enumerate() {
         rows.push([none; 2], [axis(k), none], Target::Value(drive, 0.0));
     }
+    None
 }
 
-/// The second end is a driven way along a unit direction from the first one (ground).
-pub(super) fn way<const D: usize>(rows: &mut Rows<'_, D>, along: Vector<D>, drive: usize) {
+/// The second end is at a driven distance from the first one (ground) along a unit vector.
+pub(super) fn distance<const D: usize>(
+    rows: &mut Rows<'_, D>,
+    along: Vector<D>,
+    drive: usize,
+) -> Option<ConstraintKind<D>> {
     rows.hold_position(along, |start| Target::Value(drive, start));
+    None
 }
 
 /// Drives the angle from the direction of the first end to that of the second.
-pub(super) fn angle<const D: usize>(
+pub(super) fn direction<const D: usize>(
     rows: &mut Rows<'_, D>,
     drive: usize,
 ) -> Option<ConstraintKind<D>> {

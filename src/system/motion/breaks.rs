@@ -47,7 +47,7 @@ impl<const D: usize> System<D> {
 
     /// The first joint or motion that follows a driven coordinate.
     pub fn driven_joint(&self, drive: usize) -> Option<usize> {
-        let follows = |joint: &Joint<D>| joint.kind.drives().contains(&drive);
+        let follows = |joint: &Joint<D>| joint.drives().any(|of| of == drive);
         self.joints.iter().position(follows)
     }
 

@@ -12,7 +12,7 @@ use super::held::Open;
 use crate::body::{Node, add_node, no_node, product};
 use crate::math::space::{Vector, moment, rotated, spins};
 use crate::system::instant::Instant;
-use crate::system::joints::{Constraint, ConstraintKind, JointKind, Linear, View};
+use crate::system::joints::{Constraint, ConstraintKind, Linear, View};
 use crate::system::loads::Load;
 use crate::system::{CableChain, Dynamics, Model, State, System, Work};
 
@@ -192,11 +192,7 @@ impl<const D: usize> System<D> {
                 Some(marker) if marker.element.is_none() => marker.arm(),
                 _ => 0.0,
             });
-            let length = match joint.kind {
-                JointKind::Distance(length) => length,
-                _ => 0.0,
-            };
-            [reach[0], reach[1], length]
+            [reach[0], reach[1], joint.length().unwrap_or(0.0)]
         });
         cables.chain(joints).fold(0.0, f64::max)
     }
@@ -349,9 +345,9 @@ impl<const D: usize> System<D> {
 
     /// A gap in m: that of a distance is measured by squares.
     fn length_of(&self, joint: usize, gap: f64) -> f64 {
-        match self.joints[joint].kind {
-            JointKind::Distance(length) => (length * (length + 2.0 * gap)).max(0.0).sqrt() - length,
-            _ => gap,
+        match self.joints[joint].length() {
+            Some(length) => (length * (length + 2.0 * gap)).max(0.0).sqrt() - length,
+            None => gap,
         }
     }
 

@@ -78,8 +78,9 @@ pub(super) use tangent::{Factors, transposed};
 pub(super) use vectors::TURNS;
 use vectors::{act, combine, dot, inner, times, turns, wedge};
 
-/// Curvature times length of an element below which it counts as straight.
-const FLAT: f64 = 1e-9;
+/// Curvature times length of an element below which it counts as straight. Roundoff across the plane that it is bent in
+/// is magnified by one over this where a damped cable swings through its straight shape.
+const FLAT: f64 = 1e-5;
 
 /// `u = r'` and `w = r''`, or their rates.
 #[derive(Clone, Copy)]
@@ -243,9 +244,10 @@ impl<N: Real> Kernel<N> {
     #[inline(always)]
     fn plane<const D: usize>(&self, now: &Curvature<N>) -> ([N; TURNS], N) {
         let flat = self.inverse_length * self.number(FLAT);
-        let square = inner::<N, D>(&now.value, &now.value) + flat * flat;
-        let normal = times(&now.value, self.number(1.0) / square.root());
-        (normal, flat * flat / square)
+        let (square, flat) = (inner::<N, D>(&now.value, &now.value), flat * flat);
+        let all = square * square + flat * flat;
+        let normal = times(&now.value, (square / all).root());
+        (normal, flat * flat / all)
     }
 
     /// Axial strains and curvatures at the quadrature points: those of an unstressed shape.

@@ -79,7 +79,7 @@ fn what_has_an_angle_is_refused() {
         /bodies/0 | {"name": "rod", "element": "cable", "elements": 8, "material": {"youngs_modulus": 7e5, "density": 5540}, "section": {"area": 1.8e-3, "second_moment": 1e-9}, "shape": {"arc": {"from": [0, 0, 0], "to": [1, 0, 0], "length": 2}}} | bodies[0].section.second_moment: expected 0 of a cable that is curved without stress
         /masses/0/inertia | 1 | masses[0].inertia: expected 0 in space, found 1
         /joints/0/angle | 1 | joints[0].angle: expected nothing in space, found an angle
-        /joints/0/markers | ["rope.tip", "rod.root"] | joints[0].kind: expected revolute, slider, distance or along, or weld from the ground to a cable, in space, found weld between two bodies
+        /joints/0/markers | ["rope.tip", "rod.root"] | joints[0].kind: expected revolute, slider, distance or along, or weld, orientation or prismatic from the ground to a cable, in space, found weld between two bodies
         /joints/0/markers | ["ground", "load.eye"] | joints[0].markers[1]: expected a marker of a cable
         /joints/1/kind | "orientation" | joints[1].kind: expected revolute, slider,
         /joints/1/kind | "prismatic" | joints[1].kind: expected revolute, slider,

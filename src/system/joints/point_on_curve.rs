@@ -1,7 +1,7 @@
 //! Slider along a flexible body: the end is on the curve of a cable, `(p - r(s)) . n(s) = 0` with `s` the
 //! foot of `p` on the curve, for every normal `n`. It transmits a force across the curve only.
 
-use super::{Gradient, View};
+use super::{ConstraintKind, Gradient, Rows, View};
 use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, normal};
@@ -22,6 +22,23 @@ pub struct Along<const D: usize> {
     pub slide: usize,
     /// Which of the normals of the curve it is held along.
     pub normal: usize,
+}
+
+/// Holds the second end on a chain, across every normal of it.
+pub(super) fn hold<const D: usize>(
+    rows: &Rows<'_, D>,
+    chain: usize,
+    slide: usize,
+) -> impl Iterator<Item = ConstraintKind<D>> {
+    let end = rows.ends[1];
+    (0..D - 1).map(move |normal| {
+        ConstraintKind::Along(Along {
+            chain,
+            end,
+            slide,
+            normal,
+        })
+    })
 }
 
 /// A place on a chain.

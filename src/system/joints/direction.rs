@@ -1,5 +1,4 @@
-//! Orientation joint: the direction of the second end keeps its angle from that of the first. With a
-//! slider it makes a prismatic joint.
+//! The direction of the second end keeps its angle from that of the first.
 //!
 //! Where both ends keep the length of their directions (rigid bodies, the ground), the second is the
 //! first one turned: linear. A cable's slope may stretch: against the ground only the component across
@@ -37,7 +36,7 @@ pub(super) fn hold<const D: usize>(
                 rows.push([none; 2], [none, axis(k)], Target::Fixed(*value));
             }
         }
-        (End::Ground(_), false) => along(rows, &direction),
+        (End::Ground(_), false) => return clamp(rows, &direction),
         (End::Body(_), true) if first.is_rigid() => {
             for k in 0..D {
                 let back = turned(axis(k), (-angle).sin_cos());
@@ -55,12 +54,17 @@ pub(super) fn hold<const D: usize>(
     None
 }
 
-/// Holds the direction of a cable at the second end along a unit vector.
-pub(super) fn along<const D: usize>(rows: &mut Rows<'_, D>, direction: &Vector<D>) {
+/// Holds the direction of a cable at the second end along a unit vector: its slope keeps its direction, not its size,
+/// so that it stretches freely up to a clamp.
+pub(super) fn clamp<const D: usize>(
+    rows: &mut Rows<'_, D>,
+    direction: &Vector<D>,
+) -> Option<ConstraintKind<D>> {
     let none = Vector::zeros();
     for normal in normals(direction) {
         rows.push([none; 2], [none, normal], Target::Fixed(0.0));
     }
+    None
 }
 
 impl<const D: usize> Parallel<D> {

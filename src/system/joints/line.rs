@@ -3,9 +3,9 @@
 
 use nalgebra::SMatrix;
 
-use super::{ConstraintKind, Gradient, Rows, View, slider};
+use super::{ConstraintKind, Gradient, Rows, Target, View};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, axis, cross, left};
+use crate::math::space::{Vector, axis, cross, left, normals};
 use crate::system::end::{Add, End, bilinear};
 
 /// The second end on a line through the first, which turns with it.
@@ -19,18 +19,20 @@ pub struct Across<const D: usize> {
     pub size: f64,
 }
 
-/// Holds the position of the second end across a line through the first; `size` is their distance, m.
+/// Holds the position of the second end across a line through the first.
 pub(super) fn hold<const D: usize>(
     rows: &mut Rows<'_, D>,
     along: Vector<D>,
-    size: f64,
 ) -> Option<ConstraintKind<D>> {
     if let End::Ground(_) = rows.ends[0] {
-        slider::hold(rows, along);
+        for normal in normals(&along) {
+            rows.hold_position(normal, Target::Fixed);
+        }
         return None;
     }
-    let size = if size > 0.0 { size } else { 1.0 };
     let ends = *rows.ends;
+    let distance = (ends[1].position(rows.nodes) - ends[0].position(rows.nodes)).norm();
+    let size = if distance > 0.0 { distance } else { 1.0 };
     Some(ConstraintKind::Across(Across { ends, along, size }))
 }
 
