@@ -285,15 +285,14 @@ impl<'a> Joint<'a> {
 
     /// As a slider on a fixed line.
     pub(super) fn slider(&self) -> Option<Slider<'a>> {
-        let [Hold::Line(direction)] = self.holds[..] else {
-            return None;
-        };
-        let (name, ends) = (self.name, self.ends);
-        Some(Slider {
-            name,
-            ends,
-            direction,
-        })
+        match self.holds[..] {
+            [Hold::Line(direction)] if self.ends.is_grounded() => Some(Slider {
+                name: self.name,
+                ends: self.ends,
+                direction,
+            }),
+            _ => None,
+        }
     }
 
     /// The slide along a cable that it is.

@@ -12,9 +12,8 @@ use crate::schema::{Place, Schema, Sort};
 use crate::specimen::{Outcome, Specimen, units};
 
 /// Keys of which one value only is accepted: the others are refused, and say so.
-const SINGLE: [&str; 4] = [
+const SINGLE: [&str; 3] = [
     "dimension",
-    "joints{slider}.markers[0]",
     "outputs{natural_frequency}.body",
     "outputs{eigenvalue}.body",
 ];

@@ -19,8 +19,8 @@ pub struct Joint {
     /// With `ground` only: where on the ground, m; where the second marker is at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vector>,
-    /// `slider`: direction of the line along which the marker may move. `prismatic`: the same in the axes of the
-    /// first marker (of ground: the global ones), by default its own direction.
+    /// `slider`: direction of the line along which the marker may move, in the axes of the first marker (of ground: the
+    /// global ones). `prismatic`: the same, by default the direction of the first marker itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Vector>,
     /// `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
@@ -49,7 +49,7 @@ pub enum JointKind {
     Revolute,
     /// Holds the position and the direction.
     Weld,
-    /// Holds the marker on a fixed line.
+    /// Holds the marker on a line of the first one, which may move, and lets it turn.
     Slider,
     /// Holds the marker on a line of the first one, and the direction.
     Prismatic,
@@ -72,8 +72,6 @@ pub struct Declaration {
     pub keys: &'static [Keys],
     /// What it holds.
     pub holds: &'static [Condition],
-    /// Whether its first end is the ground.
-    pub is_grounded: bool,
     /// How it is drawn.
     pub symbol: Symbol,
 }
@@ -131,7 +129,7 @@ impl JointKind {
             Self::Hinge => ("hinge", &[(&[], &["point", "angle", "stiffness", "damping"])], &[Position, Spring], Symbol::Spiral),
             Self::Along => ("along", &[(&[], &[])], &[Curve], Symbol::Ring),
         };
-        Declaration { name, keys, holds, is_grounded: self == Self::Slider, symbol }
+        Declaration { name, keys, holds, symbol }
     }
 }
 

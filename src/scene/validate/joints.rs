@@ -1,6 +1,6 @@
 //! Checks of joints.
 
-use super::checks::{Key, expected, finite, keys, planar, positive, quoted, spring_damper, vector};
+use super::checks::{Key, expected, finite, keys, planar, positive, spring_damper, vector};
 use crate::scene::Error;
 use crate::scene::description::{Condition, Declaration, Joint, Kind as _};
 use crate::scene::marker::GROUND;
@@ -22,24 +22,18 @@ impl Joint {
     /// In space nothing has an angle yet, but a cable has a direction.
     fn validate_dimension(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let Declaration { name, holds, .. } = self.kind.declaration();
-        let instead = "revolute, slider, distance or along, or weld, orientation or prismatic from the ground \
-                       to a cable,";
+        let instead = "revolute, distance or along, or slider, weld, orientation or prismatic from the ground,";
         let kind = format!("{path}.kind");
         if holds.contains(&Condition::Spring) {
             return planar(&kind, dimension, instead, name);
         }
-        if holds.contains(&Condition::Direction) {
-            if self.markers[0] != GROUND {
-                planar(
-                    &kind,
-                    dimension,
-                    instead,
-                    &format!("{name} between two bodies"),
-                )?;
-            }
-            if self.angle.is_some() {
-                planar(&format!("{path}.angle"), dimension, "nothing", "an angle")?;
-            }
+        let has_axes = |of: &Condition| matches!(of, Condition::Direction | Condition::Line);
+        if holds.iter().any(has_axes) && self.markers[0] != GROUND {
+            let found = format!("{name} between two bodies");
+            planar(&kind, dimension, instead, &found)?;
+        }
+        if holds.contains(&Condition::Direction) && self.angle.is_some() {
+            planar(&format!("{path}.angle"), dimension, "nothing", "an angle")?;
         }
         Ok(())
     }
@@ -90,14 +84,9 @@ impl<'a> Resolved<'a> {
 
     /// What a joint joins.
     fn joint_ends(&self, path: &str, joint: &'a Joint) -> Result<Ends<'a>, Error> {
-        let Declaration {
-            holds, is_grounded, ..
-        } = joint.kind.declaration();
+        let holds = joint.kind.declaration().holds;
         let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));
         let [a, b] = &joint.markers;
-        if is_grounded && a != GROUND {
-            return Err(expected(&first, "\"ground\"", quoted(a)));
-        }
         if holds.contains(&Condition::Curve) {
             let cable = self.require_cable(&first, a)?;
             let marker = self.require_marker(&second, b)?;
@@ -110,17 +99,16 @@ impl<'a> Resolved<'a> {
         }
         let ends = self.require_pair(path, &joint.markers, joint.point)?;
         let turns = |of: &Condition| matches!(of, Condition::Direction | Condition::Spring);
-        if !holds.iter().any(turns) {
-            return Ok(ends);
-        }
-        if self.scene.dimension == 3 {
-            self.require_cable_marker(&second, b)?;
-            return Ok(ends);
-        }
-        if a != GROUND {
+        let holds_direction = holds.iter().any(turns);
+        if a != GROUND && (holds_direction || holds.contains(&Condition::Line)) {
             self.require_turning(&first, a)?;
         }
-        self.require_turning(&second, b)?;
+        if holds_direction {
+            match self.scene.dimension {
+                2 => self.require_turning(&second, b)?,
+                _ => self.require_cable_marker(&second, b)?,
+            };
+        }
         Ok(ends)
     }
 

@@ -77,7 +77,7 @@ impl<'a> Resolved<'a> {
 
     fn require_slider(&self, path: &str, name: &str) -> Result<Slider<'a>, Error> {
         let slider = self.require_joint(path, name)?.slider();
-        slider.ok_or_else(|| expected(path, "a slider", quoted(name)))
+        slider.ok_or_else(|| expected(path, "a slider on a fixed line", quoted(name)))
     }
 
     fn one_drive(&mut self, path: &str, given: &MotionValue) -> Result<Drive, Error> {

@@ -228,7 +228,7 @@ fn joints_take_what_is_theirs_and_no_more() {
         /joints/5/length | 1 | joints[5].length: expected nothing for this kind of joint
         /joints/2/direction | null | joints[2].direction: expected a direction [x, y], found nothing
         /joints/2/direction | [0, 0] | joints[2].direction: expected a direction that is not zero
-        /joints/2/markers | ["rod.mid", "cart.top"] | joints[2].markers[0]: expected "ground"
+        /joints/2/markers | ["load.eye", "cart.top"] | joints[2].markers[0]: expected a marker that can turn
         /joints/1/point | [1, 0] | joints[1].point: expected nothing between two bodies
         /joints/1/markers | ["rod.top", "crank.a"] | joints[1].markers[0]: expected a marker of this scene
         /joints/1/markers | ["rod.tip", "ground"] | joints[1].markers[1]: expected a marker of this scene

@@ -17,6 +17,7 @@ pub fn all() -> Vec<Specimen> {
         angle_of_a_joint(),
         telescope(),
         rams(),
+        slotted_lever(),
     ]
 }
 
@@ -303,4 +304,35 @@ fn rams() -> Specimen {
         .claim("cart.c.angle", "rad", 0.45)
         // A slider leaves the turn free.
         .claim("bead.c.angular_acceleration", "rad/s2", 1.2 / 0.3)
+}
+
+/// A bead in the slot of a lever that turns at a steady rate; the slot does not pass through the pivot.
+fn slotted_lever() -> Specimen {
+    let (g, m, tilt, rate, speed) = ([0.6, -9.0], 1.5, 0.3, 2.0, 0.7);
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+    let slot = turned(tilt, [0.8, -0.6]);
+    let at = sum(turned(tilt, [0.6, 0.0]), times(0.25, slot));
+    let mut bead = body("bead", [m, 0.4], at, 0.7, 0.9);
+    bead["motion"]["velocity"] = json!(sum(times(rate, left(at)), times(speed, slot)));
+    let scene = json!({
+        "name": "slotted_lever", "dimension": 2, "gravity": g,
+        "bodies": [body("lever", [2.0, 0.5], [0.0, 0.0], tilt, rate), bead],
+        "joints": [{"name": "pivot", "kind": "revolute", "markers": ["ground", "lever.c"]},
+                   {"name": "slot", "kind": "slider", "markers": ["lever.tip", "bead.c"], "direction": [1.6, -1.2]}],
+        "motions": [{"name": "turn", "kind": "angle", "marker": "lever.c", "value": "0.3+2*t"}],
+        "outputs": [{"kind": "acceleration", "marker": "bead.c"}, {"kind": "reaction", "joint": "slot"},
+                    {"kind": "reaction_moment", "motion": "turn"}, {"kind": "angular_velocity", "marker": "bead.c"}]});
+    // Along the slot it falls and is thrown outwards, across it is carried.
+    let across = left(slot);
+    let carried = 2.0 * rate * speed - rate * rate * dot(at, across);
+    let held = times(m * (carried - dot(g, across)), across);
+    Specimen::new("slotted_lever", scene)
+        .vector(
+            "bead.c.acceleration",
+            "m/s2",
+            sum(times(dot(g, slot), slot), times(carried, across)),
+        )
+        .vector("slot.reaction", "N", held)
+        .claim("turn.reaction_moment", "N.m", cross(at, held))
+        .claim("bead.c.angular_velocity", "rad/s", 0.9)
 }

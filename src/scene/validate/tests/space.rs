@@ -79,11 +79,12 @@ fn what_has_an_angle_is_refused() {
         /bodies/0 | {"name": "rod", "element": "cable", "elements": 8, "material": {"youngs_modulus": 7e5, "density": 5540}, "section": {"area": 1.8e-3, "second_moment": 1e-9}, "shape": {"arc": {"from": [0, 0, 0], "to": [1, 0, 0], "length": 2}}} | bodies[0].section.second_moment: expected 0 of a cable that is curved without stress
         /masses/0/inertia | 1 | masses[0].inertia: expected 0 in space, found 1
         /joints/0/angle | 1 | joints[0].angle: expected nothing in space, found an angle
-        /joints/0/markers | ["rope.tip", "rod.root"] | joints[0].kind: expected revolute, slider, distance or along, or weld, orientation or prismatic from the ground to a cable, in space, found weld between two bodies
+        /joints/0/markers | ["rope.tip", "rod.root"] | joints[0].kind: expected revolute, distance or along, or slider, weld, orientation or prismatic from the ground, in space, found weld between two bodies
+        /joints/2/markers | ["rod.tip", "load.eye"] | joints[2].kind: expected revolute, distance or along, or slider, weld, orientation or prismatic from the ground, in space, found slider between two bodies
         /joints/0/markers | ["ground", "load.eye"] | joints[0].markers[1]: expected a marker of a cable
-        /joints/1/kind | "orientation" | joints[1].kind: expected revolute, slider,
-        /joints/1/kind | "prismatic" | joints[1].kind: expected revolute, slider,
-        /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].kind: expected revolute, slider,
+        /joints/1/kind | "orientation" | joints[1].kind: expected revolute, distance
+        /joints/1/kind | "prismatic" | joints[1].kind: expected revolute, distance
+        /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].kind: expected revolute, distance
         /motions/0 | {"name": "lift", "kind": "angle", "marker": "rope.tip", "value": 0} | motions[0].marker: expected nothing that has an angle
         /loads/0 | {"name": "push", "kind": "moment", "marker": "rod.tip", "value": 0} | loads[0].marker: expected nothing that has an angle
         /loads/0/follower | true | loads[0].marker: expected nothing that has an angle
