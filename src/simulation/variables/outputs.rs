@@ -1,10 +1,10 @@
 //! Outputs, natural frequencies, eigenvalues, and what goes out of ports.
 
 use super::unit::*;
-use super::{AXES, HolderId, List, MarkerId, Quantity, Source, Unit, component};
+use super::{AXES, List, Quantity, Source, Unit, component};
 use crate::scene::{
-    InputKind, JointKind, LoadKind, Marker, Output, Port, PortKind, Reaction, Resolved, SlideId,
-    Turning,
+    HolderId, InputKind, JointKind, LoadKind, Marker, MarkerId, Output, Port, PortKind, Reaction,
+    Resolved, SlideId, Turning,
 };
 
 /// Adds the outputs of a scene.
