@@ -145,6 +145,7 @@ pub(super) fn list(scene: &Resolved<'_>) -> Vec<Variable> {
     let mut list = List {
         variables: Vec::new(),
         dimension: scene.scene.dimension,
+        sets_springs: sets_springs(scene),
     };
     list.add("time", "Simulated time", Some(SECOND), Source::Time, None);
     parameters::add(&mut list, scene);
@@ -173,10 +174,11 @@ fn component(name: &str, axis: usize) -> String {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Variables, and how many components a vector has.
+/// Variables, how many components a vector has, and whether the master sets springs.
 struct List {
     variables: Vec<Variable>,
     dimension: usize,
+    sets_springs: bool,
 }
 
 impl List {
@@ -200,7 +202,7 @@ impl List {
         });
     }
 
-    /// Inputs and outputs from this index on are direct.
+    /// Inputs from this index on are direct.
     fn mark_direct(&mut self, first: usize) {
         for variable in &mut self.variables[first..] {
             variable.is_direct = true;
