@@ -16,6 +16,8 @@ pub enum Quantity {
     Velocity(MarkerId, usize),
     /// Component of the acceleration of a marker.
     Acceleration(MarkerId, usize),
+    /// Component of the unit vector in the direction at a marker.
+    Direction(MarkerId, usize),
     /// Continuous angle of a marker or a joint.
     Angle(AngleId),
     /// Angular velocity of the direction at a marker.
@@ -96,6 +98,7 @@ pub(super) fn value<const D: usize, N: Number>(
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
+        Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
         Angle(angle) => values.angles[angle.index()],
         AngularVelocity(id) => End::<D, N>::Body(on(id)).spin(&values.x, &values.v),
         JointVelocity(joint) => {
@@ -152,7 +155,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         Position(..) | CenterOfMass(_) | Travel(_) => (Kinematics, |by| Some(by.size)),
         Velocity(..) => (Kinematics, |by| Some(by.size * by.rate)),
         Acceleration(..) => (Dynamics, |by| Some(by.size * by.rate * by.rate)),
-        Angle(_) => (Kinematics, |_| Some(1.0)),
+        Direction(..) | Angle(_) => (Kinematics, |_| Some(1.0)),
         AngularVelocity(_) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
         AngularAcceleration(_) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
         Strain(_) | Curvature(_) => (Kinematics, |_| Some(0.0)),

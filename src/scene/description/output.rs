@@ -40,6 +40,9 @@ pub enum OutputKind {
     Velocity,
     /// Acceleration of a marker, m/s^2.
     Acceleration,
+    /// Direction at a marker: the unit vector along the cable, or along the first axis of a rigid body, which must have
+    /// inertia.
+    Direction,
     /// Direction at a marker, or direction of the second marker of a revolute joint or hinge less
     /// that of its first, rad, counted on over full turns.
     Angle,
@@ -93,6 +96,8 @@ pub enum OutputKind {
 pub enum ReadAt {
     /// A marker.
     Marker,
+    /// A marker with a direction: of a cable, or of a rigid body that has inertia.
+    Directed,
     /// A marker of a cable.
     Cable,
     /// A marker of a cable, where its mesh has a node.
@@ -118,6 +123,7 @@ impl OutputKind {
     pub fn read_at(self) -> ReadAt {
         match self {
             Self::Position | Self::Velocity | Self::Acceleration => ReadAt::Marker,
+            Self::Direction => ReadAt::Directed,
             Self::Strain | Self::Curvature | Self::AxialForce | Self::BendingMoment => {
                 ReadAt::Cable
             }
@@ -140,7 +146,9 @@ impl Kind for OutputKind {
 
     fn keys(&self) -> &'static [Keys] {
         match self.read_at() {
-            ReadAt::Marker | ReadAt::Cable | ReadAt::Node => &[(&["marker"], &[])],
+            ReadAt::Marker | ReadAt::Directed | ReadAt::Cable | ReadAt::Node => {
+                &[(&["marker"], &[])]
+            }
             ReadAt::Turning | ReadAt::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
             ReadAt::Slide => &[(&["joint"], &[])],
             ReadAt::Force | ReadAt::Moment => &[(&["motion"], &[]), (&["joint"], &[])],
