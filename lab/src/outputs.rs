@@ -1,7 +1,7 @@
 //! What runs write: the same columns for every method.
 
 use flexbody::body::Marker;
-use flexbody::scene::Output;
+use flexbody::scene::{Of, Output, OutputKind};
 use flexbody::system::{Evaluation, State, Work};
 
 use crate::scene::Start;
@@ -20,7 +20,10 @@ impl Outputs {
         let resolved = start.scene.resolved();
         let read: Vec<_> = (resolved.outputs.iter())
             .filter_map(|output| match output {
-                Output::Position(marker) => Some(*marker),
+                Output {
+                    kind: OutputKind::Position,
+                    of: Of::Marker(marker),
+                } => Some(*marker),
                 _ => None,
             })
             .collect();

@@ -81,14 +81,11 @@ pub struct Cluster {
     pub multipliers: DMatrix<f64>,
 }
 
-/// With how many nodes each is tied together, itself among them, and by how many rows.
-pub fn tied_with<const D: usize>(nodes: usize, rows: &[&Row<D>]) -> Vec<(usize, usize)> {
+/// With how many nodes each is tied together, itself among them.
+pub fn tied_with<const D: usize>(nodes: usize, rows: &[&Row<D>]) -> Vec<usize> {
     let mut groups = Groups::of_rows(nodes, rows.iter().copied());
-    let mut sizes = vec![(0, 0); nodes];
-    (0..nodes).for_each(|node| sizes[groups.find(node)].0 += 1);
-    for (node, _) in rows.iter().filter_map(|row| row.terms.first()) {
-        sizes[groups.find(*node)].1 += 1;
-    }
+    let mut sizes = vec![0; nodes];
+    (0..nodes).for_each(|node| sizes[groups.find(node)] += 1);
     (0..nodes).map(|node| sizes[groups.find(node)]).collect()
 }
 

@@ -1,8 +1,9 @@
 //! Meshes: nodes where something acts on a cable or is joined to it, the rest spread evenly.
 
 use super::Error;
+use super::description::ReadAt;
 use super::resolved::{
-    Action, Cable, InputKind, LoadKind, Marker, MotionKind, Output, Place, Resolved, Turning,
+    Action, Cable, InputKind, LoadKind, Marker, MotionKind, Of, Place, Resolved, Turning,
 };
 
 /// Shortest stretch between two nodes, in elements of even length: shorter ones swing so fast that they
@@ -63,8 +64,8 @@ impl<'a> Resolved<'a> {
             Action::Force { marker, .. } | Action::Moment(marker, _) => Some(*marker),
             Action::Torque(..) | Action::Distributed(..) => None,
         }));
-        found.extend(self.outputs.iter().filter_map(|output| match output {
-            Output::ConnectivityForce(marker) => Some(*marker),
+        found.extend(self.outputs.iter().filter_map(|output| match output.of {
+            Of::Marker(marker) if output.kind.read_at() == ReadAt::Node => Some(marker),
             _ => None,
         }));
         found

@@ -3,7 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::description::{CableBody, JointKind, Port as GivenPort, RigidBody, Scene, Value};
+use super::description::{
+    CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
+};
 use crate::system::{Drive, Signal};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
@@ -313,50 +315,31 @@ pub struct Reaction<'a> {
 }
 
 /// A quantity that the master reads.
-#[derive(Clone, Debug)]
-pub enum Output<'a> {
-    /// Position of a marker.
-    Position(Marker<'a>),
-    /// Velocity of a marker.
-    Velocity(Marker<'a>),
-    /// Acceleration of a marker.
-    Acceleration(Marker<'a>),
-    /// Angle, counted on over full turns.
+#[derive(Clone, Copy, Debug)]
+pub struct Output<'a> {
+    /// What is read.
+    pub kind: OutputKind,
+    /// What it is read at; which of these follows from the kind.
+    pub of: Of<'a>,
+}
+
+/// What an output is read at.
+#[derive(Clone, Copy, Debug)]
+pub enum Of<'a> {
+    /// A marker.
+    Marker(Marker<'a>),
+    /// What turns.
+    Turning(Turning<'a>),
+    /// What turns, its angle counted on over full turns.
     Angle(Turning<'a>, AngleId),
-    /// Its rate.
-    AngularVelocity(Turning<'a>),
-    /// Rate of its rate.
-    AngularAcceleration(Turning<'a>),
-    /// Axial strain at a marker of a cable.
-    Strain(Marker<'a>),
-    /// Curvature at a marker of a cable.
-    Curvature(Marker<'a>),
-    /// Axial force at a marker of a cable.
-    AxialForce(Marker<'a>),
-    /// Bending moment at a marker of a cable.
-    BendingMoment(Marker<'a>),
-    /// Force of the part before a marker of a cable on the part after it.
-    ConnectivityForce(Marker<'a>),
-    /// Where the slide of a joint of this name is.
-    Travel(&'a str, SlideId),
-    /// Force of a joint or motion.
+    /// A joint of this name, and its slide.
+    Slide(&'a str, SlideId),
+    /// A joint or a motion.
     Reaction(Reaction<'a>),
-    /// Moment of a joint or motion.
-    ReactionMoment(Reaction<'a>),
-    /// Energies.
-    Energy,
-    /// Work and dissipation.
-    Work,
-    /// Linear and angular momentum.
-    Momentum,
-    /// Centre of mass.
-    CenterOfMass,
-    /// Residuals of constraints.
-    Residual,
-    /// Natural frequencies: how many, and the body whose name theirs begin with.
-    NaturalFrequency(Option<&'a str>, u32),
-    /// Eigenvalues, likewise.
-    Eigenvalue(Option<&'a str>, u32),
+    /// The scene.
+    Scene,
+    /// The spectrum of the scene: the body whose name those of the variables begin with, and how many there are.
+    Spectrum(Option<&'a str>, u32),
 }
 
 /// A port.

@@ -16,9 +16,10 @@ mod variables;
 mod watch;
 
 pub use dimension::check;
+pub use quantities::Quantity;
 pub use signals::{SignalError, Signals};
 pub use snapshot::{Snapshot, Spectra};
-pub use variables::{Causality, Parameter, Quantity, Source, Unit, Variable, variables};
+pub use variables::{Causality, Parameter, Source, Unit, Variable, variables};
 
 use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;

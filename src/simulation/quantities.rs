@@ -1,10 +1,78 @@
-//! Values of outputs, of numbers of any kind, from an evaluated state.
+//! Quantities that are read of a simulation: their values, of numbers of any kind, from an evaluated state; what
+//! they are computed from; how large they naturally are.
 
-use super::Quantity;
 use crate::body::Marker;
+use crate::integrators::Tolerance;
 use crate::math::jet::Number;
-use crate::scene::{Assembled, HolderId, MarkerId};
-use crate::system::{End, Evaluation};
+use crate::scene::{AngleId, Assembled, CouplingId, HolderId, MarkerId, SlideId};
+use crate::system::{End, Evaluation, System};
+
+/// Outputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Quantity {
+    /// Component of the position of a marker.
+    Position(MarkerId, usize),
+    /// Component of the velocity of a marker.
+    Velocity(MarkerId, usize),
+    /// Component of the acceleration of a marker.
+    Acceleration(MarkerId, usize),
+    /// Component of the unit vector in the direction at a marker.
+    Direction(MarkerId, usize),
+    /// Continuous angle of a marker or a joint.
+    Angle(AngleId),
+    /// Angular velocity of the direction at a marker.
+    AngularVelocity(MarkerId),
+    /// Angular velocity of the second marker of a joint less that of its first.
+    JointVelocity(HolderId),
+    /// Angular acceleration of the direction at a marker.
+    AngularAcceleration(MarkerId),
+    /// Angular acceleration of the second marker of a joint less that of its first.
+    JointAcceleration(HolderId),
+    /// Axial strain at a marker.
+    Strain(MarkerId),
+    /// Curvature at a marker.
+    Curvature(MarkerId),
+    /// Axial force at a marker.
+    AxialForce(MarkerId),
+    /// Component of the bending moment at a marker; in the plane the third.
+    BendingMoment(MarkerId, usize),
+    /// Component of the force that the part of a cable before a marker exerts on the part after it.
+    ConnectivityForce(MarkerId, usize),
+    /// Where a slide is on its cable.
+    Travel(SlideId),
+    /// Component of the force of a joint or motion.
+    Reaction(HolderId, usize),
+    /// Moment of a joint or motion.
+    ReactionMoment(HolderId),
+    /// Component of the force on what drives a marker: opposite to the reaction.
+    MotionForce(HolderId, usize),
+    /// Moment on what turns a marker.
+    MotionMoment(HolderId),
+    /// Component of the force of a coupling on what it couples to.
+    CouplingForce(CouplingId, usize),
+    /// Moment of a coupling on what it couples to.
+    CouplingMoment(CouplingId),
+    /// Kinetic energy.
+    KineticEnergy,
+    /// Strain energy.
+    StrainEnergy,
+    /// Potential energy of gravity, zero at the origin.
+    GravityEnergy,
+    /// Energy in springs, hinges and couplings.
+    SpringEnergy,
+    /// Work done from outside since the start.
+    Input,
+    /// Energy dissipated since the start.
+    Dissipated,
+    /// Component of the linear momentum.
+    Momentum(usize),
+    /// Component of the angular momentum about the origin; in the plane the third.
+    AngularMomentum(usize),
+    /// Component of the centre of mass.
+    CenterOfMass(usize),
+    /// Largest residual of the constraints: 0 of positions, 1 of velocities.
+    Residual(usize),
+}
 
 /// How much of the outputs belongs to the current state and inputs.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,6 +98,7 @@ pub(super) fn value<const D: usize, N: Number>(
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
+        Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
         Angle(angle) => values.angles[angle.index()],
         AngularVelocity(id) => End::<D, N>::Body(on(id)).spin(&values.x, &values.v),
         JointVelocity(joint) => {
@@ -70,21 +139,53 @@ pub(super) fn value<const D: usize, N: Number>(
     }
 }
 
-/// What a quantity is computed from.
-pub(super) fn needs(quantity: Quantity) -> Evaluated {
+/// What quantities are measured by: length, rate and force at which the scene moves by nature, m, 1/s, N.
+struct Scale {
+    size: f64,
+    rate: f64,
+    force: f64,
+}
+
+/// What a quantity is computed from, and what it is where the scene moves at its natural rate; nothing for sums over the
+/// whole run and for what is conserved or held.
+fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
+    use Evaluated::*;
     use Quantity::*;
     match quantity {
-        Acceleration(..)
-        | AngularAcceleration(_)
-        | JointAcceleration(_)
-        | ConnectivityForce(..)
-        | AxialForce(_)
-        | BendingMoment(..)
-        | Reaction(..)
-        | ReactionMoment(_)
-        | MotionForce(..)
-        | MotionMoment(_) => Evaluated::Dynamics,
-        Input | Dissipated => Evaluated::Nothing,
-        _ => Evaluated::Kinematics,
+        Position(..) | CenterOfMass(_) | Travel(_) => (Kinematics, |by| Some(by.size)),
+        Velocity(..) => (Kinematics, |by| Some(by.size * by.rate)),
+        Acceleration(..) => (Dynamics, |by| Some(by.size * by.rate * by.rate)),
+        Direction(..) | Angle(_) => (Kinematics, |_| Some(1.0)),
+        AngularVelocity(_) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
+        AngularAcceleration(_) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
+        Strain(_) | Curvature(_) => (Kinematics, |_| Some(0.0)),
+        AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) => {
+            (Dynamics, |by| Some(by.force))
+        }
+        BendingMoment(..) | ReactionMoment(_) | MotionMoment(_) => {
+            (Dynamics, |by| Some(by.force * by.size))
+        }
+        CouplingForce(..) => (Kinematics, |by| Some(by.force)),
+        CouplingMoment(_) | KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => {
+            (Kinematics, |by| Some(by.force * by.size))
+        }
+        Momentum(_) | AngularMomentum(_) | Residual(_) => (Kinematics, |_| None),
+        Input | Dissipated => (Nothing, |_| None),
     }
+}
+
+/// What a quantity is computed from.
+pub(super) fn needs(quantity: Quantity) -> Evaluated {
+    nature(quantity).0
+}
+
+/// What a quantity is where the scene moves at its natural rate, if it is compared with that.
+pub(super) fn natural<const D: usize>(
+    quantity: Quantity,
+    system: &System<D>,
+    tolerance: &Tolerance,
+) -> Option<f64> {
+    let (size, rate) = (system.size(), 1.0 / tolerance.time);
+    let force = system.mass() * size * rate * rate;
+    nature(quantity).1(Scale { size, rate, force })
 }

@@ -6,7 +6,7 @@
 //! step is estimated to have made, and outputs are read there as well. Errors of steps add up as independent
 //! ones do, by their squares.
 
-use super::Quantity;
+use super::quantities::{Quantity, natural};
 use crate::integrators::Tolerance;
 use crate::math::vector::norm;
 use crate::system::{State, System};
@@ -125,36 +125,5 @@ impl Watch {
         let group = groups.find(|group| group.is_doubtful && !group.is_told)?;
         group.is_told = true;
         Some(&group.name)
-    }
-}
-
-/// What an output is where the scene moves at its natural rate; nothing for sums over the whole run and for
-/// what is conserved or held.
-fn natural<const D: usize>(
-    quantity: Quantity,
-    system: &System<D>,
-    tolerance: &Tolerance,
-) -> Option<f64> {
-    use Quantity::*;
-    let (size, rate) = (system.size(), 1.0 / tolerance.time);
-    let force = system.mass() * size * rate * rate;
-    match quantity {
-        Velocity(..) => Some(size * rate),
-        Acceleration(..) => Some(size * rate * rate),
-        AngularVelocity(_) | JointVelocity(_) => Some(rate),
-        AngularAcceleration(_) | JointAcceleration(_) => Some(rate * rate),
-        AxialForce(_)
-        | ConnectivityForce(..)
-        | Reaction(..)
-        | MotionForce(..)
-        | CouplingForce(..) => Some(force),
-        BendingMoment(..) | ReactionMoment(_) | MotionMoment(_) | CouplingMoment(_) => {
-            Some(force * size)
-        }
-        KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => Some(force * size),
-        Position(..) | CenterOfMass(_) | Travel(_) => Some(size),
-        Angle(_) => Some(1.0),
-        Strain(_) | Curvature(_) => Some(0.0),
-        Input | Dissipated | Momentum(_) | AngularMomentum(_) | Residual(_) => None,
     }
 }

@@ -21,10 +21,8 @@ use crate::math::sparse::Matrix;
 /// Part of a gradient that counts as none.
 const NOTHING: f64 = 1e-12;
 
-/// Most free coordinates, and most nodes, of what pins tie together and are eliminated with
-/// (docs/decisions/0029-constraints-at-linear-cost.md).
-const FREE: usize = 16;
-const TIED: usize = 32;
+/// Most nodes that pins tie together and are eliminated with (docs/decisions/0029-constraints-at-linear-cost.md).
+const TIED: usize = 8;
 
 /// Mass in a point of a body: a point mass, or a rigid body about its centre of mass.
 #[derive(Clone, Copy, Debug)]
@@ -309,11 +307,7 @@ fn release_pins<const D: usize>(
         let joins = joint.ends.iter().all(|end| end.is_rigid());
         let mut nodes = joint.ends.iter().filter_map(|end| end.nodes().next());
         match (nodes.next(), nodes.next()) {
-            (Some(a), Some(_)) => {
-                let (nodes, rows) = tied[a];
-                let free = (2 * D * nodes).saturating_sub(rows);
-                joint.is_pin() && joins && (nodes > TIED || free > FREE)
-            }
+            (Some(a), Some(_)) => joint.is_pin() && joins && tied[a] > TIED,
             _ => false,
         }
     };

@@ -27,6 +27,7 @@ named! { label, LABELS, Quantity:
     Position(_, 0) => "position x", Position(..) => "position y",
     Velocity(_, 0) => "velocity x", Velocity(..) => "velocity y",
     Acceleration(_, 0) => "acceleration x", Acceleration(..) => "acceleration y",
+    Direction(_, 0) => "direction x", Direction(..) => "direction y",
     Angle(_) => "angle", AngularVelocity(_) => "angular velocity", JointVelocity(_) => "joint velocity",
     AngularAcceleration(_) => "angular acceleration", JointAcceleration(_) => "joint acceleration",
     Strain(_) => "strain", Curvature(_) => "curvature", AxialForce(_) => "axial force",

@@ -8,9 +8,9 @@ pub use initial::Motions;
 
 use super::resolved::{
     self, Action, BodyReference, CouplingId, Ends, First, Hold, InputKind, LoadKind, MarkerId,
-    Output, Place, Resolved, Spring, Turning,
+    Place, Resolved, Spring, Turning,
 };
-use super::{CableBody, Error, Scene, Strain};
+use super::{CableBody, Error, OutputKind, Scene, Strain};
 use crate::body::{Marker, Node};
 use crate::elements::cable::{self, Inertia};
 use crate::elements::{self, Nodal};
@@ -121,7 +121,7 @@ impl Resolved<'_> {
             angles: Vec::new(),
             gravity: vector(scene.gravity.full()),
             rotation: scene.rotation,
-            tracks_work: self.outputs.iter().any(|o| matches!(o, Output::Work)),
+            tracks_work: self.outputs.iter().any(|o| o.kind == OutputKind::Work),
         }
     }
 

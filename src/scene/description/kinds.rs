@@ -1,5 +1,6 @@
 //! Which keys the kinds of joints, motions, loads, inputs, outputs and ports take, beside those that all of them have:
-//! one table, which scenes are checked by and the published schema is made of.
+//! one table, which scenes are checked by and the published schema is made of. Keys of outputs follow from what they
+//! are read at and stand with their kinds.
 
 use schemars::Schema;
 use serde::de::DeserializeOwned;
@@ -55,32 +56,6 @@ impl Kind for InputKind {
             Self::Torque => &[(&["joint"], &[])],
             Self::Distributed => &[(&["body"], &[])],
             Self::RestLength => &[(&["load"], &[])],
-        }
-    }
-}
-
-impl Kind for OutputKind {
-    const PART: &'static str = "Output";
-
-    fn keys(&self) -> &'static [Keys] {
-        match self {
-            Self::Position
-            | Self::Velocity
-            | Self::Acceleration
-            | Self::Strain
-            | Self::Curvature
-            | Self::AxialForce
-            | Self::BendingMoment
-            | Self::ConnectivityForce => &[(&["marker"], &[])],
-            Self::Angle | Self::AngularVelocity | Self::AngularAcceleration => {
-                &[(&["joint"], &[]), (&["marker"], &[])]
-            }
-            Self::Travel => &[(&["joint"], &[])],
-            Self::Reaction | Self::ReactionMoment => &[(&["motion"], &[]), (&["joint"], &[])],
-            Self::Energy | Self::Work | Self::Momentum | Self::CenterOfMass | Self::Residual => {
-                &[(&[], &[])]
-            }
-            Self::NaturalFrequency | Self::Eigenvalue => &[(&[], &["body", "count"])],
         }
     }
 }

@@ -22,7 +22,7 @@ pub use initial::{Initial, InitialState};
 pub use joint::{Condition, Declaration, Joint, JointKind, Motion, MotionKind, Symbol};
 pub use kinds::{Keys, Kind, tell_apart};
 pub use load::{Input, InputKind, Load, LoadKind};
-pub use output::{Output, OutputKind};
+pub use output::{Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;
 pub use strict::Strict;

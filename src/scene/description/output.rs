@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{Keys, Kind};
+
 /// A quantity that the master reads.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -38,6 +40,9 @@ pub enum OutputKind {
     Velocity,
     /// Acceleration of a marker, m/s^2.
     Acceleration,
+    /// Direction at a marker: the unit vector along the cable, or along the first axis of a rigid body, which must have
+    /// inertia.
+    Direction,
     /// Direction at a marker, or direction of the second marker of a revolute joint or hinge less
     /// that of its first, rad, counted on over full turns.
     Angle,
@@ -84,4 +89,71 @@ pub enum OutputKind {
     /// that instant, as seen from the frame of the scene; cables that turn initially are refused: describe them in a frame
     /// that turns with them (`rotation`).
     Eigenvalue,
+}
+
+/// What outputs are read at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReadAt {
+    /// A marker.
+    Marker,
+    /// A marker with a direction: of a cable, or of a rigid body that has inertia.
+    Directed,
+    /// A marker of a cable.
+    Cable,
+    /// A marker of a cable, where its mesh has a node.
+    Node,
+    /// A marker or a joint that turns.
+    Turning,
+    /// The same, its angle counted on over full turns.
+    Angle,
+    /// A joint of kind `along`.
+    Slide,
+    /// A joint or a motion that transmits a force.
+    Force,
+    /// A joint or a motion that transmits a moment.
+    Moment,
+    /// The scene as a whole.
+    Scene,
+    /// The spectrum of the scene.
+    Spectrum,
+}
+
+impl OutputKind {
+    /// What it is read at.
+    pub fn read_at(self) -> ReadAt {
+        match self {
+            Self::Position | Self::Velocity | Self::Acceleration => ReadAt::Marker,
+            Self::Direction => ReadAt::Directed,
+            Self::Strain | Self::Curvature | Self::AxialForce | Self::BendingMoment => {
+                ReadAt::Cable
+            }
+            Self::ConnectivityForce => ReadAt::Node,
+            Self::AngularVelocity | Self::AngularAcceleration => ReadAt::Turning,
+            Self::Angle => ReadAt::Angle,
+            Self::Travel => ReadAt::Slide,
+            Self::Reaction => ReadAt::Force,
+            Self::ReactionMoment => ReadAt::Moment,
+            Self::Energy | Self::Work | Self::Momentum | Self::CenterOfMass | Self::Residual => {
+                ReadAt::Scene
+            }
+            Self::NaturalFrequency | Self::Eigenvalue => ReadAt::Spectrum,
+        }
+    }
+}
+
+impl Kind for OutputKind {
+    const PART: &'static str = "Output";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self.read_at() {
+            ReadAt::Marker | ReadAt::Directed | ReadAt::Cable | ReadAt::Node => {
+                &[(&["marker"], &[])]
+            }
+            ReadAt::Turning | ReadAt::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
+            ReadAt::Slide => &[(&["joint"], &[])],
+            ReadAt::Force | ReadAt::Moment => &[(&["motion"], &[]), (&["joint"], &[])],
+            ReadAt::Scene => &[(&[], &[])],
+            ReadAt::Spectrum => &[(&[], &["body", "count"])],
+        }
+    }
 }

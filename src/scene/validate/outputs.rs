@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, needed, planar, quoted};
 use crate::scene::Error;
-use crate::scene::description::{Kind as _, Output, OutputKind};
-use crate::scene::resolved::{self, AngleId, MotionKind, Reaction, Resolved, Turning};
+use crate::scene::description::{Kind as _, Output, ReadAt};
+use crate::scene::resolved::{self, AngleId, Marker, MotionKind, Of, Reaction, Resolved, Turning};
 
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
@@ -29,10 +29,7 @@ impl Output {
 
     fn validate_count(&self, path: &str) -> Result<(), Error> {
         let is_right = |count| (1..=MOST_FREQUENCIES).contains(&count);
-        let is_spectrum = matches!(
-            self.kind,
-            OutputKind::NaturalFrequency | OutputKind::Eigenvalue
-        );
+        let is_spectrum = self.kind.read_at() == ReadAt::Spectrum;
         if !is_spectrum || self.count.is_some_and(is_right) {
             return Ok(());
         }
@@ -49,98 +46,69 @@ impl<'a> Resolved<'a> {
             let path = format!("outputs[{index}]");
             output.validate_keys(&path)?;
             output.validate_count(&path)?;
-            let resolved = self.resolve_output(&path, output)?;
-            let of = [&output.marker, &output.joint, &output.motion, &output.body];
-            if !seen.insert((output.kind as u8, of)) {
+            let of = self.resolve_output(&path, output)?;
+            let named = [&output.marker, &output.joint, &output.motion, &output.body];
+            if !seen.insert((output.kind as u8, named)) {
                 return Err(expected(&path, "an output not declared before", "it again"));
             }
-            self.outputs.push(resolved);
+            let kind = output.kind;
+            self.outputs.push(resolved::Output { kind, of });
         }
         Ok(())
     }
 
-    fn resolve_output(
-        &mut self,
-        path: &str,
-        output: &'a Output,
-    ) -> Result<resolved::Output<'a>, Error> {
-        use resolved::Output as To;
-        let named = |key: &str, name: &'a Option<String>| {
-            let name = needed(path, key, "a name", name.as_deref())?;
-            Ok::<_, Error>((format!("{path}.{key}"), name))
-        };
-        let marker = || {
-            let (at, name) = named("marker", &output.marker)?;
-            self.require_marker(&at, name)
-        };
-        let on_cable = || {
-            let (at, name) = named("marker", &output.marker)?;
-            self.require_cable_marker(&at, name)
+    fn resolve_output(&mut self, path: &str, output: &'a Output) -> Result<Of<'a>, Error> {
+        let marker = |require: fn(&Self, &str, &'a str) -> Result<Marker<'a>, Error>| {
+            let name = needed(path, "marker", "a name", output.marker.as_deref())?;
+            require(self, &format!("{path}.marker"), name)
         };
         let turning = || match &output.joint {
             Some(joint) => {
                 let pivot = self.require_pivot(&format!("{path}.joint"), joint)?;
                 Ok::<_, Error>(Turning::Pivot(pivot))
             }
-            None => {
-                let (at, name) = named("marker", &output.marker)?;
-                Ok(Turning::Marker(self.require_turning(&at, name)?))
-            }
+            None => Ok(Turning::Marker(marker(Self::require_turning)?)),
         };
-        Ok(match output.kind {
-            OutputKind::Position => To::Position(marker()?),
-            OutputKind::Velocity => To::Velocity(marker()?),
-            OutputKind::Acceleration => To::Acceleration(marker()?),
-            OutputKind::Angle => {
+        Ok(match output.kind.read_at() {
+            ReadAt::Marker => Of::Marker(marker(Self::require_marker)?),
+            ReadAt::Directed => Of::Marker(marker(Self::require_directed)?),
+            ReadAt::Cable | ReadAt::Node => Of::Marker(marker(Self::require_cable_marker)?),
+            ReadAt::Turning => Of::Turning(turning()?),
+            ReadAt::Angle => {
                 let turning = turning()?;
-                To::Angle(turning, self.count_angle(turning))
+                self.count_angle(turning)
             }
-            OutputKind::AngularVelocity => To::AngularVelocity(turning()?),
-            OutputKind::AngularAcceleration => To::AngularAcceleration(turning()?),
-            OutputKind::Strain => To::Strain(on_cable()?),
-            OutputKind::Curvature => To::Curvature(on_cable()?),
-            OutputKind::AxialForce => To::AxialForce(on_cable()?),
-            OutputKind::BendingMoment => To::BendingMoment(on_cable()?),
-            OutputKind::ConnectivityForce => To::ConnectivityForce(on_cable()?),
-            OutputKind::Travel => {
-                let (at, name) = named("joint", &output.joint)?;
-                self.travel(&at, name)?
+            ReadAt::Slide => {
+                let name = needed(path, "joint", "a name", output.joint.as_deref())?;
+                self.travel(&format!("{path}.joint"), name)?
             }
-            OutputKind::Reaction => To::Reaction(self.reaction(path, output)?),
-            OutputKind::ReactionMoment => To::ReactionMoment(self.reaction(path, output)?),
-            OutputKind::Energy => To::Energy,
-            OutputKind::Work => To::Work,
-            OutputKind::Momentum => To::Momentum,
-            OutputKind::CenterOfMass => To::CenterOfMass,
-            OutputKind::Residual => To::Residual,
-            OutputKind::NaturalFrequency | OutputKind::Eigenvalue => {
+            ReadAt::Force | ReadAt::Moment => Of::Reaction(self.reaction(path, output)?),
+            ReadAt::Scene => Of::Scene,
+            ReadAt::Spectrum => {
                 let count = needed(path, "count", "a count", output.count)?;
                 let body = output.body.as_deref();
                 if let Some(name) = body {
                     self.validate_body_output(&format!("{path}.body"), name)?;
                 }
-                match output.kind {
-                    OutputKind::Eigenvalue => To::Eigenvalue(body, count),
-                    _ => To::NaturalFrequency(body, count),
-                }
+                Of::Spectrum(body, count)
             }
         })
     }
 
-    pub(super) fn count_angle(&mut self, turning: Turning<'a>) -> AngleId {
+    pub(super) fn count_angle(&mut self, turning: Turning<'a>) -> Of<'a> {
         self.angles.push(turning);
-        AngleId(self.angles.len() - 1)
+        Of::Angle(turning, AngleId(self.angles.len() - 1))
     }
 
-    fn travel(&self, path: &str, name: &str) -> Result<resolved::Output<'a>, Error> {
+    fn travel(&self, path: &str, name: &str) -> Result<Of<'a>, Error> {
         let joint = self.require_joint(path, name)?;
         let slide = joint.slide();
         let slide = slide.ok_or_else(|| expected(path, "a joint of kind along", quoted(name)))?;
-        Ok(resolved::Output::Travel(joint.name, slide))
+        Ok(Of::Slide(joint.name, slide))
     }
 
     fn reaction(&self, path: &str, output: &'a Output) -> Result<Reaction<'a>, Error> {
-        let is_moment = output.kind == OutputKind::ReactionMoment;
+        let is_moment = output.kind.read_at() == ReadAt::Moment;
         if let Some(name) = &output.motion {
             return self.motion_reaction(&format!("{path}.motion"), name, is_moment);
         }

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, not_negative, quoted, spring_damper};
 use crate::scene::Error;
-use crate::scene::description::{Kind as _, Port, PortKind};
+use crate::scene::description::{Kind as _, OutputKind, Port, PortKind};
 use crate::scene::resolved::{
-    self, Action, Coupling, CouplingId, InputKind, Marker, Motion, MotionKind, Output, Resolved,
-    Turning,
+    self, Action, Coupling, CouplingId, InputKind, Marker, Motion, MotionKind, Of, Output,
+    Resolved, Turning,
 };
 use crate::system::Signal;
 
@@ -100,6 +100,7 @@ impl<'a> Resolved<'a> {
     }
 
     fn force_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
+        use OutputKind::*;
         let dimension = self.scene.dimension;
         let first = self.place(dimension);
         let mut inputs = vec![resolved::Input {
@@ -111,11 +112,8 @@ impl<'a> Resolved<'a> {
             first,
             start: vec![0.0; dimension],
         }];
-        let mut outputs = vec![
-            Output::Position(marker),
-            Output::Velocity(marker),
-            Output::Acceleration(marker),
-        ];
+        let of = Of::Marker(marker);
+        let mut outputs = vec![(Position, of), (Velocity, of), (Acceleration, of)];
         if port.turns() {
             let (first, turning) = (self.place(1), Turning::Marker(marker));
             inputs.push(resolved::Input {
@@ -123,12 +121,15 @@ impl<'a> Resolved<'a> {
                 first,
                 start: vec![0.0],
             });
+            let (angle, of) = (self.count_angle(turning), Of::Turning(turning));
             outputs.extend([
-                Output::Angle(turning, self.count_angle(turning)),
-                Output::AngularVelocity(turning),
-                Output::AngularAcceleration(turning),
+                (Angle, angle),
+                (AngularVelocity, of),
+                (AngularAcceleration, of),
             ]);
         }
+        let outputs = outputs.into_iter();
+        let outputs = outputs.map(|(kind, of)| Output { kind, of }).collect();
         resolved::PortKind::Force { inputs, outputs }
     }
 

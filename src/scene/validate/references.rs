@@ -18,11 +18,16 @@ impl<'a> Resolved<'a> {
         })
     }
 
-    /// A marker with an angle: in the plane, of a cable, or of a rigid body that has inertia.
+    /// A marker with an angle: in the plane, one with a direction.
     pub(super) fn require_turning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let instead =
             "nothing that has an angle or takes a moment, which a cable without torsion does not,";
         planar(path, self.scene.dimension, instead, &quoted(name))?;
+        self.require_directed(path, name)
+    }
+
+    /// A marker with a direction: of a cable, or of a rigid body that has inertia.
+    pub(super) fn require_directed(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         if marker.place.turns() {
             return Ok(marker);

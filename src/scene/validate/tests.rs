@@ -327,6 +327,9 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /outputs/0 | {"kind": "position"} | outputs[0].marker: expected a name, found nothing
         /outputs/0 | {"kind": "strain", "marker": "crank.a"} | outputs[0].marker: expected a marker of a cable
         /outputs/0 | {"kind": "angle", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
+        /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
+        /outputs/0 | {"kind": "direction", "joint": "knee"} | outputs[0].marker: expected a name
+        /outputs/0 | {"kind": "direction", "marker": "crank.a"} | accepted
         /outputs/0 | {"kind": "angle", "joint": "clamp"} | outputs[0].joint: expected a revolute joint or a hinge
         /outputs/0 | {"kind": "angle", "joint": "pin", "marker": "rod.tip"} | outputs[0]: expected one name of what is read, found two
         /outputs/0 | {"kind": "travel", "joint": "rail"} | outputs[0].joint: expected a joint of kind along

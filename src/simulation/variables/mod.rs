@@ -13,9 +13,8 @@ pub use causality::Causality;
 pub(super) use outputs::sets_springs;
 pub use unit::Unit;
 
-use crate::scene::{
-    AngleId, CableId, CouplingId, HolderId, MarkerId, Resolved, RigidId, Scene, SlideId,
-};
+use super::quantities::Quantity;
+use crate::scene::{CableId, CouplingId, Resolved, RigidId, Scene};
 use unit::SECOND;
 
 /// A scalar variable of a simulation.
@@ -105,71 +104,6 @@ pub enum Parameter {
     WorkLimit,
 }
 
-/// Outputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Quantity {
-    /// Component of the position of a marker.
-    Position(MarkerId, usize),
-    /// Component of the velocity of a marker.
-    Velocity(MarkerId, usize),
-    /// Component of the acceleration of a marker.
-    Acceleration(MarkerId, usize),
-    /// Continuous angle of a marker or a joint.
-    Angle(AngleId),
-    /// Angular velocity of the direction at a marker.
-    AngularVelocity(MarkerId),
-    /// Angular velocity of the second marker of a joint less that of its first.
-    JointVelocity(HolderId),
-    /// Angular acceleration of the direction at a marker.
-    AngularAcceleration(MarkerId),
-    /// Angular acceleration of the second marker of a joint less that of its first.
-    JointAcceleration(HolderId),
-    /// Axial strain at a marker.
-    Strain(MarkerId),
-    /// Curvature at a marker.
-    Curvature(MarkerId),
-    /// Axial force at a marker.
-    AxialForce(MarkerId),
-    /// Component of the bending moment at a marker; in the plane the third.
-    BendingMoment(MarkerId, usize),
-    /// Component of the force that the part of a cable before a marker exerts on the part after it.
-    ConnectivityForce(MarkerId, usize),
-    /// Where a slide is on its cable.
-    Travel(SlideId),
-    /// Component of the force of a joint or motion.
-    Reaction(HolderId, usize),
-    /// Moment of a joint or motion.
-    ReactionMoment(HolderId),
-    /// Component of the force on what drives a marker: opposite to the reaction.
-    MotionForce(HolderId, usize),
-    /// Moment on what turns a marker.
-    MotionMoment(HolderId),
-    /// Component of the force of a coupling on what it couples to.
-    CouplingForce(CouplingId, usize),
-    /// Moment of a coupling on what it couples to.
-    CouplingMoment(CouplingId),
-    /// Kinetic energy.
-    KineticEnergy,
-    /// Strain energy.
-    StrainEnergy,
-    /// Potential energy of gravity, zero at the origin.
-    GravityEnergy,
-    /// Energy in springs, hinges and couplings.
-    SpringEnergy,
-    /// Work done from outside since the start.
-    Input,
-    /// Energy dissipated since the start.
-    Dissipated,
-    /// Component of the linear momentum.
-    Momentum(usize),
-    /// Component of the angular momentum about the origin; in the plane the third.
-    AngularMomentum(usize),
-    /// Component of the centre of mass.
-    CenterOfMass(usize),
-    /// Largest residual of the constraints: 0 of positions, 1 of velocities.
-    Residual(usize),
-}
-
 impl Variable {
     /// Whether the value is an integer; all others are real numbers.
     pub fn is_integer(&self) -> bool {
@@ -211,6 +145,7 @@ pub(super) fn list(scene: &Resolved<'_>) -> Vec<Variable> {
     let mut list = List {
         variables: Vec::new(),
         dimension: scene.scene.dimension,
+        sets_springs: sets_springs(scene),
     };
     list.add("time", "Simulated time", Some(SECOND), Source::Time, None);
     parameters::add(&mut list, scene);
@@ -239,10 +174,11 @@ fn component(name: &str, axis: usize) -> String {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Variables, and how many components a vector has.
+/// Variables, how many components a vector has, and whether the master sets springs.
 struct List {
     variables: Vec<Variable>,
     dimension: usize,
+    sets_springs: bool,
 }
 
 impl List {
@@ -266,7 +202,7 @@ impl List {
         });
     }
 
-    /// Inputs and outputs from this index on are direct.
+    /// Inputs from this index on are direct.
     fn mark_direct(&mut self, first: usize) {
         for variable in &mut self.variables[first..] {
             variable.is_direct = true;

@@ -1,10 +1,120 @@
 //! Outputs, natural frequencies, eigenvalues, and what goes out of ports.
 
 use super::unit::*;
-use super::{AXES, HolderId, List, MarkerId, Quantity, Source, Unit, component};
+use super::{AXES, List, Quantity, Source, Unit, component};
 use crate::scene::{
-    InputKind, LoadKind, Marker, Output, Port, PortKind, Reaction, Resolved, SlideId, Turning,
+    AngleId, HolderId, InputKind, LoadKind, MarkerId, Of, Output, OutputKind, Port, PortKind,
+    Resolved, SlideId, Turning,
 };
+use crate::simulation::quantities::{Evaluated, needs};
+
+/// How many numbers an output is.
+#[derive(Clone, Copy)]
+enum Shape {
+    /// One.
+    Scalar,
+    /// One an axis.
+    Vector,
+    /// One an axis to turn about: in the plane the third alone.
+    Turn,
+    /// As many as are asked for; in its meaning, `{}` is the number from 1 on.
+    List,
+}
+
+/// Quantities by what they are read at, and the place in their shape.
+#[derive(Clone, Copy)]
+enum Read {
+    Marker(fn(MarkerId, usize) -> Quantity),
+    /// Of a marker, of a joint.
+    Turning(fn(MarkerId) -> Quantity, fn(HolderId) -> Quantity),
+    Counted(fn(AngleId) -> Quantity),
+    Slide(fn(SlideId) -> Quantity),
+    Holder(fn(HolderId, usize) -> Quantity),
+    Scene(fn(usize) -> Quantity),
+    Spectrum(fn(usize) -> Source),
+}
+
+/// Key, meaning (`{}`: what it is read at), unit, shape, what is read.
+type Row = (&'static str, &'static str, Option<Unit>, Shape, Read);
+
+/// What an output of a kind lists.
+#[rustfmt::skip] // a table
+fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
+    use OutputKind as Kind;
+    use Quantity::*;
+    use Shape::{List, Scalar, Turn, Vector};
+    match kind {
+        Kind::Position => vec![("position", "Position of {}", Some(METRE), Vector, Read::Marker(Position))],
+        Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Marker(Velocity))],
+        Kind::Acceleration => vec![("acceleration", "Acceleration of {}", Some(METRE_PER_SECOND_2), Vector, Read::Marker(Acceleration))],
+        Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
+        Kind::Angle => vec![("angle", "Direction {}, counted on over full turns", Some(RADIAN), Scalar, Read::Counted(Angle))],
+        Kind::AngularVelocity => vec![
+            ("angular_velocity", "Angular velocity of {}", Some(RADIAN_PER_SECOND), Scalar, Read::Turning(AngularVelocity, JointVelocity)),
+        ],
+        Kind::AngularAcceleration => vec![
+            ("angular_acceleration", "Angular acceleration of {}", Some(RADIAN_PER_SECOND_2), Scalar,
+                Read::Turning(AngularAcceleration, JointAcceleration)),
+        ],
+        Kind::Strain => vec![("strain", "Axial strain at {}", None, Scalar, Read::Marker(|m, _| Strain(m)))],
+        Kind::Curvature => vec![("curvature", "Curvature at {}", Some(PER_METRE), Scalar, Read::Marker(|m, _| Curvature(m)))],
+        Kind::AxialForce => vec![("axial_force", "Axial force at {}", Some(NEWTON), Scalar, Read::Marker(|m, _| AxialForce(m)))],
+        Kind::BendingMoment => vec![("bending_moment", "Bending moment at {}", Some(NEWTON_METRE), Turn, Read::Marker(BendingMoment))],
+        Kind::ConnectivityForce => vec![
+            ("connectivity_force", "Force of the part before on the part after {}", Some(NEWTON), Vector, Read::Marker(ConnectivityForce)),
+        ],
+        Kind::Travel => vec![("travel", "Length along the cable at which {} stands", Some(METRE), Scalar, Read::Slide(Travel))],
+        Kind::Reaction => vec![("reaction", "Force of {}", Some(NEWTON), Vector, Read::Holder(Reaction))],
+        Kind::ReactionMoment => vec![
+            ("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Scalar, Read::Holder(|h, _| ReactionMoment(h))),
+        ],
+        Kind::Energy => energies(resolved),
+        Kind::Work => vec![
+            ("energy.input", "Work that loads, inputs and motions have done since the start", Some(JOULE), Scalar, Read::Scene(|_| Input)),
+            ("energy.dissipated", "Energy lost in dampers and in damping since the start", Some(JOULE), Scalar, Read::Scene(|_| Dissipated)),
+        ],
+        Kind::Momentum => vec![
+            ("momentum", "Linear momentum", Some(NEWTON_SECOND), Vector, Read::Scene(Momentum)),
+            ("angular_momentum", "Angular momentum about the origin", Some(NEWTON_METRE_SECOND), Turn, Read::Scene(AngularMomentum)),
+        ],
+        Kind::CenterOfMass => vec![("center_of_mass", "Centre of mass", Some(METRE), Vector, Read::Scene(CenterOfMass))],
+        Kind::Residual => vec![
+            ("residual.position", "Largest residual of the positions that constraints hold, relative", None, Scalar, Read::Scene(|_| Residual(0))),
+            ("residual.velocity", "Largest residual of the velocities that constraints hold, relative", Some(PER_SECOND), Scalar,
+                Read::Scene(|_| Residual(1))),
+        ],
+        Kind::NaturalFrequency => vec![
+            ("natural_frequency", "Natural frequency {} at rest in the initial configuration; an unstable one is negative",
+                Some(RADIAN_PER_SECOND), List, Read::Spectrum(Source::NaturalFrequency)),
+        ],
+        Kind::Eigenvalue => vec![
+            ("eigenvalue.decay_rate", "Decay rate of eigenvalue {} about the initial state; a growing one is negative",
+                Some(PER_SECOND), List, Read::Spectrum(|n| Source::Eigenvalue(n, 0))),
+            ("eigenvalue.frequency", "Frequency of eigenvalue {} about the initial state, 0 of a real one",
+                Some(RADIAN_PER_SECOND), List, Read::Spectrum(|n| Source::Eigenvalue(n, 1))),
+        ],
+    }
+}
+
+#[rustfmt::skip] // a table
+fn energies(resolved: &Resolved<'_>) -> Vec<Row> {
+    use Quantity::*;
+    let gravity = if resolved.scene.rotation == 0.0 {
+        "Potential energy of gravity, zero at the origin"
+    } else {
+        "Potential energy of gravity and of the centrifugal force, zero at the origin"
+    };
+    let mut rows: Vec<Row> = vec![
+        ("energy.kinetic", "Kinetic energy", Some(JOULE), Shape::Scalar, Read::Scene(|_| KineticEnergy)),
+        ("energy.strain", "Strain energy", Some(JOULE), Shape::Scalar, Read::Scene(|_| StrainEnergy)),
+        ("energy.gravity", gravity, Some(JOULE), Shape::Scalar, Read::Scene(|_| GravityEnergy)),
+        ("energy.spring", "Energy in springs, hinges and couplings", Some(JOULE), Shape::Scalar, Read::Scene(|_| SpringEnergy)),
+    ];
+    if !has_springs(resolved) {
+        rows.pop();
+    }
+    rows
+}
 
 /// Adds the outputs of a scene.
 pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
@@ -23,206 +133,95 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
 
 /// An output; the variables of a port bear its name.
 fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, port: Option<&str>) {
-    let first = list.variables.len();
-    match output {
-        Output::Position(m) => {
-            let words = ("position", "Position of", METRE);
-            list.vector_at(m, port, words, Quantity::Position);
-        }
-        Output::Velocity(m) => {
-            let words = ("velocity", "Velocity of", METRE_PER_SECOND);
-            list.vector_at(m, port, words, Quantity::Velocity);
-        }
-        Output::Acceleration(m) => {
-            let words = ("acceleration", "Acceleration of", METRE_PER_SECOND_2);
-            list.vector_at(m, port, words, Quantity::Acceleration);
-            list.mark_direct(first);
-        }
-        Output::ConnectivityForce(m) => {
-            let what = "Force of the part before on the part after";
-            let words = ("connectivity_force", what, NEWTON);
-            list.vector_at(m, port, words, Quantity::ConnectivityForce);
-            list.mark_direct(first);
-        }
-        Output::Strain(m) => {
-            list.scalar_at(m, ("strain", "Axial strain at", None), Quantity::Strain);
-        }
-        Output::Curvature(m) => {
-            let words = ("curvature", "Curvature at", Some(PER_METRE));
-            list.scalar_at(m, words, Quantity::Curvature);
-        }
-        Output::AxialForce(m) => {
-            let words = ("axial_force", "Axial force at", Some(NEWTON));
-            list.scalar_at(m, words, Quantity::AxialForce);
-            list.mark_direct(first);
-        }
-        Output::BendingMoment(m) => {
-            let (name, what) = (
-                format!("{}.bending_moment", m.name),
-                format!("Bending moment at {}", m.name),
-            );
-            let quantity = |axis| Quantity::BendingMoment(m.id, axis);
-            list.turning(&name, &what, NEWTON_METRE, quantity);
-            list.mark_direct(first);
-        }
-        Output::Angle(turning, angle) => {
-            add_angle(list, (turning, port), Quantity::Angle(*angle));
-        }
-        Output::AngularVelocity(turning) => add_angular_velocity(list, (turning, port)),
-        Output::AngularAcceleration(turning) => add_angular_acceleration(list, (turning, port)),
-        Output::Travel(joint, slide) => add_travel(list, joint, *slide),
-        Output::Reaction(reaction) => add_reaction(list, reaction, false),
-        Output::ReactionMoment(reaction) => add_reaction(list, reaction, true),
-        Output::Energy => add_energies(list, resolved),
-        Output::Work => add_work(list, resolved),
-        Output::Momentum => add_momentum(list),
-        Output::CenterOfMass => {
-            let quantity = Quantity::CenterOfMass;
-            list.vector("center_of_mass", "Centre of mass", METRE, quantity);
-        }
-        Output::Residual => add_residuals(list),
-        Output::NaturalFrequency(body, count) => add_frequencies(list, *body, *count),
-        Output::Eigenvalue(body, count) => add_eigenvalues(list, *body, *count),
+    let (name, place) = words(&output.of);
+    let count = match output.of {
+        Of::Spectrum(_, count) => count as usize,
+        _ => list.dimension,
+    };
+    for (key, what, unit, shape, read) in rows(output.kind, resolved) {
+        let name = match port.unwrap_or(name) {
+            "" => key.to_owned(),
+            of => format!("{of}.{key}"),
+        };
+        let what = match shape {
+            Shape::List => what.to_owned(),
+            _ => what.replace("{}", &place),
+        };
+        let source = |k| source(read, &output.of, k);
+        list.shaped((&name, &what), unit, (shape, count), source);
     }
 }
 
-fn add_angle(list: &mut List, (turning, port): (&Turning<'_>, Option<&str>), quantity: Quantity) {
-    let what = match turning {
-        Turning::Pivot(pivot) => format!(
-            "Direction of the second marker of {} less that of its first, counted on over full turns",
-            pivot.name
-        ),
-        Turning::Marker(marker) => {
-            format!("Direction at {}, counted on over full turns", marker.name)
+/// What variables of an output are named after, and what its meaning calls that.
+fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
+    let second = |joint: &str| format!("the second marker of {joint} less that of its first");
+    match of {
+        Of::Marker(marker) => (marker.name, marker.name.into()),
+        Of::Turning(Turning::Marker(marker)) => {
+            (marker.name, format!("the direction at {}", marker.name))
         }
-    };
-    let name = format!("{}.angle", port.unwrap_or(turning.name()));
-    list.scalar(&name, &what, Some(RADIAN), quantity);
+        Of::Turning(Turning::Pivot(pivot)) => (pivot.name, second(pivot.name)),
+        Of::Angle(Turning::Marker(marker), _) => (marker.name, format!("at {}", marker.name)),
+        Of::Angle(Turning::Pivot(pivot), _) => (pivot.name, format!("of {}", second(pivot.name))),
+        Of::Slide(joint, _) => (joint, (*joint).into()),
+        Of::Reaction(reaction) => {
+            let on = match reaction.is_motion {
+                true => "what it drives",
+                false => "its second marker",
+            };
+            (reaction.name, format!("{} on {on}", reaction.name))
+        }
+        Of::Scene => ("", String::new()),
+        Of::Spectrum(body, _) => (body.unwrap_or_default(), String::new()),
+    }
 }
 
-fn add_angular_velocity(list: &mut List, of: (&Turning<'_>, Option<&str>)) {
-    let words = ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND);
-    let quantities = (Quantity::AngularVelocity, Quantity::JointVelocity);
-    add_angular_rate(list, of, words, quantities);
-}
-
-fn add_angular_acceleration(list: &mut List, of: (&Turning<'_>, Option<&str>)) {
-    let (key, what) = ("angular_acceleration", "Angular acceleration");
-    let quantities = (Quantity::AngularAcceleration, Quantity::JointAcceleration);
-    let first = list.variables.len();
-    add_angular_rate(list, of, (key, what, RADIAN_PER_SECOND_2), quantities);
-    list.mark_direct(first);
-}
-
-/// Angular velocity or acceleration, of a marker or a joint.
-fn add_angular_rate(
-    list: &mut List,
-    (turning, port): (&Turning<'_>, Option<&str>),
-    (key, what, unit): (&str, &str, Unit),
-    (of_marker, of_joint): (impl Fn(MarkerId) -> Quantity, impl Fn(HolderId) -> Quantity),
-) {
-    let (what, quantity) = match turning {
-        Turning::Pivot(pivot) => (
-            format!(
-                "{what} of the second marker of {} less that of its first",
-                pivot.name
-            ),
-            of_joint(pivot.joint),
-        ),
-        Turning::Marker(marker) => (
-            format!("{what} of the direction at {}", marker.name),
-            of_marker(marker.id),
-        ),
-    };
-    let name = format!("{}.{key}", port.unwrap_or(turning.name()));
-    list.scalar(&name, &what, Some(unit), quantity);
+fn source(read: Read, of: &Of<'_>, k: usize) -> Source {
+    Source::Output(match (read, of) {
+        (Read::Marker(quantity), Of::Marker(marker)) => quantity(marker.id, k),
+        (Read::Turning(quantity, _), Of::Turning(Turning::Marker(marker))) => quantity(marker.id),
+        (Read::Turning(_, quantity), Of::Turning(Turning::Pivot(pivot))) => quantity(pivot.joint),
+        (Read::Counted(quantity), Of::Angle(_, angle)) => quantity(*angle),
+        (Read::Slide(quantity), Of::Slide(_, slide)) => quantity(*slide),
+        (Read::Holder(quantity), Of::Reaction(reaction)) => quantity(reaction.holder, k),
+        (Read::Scene(quantity), Of::Scene) => quantity(k),
+        (Read::Spectrum(source), Of::Spectrum(..)) => return source(k),
+        _ => unreachable!("what an output is read at follows from its kind"),
+    })
 }
 
 /// What a port that motions come into exerts on the outside.
 fn add_port_force(list: &mut List, port: &Port<'_>) {
     use Quantity::{CouplingForce, CouplingMoment, MotionForce, MotionMoment};
-    let first = list.variables.len();
     let what = format!(
         "of {} on what {} couples it to",
         port.marker.name, port.name
     );
     let (force, force_what) = (format!("{}.force", port.name), format!("Force {what}"));
+    let mut vector = |quantity: &dyn Fn(usize) -> Quantity| {
+        let source = |axis| Source::Output(quantity(axis));
+        let shape = (Shape::Vector, list.dimension);
+        list.shaped((&force, &force_what), Some(NEWTON), shape, source);
+    };
     let moment = match &port.kind {
         PortKind::Force { .. } => return,
         PortKind::Motion { position, angle } => {
-            let quantity = |axis| MotionForce(position.holder, axis);
-            list.vector(&force, &force_what, NEWTON, quantity);
+            vector(&|axis| MotionForce(position.holder, axis));
             angle.as_ref().map(|angle| MotionMoment(angle.holder))
         }
         PortKind::Coupling { position, angle } => {
-            let quantity = |axis| CouplingForce(position.id, axis);
-            list.vector(&force, &force_what, NEWTON, quantity);
+            vector(&|axis| CouplingForce(position.id, axis));
             angle.as_ref().map(|angle| CouplingMoment(angle.id))
         }
     };
     if let Some(quantity) = moment {
         let (name, what) = (format!("{}.moment", port.name), format!("Moment {what}"));
-        list.scalar(&name, &what, Some(NEWTON_METRE), quantity);
-    }
-    list.mark_direct(first);
-}
-
-fn add_travel(list: &mut List, joint: &str, slide: SlideId) {
-    let what = format!("Length along the cable at which {joint} stands");
-    let quantity = Quantity::Travel(slide);
-    list.scalar(&format!("{joint}.travel"), &what, Some(METRE), quantity);
-}
-
-fn add_reaction(list: &mut List, reaction: &Reaction<'_>, is_moment: bool) {
-    let (name, holder) = (reaction.name, reaction.holder);
-    let on = match reaction.is_motion {
-        true => "what it drives",
-        false => "its second marker",
-    };
-    let first = list.variables.len();
-    if is_moment {
-        let what = format!("Moment of {name} on {on}");
-        let (name, quantity) = (
-            format!("{name}.reaction_moment"),
-            Quantity::ReactionMoment(holder),
-        );
-        list.scalar(&name, &what, Some(NEWTON_METRE), quantity);
-    } else {
-        let what = format!("Force of {name} on {on}");
-        let quantity = |axis| Quantity::Reaction(holder, axis);
-        list.vector(&format!("{name}.reaction"), &what, NEWTON, quantity);
-    }
-    list.mark_direct(first);
-}
-
-fn add_energies(list: &mut List, resolved: &Resolved<'_>) {
-    use Quantity::{GravityEnergy, KineticEnergy, SpringEnergy, StrainEnergy};
-    let gravity = if resolved.scene.rotation == 0.0 {
-        "Potential energy of gravity, zero at the origin"
-    } else {
-        "Potential energy of gravity and of the centrifugal force, zero at the origin"
-    };
-    for (name, what, quantity) in [
-        ("energy.kinetic", "Kinetic energy", KineticEnergy),
-        ("energy.strain", "Strain energy", StrainEnergy),
-        ("energy.gravity", gravity, GravityEnergy),
-    ] {
-        list.scalar(name, what, Some(JOULE), quantity);
-    }
-    if stiffnesses(resolved).into_iter().any(|k| k > 0.0) {
-        let (what, first) = (
-            "Energy in springs, hinges and couplings",
-            list.variables.len(),
-        );
-        list.scalar("energy.spring", what, Some(JOULE), SpringEnergy);
-        if sets_springs(resolved) {
-            list.mark_direct(first);
-        }
+        list.output(name, what, Some(NEWTON_METRE), Source::Output(quantity));
     }
 }
 
-/// Stiffnesses of springs, hinges and couplings.
-fn stiffnesses(resolved: &Resolved<'_>) -> Vec<f64> {
+/// Whether there are springs, hinges or couplings with stiffness.
+fn has_springs(resolved: &Resolved<'_>) -> bool {
     let springs = resolved.loads.iter().filter_map(|load| match &load.kind {
         LoadKind::Spring(spring) => Some(spring.stiffness),
         LoadKind::Action { .. } => None,
@@ -236,7 +235,8 @@ fn stiffnesses(resolved: &Resolved<'_>) -> Vec<f64> {
         }
         PortKind::Force { .. } | PortKind::Motion { .. } => None,
     });
-    springs.chain(hinges).chain(couplings).collect()
+    let mut stiffnesses = springs.chain(hinges).chain(couplings);
+    stiffnesses.any(|stiffness| stiffness > 0.0)
 }
 
 /// Whether the master sets the length of a spring or where one ends: it then works on the spring at once.
@@ -245,127 +245,39 @@ pub(in crate::simulation) fn sets_springs(resolved: &Resolved<'_>) -> bool {
     inputs.any(|input| matches!(input.kind, InputKind::RestLength(_))) || resolved.couplings > 0
 }
 
-fn add_work(list: &mut List, resolved: &Resolved<'_>) {
-    let what = "Work that loads, inputs and motions have done since the start";
-    let first = list.variables.len();
-    list.scalar("energy.input", what, Some(JOULE), Quantity::Input);
-    if sets_springs(resolved) {
-        list.mark_direct(first);
-    }
-    let what = "Energy lost in dampers and in damping since the start";
-    list.scalar("energy.dissipated", what, Some(JOULE), Quantity::Dissipated);
-}
-
-fn add_momentum(list: &mut List) {
-    let what = "Linear momentum";
-    list.vector("momentum", what, NEWTON_SECOND, Quantity::Momentum);
-    let (name, what) = ("angular_momentum", "Angular momentum about the origin");
-    let quantity = Quantity::AngularMomentum;
-    list.turning(name, what, NEWTON_METRE_SECOND, quantity);
-}
-
-fn add_residuals(list: &mut List) {
-    let what = "Largest residual of the positions that constraints hold, relative";
-    list.scalar("residual.position", what, None, Quantity::Residual(0));
-    let what = "Largest residual of the velocities that constraints hold, relative";
-    let unit = Some(PER_SECOND);
-    list.scalar("residual.velocity", what, unit, Quantity::Residual(1));
-}
-
-fn add_frequencies(list: &mut List, body: Option<&str>, count: u32) {
-    let name = match body {
-        Some(body) => format!("{body}.natural_frequency"),
-        None => "natural_frequency".into(),
-    };
-    for number in 0..count as usize {
-        let what = format!(
-            "Natural frequency {} at rest in the initial configuration; an unstable one is negative",
-            number + 1
-        );
-        let source = Source::NaturalFrequency(number);
-        let unit = Some(RADIAN_PER_SECOND);
-        list.add(component(&name, number), what, unit, source, None);
-    }
-}
-
-fn add_eigenvalues(list: &mut List, body: Option<&str>, count: u32) {
-    let name = body.map_or("eigenvalue".into(), |body| format!("{body}.eigenvalue"));
-    let parts = [
-        (
-            "decay_rate",
-            "Decay rate",
-            "; a growing one is negative",
-            PER_SECOND,
-        ),
-        (
-            "frequency",
-            "Frequency",
-            ", 0 of a real one",
-            RADIAN_PER_SECOND,
-        ),
-    ];
-    for (part, (key, what, note, unit)) in parts.into_iter().enumerate() {
-        for number in 0..count as usize {
-            let name = component(&format!("{name}.{key}"), number);
-            let what = format!(
-                "{what} of eigenvalue {} about the initial state{note}",
-                number + 1
-            );
-            list.add(
-                name,
-                what,
-                Some(unit),
-                Source::Eigenvalue(number, part),
-                None,
-            );
-        }
-    }
-}
-
 impl List {
-    /// The components of a vector at a marker; of a port, by its name.
-    fn vector_at(
+    /// An output: a number or several, which tell their axis or number.
+    fn shaped(
         &mut self,
-        marker: &Marker<'_>,
-        port: Option<&str>,
-        (key, what, unit): (&str, &str, Unit),
-        quantity: fn(MarkerId, usize) -> Quantity,
+        (name, what): (&str, &str),
+        unit: Option<Unit>,
+        (shape, count): (Shape, usize),
+        source: impl Fn(usize) -> Source,
     ) {
-        let name = format!("{}.{key}", port.unwrap_or(marker.name));
-        let what = format!("{what} {}", marker.name);
-        self.vector(&name, &what, unit, |axis| quantity(marker.id, axis));
-    }
-
-    fn scalar_at(
-        &mut self,
-        marker: &Marker<'_>,
-        (key, what, unit): (&str, &str, Option<Unit>),
-        quantity: fn(MarkerId) -> Quantity,
-    ) {
-        let (name, what) = (
-            format!("{}.{key}", marker.name),
-            format!("{what} {}", marker.name),
-        );
-        self.scalar(&name, &what, unit, quantity(marker.id));
-    }
-
-    /// What turns: a number in the plane, three components in space.
-    fn turning(&mut self, name: &str, what: &str, unit: Unit, of: impl Fn(usize) -> Quantity) {
-        match self.dimension {
-            2 => self.scalar(name, what, Some(unit), of(2)),
-            _ => self.vector(name, what, unit, of),
+        match (shape, count) {
+            (Shape::Scalar, _) => self.output(name.into(), what.into(), unit, source(0)),
+            (Shape::Turn, 2) => self.output(name.into(), what.into(), unit, source(2)),
+            _ => (0..count).for_each(|k| {
+                let what = match shape {
+                    Shape::List => what.replace("{}", &(k + 1).to_string()),
+                    _ => format!("{what}, component {}", AXES[k]),
+                };
+                self.output(component(name, k), what, unit, source(k));
+            }),
         }
     }
 
-    /// The components of a vector.
-    fn vector(&mut self, name: &str, what: &str, unit: Unit, quantity: impl Fn(usize) -> Quantity) {
-        for axis in 0..self.dimension {
-            let what = format!("{what}, component {}", AXES[axis]);
-            self.scalar(&component(name, axis), &what, Some(unit), quantity(axis));
+    /// An output follows at once from inputs where accelerations do, or springs that the master sets.
+    fn output(&mut self, name: String, what: String, unit: Option<Unit>, source: Source) {
+        use Quantity::{CouplingForce, CouplingMoment, Input, SpringEnergy};
+        self.add(name, what, unit, source, None);
+        if let (Some(variable), Source::Output(quantity)) = (self.variables.last_mut(), source) {
+            let of_springs = matches!(
+                quantity,
+                SpringEnergy | Input | CouplingForce(..) | CouplingMoment(_)
+            );
+            variable.is_direct =
+                needs(quantity) == Evaluated::Dynamics || (self.sets_springs && of_springs);
         }
-    }
-
-    fn scalar(&mut self, name: &str, what: &str, unit: Option<Unit>, quantity: Quantity) {
-        self.add(name, what, unit, Source::Output(quantity), None);
     }
 }

@@ -37,7 +37,8 @@ fn line() -> Specimen {
                     "shape": {"line": {"from": from, "to": to}},
                     "motion": {"velocity": speed, "spin": spin}, "markers": {"p": 0.3, "q": 0.8}}],
         "outputs": [{"kind": "position", "marker": "rod.p"}, {"kind": "velocity", "marker": "rod.p"},
-                    {"kind": "angle", "marker": "rod.p"}, {"kind": "angular_velocity", "marker": "rod.p"},
+                    {"kind": "direction", "marker": "rod.p"}, {"kind": "angle", "marker": "rod.p"},
+                    {"kind": "angular_velocity", "marker": "rod.p"},
                     {"kind": "momentum"}, {"kind": "center_of_mass"}, {"kind": "energy"}]});
     let (way, length) = ([0.6, 0.8], 1.0);
     let middle = sum(from, times(0.5, way));
@@ -54,6 +55,7 @@ fn line() -> Specimen {
             "m/s",
             sum(speed, times(0.3 * spin, left(way))),
         )
+        .vector("rod.p.direction", "", way)
         .claim("rod.p.angle", "rad", 0.8_f64.atan2(0.6))
         .claim("rod.p.angular_velocity", "rad/s", spin)
         .vector("momentum", "N.s", times(mass, mean))
@@ -85,7 +87,7 @@ fn arc() -> Specimen {
                     "motion": {"velocity": [0.5, 0.0]},
                     "markers": {"first": 0.0, "middle": 0.5, "last": 1.0}}],
         "outputs": [{"kind": "position", "marker": "rope.middle"}, {"kind": "angle", "marker": "rope.first"},
-                    {"kind": "position", "marker": "rope.last"}, {"kind": "angle", "marker": "rope.last"},
+                    {"kind": "direction", "marker": "rope.first"}, {"kind": "position", "marker": "rope.last"}, {"kind": "angle", "marker": "rope.last"},
                     {"kind": "curvature", "marker": "rope.middle"}, {"kind": "momentum"},
                     {"kind": "energy"}]});
     let lowest = [0.5 * chord, half.cos() - 1.0];
@@ -96,6 +98,7 @@ fn arc() -> Specimen {
             sum(from, turned(slope, lowest)),
         )
         .claim("rope.first.angle", "rad", slope - half)
+        .vector("rope.first.direction", "", turned(slope - half, [1.0, 0.0]))
         .vector("rope.last.position", "m", to)
         .claim("rope.last.angle", "rad", slope + half)
         // Of the elements, to the second order of their length.

@@ -22,7 +22,7 @@ fn flight() -> Specimen {
                     "markers": {"p": [0.3, 0.2], "q": [-0.4, 0.1]}}],
         "outputs": [{"kind": "position", "marker": "plate.p"}, {"kind": "velocity", "marker": "plate.p"},
                     {"kind": "acceleration", "marker": "plate.p"},
-                    {"kind": "angle", "marker": "plate.p"},
+                    {"kind": "direction", "marker": "plate.p"}, {"kind": "angle", "marker": "plate.p"},
                     {"kind": "angular_velocity", "marker": "plate.p"}, {"kind": "energy"},
                     {"kind": "momentum"}, {"kind": "center_of_mass"}]});
     let arm = turned(angle, [0.3, 0.2]);
@@ -43,6 +43,7 @@ fn flight() -> Specimen {
             "m/s2",
             sum(g, times(-spin * spin, arm)),
         )
+        .vector("plate.p.direction", "", turned(angle, [1.0, 0.0]))
         .claim("plate.p.angle", "rad", angle)
         .claim("plate.p.angular_velocity", "rad/s", spin)
         .claim("energy.kinetic", "J", kinetic)

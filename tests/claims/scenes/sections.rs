@@ -30,6 +30,8 @@ fn drawn() -> Specimen {
         outputs("axial_force", "rod", &PLACES),
         outputs("axial_force", "rod", &["near"]),
         outputs("axial_force", "mast", &PLACES),
+        // Where it is drawn, the slope is longer than one.
+        outputs("direction", "rod", &["tip"]),
     ]
     .concat();
     let scene = json!({
@@ -39,8 +41,9 @@ fn drawn() -> Specimen {
         "loads": [pull("first", "rod.middle", inside), pull("second", "rod.tip", end),
                   {"name": "wind", "kind": "distributed", "body": "mast", "value": [line, 0.0]}],
         "outputs": read});
-    let mut specimen =
-        Specimen::new("drawn", scene).claim_within("rod.near.axial_force", "N", end, 1e-7);
+    let mut specimen = Specimen::new("drawn", scene)
+        .claim_within("rod.near.axial_force", "N", end, 1e-7)
+        .vector("rod.tip.direction", "", ALONG);
     for (place, s) in PLACES.into_iter().zip([0.0, 0.25, 0.5, 1.0]) {
         let on_rod = if s < 0.5 { inside + end } else { end };
         let on_mast = line * LENGTH * (1.0 - s);

@@ -36,7 +36,8 @@ pub fn all() -> Vec<Specimen> {
              "motion": {"velocity": array(flight)}, "markers": {"eye": [0.0, 0.0, 0.0]}}],
         "loads": [{"name": "pull", "kind": "force", "marker": "ball.eye", "value": array(pull)}],
         "outputs": [
-            {"kind": "position", "marker": "rod.p"}, {"kind": "velocity", "marker": "rod.p"},
+            {"kind": "position", "marker": "rod.p"}, {"kind": "direction", "marker": "rod.p"},
+            {"kind": "velocity", "marker": "rod.p"},
             {"kind": "velocity", "marker": "ball.eye"}, {"kind": "acceleration", "marker": "ball.eye"},
             {"kind": "momentum"}, {"kind": "center_of_mass"}, {"kind": "energy"}]});
     let rod = rho * area * way.norm();
@@ -52,6 +53,7 @@ pub fn all() -> Vec<Specimen> {
     let mut specimen = Specimen::new("flight in space", scene);
     for (of, unit, value) in [
         ("rod.p.position", "m", from + way * 0.3),
+        ("rod.p.direction", "", way.normalize()),
         ("rod.p.velocity", "m/s", speed + change * 0.3),
         ("ball.eye.velocity", "m/s", flight),
         ("ball.eye.acceleration", "m/s2", gravity + pull / mass),

@@ -89,6 +89,8 @@ fn what_has_an_angle_is_refused() {
         /loads/0 | {"name": "push", "kind": "moment", "marker": "rod.tip", "value": 0} | loads[0].marker: expected nothing that has an angle
         /loads/0/follower | true | loads[0].marker: expected nothing that has an angle
         /outputs/0 | {"kind": "angle", "marker": "rod.tip"} | outputs[0].marker: expected nothing that has an angle
+        /outputs/0 | {"kind": "direction", "marker": "rod.tip"} | accepted
+        /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
         /outputs/1 | {"kind": "reaction_moment", "joint": "clamp"} | outputs[1].joint: expected no moment in space, found "clamp"
         /ports/0/rotation | true | ports[0].marker: expected nothing that has an angle
     "#,
