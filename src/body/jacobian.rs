@@ -114,6 +114,8 @@ pub struct Jacobian {
     /// Squares of rows, and whether each counts, as `pattern` has them.
     squares: Vec<f64>,
     counts: Vec<bool>,
+    /// The bound that `factors` were made with; nothing where rows have changed since.
+    factored: Option<f64>,
     missing: Vec<f64>,
     lambda: Vec<f64>,
     /// Scratch: free coordinates, zero between calls.
@@ -141,6 +143,7 @@ impl Jacobian {
             factors: Matrix::zeros(&pattern),
             squares: vec![0.0; rows.count()],
             counts: vec![false; rows.count()],
+            factored: None,
             missing: vec![0.0; rows.count()],
             lambda: vec![0.0; rows.count()],
             y: vec![0.0; elimination.assembly.free()],
@@ -167,6 +170,7 @@ impl Jacobian {
         row: usize,
         terms: impl FnOnce(&mut dyn FnMut(usize, &Node<D>)),
     ) {
+        self.factored = None;
         let y = &mut self.y;
         terms(&mut |node, term| elimination.assembly.gather_node(node, term, y));
         elimination.project_within(&self.reaches[row], y);
@@ -179,6 +183,9 @@ impl Jacobian {
 
     /// Factors `J J^T`. A row of which others leave less than `least`, relative to its size, does not count.
     pub fn factor(&mut self, least: f64) {
+        if self.factored.replace(least) == Some(least) {
+            return;
+        }
         self.factors.values.fill(0.0);
         for Overlap { entry, at, length } in &self.overlaps {
             let [a, b] = at.map(|at| &self.rows.values[at as usize..(at + length) as usize]);

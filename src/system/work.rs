@@ -32,8 +32,9 @@ pub struct Work<const D: usize = 2> {
     pub(super) travel: Vec<f64>,
     /// The state accepted last, to go back to from a step that leaves a cable.
     pub(super) before: State,
-    /// Jacobian of the non-linear constraints, and their multipliers at the last acceleration.
+    /// Jacobian of the non-linear constraints, what it was made from, and their multipliers at the last acceleration.
     pub(super) jacobian: Jacobian,
+    pub(super) jacobian_at: Configuration<D>,
     pub(super) lambda: Vec<f64>,
     /// What constraints ask for.
     pub(super) right: Vec<f64>,
@@ -42,7 +43,27 @@ pub struct Work<const D: usize = 2> {
     pub(super) power: [f64; 2],
 }
 
+/// What constraints depend on beside rates.
+#[derive(Clone, Debug)]
+pub(super) struct Configuration<const D: usize> {
+    x: Vec<Node<D>>,
+    drives: Vec<[f64; 3]>,
+    travel: Vec<f64>,
+}
+
 impl<const D: usize> Work<D> {
+    /// Whether the Jacobian is not that of the configuration in place; from now on it is.
+    pub(super) fn outdates_jacobian(&mut self) -> bool {
+        let at = &mut self.jacobian_at;
+        if at.x == self.x && at.drives == self.drives && at.travel == self.travel {
+            return false;
+        }
+        at.x.copy_from_slice(&self.x);
+        at.drives.copy_from_slice(&self.drives);
+        at.travel.copy_from_slice(&self.travel);
+        true
+    }
+
     /// For a system.
     pub fn new(system: &System<D>) -> Self {
         let nodes = vec![no_node(); system.reference.len()];
@@ -79,6 +100,11 @@ impl<const D: usize> Work<D> {
                 &elastic,
             ),
             jacobian,
+            jacobian_at: Configuration {
+                x: vec![[[f64::NAN; D]; 2]; system.reference.len()],
+                drives: vec![[0.0; 3]; system.drives.len()],
+                travel: vec![0.0; system.slides.len()],
+            },
             power: [0.0; 2],
         }
     }

@@ -56,8 +56,11 @@ impl<const D: usize> ConstraintRow<'_, D> {
 }
 
 impl<const D: usize> System<D> {
-    /// Fills in the Jacobian at the nodal coordinates in `work`; it is not factored yet.
+    /// Fills in the Jacobian at the nodal coordinates in `work`, unless it is that already.
     fn jacobians(&self, work: &mut Work<D>) {
+        if !work.outdates_jacobian() {
+            return;
+        }
         let view = View {
             x: &work.x,
             v: &work.v,
