@@ -236,18 +236,18 @@ impl<const D: usize> Assembly<D> {
     }
 
     /// `x = N y`.
-    pub fn spread(&self, y: &[f64], x: &mut [Node<D>]) {
+    pub fn prolong(&self, y: &[f64], x: &mut [Node<D>]) {
         for (place, x) in self.places.iter().zip(x.iter_mut()) {
             if let Place::Alone(start) = place {
                 x.as_flattened_mut()
                     .copy_from_slice(&y[*start..start + 2 * D]);
             }
         }
-        self.bases.spread(y, x);
+        self.bases.prolong(y, x);
     }
 
     /// `y = N^T f`.
-    pub fn gather(&self, f: &[Node<D>], y: &mut [f64]) {
+    pub fn restrict(&self, f: &[Node<D>], y: &mut [f64]) {
         for (place, f) in self.places.iter().zip(f) {
             if let Place::Alone(start) = place {
                 y[*start..start + 2 * D].copy_from_slice(f.as_flattened());
@@ -256,11 +256,11 @@ impl<const D: usize> Assembly<D> {
         for range in &self.ranges {
             y[range.clone()].fill(0.0);
         }
-        self.bases.gather(f, y);
+        self.bases.restrict(f, y);
     }
 
-    /// Adds to `y` what a force on one node gathers to.
-    pub fn gather_node(&self, node: usize, f: &Node<D>, y: &mut [f64]) {
+    /// Adds to `y` what a force on one node is restricted to.
+    pub fn restrict_node(&self, node: usize, f: &Node<D>, y: &mut [f64]) {
         let f = f.as_flattened();
         match self.places[node] {
             Place::Alone(start) => {

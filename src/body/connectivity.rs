@@ -11,7 +11,7 @@
 use nalgebra::DMatrix;
 
 use crate::math::householder::{reflect, reflector};
-use crate::math::space::left;
+use crate::math::space::perpendicular;
 use crate::math::vector::{dot, norm};
 
 /// Coordinates of a node in `D` dimensions: position, then direction (the slope of a cable, the unit vector of a
@@ -37,8 +37,8 @@ pub fn add_node<const D: usize>(to: &mut Node<D>, factor: f64, node: &Node<D>) {
 }
 
 /// A nodal vector turned left by a right angle, in the plane.
-pub fn left_node<const D: usize>(node: &Node<D>) -> Node<D> {
-    node.map(|vector| left(vector.into()).into())
+pub fn perpendicular_node<const D: usize>(node: &Node<D>) -> Node<D> {
+    node.map(|vector| perpendicular(vector.into()).into())
 }
 
 /// A nodal vector of numbers made one by one.

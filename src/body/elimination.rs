@@ -49,12 +49,12 @@ impl<const D: usize> Elimination<D> {
     /// `x = T q`, for rates and increments alike.
     pub fn expand(&self, q: &[f64], y: &mut [f64], x: &mut [Node<D>]) {
         self.displacements(q, y);
-        self.assembly.spread(y, x);
+        self.assembly.prolong(y, x);
     }
 
     /// `q = T^T f`.
     pub fn reduce(&self, f: &[Node<D>], y: &mut [f64], q: &mut [f64]) {
-        self.assembly.gather(f, y);
+        self.assembly.restrict(f, y);
         self.project(y, q);
     }
 

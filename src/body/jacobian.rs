@@ -172,7 +172,7 @@ impl Jacobian {
     ) {
         self.factored = None;
         let y = &mut self.y;
-        terms(&mut |node, term| elimination.assembly.gather_node(node, term, y));
+        terms(&mut |node, term| elimination.assembly.restrict_node(node, term, y));
         elimination.project_within(&self.reaches[row], y);
         for piece in &self.rows.pieces[self.rows.of_row[row].clone()] {
             let (range, at) = (piece.coordinates.clone(), piece.at);

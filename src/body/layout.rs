@@ -143,7 +143,7 @@ impl Bases {
     }
 
     /// Coordinates of tied nodes from free ones.
-    pub fn spread<const D: usize>(&self, y: &[f64], x: &mut [Node<D>]) {
+    pub fn prolong<const D: usize>(&self, y: &[f64], x: &mut [Node<D>]) {
         for (node, coordinate, own) in &self.rows {
             let products = self.entries[own.clone()]
                 .iter()
@@ -152,8 +152,8 @@ impl Bases {
         }
     }
 
-    /// Adds to `y` what forces on tied nodes gather to.
-    pub fn gather<const D: usize>(&self, f: &[Node<D>], y: &mut [f64]) {
+    /// Adds to `y` what forces on tied nodes are restricted to (`N^T f`).
+    pub fn restrict<const D: usize>(&self, f: &[Node<D>], y: &mut [f64]) {
         for (node, coordinate, own) in &self.rows {
             let force = f[*node].as_flattened()[*coordinate];
             for (free, value) in &self.entries[own.clone()] {

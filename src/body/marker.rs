@@ -6,7 +6,7 @@ use super::Chain;
 use super::connectivity::{Node, Row, add_node};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, left, left_matrix};
+use crate::math::space::{Vector, perpendicular, perpendicular_matrix};
 
 /// A point of a body, with a direction: the slope of a cable, the unit vector of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +111,10 @@ impl Marker {
         [
             (
                 self.nodes[0],
-                [one * weights[0], one * weights[1] + left_matrix() * across],
+                [
+                    one * weights[0],
+                    one * weights[1] + perpendicular_matrix() * across,
+                ],
             ),
             (self.nodes[1], [one * weights[2], one * weights[3]]),
         ]
@@ -183,7 +186,7 @@ impl<N: Number> Marker<N> {
         let part = |k: usize, across: N| {
             let at = position * self.values[2 * k] + direction * self.slopes[2 * k];
             let on = position * self.values[2 * k + 1] + direction * self.slopes[2 * k + 1]
-                - left(position) * across;
+                - perpendicular(position) * across;
             [at.into(), on.into()]
         };
         [

@@ -14,8 +14,8 @@ mod tangent;
 pub use assembly::{Assembly, Links, NodeBlock, no_block};
 pub use chain::Chain;
 pub use connectivity::{
-    Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, left_node, map_node, no_node, product,
-    tied_with,
+    Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, map_node, no_node, perpendicular_node,
+    product, tied_with,
 };
 pub use elimination::Elimination;
 pub use jacobian::{Jacobian, SparseRows};

@@ -280,9 +280,9 @@ fn floating<const D: usize>(elimination: &Elimination<D>, grounded: &[usize]) ->
         let x = vec![unit; assembly.nodes()];
         let (mut y, mut product) = (vec![0.0; n], vec![0.0; n]);
         let [mut padded, mut sum] = [vec![0.0; all], vec![0.0; all]];
-        assembly.gather(&x, &mut y);
+        assembly.restrict(&x, &mut y);
         let mut back = x.clone();
-        assembly.spread(&y, &mut back);
+        assembly.prolong(&y, &mut back);
         for (node, (x, back)) in x.iter().zip(&back).enumerate() {
             let pairs = x.as_flattened().iter().zip(back.as_flattened());
             let change: f64 = pairs.map(|(a, b)| (a - b).abs()).sum();
@@ -424,11 +424,11 @@ fn turn_all<const D: usize>(
     (from, to): (&[SVector<f64, D>], &[SVector<f64, D>]),
     y: &mut [f64],
 ) {
-    assembly.spread(y, nodes);
+    assembly.prolong(y, nodes);
     for (node, x) in nodes.iter_mut().enumerate() {
         turn(&from[node], &to[node], x);
     }
-    assembly.gather(nodes, y);
+    assembly.restrict(nodes, y);
 }
 
 /// Turns the vectors of a node by the smallest rotation that takes the unit vector `from` to `to`.

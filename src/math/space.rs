@@ -24,18 +24,18 @@ pub fn vector<const D: usize, N: Number>(components: [N; 3]) -> Vector<D, N> {
 }
 
 /// The part in the plane, turned left by a right angle.
-pub fn left<const D: usize, N: Number>(v: Vector<D, N>) -> Vector<D, N> {
+pub fn perpendicular<const D: usize, N: Number>(v: Vector<D, N>) -> Vector<D, N> {
     let mut turned = Vector::zeros();
     (turned[0], turned[1]) = (-v[1], v[0]);
     turned
 }
 
 /// [`left`] as a matrix.
-pub fn left_matrix<const D: usize>() -> SMatrix<f64, D, D> {
-    SMatrix::from_fn(|r, c| left(axis::<D, f64>(c))[r])
+pub fn perpendicular_matrix<const D: usize>() -> SMatrix<f64, D, D> {
+    SMatrix::from_fn(|r, c| perpendicular(axis::<D, f64>(c))[r])
 }
 
-/// `left(a) . b`: the third component of the cross product.
+/// `perpendicular(a) . b`: the third component of the cross product.
 pub fn cross<const D: usize, N: Number>(a: &Vector<D, N>, b: &Vector<D, N>) -> N {
     a[0] * b[1] - a[1] * b[0]
 }
@@ -86,7 +86,7 @@ pub fn normals<const D: usize, N: Number>(
 /// One of the [`normals`], counted from 0.
 pub fn normal<const D: usize, N: Number>(along: &Vector<D, N>, k: usize) -> Vector<D, N> {
     if D == 2 {
-        return left(*along);
+        return perpendicular(*along);
     }
     // The axis that is most across it.
     let size = |k: &usize| along[*k].plain().abs();
@@ -134,6 +134,6 @@ mod tests {
         assert_eq!(spun(a.into(), &b.into()), <[f64; 3]>::from(a.cross(&b)));
         let (a, b) = (Vector::<2>::new(1.0, 2.0), Vector::<2>::new(-2.0, 0.5));
         assert_eq!(moment(&a, &b), [0.0, 0.0, cross(&a, &b)]);
-        assert_eq!(cross(&a, &b), left(a).dot(&b));
+        assert_eq!(cross(&a, &b), perpendicular(a).dot(&b));
     }
 }

@@ -6,7 +6,9 @@ use std::ops::Range;
 use nalgebra::SMatrix;
 
 use super::end::{Angle, End, coupling};
-use super::joints::{Coincident, Constraint, ConstraintKind, Joint, Linear, Target, Unit, View};
+use super::joints::{
+    Coincident, Constraint, ConstraintKind, Joint, Linear, Target, UnitLength, View,
+};
 use super::loads::Load;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, System};
@@ -26,7 +28,7 @@ const TIED: usize = 8;
 
 /// Mass in a point of a body: a point mass, or a rigid body about its centre of mass.
 #[derive(Clone, Copy, Debug)]
-pub struct Lump {
+pub struct LumpedMass {
     /// Where it is.
     pub marker: Marker,
     /// Mass, kg.
@@ -45,7 +47,7 @@ pub struct Parts<const D: usize = 2> {
     /// Flexible bodies.
     pub chains: Vec<CableChain<D>>,
     /// Rigid bodies and point masses.
-    pub lumps: Vec<Lump>,
+    pub lumped_masses: Vec<LumpedMass>,
     /// Nodes of rigid bodies, and whether they can turn.
     pub rigid: Vec<(usize, bool)>,
     /// Joints, then motions.
@@ -100,7 +102,7 @@ impl<const D: usize> System<D> {
             is_damped: chains_damped || loads_damped,
             needs_rates: loads_damped || parts.rotation != 0.0 || parts.tracks_work,
             chains: parts.chains,
-            lumps: parts.lumps,
+            lumped_masses: parts.lumped_masses,
             bodies: parts.bodies,
             elimination,
             joints: parts.joints,
@@ -126,15 +128,15 @@ impl<const D: usize> System<D> {
         let is_expression = |f: &Function| matches!(f, Function::Expression(_));
         let is_driven_by_time = system.functions().any(|(_, f)| is_expression(f));
         (system.has_breaks, system.is_driven_by_time) = (has_breaks, is_driven_by_time);
-        system.settle();
-        system.weigh();
+        system.move_reference();
+        system.find_weight();
         system.keep(nonlinear);
         system.needs_rates |= !system.constraints.is_empty();
         Ok(system)
     }
 
     /// Moves the reference onto the fixed rows, and finds how nodes follow the driven ones.
-    fn settle(&mut self) {
+    fn move_reference(&mut self) {
         let mut moves: Vec<(usize, Node<D>)> = Vec::new();
         for (c, cluster) in self.elimination.assembly.clusters().iter().enumerate() {
             for (k, row) in cluster.rows.iter().enumerate() {
@@ -183,12 +185,12 @@ impl<const D: usize> System<D> {
         nodes.filter(|(_, f)| *f != no_node()).collect()
     }
 
-    fn weigh(&mut self) {
+    fn find_weight(&mut self) {
         let mut weight = vec![no_node(); self.reference.len()];
         for chain in &self.chains {
             chain.add_weight(&self.gravity, &mut weight);
         }
-        for lump in &self.lumps {
+        for lump in &self.lumped_masses {
             let force = self.gravity * lump.mass;
             lump.marker.add_force(force, Vector::zeros(), &mut weight);
         }
@@ -199,7 +201,7 @@ impl<const D: usize> System<D> {
     fn keep(&mut self, nonlinear: Vec<Constraint<D>>) {
         let assembly = &self.elimination.assembly;
         let slides = nonlinear.iter().filter_map(|c| match &c.kind {
-            ConstraintKind::Along(along) if c.is_slide() => {
+            ConstraintKind::PointOnCurve(along) if c.is_slide() => {
                 Some(along.nearest(&self.chains[along.chain], &self.reference))
             }
             _ => None,
@@ -218,7 +220,7 @@ impl<const D: usize> System<D> {
             y.fill(0.0);
             let mut size = 0.0;
             constraint.gradient(&view).for_each(|node, term| {
-                assembly.gather_node(node, term, &mut y);
+                assembly.restrict_node(node, term, &mut y);
                 size += product(term, term);
             });
             y.iter().any(|y| y.abs() > NOTHING * f64::sqrt(size))
@@ -231,13 +233,13 @@ impl<const D: usize> System<D> {
                 continue;
             }
             self.redundant.extend(constraint.joint);
-            if !matches!(constraint.kind, ConstraintKind::Along(_)) {
+            if !matches!(constraint.kind, ConstraintKind::PointOnCurve(_)) {
                 self.settled.push(constraint);
             }
         }
         self.slides = vec![0; travel.len()];
         for (index, constraint) in self.constraints.iter().enumerate() {
-            if let ConstraintKind::Along(along) = &constraint.kind {
+            if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
                 self.slides[along.slide] = index;
             }
         }
@@ -249,8 +251,11 @@ fn free_ends<const D: usize>(parts: &mut Parts<D>) {
     let mut used = vec![false; parts.nodes.len()];
     let joints = parts.joints.iter().flat_map(|joint| joint.ends);
     let ends = joints.chain(parts.loads.iter().flat_map(Load::ends));
-    let lumps = parts.lumps.iter().flat_map(|lump| lump.marker.nodes);
-    for node in ends.flat_map(|end| end.nodes()).chain(lumps) {
+    let lumped_masses = parts
+        .lumped_masses
+        .iter()
+        .flat_map(|lump| lump.marker.nodes);
+    for node in ends.flat_map(|end| end.nodes()).chain(lumped_masses) {
         used[node] = true;
     }
     for chain in &mut parts.chains {
@@ -266,7 +271,7 @@ fn constraints<const D: usize>(parts: &Parts<D>) -> (Vec<Linear<D>>, Vec<Constra
         if *turns {
             nonlinear.push(Constraint {
                 joint: None,
-                kind: ConstraintKind::Unit(Unit { node: *node }),
+                kind: ConstraintKind::UnitLength(UnitLength { node: *node }),
                 offset: 0.0,
             });
             continue;
@@ -325,7 +330,7 @@ fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Links
         let elements = 0..chain.elements().len();
         (links.mass).extend(elements.map(|j| <(usize, usize)>::from(chain.nodes(j))));
     }
-    for lump in &parts.lumps {
+    for lump in &parts.lumped_masses {
         let [a, b] = lump.marker.nodes;
         links.mass.push((a, b));
     }
@@ -374,7 +379,7 @@ fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64>
     for chain in &parts.chains {
         chain.add_mass(assembly, &mut mass);
     }
-    for lump in &parts.lumps {
+    for lump in &parts.lumped_masses {
         let ends = [End::Body(lump.marker), End::Ground(Vector::zeros())];
         for (part, size) in [lump.mass, lump.inertia].into_iter().enumerate() {
             let (k, zero) = (SMatrix::identity() * size, SMatrix::zeros());
@@ -400,7 +405,7 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
     for load in &parts.loads {
         let is_grounded = match load {
             Load::Spring(spring) => spring.ends.iter().any(|end| end.marker().is_none()),
-            Load::Coupling(_) => true,
+            Load::Bushing(_) => true,
             _ => false,
         };
         if is_grounded {

@@ -4,7 +4,7 @@ use nalgebra::SMatrix;
 
 use crate::body::{Marker, Node, NodeBlock, Partial, Row, no_block};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, axis, cross, left};
+use crate::math::space::{Vector, axis, cross, perpendicular};
 
 /// A point of the ground or of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +84,7 @@ impl<const D: usize, N: Number> End<D, N> {
     /// Adds a moment, counter-clockwise: `M d(angle)` with `d(angle) = (u x du) / u.u`.
     pub fn add_moment(&self, moment: N, x: &[Node<D, N>], f: &mut [Node<D, N>]) {
         let u = self.direction(x);
-        let on_direction = left(u) * (moment / u.norm_squared());
+        let on_direction = perpendicular(u) * (moment / u.norm_squared());
         self.add_force(Vector::zeros(), on_direction, f);
     }
 }

@@ -14,7 +14,7 @@ mod start;
 mod state;
 mod work;
 
-pub use build::{BuildError, Lump, Parts};
+pub use build::{BuildError, LumpedMass, Parts};
 pub use end::{Angle, End};
 pub use instant::Instant;
 pub use motion::breaks::Follower;
@@ -22,7 +22,7 @@ pub use motion::dynamics::{Accepted, Dynamics, Model};
 pub use motion::multipliers::ConstraintRow;
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
-pub use signal::{Course, Drive, Signal, moved};
+pub use signal::{Drive, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;
 pub use spectra::spectrum::{
     Eigenvalue, SpectrumError, eigenvalues, linearized, natural_frequencies,
@@ -51,7 +51,7 @@ pub struct System<const D: usize = 2> {
     /// Coordinates of the nodes where `q` and what drives them are zero.
     reference: Vec<Node<D>>,
     chains: Vec<CableChain<D>>,
-    lumps: Vec<Lump>,
+    lumped_masses: Vec<LumpedMass>,
     /// Nodes of every body.
     bodies: Vec<Range<usize>>,
     elimination: Elimination<D>,
@@ -163,7 +163,7 @@ impl<const D: usize> System<D> {
     /// besides them, which is about as much as four elements.
     pub fn parts(&self) -> usize {
         let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
-        4 + elements + self.lumps.len() + self.constraints.len()
+        4 + elements + self.lumped_masses.len() + self.constraints.len()
     }
 
     /// Number of non-linear constraints.
@@ -186,7 +186,7 @@ impl<const D: usize> System<D> {
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
         let chains: f64 = self.chains.iter().map(CableChain::mass).sum();
-        chains + self.lumps.iter().map(|lump| lump.mass).sum::<f64>()
+        chains + self.lumped_masses.iter().map(|lump| lump.mass).sum::<f64>()
     }
 
     /// A state with the sizes of this system: the reference configuration at rest.
@@ -199,13 +199,13 @@ impl<const D: usize> System<D> {
             rates: vec![0.0; n],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
-            driven: vec![[0.0; 5]; self.courses().count()],
+            driven: vec![[0.0; 5]; self.trajectories().count()],
             work: [0.0; 2],
         }
     }
 
     /// Inputs of every motion that inputs drive: its value and derivatives.
-    fn courses(&self) -> impl Iterator<Item = Range<usize>> {
+    fn trajectories(&self) -> impl Iterator<Item = Range<usize>> {
         self.drives.iter().filter_map(|drive| match drive {
             Drive::Input { first, derivatives } => Some(*first..first + derivatives + 1),
             Drive::Function(_) => None,
@@ -222,7 +222,7 @@ impl<const D: usize> System<D> {
         for chain in &self.chains {
             chain.add_inertia(s, a, f);
         }
-        for lump in &self.lumps {
+        for lump in &self.lumped_masses {
             let at: Vector<D> = lump.marker.position(a) * (s * lump.mass);
             let on = lump.marker.direction(a) * (s * lump.inertia);
             lump.marker.add_force(at, on, f);

@@ -65,12 +65,12 @@ pub enum Drive {
 /// value itself, or with derivatives its Taylor polynomial. Velocity is continuous; with the second
 /// derivative given, acceleration too.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Course {
+pub struct Trajectory {
     start: f64,
     coefficients: [f64; 6],
 }
 
-impl Course {
+impl Trajectory {
     /// The Taylor polynomial of value and derivatives at a time.
     pub fn hold(time: f64, [p, v, a]: [f64; 3]) -> Self {
         Self {
@@ -177,7 +177,7 @@ mod tests {
         let (from, h) = ([0.3, -1.0, 2.0], 0.25);
         for inputs in [&[1.5][..], &[1.5, 0.2], &[1.5, 0.2, -3.0]] {
             let held: Vec<[f64; 3]> = inputs.iter().map(|input| [*input, 0.0, 0.0]).collect();
-            let course = Course::new(2.0, h, from, &held);
+            let course = Trajectory::new(2.0, h, from, &held);
             let start = course.derivatives(2.0);
             let end = course.derivatives(2.0 + h);
             let [v, a] = [1, 2].map(|i| inputs.get(i).copied().unwrap_or(0.0));
@@ -195,7 +195,7 @@ mod tests {
 
     #[test]
     fn holding_keeps_the_derivatives() {
-        let course = Course::hold(1.0, [0.1, 0.2, 0.3]);
+        let course = Trajectory::hold(1.0, [0.1, 0.2, 0.3]);
         assert_eq!(course.derivatives(1.0), [0.1, 0.2, 0.3]);
     }
 
@@ -214,13 +214,13 @@ mod tests {
             vec![[c[0], 0.0, 0.0], [c[1], 0.0, 0.0], [2.0 * c[2], third, 0.0]],
         ];
         for inputs in moving {
-            let end = Course::new(0.0, h, from, &inputs).orders(h);
+            let end = Trajectory::new(0.0, h, from, &inputs).orders(h);
             assert!((end[0] - at(h)).abs() < 1e-14, "{inputs:?}");
             assert!((end[1] - rate(h)).abs() < 1e-13, "{inputs:?}");
             assert!((end[2] - second(h)).abs() < 1e-11, "{inputs:?}");
             assert!((end[3] - third).abs() < 1e-9, "{inputs:?}");
         }
-        let end = Course::new(0.0, h, from, &[value]).orders(h);
+        let end = Trajectory::new(0.0, h, from, &[value]).orders(h);
         assert!((end[0] - (at(h) - c[3] * h * h * h)).abs() < 1e-14);
         assert!((end[1] - (rate(h) - 3.0 * c[3] * h * h)).abs() < 1e-13);
     }

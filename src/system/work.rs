@@ -1,6 +1,6 @@
 //! Scratch of a system: nothing allocates in a step.
 
-use super::signal::Course;
+use super::signal::Trajectory;
 use super::{State, System};
 use crate::body::{Jacobian, Node, Tangent, no_node};
 
@@ -20,9 +20,9 @@ pub struct Work<const D: usize = 2> {
     pub(super) y: Vec<f64>,
     /// Accelerations.
     pub(super) a: Vec<f64>,
-    /// Driven coordinates with two derivatives, and the courses of those that inputs drive.
+    /// Driven coordinates with two derivatives, and the trajectories of those that inputs drive.
     pub(super) drives: Vec<[f64; 3]>,
-    pub(super) courses: Vec<Course>,
+    pub(super) trajectories: Vec<Trajectory>,
     /// First and last time at which functions of time are taken in the smooth stretch that is under way.
     pub(super) stretch: Option<[f64; 2]>,
     /// Inputs and their rates at the time of the last configuration.
@@ -83,7 +83,7 @@ impl<const D: usize> Work<D> {
             y: vec![0.0; system.elimination.scratch()],
             a: vec![0.0; system.coordinates()],
             drives: vec![[0.0; 3]; system.drives.len()],
-            courses: vec![Course::default(); system.courses().count()],
+            trajectories: vec![Trajectory::default(); system.trajectories().count()],
             stretch: None,
             inputs: Vec::new(),
             input_rates: Vec::new(),
@@ -115,12 +115,12 @@ impl<const D: usize> Work<D> {
     }
 
     /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.
-    pub fn follow(&mut self, state: &State) {
+    pub fn resume(&mut self, state: &State) {
         self.angles.copy_from_slice(&state.angles);
         self.travel.copy_from_slice(&state.travel);
-        for (course, driven) in self.courses.iter_mut().zip(&state.driven) {
+        for (course, driven) in self.trajectories.iter_mut().zip(&state.driven) {
             let [p, v, a, ..] = *driven;
-            *course = Course::hold(state.time, [p, v, a]);
+            *course = Trajectory::hold(state.time, [p, v, a]);
         }
     }
 }

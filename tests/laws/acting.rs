@@ -4,7 +4,7 @@
 use flexbody::body::{Node, NodeBlock};
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
-use flexbody::system::loads::{Coupling, Load, Rotational, Turning};
+use flexbody::system::loads::{Bushing, Load, RotationalBushing, RotationalSpring};
 use flexbody::system::{Angle, End, Signal};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -117,7 +117,7 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
         let ends = ends.map(|end| made.product_end(end));
         rotational.push(Acted {
             frame,
-            load: Load::Rotational(Rotational {
+            load: Load::RotationalSpring(RotationalSpring {
                 ends,
                 angle: 0,
                 stiffness: 3.0 + made.noise[25],
@@ -171,7 +171,7 @@ fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
             let ends = [End::Ground(Default::default()), end];
             couplings.push(Acted {
                 frame,
-                load: Load::Coupling(Coupling {
+                load: Load::Bushing(Bushing {
                     marker,
                     stiffness: 3.0 + made.noise[34],
                     damping,
@@ -182,7 +182,7 @@ fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
             });
             couplings.push(Acted {
                 frame,
-                load: Load::Turning(Turning {
+                load: Load::RotationalBushing(RotationalBushing {
                     marker,
                     counted: 0,
                     stiffness: 3.0 + made.noise[34],
@@ -215,9 +215,9 @@ fn law(acted: &Acted<'_>) -> Outcome {
             within("work", (force[i] - exact).abs(), 1e-8 * most)?;
         }
         let conservative = match &acted.load {
-            Load::Spring(_) | Load::Rotational(_) => true,
-            Load::Coupling(load) => load.damping == 0.0,
-            Load::Turning(load) => load.damping == 0.0,
+            Load::Spring(_) | Load::RotationalSpring(_) => true,
+            Load::Bushing(load) => load.damping == 0.0,
+            Load::RotationalBushing(load) => load.damping == 0.0,
             _ => false,
         };
         if conservative {
@@ -274,7 +274,7 @@ fn a_rotational_spring_counts_turns() {
         };
         let moment = |turns: f64| {
             let hint = angles[0].value(&frame.x, 0.0) + std::f64::consts::TAU * turns;
-            let Load::Rotational(spring) = &load else {
+            let Load::RotationalSpring(spring) = &load else {
                 return f64::NAN;
             };
             let rest = vec![[[0.0; 2]; 2]; frame.x.len()];

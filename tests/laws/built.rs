@@ -2,10 +2,10 @@
 
 use flexbody::body::{Marker, Node};
 use flexbody::system::joints::{Joint, Primitive};
-use flexbody::system::loads::{Distributed, Force, Load, Moment, Rotational, Spring};
+use flexbody::system::loads::{Distributed, Force, Load, Moment, RotationalSpring, Spring};
 use flexbody::system::{
-    Accepted, Angle, BuildError, CableChain, Drive, End, Evaluation, Lump, Model, NotAssembled,
-    Parts, Signal, State, System, Work,
+    Accepted, Angle, BuildError, CableChain, Drive, End, Evaluation, LumpedMass, Model,
+    NotAssembled, Parts, Signal, State, System, Work,
 };
 use nalgebra::Vector2;
 use proptest::test_runner::TestCaseError;
@@ -124,7 +124,7 @@ impl Mechanism {
 
     /// What the system is made of.
     pub fn parts(&self) -> Parts {
-        let (mut rigid, mut lumps) = (Vec::new(), Vec::new());
+        let (mut rigid, mut lumped_masses) = (Vec::new(), Vec::new());
         let mut bodies = Vec::new();
         for (index, (body, first)) in self.bodies.iter().zip(&self.firsts).enumerate() {
             bodies.push(*first..first + body.sizes()[0]);
@@ -135,18 +135,21 @@ impl Mechanism {
             };
             rigid.push((*first, inertia > 0.0));
             let marker = Marker::rigid(index, *first, [0.0; 2]);
-            lumps.push(Lump {
+            lumped_masses.push(LumpedMass {
                 marker,
                 mass,
                 inertia,
             });
         }
-        let extra = self.lumps.iter().map(|(place, [mass, inertia])| Lump {
-            marker: self.marker(*place),
-            mass: *mass,
-            inertia: *inertia,
-        });
-        lumps.extend(extra);
+        let extra = self
+            .lumped_masses
+            .iter()
+            .map(|(place, [mass, inertia])| LumpedMass {
+                marker: self.marker(*place),
+                mass: *mass,
+                inertia: *inertia,
+            });
+        lumped_masses.extend(extra);
         let (mut joints, mut drives, mut angles) = (Vec::new(), Vec::new(), Vec::new());
         let mut loads: Vec<Load> = self.loads.iter().map(|load| self.load(load)).collect();
         for hold in &self.holds {
@@ -154,7 +157,7 @@ impl Mechanism {
             if let Kind::Hinge([stiffness, damping, rest]) = hold.kind {
                 joint.spring = Some(loads.len());
                 angles.push(Angle { ends: joint.ends });
-                loads.push(Load::Rotational(Rotational {
+                loads.push(Load::RotationalSpring(RotationalSpring {
                     ends: joint.ends,
                     angle: angles.len() - 1,
                     stiffness,
@@ -168,7 +171,7 @@ impl Mechanism {
             nodes: self.nodes.clone(),
             bodies,
             chains: self.chains(),
-            lumps,
+            lumped_masses,
             rigid,
             joints,
             drives,

@@ -170,7 +170,7 @@ impl Chain {
             bodies: std::iter::once(0..nodes.len()).collect(),
             nodes,
             chains: vec![self.flexible()],
-            lumps: Vec::new(),
+            lumped_masses: Vec::new(),
             rigid: Vec::new(),
             joints: joints.map(|held| self.joint(held)).collect(),
             drives: Vec::new(),

@@ -45,7 +45,7 @@ pub fn bodies(parts: &[(Body, [f64; 3])]) -> Mechanism {
         nodes: parts.iter().map(node).collect(),
         holds: Vec::new(),
         loads: Vec::new(),
-        lumps: Vec::new(),
+        lumped_masses: Vec::new(),
         gravity: Vector2::new(0.0, -G),
         rotation: 0.0,
         noise: vec![0.0],

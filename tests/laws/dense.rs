@@ -226,7 +226,7 @@ impl Mechanism {
                 mass[(self.offset(b) + k, self.offset(b) + k)] = size;
             }
         }
-        for (place, sizes) in &self.lumps {
+        for (place, sizes) in &self.lumped_masses {
             for (rows, size) in self.rows(*place).iter().zip(sizes) {
                 mass += rows.transpose() * rows * *size;
             }
@@ -269,7 +269,7 @@ impl Mechanism {
                 at += weight;
             }
         }
-        for (place, [mass, _]) in &self.lumps {
+        for (place, [mass, _]) in &self.lumped_masses {
             self.add_force(Point::On(*place), self.gravity * *mass, &mut f);
         }
         for load in &self.loads {

@@ -1,7 +1,7 @@
 //! What is driven: courses of inputs, what a motion takes, motions that cannot be.
 
 use flexbody::integrators::{Radau, Stop, Tolerance, advance};
-use flexbody::system::{BuildError, Course, Drive, Evaluation, Model, Parts, System, Work};
+use flexbody::system::{BuildError, Drive, Evaluation, Model, Parts, System, Trajectory, Work};
 use nalgebra::Vector2;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -29,7 +29,7 @@ fn driven_coordinates_go_on_without_jumps() {
         let (h, mut at) = (0.2, [0.1, 0.0, 0.0]);
         for (step, inputs) in inputs.iter().enumerate() {
             let time = h * step as f64;
-            let course = Course::new(time, h, at, &held(&inputs[..=derivatives]));
+            let course = Trajectory::new(time, h, at, &held(&inputs[..=derivatives]));
             let [p, v, a] = course.derivatives(time);
             within("value", (p - at[0]).abs(), 1e-14)?;
             within("rate", (v - at[1]).abs(), 1e-13)?;
@@ -90,7 +90,7 @@ fn driven(derivatives: usize) -> System {
 
 fn follows_inputs(rows: &[[f64; 3]], derivatives: usize) -> Outcome {
     let system = driven(derivatives);
-    let (h, mut courses) = (0.1, [Course::hold(0.0, [0.0; 3]); 2]);
+    let (h, mut courses) = (0.1, [Trajectory::hold(0.0, [0.0; 3]); 2]);
     let mut work = Work::new(&system);
     let zero = vec![0.0; 2 * (derivatives + 1)];
     let nodes = [[[0.0, 0.0], [1.0, 0.0]]];
@@ -118,7 +118,7 @@ fn follows_inputs(rows: &[[f64; 3]], derivatives: usize) -> Outcome {
             if derivatives == 2 {
                 from[2] = given[2];
             }
-            *course = Course::new(time, h, from, &held(&given));
+            *course = Trajectory::new(time, h, from, &held(&given));
         }
         let mut model = Model::new(&system, &inputs, &mut work, &state).until(&state, until);
         let (_, result) = advance(&mut method, &mut model, &mut state, until, &tolerance);

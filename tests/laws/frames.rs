@@ -81,7 +81,7 @@ impl Frame {
             })
             .collect();
         let travel = match &constraint.kind {
-            ConstraintKind::Along(along) => {
+            ConstraintKind::PointOnCurve(along) => {
                 vec![along.nearest(&self.chains[along.chain], x)]
             }
             _ => Vec::new(),
@@ -214,7 +214,7 @@ fn stiffness(frame: &Frame, c: &Constraint, drives: &[Drive], t: f64) -> Outcome
         });
         found
     });
-    if matches!(c.kind, ConstraintKind::Along(_)) {
+    if matches!(c.kind, ConstraintKind::PointOnCurve(_)) {
         return within("no stiffness of slides", found.amax(), 0.0);
     }
     for i in 0..size {

@@ -128,7 +128,7 @@ pub struct Mechanism {
     pub holds: Vec<Hold>,
     pub loads: Vec<Acting>,
     /// Masses at places: mass, inertia of the direction.
-    pub lumps: Vec<(Place, [f64; 2])>,
+    pub lumped_masses: Vec<(Place, [f64; 2])>,
     pub gravity: Vector2<f64>,
     pub rotation: f64,
     /// Numbers in (-1, 1) for anybody.
@@ -159,7 +159,11 @@ impl std::fmt::Debug for Mechanism {
         for load in &self.loads {
             write!(f, "\n  {load:?}")?;
         }
-        write!(f, "\n  lumps {:?}, rotation {}", self.lumps, self.rotation)
+        write!(
+            f,
+            "\n  lumped_masses {:?}, rotation {}",
+            self.lumped_masses, self.rotation
+        )
     }
 }
 

@@ -179,7 +179,7 @@ fn what_cannot_fit_is_named_with_its_gap() {
         nodes: vec![rod(0.0, 0.3), rod(3.0, 2.5)],
         holds: vec![pin(0.0, 0), pin(3.0, 1), link],
         loads: Vec::new(),
-        lumps: Vec::new(),
+        lumped_masses: Vec::new(),
         gravity: Vector2::zeros(),
         rotation: 0.0,
         noise: vec![0.0],

@@ -123,7 +123,7 @@ impl Builder {
                 nodes: Vec::new(),
                 holds: Vec::new(),
                 loads: Vec::new(),
-                lumps: Vec::new(),
+                lumped_masses: Vec::new(),
                 gravity: Vector2::new(0.4, -9.81),
                 rotation: 0.0,
                 noise,
@@ -151,7 +151,7 @@ impl Builder {
                 Body::Cable(_) => [self.dice.between(0.1, 1.0), self.dice.between(0.0, 0.1)],
                 _ => [self.dice.between(0.1, 1.0), 0.0],
             };
-            self.made.lumps.push((place, sizes));
+            self.made.lumped_masses.push((place, sizes));
         }
         if self.scope.rotates && self.dice.pick(4) == 0 {
             self.made.rotation = self.dice.between(-2.0, 2.0);

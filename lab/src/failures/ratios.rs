@@ -58,7 +58,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         bodies: std::iter::once(0..nodes.len()).collect(),
         nodes,
         chains: vec![chain],
-        lumps: Vec::new(),
+        lumped_masses: Vec::new(),
         rigid: Vec::new(),
         joints: vec![pin],
         drives: Vec::new(),

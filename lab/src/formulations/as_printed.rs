@@ -28,15 +28,15 @@ impl Transformation for AsPrinted {
         self.q2.coordinates()
     }
 
-    fn spread(&mut self, q: &[f64], u: &mut [Node]) {
-        self.q2.spread(q, u);
+    fn prolong(&mut self, q: &[f64], u: &mut [Node]) {
+        self.q2.prolong(q, u);
     }
 
-    fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
+    fn restrict(&mut self, f: &mut [Node], a: &mut [f64]) {
         for (inverse, f) in self.inverse.iter().zip(f.as_chunks_mut::<2>().0) {
             *f = rod::times(inverse, f);
         }
-        self.q2.gather(f, a);
+        self.q2.restrict(f, a);
     }
 
     fn memory(&self) -> usize {

@@ -23,11 +23,11 @@ impl Transformation for Assembled {
         self.coordinates
     }
 
-    fn spread(&mut self, q: &[f64], u: &mut [Node]) {
+    fn prolong(&mut self, q: &[f64], u: &mut [Node]) {
         u.as_flattened_mut().as_flattened_mut().copy_from_slice(q);
     }
 
-    fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
+    fn restrict(&mut self, f: &mut [Node], a: &mut [f64]) {
         f[0][0] = [0.0; 2];
         self.mass.solve(f);
         a.copy_from_slice(f.as_flattened().as_flattened());

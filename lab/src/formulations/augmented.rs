@@ -53,11 +53,11 @@ impl Transformation for Augmented {
         8 * self.inverse.len()
     }
 
-    fn spread(&mut self, q: &[f64], u: &mut [Node]) {
+    fn prolong(&mut self, q: &[f64], u: &mut [Node]) {
         u.as_flattened_mut().as_flattened_mut().copy_from_slice(q);
     }
 
-    fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
+    fn restrict(&mut self, f: &mut [Node], a: &mut [f64]) {
         let f = f.as_chunks_mut::<2>().0;
         let mut end = no_node();
         for ((inverse, f), lambda) in self.inverse.iter().zip(f.iter()).zip(&mut self.lambda) {

@@ -23,11 +23,11 @@ impl Transformation for Cholesky {
         self.coordinates
     }
 
-    fn spread(&mut self, q: &[f64], u: &mut [Node]) {
+    fn prolong(&mut self, q: &[f64], u: &mut [Node]) {
         self.root.backward(q, u);
     }
 
-    fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
+    fn restrict(&mut self, f: &mut [Node], a: &mut [f64]) {
         self.root.forward(f, a);
     }
 

@@ -29,7 +29,7 @@ impl Dense {
         let mut u = vec![no_node(); 2 * elements];
         for column in 0..columns {
             unit[2 * column] = 1.0;
-            fronts.spread(&unit, &mut u);
+            fronts.prolong(&unit, &mut u);
             unit[2 * column] = 0.0;
             for (row, pair) in u.as_flattened().iter().enumerate() {
                 entries[row * padded + column] = pair[0];
@@ -49,14 +49,14 @@ impl Dense {
     }
 
     /// `u = B Q2 q`.
-    pub fn spread(&mut self, q: &[f64], u: &mut [Node]) {
+    pub fn prolong(&mut self, q: &[f64], u: &mut [Node]) {
         self.pairs[..self.columns].copy_from_slice(q.as_chunks::<2>().0);
         let dense = self;
         vectorized(Spread { dense, u });
     }
 
     /// `q = Q2^T B^T f`.
-    pub fn gather(&mut self, f: &[Node], q: &mut [f64]) {
+    pub fn restrict(&mut self, f: &[Node], q: &mut [f64]) {
         self.pairs.fill([0.0; 2]);
         let dense = self;
         vectorized(Gather { dense, f });

@@ -45,7 +45,7 @@ impl Fronts {
     }
 
     /// `q = Q2^T B^T f`.
-    pub fn gather(&self, f: &[Node], q: &mut [f64]) {
+    pub fn restrict(&self, f: &[Node], q: &mut [f64]) {
         let (q, _) = q.as_chunks_mut::<2>();
         let mut carry = [[0.0; 2]; 2];
         for (j, (front, f)) in self.fronts.iter().zip(f.as_chunks::<2>().0).enumerate() {
@@ -66,7 +66,7 @@ impl Fronts {
     }
 
     /// `u = B Q2 q`.
-    pub fn spread(&self, q: &[f64], u: &mut [Node]) {
+    pub fn prolong(&self, q: &[f64], u: &mut [Node]) {
         let (q, _) = q.as_chunks::<2>();
         let last = q.len() - 2;
         let mut carry = [q[last], q[last + 1]];

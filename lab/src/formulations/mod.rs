@@ -49,9 +49,9 @@ pub trait Transformation {
     /// Numbers in `q`.
     fn coordinates(&self) -> usize;
     /// `u = T q`, for rates and accelerations alike.
-    fn spread(&mut self, q: &[f64], u: &mut [Node]);
+    fn prolong(&mut self, q: &[f64], u: &mut [Node]);
     /// `q'' = G F` of the forces on the nodes, whose content may be lost.
-    fn gather(&mut self, f: &mut [Node], a: &mut [f64]);
+    fn restrict(&mut self, f: &mut [Node], a: &mut [f64]);
     /// Size of the matrices, bytes.
     fn memory(&self) -> usize;
 }
@@ -108,7 +108,7 @@ impl System {
     pub fn acceleration(&mut self, q: &[f64], a: &mut [f64]) {
         self.nodes_at(q);
         self.rod.force(&self.x, &mut self.f);
-        self.transformation.gather(&mut self.f, a);
+        self.transformation.restrict(&mut self.f, a);
     }
 
     /// Coordinates of the nodes.
@@ -118,7 +118,7 @@ impl System {
     }
 
     fn nodes_at(&mut self, q: &[f64]) {
-        self.transformation.spread(q, &mut self.x);
+        self.transformation.prolong(q, &mut self.x);
         for (x, reference) in self.x.iter_mut().zip(&self.rod.reference) {
             add_node(x, 1.0, reference);
         }

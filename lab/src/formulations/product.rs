@@ -41,11 +41,11 @@ impl Transformation for Product {
         self.elimination.coordinates()
     }
 
-    fn spread(&mut self, q: &[f64], u: &mut [Node]) {
+    fn prolong(&mut self, q: &[f64], u: &mut [Node]) {
         self.elimination.expand(q, &mut self.y, u);
     }
 
-    fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
+    fn restrict(&mut self, f: &mut [Node], a: &mut [f64]) {
         self.elimination.reduce(f, &mut self.y, a);
     }
 

@@ -18,12 +18,12 @@ impl Transformation for QrDense {
         self.0.coordinates()
     }
 
-    fn spread(&mut self, q: &[f64], u: &mut [Node]) {
-        self.0.spread(q, u);
+    fn prolong(&mut self, q: &[f64], u: &mut [Node]) {
+        self.0.prolong(q, u);
     }
 
-    fn gather(&mut self, f: &mut [Node], a: &mut [f64]) {
-        self.0.gather(f, a);
+    fn restrict(&mut self, f: &mut [Node], a: &mut [f64]) {
+        self.0.restrict(f, a);
     }
 
     fn memory(&self) -> usize {

@@ -89,8 +89,8 @@ fn compared(formulation: Formulation, inertia: Inertia, lengths: &[f64]) -> (Vec
     let mut system = System::new(formulation, elements, GRAVITY).expect("a system");
     let mut f = bent(&system.rod);
     let mut a = vec![0.0; system.transformation.coordinates()];
-    system.transformation.gather(&mut f, &mut a);
-    system.transformation.spread(&a, &mut f);
+    system.transformation.restrict(&mut f, &mut a);
+    system.transformation.prolong(&a, &mut f);
     let pick = |index: usize| match system.rod.connected {
         true => f[index.div_ceil(2)],
         false => f[index],
@@ -131,7 +131,7 @@ fn equal_elements_accelerate_as_the_augmented_equations_from_rest() {
         let (q, mut a) = (vec![0.0; n], vec![0.0; n]);
         system.acceleration(&q, &mut a);
         let mut u = system.rod.reference.clone();
-        system.transformation.spread(&a, &mut u);
+        system.transformation.prolong(&a, &mut u);
         let (tip, exact) = (u[u.len() - 1], expected[expected.len() - 1]);
         let error = distance(&[tip], &[exact]);
         assert!(error < 1e-9, "{formulation:?}: {error:e}");
@@ -152,7 +152,7 @@ fn at_rest(formulation: Formulation, unit: f64) -> [f64; 3] {
     let (q, mut a) = (vec![0.0; n], vec![0.0; n]);
     system.acceleration(&q, &mut a);
     let mut u = system.rod.reference.clone();
-    system.transformation.spread(&a, &mut u);
+    system.transformation.prolong(&a, &mut u);
     [u[0][0][1], system.rod.gap(&u), u[u.len() - 1][0][1]].map(|a| a * unit)
 }
 
@@ -178,7 +178,7 @@ fn expansion(formulation: Formulation, elements: Vec<Element>) -> (Rod, Vec<Vec<
     let columns = (0..n).map(|k| {
         let (mut q, mut u) = (vec![0.0; n], system.rod.reference.clone());
         q[k] = 1.0;
-        system.transformation.spread(&q, &mut u);
+        system.transformation.prolong(&q, &mut u);
         u
     });
     let columns = columns.collect();

@@ -18,7 +18,7 @@ use crate::math::function::Function;
 use crate::math::space::{Vector, axis, turned, vector};
 use crate::system::joints::{Joint, Primitive};
 use crate::system::loads::{self, Load};
-use crate::system::{Angle, BuildError, CableChain, End, Lump, Parts, Signal, System};
+use crate::system::{Angle, BuildError, CableChain, End, LumpedMass, Parts, Signal, System};
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
 const BYTES: usize = 5000;
@@ -112,7 +112,7 @@ impl Resolved<'_> {
             nodes: Vec::new(),
             bodies: Vec::new(),
             chains: Vec::new(),
-            lumps: Vec::new(),
+            lumped_masses: Vec::new(),
             rigid: Vec::new(),
             joints: Vec::new(),
             drives: Vec::new(),
@@ -181,7 +181,7 @@ impl<const D: usize> Builder<'_, D> {
                 let position: Vector<D> = vector(rigid.position.full());
                 (self.parts.nodes).push([position.into(), direction.into()]);
                 self.parts.rigid.push((first, rigid.inertia > 0.0));
-                self.parts.lumps.push(Lump {
+                self.parts.lumped_masses.push(LumpedMass {
                     marker: Marker::rigid(index, first, [0.0; 2]),
                     mass: rigid.mass,
                     inertia: rigid.inertia,
@@ -225,7 +225,7 @@ impl<const D: usize> Builder<'_, D> {
     fn masses(&mut self) {
         for mass in &self.resolved.masses {
             let marker = self.marker(mass.marker);
-            self.parts.lumps.push(Lump {
+            self.parts.lumped_masses.push(LumpedMass {
                 marker,
                 mass: mass.mass,
                 inertia: mass.inertia,
@@ -339,14 +339,14 @@ impl<const D: usize> Builder<'_, D> {
         else {
             return None;
         };
-        let spring = loads::Rotational {
+        let spring = loads::RotationalSpring {
             ends,
             rest: self.angle(ends, rest),
             angle: self.count_angle(ends),
             stiffness,
             damping,
         };
-        self.parts.loads.push(Load::Rotational(spring));
+        self.parts.loads.push(Load::RotationalSpring(spring));
         Some(self.parts.loads.len() - 1)
     }
 

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::scene::resolved::{Coupling, Port, PortKind};
 use crate::system::Signal;
-use crate::system::loads::{self, Load, Turning};
+use crate::system::loads::{self, Load, RotationalBushing};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn ports(&mut self) {
@@ -25,7 +25,7 @@ impl<const D: usize> Builder<'_, D> {
 
     fn couple_position(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
         let signal = |k| Signal::Input(coupling.first + k);
-        self.couple(Load::Coupling(loads::Coupling {
+        self.couple(Load::Bushing(loads::Bushing {
             marker: self.marker(port.marker),
             stiffness: coupling.stiffness,
             damping: coupling.damping,
@@ -36,7 +36,7 @@ impl<const D: usize> Builder<'_, D> {
 
     fn couple_angle(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
         let counted = self.count_angle(self.on_marker(port.marker));
-        self.couple(Load::Turning(Turning {
+        self.couple(Load::RotationalBushing(RotationalBushing {
             marker: self.marker(port.marker),
             counted,
             stiffness: coupling.stiffness,

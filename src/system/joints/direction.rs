@@ -8,12 +8,12 @@ use nalgebra::SMatrix;
 
 use super::{ConstraintKind, Gradient, Rows, Target, View};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, axis, cross, left, normals, turned};
+use crate::math::space::{Vector, axis, cross, normals, perpendicular, turned};
 use crate::system::end::{Add, End, bilinear};
 
 /// A direction at an angle from another: `(R(angle) u1) x u2 = 0`.
 #[derive(Clone, Debug)]
-pub struct Parallel<const D: usize> {
+pub struct AngleBetween<const D: usize> {
     /// The two directions.
     pub ends: [End<D>; 2],
     /// Fixed angle, rad.
@@ -44,7 +44,7 @@ pub(super) fn hold<const D: usize>(
             }
         }
         _ => {
-            return Some(ConstraintKind::Parallel(Parallel {
+            return Some(ConstraintKind::AngleBetween(AngleBetween {
                 ends: [*first, *second],
                 angle,
                 drive: None,
@@ -67,7 +67,7 @@ pub(super) fn clamp<const D: usize>(
     None
 }
 
-impl<const D: usize> Parallel<D> {
+impl<const D: usize> AngleBetween<D> {
     /// The turned first direction, and its first two derivatives in time but for the part of
     /// accelerations.
     fn turned<N: Number>(&self, view: &View<'_, D, N>) -> [Vector<D, N>; 3] {
@@ -75,8 +75,9 @@ impl<const D: usize> Parallel<D> {
         let (turn, first) = ((theta + N::of(self.angle)).sin_cos(), self.ends[0].lift());
         let w = turned(first.direction(view.x), turn);
         let moved = turned(first.direction_rate(view.v), turn);
-        let bias = left(moved) * (N::of(2.0) * rate) + left(w) * second - w * (rate * rate);
-        [w, moved + left(w) * rate, bias]
+        let bias = perpendicular(moved) * (N::of(2.0) * rate) + perpendicular(w) * second
+            - w * (rate * rate);
+        [w, moved + perpendicular(w) * rate, bias]
     }
 
     pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
@@ -92,11 +93,11 @@ impl<const D: usize> Parallel<D> {
         let back = (-theta - N::of(self.angle)).sin_cos();
         let [first, second] = self.ends.map(|end| end.lift());
         let (w, u) = (self.turned(view)[0], second.direction(view.x));
-        // w x u = w . (-left u) = u . left w
+        // w x u = w . (-perpendicular u) = u . perpendicular w
         Gradient {
             ends: [
-                (first, [none, -turned(left(u), back)]),
-                (second, [none, left(w)]),
+                (first, [none, -turned(perpendicular(u), back)]),
+                (second, [none, perpendicular(w)]),
             ],
         }
     }
@@ -104,7 +105,10 @@ impl<const D: usize> Parallel<D> {
     pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let rate = self.drive.map_or(N::of(0.0), |i| view.drives[i][1]);
         let w = self.turned(view)[0];
-        cross(&(left(w) * rate), &self.ends[1].lift().direction(view.x))
+        cross(
+            &(perpendicular(w) * rate),
+            &self.ends[1].lift().direction(view.x),
+        )
     }
 
     pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
@@ -119,9 +123,10 @@ impl<const D: usize> Parallel<D> {
             return;
         };
         let theta = self.drive.map_or(0.0, |i| view.drives[i][0]);
-        // d^2 g = (R du1) x du2 = du1 . (-R^T left) du2
+        // d^2 g = (R du1) x du2 = du1 . (-R^T perpendicular) du2
         let back = (-self.angle - theta).sin_cos();
-        let cross = SMatrix::from_fn(|r, c| -turned(left(axis::<D, f64>(c)), back)[r]) * lambda;
+        let cross =
+            SMatrix::from_fn(|r, c| -turned(perpendicular(axis::<D, f64>(c)), back)[r]) * lambda;
         bilinear([(first, 1), (second, 1)], cross, add);
     }
 }

@@ -5,15 +5,15 @@ use nalgebra::SMatrix;
 
 use super::{ConstraintKind, Gradient, Rows, Target, View};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, axis, cross, left, normals};
+use crate::math::space::{Vector, axis, cross, normals, perpendicular};
 use crate::system::end::{Add, End, bilinear};
 
 /// The second end on a line through the first, which turns with it.
 #[derive(Clone, Debug)]
-pub struct Across<const D: usize> {
+pub struct PointOnLine<const D: usize> {
     /// The ends.
     pub ends: [End<D>; 2],
-    /// Unit direction of the line in the axes of the first end.
+    /// UnitLength direction of the line in the axes of the first end.
     pub along: Vector<D>,
     /// What residuals are relative to, m.
     pub size: f64,
@@ -33,13 +33,17 @@ pub(super) fn hold<const D: usize>(
     let ends = *rows.ends;
     let distance = (ends[1].position(rows.nodes) - ends[0].position(rows.nodes)).norm();
     let size = if distance > 0.0 { distance } else { 1.0 };
-    Some(ConstraintKind::Across(Across { ends, along, size }))
+    Some(ConstraintKind::PointOnLine(PointOnLine {
+        ends,
+        along,
+        size,
+    }))
 }
 
-impl<const D: usize> Across<D> {
+impl<const D: usize> PointOnLine<D> {
     /// What belongs to the direction of the first end, turned to the line.
     fn turned<N: Number>(&self, direction: Vector<D, N>) -> Vector<D, N> {
-        direction * N::of(self.along[0]) + left(direction) * N::of(self.along[1])
+        direction * N::of(self.along[0]) + perpendicular(direction) * N::of(self.along[1])
     }
 
     /// Direction of the line, and the way between the ends.
@@ -57,11 +61,14 @@ impl<const D: usize> Across<D> {
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let [first, second] = self.ends.map(|end| end.lift());
         let [line, way] = self.line(view);
-        // (A u) x d = u . A^T (-left d)
-        let back = left(way) * N::of(self.along[0]) + way * N::of(self.along[1]);
+        // (A u) x d = u . A^T (-perpendicular d)
+        let back = perpendicular(way) * N::of(self.along[0]) + way * N::of(self.along[1]);
         let none = Vector::zeros();
         Gradient {
-            ends: [(first, [-left(line), -back]), (second, [left(line), none])],
+            ends: [
+                (first, [-perpendicular(line), -back]),
+                (second, [perpendicular(line), none]),
+            ],
         }
     }
 
@@ -77,7 +84,7 @@ impl<const D: usize> Across<D> {
             return;
         };
         // d^2 g = (A du1) x (dr2 - dr1)
-        let by = |axis: Vector<D>| left(self.turned(axis));
+        let by = |axis: Vector<D>| perpendicular(self.turned(axis));
         let cross = SMatrix::from_fn(|r, c| by(axis(r))[c]) * lambda;
         bilinear([(first, 1), (second, 0)], cross, add);
         bilinear([(first, 1), (first, 0)], -cross, add);

@@ -10,11 +10,11 @@ mod point_on_curve;
 mod unit;
 
 pub use coincident::Coincident;
-pub use direction::Parallel;
+pub use direction::AngleBetween;
 pub use distance::Distance;
-pub use line::Across;
-pub use point_on_curve::Along;
-pub use unit::Unit;
+pub use line::PointOnLine;
+pub use point_on_curve::PointOnCurve;
+pub use unit::UnitLength;
 
 use super::CableChain;
 use super::end::{Add, End};
@@ -139,15 +139,15 @@ pub struct Constraint<const D: usize = 2> {
 #[derive(Clone, Debug)]
 pub enum ConstraintKind<const D: usize = 2> {
     /// A rigid body's direction keeps its length.
-    Unit(Unit),
+    UnitLength(UnitLength),
     /// A direction at an angle from another one.
-    Parallel(Parallel<D>),
+    AngleBetween(AngleBetween<D>),
     /// A distance.
     Distance(Distance<D>),
     /// A point on a line of a body.
-    Across(Across<D>),
+    PointOnLine(PointOnLine<D>),
     /// A point on a chain.
-    Along(Along<D>),
+    PointOnCurve(PointOnCurve<D>),
     /// A component of two points that coincide.
     Coincident(Coincident<D>),
 }
@@ -155,11 +155,11 @@ pub enum ConstraintKind<const D: usize = 2> {
 macro_rules! each {
     ($self:ident, $c:ident => $call:expr) => {
         match &$self.kind {
-            ConstraintKind::Unit($c) => $call,
-            ConstraintKind::Parallel($c) => $call,
+            ConstraintKind::UnitLength($c) => $call,
+            ConstraintKind::AngleBetween($c) => $call,
             ConstraintKind::Distance($c) => $call,
-            ConstraintKind::Across($c) => $call,
-            ConstraintKind::Along($c) => $call,
+            ConstraintKind::PointOnLine($c) => $call,
+            ConstraintKind::PointOnCurve($c) => $call,
             ConstraintKind::Coincident($c) => $call,
         }
     };
@@ -189,7 +189,7 @@ impl<const D: usize> Constraint<D> {
     /// Derivative of `g` by time alone, 1/s.
     pub fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         match &self.kind {
-            ConstraintKind::Parallel(c) => c.rate(view),
+            ConstraintKind::AngleBetween(c) => c.rate(view),
             _ => N::of(0.0),
         }
     }
@@ -202,12 +202,12 @@ impl<const D: usize> Constraint<D> {
     /// Second derivatives times the multiplier, block by block of nodes.
     pub fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         match &self.kind {
-            ConstraintKind::Unit(c) => c.stiffness(lambda, add),
-            ConstraintKind::Parallel(c) => c.stiffness(lambda, view, add),
+            ConstraintKind::UnitLength(c) => c.stiffness(lambda, add),
+            ConstraintKind::AngleBetween(c) => c.stiffness(lambda, view, add),
             ConstraintKind::Distance(c) => c.stiffness(lambda, add),
-            ConstraintKind::Across(c) => c.stiffness(lambda, add),
+            ConstraintKind::PointOnLine(c) => c.stiffness(lambda, add),
             // Small beside inertia, and the blocks move with the point.
-            ConstraintKind::Along(_) => {}
+            ConstraintKind::PointOnCurve(_) => {}
             ConstraintKind::Coincident(_) => {}
         }
     }
@@ -215,21 +215,21 @@ impl<const D: usize> Constraint<D> {
     /// Size of `g` to measure its residual by: 1 for directions, m for lengths.
     pub fn size(&self, chains: &[CableChain<D>]) -> f64 {
         match &self.kind {
-            ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
+            ConstraintKind::UnitLength(_) | ConstraintKind::AngleBetween(_) => 1.0,
             ConstraintKind::Distance(c) => c.length,
-            ConstraintKind::Across(c) => c.size,
+            ConstraintKind::PointOnLine(c) => c.size,
             ConstraintKind::Coincident(c) => c.size,
-            ConstraintKind::Along(c) => chains[c.chain].length(),
+            ConstraintKind::PointOnCurve(c) => chains[c.chain].length(),
         }
     }
 
     /// The two ends that it joins, where there are two.
     fn ends(&self) -> Option<&[End<D>; 2]> {
         match &self.kind {
-            ConstraintKind::Unit(_) | ConstraintKind::Along(_) => None,
-            ConstraintKind::Parallel(c) => Some(&c.ends),
+            ConstraintKind::UnitLength(_) | ConstraintKind::PointOnCurve(_) => None,
+            ConstraintKind::AngleBetween(c) => Some(&c.ends),
             ConstraintKind::Distance(c) => Some(&c.ends),
-            ConstraintKind::Across(c) => Some(&c.ends),
+            ConstraintKind::PointOnLine(c) => Some(&c.ends),
             ConstraintKind::Coincident(c) => Some(&c.ends),
         }
     }
@@ -237,8 +237,8 @@ impl<const D: usize> Constraint<D> {
     /// Nodes that it ties together.
     pub fn nodes(&self, chains: &[CableChain<D>]) -> Vec<usize> {
         match &self.kind {
-            ConstraintKind::Unit(c) => vec![c.node],
-            ConstraintKind::Along(c) => {
+            ConstraintKind::UnitLength(c) => vec![c.node],
+            ConstraintKind::PointOnCurve(c) => {
                 let first = chains[c.chain].nodes(0)[0];
                 let chain = first..first + chains[c.chain].node_count();
                 c.end.nodes().chain(chain).collect()
@@ -256,20 +256,20 @@ impl<const D: usize> Constraint<D> {
     pub fn is_stiff(&self) -> bool {
         !matches!(
             self.kind,
-            ConstraintKind::Along(_) | ConstraintKind::Coincident(_)
+            ConstraintKind::PointOnCurve(_) | ConstraintKind::Coincident(_)
         )
     }
 
     /// Whether it is the first one of a slide along a chain.
     pub fn is_slide(&self) -> bool {
-        matches!(&self.kind, ConstraintKind::Along(along) if along.normal == 0)
+        matches!(&self.kind, ConstraintKind::PointOnCurve(along) if along.normal == 0)
     }
 
     /// Whether it ties to the ground.
     pub fn is_grounded(&self) -> bool {
         let ground = |end: &End<D>| end.marker().is_none();
         match &self.kind {
-            ConstraintKind::Along(c) => ground(&c.end),
+            ConstraintKind::PointOnCurve(c) => ground(&c.end),
             _ => self.ends().is_some_and(|ends| ends.iter().any(ground)),
         }
     }

@@ -5,7 +5,7 @@
 
 use crate::math::space::{Vector, axis};
 
-use super::{ConstraintKind, Parallel, Rows, Target};
+use super::{AngleBetween, ConstraintKind, Rows, Target};
 use crate::system::end::End;
 
 /// The second end is where driven coordinates say.
@@ -42,7 +42,7 @@ pub(super) fn direction<const D: usize>(
         rows.push([none; 2], [none, axis(1)], Target::Sine(drive));
         return None;
     }
-    Some(ConstraintKind::Parallel(Parallel {
+    Some(ConstraintKind::AngleBetween(AngleBetween {
         ends: [*first, *second],
         angle: 0.0,
         drive: Some(drive),

@@ -13,7 +13,7 @@ const ITERATIONS: usize = 20;
 
 /// A point on a chain.
 #[derive(Clone, Debug)]
-pub struct Along<const D: usize> {
+pub struct PointOnCurve<const D: usize> {
     /// The chain.
     pub chain: usize,
     /// What slides along it.
@@ -32,7 +32,7 @@ pub(super) fn hold<const D: usize>(
 ) -> impl Iterator<Item = ConstraintKind<D>> {
     let end = rows.ends[1];
     (0..D - 1).map(move |normal| {
-        ConstraintKind::Along(Along {
+        ConstraintKind::PointOnCurve(PointOnCurve {
             chain,
             end,
             slide,
@@ -62,7 +62,7 @@ fn foot<const D: usize, N: Number>(
     }
 }
 
-impl<const D: usize> Along<D> {
+impl<const D: usize> PointOnCurve<D> {
     /// Length along the chain of the point nearest to the end, m; searched from `hint` on.
     pub fn travel<N: Number>(&self, chain: &CableChain<D>, x: &[Node<D, N>], hint: N) -> N {
         let p = self.end.lift().position(x);

@@ -9,12 +9,12 @@ use crate::system::end::{Add, End};
 
 /// The unit vector of a rigid body.
 #[derive(Clone, Debug)]
-pub struct Unit {
+pub struct UnitLength {
     /// Node of the body.
     pub node: usize,
 }
 
-impl Unit {
+impl UnitLength {
     pub(super) fn value<const D: usize, N: Number>(&self, view: &View<'_, D, N>) -> N {
         let [_, direction] = view.x[self.node].map(Vector::from);
         N::of(0.5) * (direction.norm_squared() - N::of(1.0))

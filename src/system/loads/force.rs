@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 use super::{Add, Instant};
 use crate::body::{Marker, Node, no_block};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, left};
+use crate::math::space::{Vector, perpendicular};
 use crate::system::signal::Signal;
 
 /// A force.
@@ -27,7 +27,7 @@ impl<const D: usize> Force<D> {
             return Vector::from(components);
         }
         let u = self.marker.lift().direction(at.x).normalize();
-        u * components[0] + left(u) * components[1]
+        u * components[0] + perpendicular(u) * components[1]
     }
 
     pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
@@ -35,14 +35,14 @@ impl<const D: usize> Force<D> {
         self.marker.lift().add_force(force, Vector::zeros(), f);
     }
 
-    /// The force follows the direction: `d force = left(force) (u x du) / u.u`; the symmetric part.
+    /// The force follows the direction: `d force = perpendicular(force) (u x du) / u.u`; the symmetric part.
     pub(super) fn add_stiffness(&self, at: Instant<'_, D>, add: Add<'_, D>) {
         if !self.follower {
             return;
         }
         let u: Vector<D> = self.marker.direction(at.x);
-        let turn = left(u) / u.norm_squared();
-        let cross: SMatrix<f64, D, D> = left(self.value(at)) * turn.transpose() * -0.5;
+        let turn = perpendicular(u) / u.norm_squared();
+        let cross: SMatrix<f64, D, D> = perpendicular(self.value(at)) * turn.transpose() * -0.5;
         let [positions, directions] = [0, 1].map(|part| self.marker.jacobian::<D>(part));
         let ends = if self.marker.is_nodal() { 1 } else { 2 };
         for i in 0..ends {

@@ -3,12 +3,12 @@
 use super::{Add, Instant};
 use crate::body::Node;
 use crate::math::jet::Number;
-use crate::math::space::left;
+use crate::math::space::perpendicular;
 use crate::system::end::{End, coupling};
 
 /// A rotational spring and a damper in parallel between two directions.
 #[derive(Clone, Debug)]
-pub struct Rotational<const D: usize = 2> {
+pub struct RotationalSpring<const D: usize = 2> {
     /// Its ends.
     pub ends: [End<D>; 2],
     /// Index of the angle from the first to the second among those that the system counts.
@@ -21,7 +21,7 @@ pub struct Rotational<const D: usize = 2> {
     pub rest: f64,
 }
 
-impl<const D: usize> Rotational<D> {
+impl<const D: usize> RotationalSpring<D> {
     fn turn<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         at.angles.0[self.angle].value(at.x, at.angles.1[self.angle]) - N::of(self.rest)
     }
@@ -52,7 +52,7 @@ impl<const D: usize> Rotational<D> {
         // Derivatives of the angle by both directions.
         let [a, b] = self.ends.map(|end| {
             let u = end.direction(at.x);
-            left(u) / u.norm_squared()
+            perpendicular(u) / u.norm_squared()
         });
         let outer = |k: f64| {
             let [aa, ab, bb] = [a * a.transpose(), a * b.transpose(), b * b.transpose()];

@@ -1,17 +1,17 @@
 //! Loads: what acts on bodies besides gravity and joints. One file a kind. A size that changes is a
 //! [`Signal`]: a function of time or an input.
 
-mod coupling;
+mod bushing;
 mod distributed;
 mod force;
 mod hinge;
 mod moment;
 mod spring;
 
-pub use coupling::{Coupling, Turning};
+pub use bushing::{Bushing, RotationalBushing};
 pub use distributed::Distributed;
 pub use force::Force;
-pub use hinge::Rotational;
+pub use hinge::RotationalSpring;
 pub use moment::Moment;
 pub use spring::Spring;
 
@@ -33,11 +33,11 @@ pub enum Load<const D: usize = 2> {
     /// A spring with a damper between two ends.
     Spring(Spring<D>),
     /// A rotational spring with a damper between two directions.
-    Rotational(Rotational<D>),
+    RotationalSpring(RotationalSpring<D>),
     /// A spring with a damper from a marker to a point that moves.
-    Coupling(Coupling<D>),
+    Bushing(Bushing<D>),
     /// A rotational spring with a damper from the direction of a marker to an angle.
-    Turning(Turning),
+    RotationalBushing(RotationalBushing),
 }
 
 impl<const D: usize> Load<D> {
@@ -48,9 +48,9 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => load.add_force(at, f),
             Self::Distributed(load) => load.add_force(at, f),
             Self::Spring(load) => load.add_force(at, f),
-            Self::Rotational(load) => load.add_force(at, f),
-            Self::Coupling(load) => load.add_force(at, f),
-            Self::Turning(load) => load.add_force(at, f),
+            Self::RotationalSpring(load) => load.add_force(at, f),
+            Self::Bushing(load) => load.add_force(at, f),
+            Self::RotationalBushing(load) => load.add_force(at, f),
         }
     }
 
@@ -62,9 +62,9 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => load.add_stiffness(at, stiffness),
             Self::Distributed(_) => {}
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
-            Self::Rotational(load) => load.add_tangent(at, stiffness, damping),
-            Self::Coupling(load) => load.add_tangent(stiffness, damping),
-            Self::Turning(load) => load.add_tangent(at, stiffness, damping),
+            Self::RotationalSpring(load) => load.add_tangent(at, stiffness, damping),
+            Self::Bushing(load) => load.add_tangent(stiffness, damping),
+            Self::RotationalBushing(load) => load.add_tangent(at, stiffness, damping),
         }
     }
 
@@ -76,9 +76,9 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => [load.power(at), none],
             Self::Distributed(load) => [load.power(at), none],
             Self::Spring(load) => load.power(at),
-            Self::Rotational(load) => [none, load.dissipation(at)],
-            Self::Coupling(load) => load.power(at),
-            Self::Turning(load) => load.power(at),
+            Self::RotationalSpring(load) => [none, load.dissipation(at)],
+            Self::Bushing(load) => load.power(at),
+            Self::RotationalBushing(load) => load.power(at),
         }
     }
 
@@ -86,9 +86,9 @@ impl<const D: usize> Load<D> {
     pub fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         match self {
             Self::Spring(load) => load.energy(at),
-            Self::Rotational(load) => load.energy(at),
-            Self::Coupling(load) => load.energy(at),
-            Self::Turning(load) => load.energy(at),
+            Self::RotationalSpring(load) => load.energy(at),
+            Self::Bushing(load) => load.energy(at),
+            Self::RotationalBushing(load) => load.energy(at),
             _ => N::of(0.0),
         }
     }
@@ -100,9 +100,9 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.work(before, after),
             Self::Moment(load) => load.work(before, after),
             Self::Distributed(load) => load.work(before, after),
-            Self::Coupling(load) => load.work(before, after),
-            Self::Turning(load) => load.work(before, after),
-            Self::Spring(_) | Self::Rotational(_) => self.energy(before) - self.energy(after),
+            Self::Bushing(load) => load.work(before, after),
+            Self::RotationalBushing(load) => load.work(before, after),
+            Self::Spring(_) | Self::RotationalSpring(_) => self.energy(before) - self.energy(after),
         }
     }
 
@@ -119,12 +119,12 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => hold(std::slice::from_mut(&mut load.size), fraction),
             Self::Distributed(load) => hold(&mut load.components, fraction),
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
-            Self::Rotational(_) => {}
-            Self::Coupling(load) => {
+            Self::RotationalSpring(_) => {}
+            Self::Bushing(load) => {
                 hold(&mut load.position, 1.0);
                 hold(&mut load.velocity, 1.0);
             }
-            Self::Turning(load) => {
+            Self::RotationalBushing(load) => {
                 hold(std::slice::from_mut(&mut load.angle), 1.0);
                 hold(std::slice::from_mut(&mut load.velocity), 1.0);
             }
@@ -141,9 +141,9 @@ impl<const D: usize> Load<D> {
     pub fn is_damped(&self) -> bool {
         match self {
             Self::Spring(load) => load.damping > 0.0,
-            Self::Rotational(load) => load.damping > 0.0,
-            Self::Coupling(load) => load.damping > 0.0,
-            Self::Turning(load) => load.damping > 0.0,
+            Self::RotationalSpring(load) => load.damping > 0.0,
+            Self::Bushing(load) => load.damping > 0.0,
+            Self::RotationalBushing(load) => load.damping > 0.0,
             _ => false,
         }
     }
@@ -156,9 +156,9 @@ impl<const D: usize> Load<D> {
             Self::Distributed(load) => (&load.components, &[]),
             Self::Moment(load) => (one(&load.size), &[]),
             Self::Spring(load) => (one(&load.length), &[]),
-            Self::Rotational(_) => (&[], &[]),
-            Self::Coupling(load) => (&load.position, &load.velocity),
-            Self::Turning(load) => (one(&load.angle), one(&load.velocity)),
+            Self::RotationalSpring(_) => (&[], &[]),
+            Self::Bushing(load) => (&load.position, &load.velocity),
+            Self::RotationalBushing(load) => (one(&load.angle), one(&load.velocity)),
         };
         first.iter().chain(second)
     }
@@ -170,9 +170,9 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => load.ends.to_vec(),
             Self::Distributed(_) => vec![],
             Self::Spring(load) => load.ends.to_vec(),
-            Self::Rotational(load) => load.ends.to_vec(),
-            Self::Coupling(load) => vec![End::Body(load.marker)],
-            Self::Turning(load) => vec![End::Body(load.marker)],
+            Self::RotationalSpring(load) => load.ends.to_vec(),
+            Self::Bushing(load) => vec![End::Body(load.marker)],
+            Self::RotationalBushing(load) => vec![End::Body(load.marker)],
         }
     }
 }

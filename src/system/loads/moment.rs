@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 use super::{Add, Instant};
 use crate::body::Node;
 use crate::math::jet::Number;
-use crate::math::space::{Vector, cross, left, left_matrix};
+use crate::math::space::{Vector, cross, perpendicular, perpendicular_matrix};
 use crate::system::end::{End, coupling};
 use crate::system::signal::Signal;
 
@@ -56,5 +56,5 @@ impl<const D: usize> Moment<D> {
 pub(super) fn curl<const D: usize>(end: &End<D>, x: &[Node<D>]) -> SMatrix<f64, D, D> {
     let u = end.direction(x);
     let a = u.norm_squared();
-    (left(u) * u.transpose() * (2.0 / a) - left_matrix()) / a
+    (perpendicular(u) * u.transpose() * (2.0 / a) - perpendicular_matrix()) / a
 }

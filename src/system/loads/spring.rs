@@ -23,7 +23,7 @@ pub struct Spring<const D: usize = 2> {
 }
 
 impl<const D: usize> Spring<D> {
-    /// Unit vector from the first end to the second, length, speed of stretching. At length zero no
+    /// UnitLength vector from the first end to the second, length, speed of stretching. At length zero no
     /// direction is better than another, and none is taken.
     fn stretch<N: Number>(&self, at: Instant<'_, D, N>) -> (Vector<D, N>, N, N) {
         let [a, b] = self.ends.map(|end| end.lift());

@@ -137,20 +137,20 @@ impl<const D: usize> Model<'_, D> {
         let (system, time) = (self.system, state.time);
         let rates = Some(&state.rates[..]);
         self.work.stretch = Some([before, before]);
-        system.place(time, &state.coordinates, rates, self.work);
+        system.forward_kinematics(time, &state.coordinates, rates, self.work);
         let energy = system.quadratic(&self.work.v);
         let mut old = std::mem::take(&mut self.work.v);
         self.work.stretch = Some([after, after]);
-        system.place(time, &state.coordinates, None, self.work);
+        system.forward_kinematics(time, &state.coordinates, None, self.work);
         self.work.supply.fill(no_node());
-        system.follow(&self.work.drives, 1, &mut self.work.supply);
+        system.add_driven(&self.work.drives, 1, &mut self.work.supply);
         for (rate, driven) in old.iter_mut().zip(&self.work.supply) {
             add_node(rate, -1.0, driven);
         }
         system.coordinates_of(&old, self.work, &mut state.rates);
         self.work.v = old;
         let kept = self.project(state);
-        system.place(time, &state.coordinates, Some(&state.rates), self.work);
+        system.forward_kinematics(time, &state.coordinates, Some(&state.rates), self.work);
         if system.tracks_work {
             // Drives alone do work: the other impulses act where velocities have no part before or after.
             state.work[0] += system.quadratic(&self.work.v) - energy;

@@ -8,7 +8,7 @@ use crate::elements::Element;
 use crate::math::space::{Vector, moment};
 use crate::system::instant::Instant;
 use crate::system::joints::ConstraintKind;
-use crate::system::signal::{Course, moved};
+use crate::system::signal::{Trajectory, moved};
 use crate::system::{State, System, Work};
 
 /// A second-order system with identity inertia, `q'' = a(t, q, q')`, with `K = -da/dq` and
@@ -110,7 +110,7 @@ impl<'a, const D: usize> Model<'a, D> {
         work: &'a mut Work<D>,
         state: &State,
     ) -> Self {
-        work.follow(state);
+        work.resume(state);
         work.stretch = None;
         work.inputs.clear();
         work.inputs.extend_from_slice(inputs);
@@ -118,11 +118,11 @@ impl<'a, const D: usize> Model<'a, D> {
         work.input_rates.resize(inputs.len(), 0.0);
         // An acceleration that is an input acts at once.
         for ((course, given), driven) in
-            (work.courses.iter_mut().zip(system.courses())).zip(&state.driven)
+            (work.trajectories.iter_mut().zip(system.trajectories())).zip(&state.driven)
         {
             if given.len() == 3 {
                 let [p, v, ..] = *driven;
-                *course = Course::hold(state.time, [p, v, inputs[given.start + 2]]);
+                *course = Trajectory::hold(state.time, [p, v, inputs[given.start + 2]]);
             }
         }
         if !system.slides.is_empty() {
@@ -158,8 +158,12 @@ impl<'a, const D: usize> Model<'a, D> {
     pub fn until(self, state: &State, until: f64) -> Self {
         let h = until - state.time;
         if h > 0.0 {
-            let courses = self.work.courses.iter_mut().zip(self.system.courses());
-            for ((course, given), driven) in courses.zip(&state.driven) {
+            let trajectories = self
+                .work
+                .trajectories
+                .iter_mut()
+                .zip(self.system.trajectories());
+            for ((course, given), driven) in trajectories.zip(&state.driven) {
                 let mut inputs = [[0.0; 3]; 3];
                 for (input, index) in inputs.iter_mut().zip(given.clone()) {
                     let [first, second] = self.slopes.get(index).copied().unwrap_or_default();
@@ -169,7 +173,7 @@ impl<'a, const D: usize> Model<'a, D> {
                 if given.len() == 3 {
                     a = inputs[2][0];
                 }
-                *course = Course::new(state.time, h, [p, v, a], &inputs[..given.len()]);
+                *course = Trajectory::new(state.time, h, [p, v, a], &inputs[..given.len()]);
             }
         }
         self
@@ -183,16 +187,16 @@ impl<'a, const D: usize> Model<'a, D> {
             (self.work.inputs[i], self.work.input_rates[i]) = (value, rate);
         }
         let v = self.system.reads_rates().then_some(v);
-        self.system.place(time, q, v, self.work);
+        self.system.forward_kinematics(time, q, v, self.work);
     }
 
     /// Potential at `to` less that at `from` (strain energy, gravity, springs, loads as they are), J, and
     /// the size of the terms it is summed from.
     pub fn potential_difference(&mut self, from: &[f64], to: &[f64]) -> (f64, f64) {
         let (system, time) = (self.system, self.time);
-        system.place(time, to, None, self.work);
+        system.forward_kinematics(time, to, None, self.work);
         self.work.other.copy_from_slice(&self.work.x);
-        system.place(time, from, None, self.work);
+        system.forward_kinematics(time, from, None, self.work);
         let (before, after) = (&self.work.x, &self.work.other);
         let (mut sum, mut size) = (0.0, 0.0);
         let mut add = |energy: f64, scale: f64| {
@@ -265,13 +269,13 @@ impl<'a, const D: usize> Model<'a, D> {
     /// Counts angles on, follows slides and driven motions.
     pub fn count(&mut self, state: &mut State) -> Accepted {
         let system = self.system;
-        for (driven, course) in state.driven.iter_mut().zip(&self.work.courses) {
+        for (driven, course) in state.driven.iter_mut().zip(&self.work.trajectories) {
             *driven = course.orders(state.time);
         }
         if state.angles.is_empty() && state.travel.is_empty() {
             return Accepted::AsIs;
         }
-        system.place(state.time, &state.coordinates, None, self.work);
+        system.forward_kinematics(state.time, &state.coordinates, None, self.work);
         for (i, angle) in system.angles.iter().enumerate() {
             state.angles[i] = angle.value(&self.work.x, self.work.angles[i]);
         }
@@ -279,7 +283,7 @@ impl<'a, const D: usize> Model<'a, D> {
         state.travel.copy_from_slice(&self.work.travel);
         for (constraint, travel) in system.slides.iter().zip(&state.travel) {
             let constraint = &system.constraints[*constraint];
-            let ConstraintKind::Along(along) = &constraint.kind else {
+            let ConstraintKind::PointOnCurve(along) = &constraint.kind else {
                 continue;
             };
             let length = system.chains[along.chain].length();
@@ -381,9 +385,9 @@ impl<const D: usize> Dynamics for Model<'_, D> {
 
     fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64 {
         let (system, time) = (self.system, self.time);
-        system.place(time, from, None, self.work);
+        system.forward_kinematics(time, from, None, self.work);
         self.work.other.copy_from_slice(&self.work.x);
-        system.place(time, to, None, self.work);
+        system.forward_kinematics(time, to, None, self.work);
         let mut largest = 0.0_f64;
         for (a, b) in self.work.other.iter().zip(&self.work.x) {
             let [a, b] = [a, b].map(|node| Vector::from(node[1]));

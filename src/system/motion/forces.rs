@@ -1,6 +1,6 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use crate::body::{Node, add_node, left_node, map_node};
+use crate::body::{Node, add_node, map_node, perpendicular_node};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
@@ -11,7 +11,7 @@ use crate::system::{System, Work};
 
 impl<const D: usize> System<D> {
     /// Puts the nodal coordinates and, if given, rates of a state into `work`.
-    pub(in crate::system) fn place(
+    pub(in crate::system) fn forward_kinematics(
         &self,
         time: f64,
         q: &[f64],
@@ -19,12 +19,12 @@ impl<const D: usize> System<D> {
         work: &mut Work<D>,
     ) {
         let clock = self.clock(time, work);
-        let mut courses = work.courses.iter();
+        let mut trajectories = work.trajectories.iter();
         for (value, drive) in work.drives.iter_mut().zip(&self.drives) {
             *value = match drive {
                 Drive::Function(function) => function.derivatives(clock),
                 Drive::Input { .. } => {
-                    let course = courses.next();
+                    let course = trajectories.next();
                     course.map_or([0.0; 3], |course| course.derivatives(time))
                 }
             };
@@ -33,30 +33,35 @@ impl<const D: usize> System<D> {
         for (x, reference) in work.x.iter_mut().zip(&self.reference) {
             add_node(x, 1.0, reference);
         }
-        self.follow(&work.drives, 0, &mut work.x);
+        self.add_driven(&work.drives, 0, &mut work.x);
         self.find_travel(&work.x, &mut work.travel);
         if let Some(v) = v {
-            self.place_rates(v, work);
+            self.rate_kinematics(v, work);
         }
     }
 
     /// Where slides are on their cables, searched from where they were.
     pub(in crate::system) fn find_travel<N: Number>(&self, x: &[Node<D, N>], travel: &mut [N]) {
         for (constraint, travel) in self.slides.iter().zip(travel) {
-            if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
+            if let ConstraintKind::PointOnCurve(along) = &self.constraints[*constraint].kind {
                 *travel = along.travel(&self.chains[along.chain], x, *travel);
             }
         }
     }
 
-    /// Puts nodal rates into `work`; what drives them is that of the last [`System::place`].
-    pub(in crate::system) fn place_rates(&self, v: &[f64], work: &mut Work<D>) {
+    /// Puts nodal rates into `work`; what drives them is that of the last [`System::forward_kinematics`].
+    pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Work<D>) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
-        self.follow(&work.drives, 1, &mut work.v);
+        self.add_driven(&work.drives, 1, &mut work.v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
-    pub(in crate::system) fn follow(&self, drives: &[[f64; 3]], order: usize, out: &mut [Node<D>]) {
+    pub(in crate::system) fn add_driven(
+        &self,
+        drives: &[[f64; 3]],
+        order: usize,
+        out: &mut [Node<D>],
+    ) {
         for driven in &self.driven {
             let mut value = self.linear[driven.row].target.derivatives(drives)[order];
             if order == 0 {
@@ -93,7 +98,7 @@ impl<const D: usize> System<D> {
             let rate = self.rotation;
             self.add_inertia(rate * rate, &work.x, &mut force);
             for (turned, v) in work.other.iter_mut().zip(&work.v) {
-                *turned = left_node(v);
+                *turned = perpendicular_node(v);
             }
             self.add_inertia(-2.0 * rate, &work.other, &mut force);
         }
@@ -169,7 +174,7 @@ impl<const D: usize> System<D> {
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
     pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work<D>) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
-        self.follow(&work.drives, 2, &mut work.other);
+        self.add_driven(&work.drives, 2, &mut work.other);
         for (supply, f) in work.supply.iter_mut().zip(&work.f) {
             *supply = map_node(f, |f| -f);
         }
@@ -241,7 +246,7 @@ impl<const D: usize> System<D> {
                 sum += (e * element.mass().map(N::of)).dot(&e);
             }
         }
-        for lump in &self.lumps {
+        for lump in &self.lumped_masses {
             let marker = lump.marker.lift();
             let (at, on): (Vector<D, N>, Vector<D, N>) = (marker.position(x), marker.direction(x));
             sum += at.norm_squared() * N::of(lump.mass) + on.norm_squared() * N::of(lump.inertia);

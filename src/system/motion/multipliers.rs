@@ -83,7 +83,7 @@ impl<const D: usize> System<D> {
         work: &mut Work<D>,
         mut visit: impl FnMut(ConstraintRow<'_, D>),
     ) {
-        self.place(time, q, v, work);
+        self.forward_kinematics(time, q, v, work);
         self.jacobians(work);
         let view = self.view(work);
         for (row, constraint) in self.constraints.iter().enumerate() {
@@ -154,7 +154,7 @@ impl<const D: usize> System<D> {
     /// Nodal accelerations of what is driven.
     pub(in crate::system) fn driven_acceleration(&self, drives: &[[f64; 3]], out: &mut [Node<D>]) {
         out.fill(no_node());
-        self.follow(drives, 2, out);
+        self.add_driven(drives, 2, out);
     }
 
     /// Projects positions onto the constraints at a time. Returns the largest residual left, relative
@@ -167,7 +167,7 @@ impl<const D: usize> System<D> {
     ) -> f64 {
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            self.place(time, q, None, work);
+            self.forward_kinematics(time, q, None, work);
             let residual = self.position_residual(&self.view(work));
             // Two and more iterations are quadratic; what does not shrink is roundoff.
             if residual <= EXACT || residual > 0.5 * before {
@@ -183,7 +183,7 @@ impl<const D: usize> System<D> {
     /// Projects velocities onto the constraints at the positions and drives in `work`.
     pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work<D>) {
         self.jacobians(work);
-        self.place_rates(v, work);
+        self.rate_kinematics(v, work);
         self.correct(v, work, 2, constraint_rate);
     }
 
@@ -240,8 +240,8 @@ impl<const D: usize> System<D> {
         work: &mut Work<D>,
     ) -> (Vec<usize>, Vec<usize>) {
         let (mut joints, mut bodies) = (self.redundant.clone(), Vec::new());
-        work.follow(state);
-        self.place(state.time, &state.coordinates, None, work);
+        work.resume(state);
+        self.forward_kinematics(state.time, &state.coordinates, None, work);
         self.jacobians(work);
         work.jacobian.factor(part);
         for (row, constraint) in self.constraints.iter().enumerate() {
@@ -250,7 +250,7 @@ impl<const D: usize> System<D> {
             }
             match (constraint.joint, &constraint.kind) {
                 (Some(joint), _) => joints.push(joint),
-                (None, ConstraintKind::Unit(unit)) => {
+                (None, ConstraintKind::UnitLength(unit)) => {
                     bodies.extend(self.bodies.iter().position(|b| b.contains(&unit.node)));
                 }
                 (None, _) => {}

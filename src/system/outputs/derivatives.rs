@@ -9,7 +9,7 @@
 //!
 //! Source: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 13.
 
-use crate::body::{Node, add_node, left_node, map_node, no_node, product};
+use crate::body::{Node, add_node, map_node, no_node, perpendicular_node, product};
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::system::signal::Drive;
 use crate::system::{Evaluation, State, System, Work};
@@ -73,13 +73,13 @@ impl<const D: usize> Derivatives<D> {
             let [first, second] = slope(i);
             [[first, second], [second, 0.0]]
         });
-        let mut courses = system.courses().zip(&state.driven);
+        let mut trajectories = system.trajectories().zip(&state.driven);
         for ((drive, set), now) in
             (system.drives.iter().zip(&mut self.values.drives)).zip(&plain.drives)
         {
             let [_, _, _, third, fourth] = match drive {
                 Drive::Function(function) => function.orders(time),
-                Drive::Input { .. } => courses.next().map_or([0.0; 5], |(given, driven)| {
+                Drive::Input { .. } => trajectories.next().map_or([0.0; 5], |(given, driven)| {
                     let mut orders = *driven;
                     if given.len() == 3 {
                         [orders[3], orders[4]] = slope(given.start + 2);
@@ -130,13 +130,13 @@ impl<const D: usize> Derivatives<D> {
     ) {
         self.values.time = Jet::from_re(plain.time);
         self.set_inputs(plain, |i| [[direction[i], 0.0], [0.0; 2]]);
-        let mut courses = system.courses();
+        let mut trajectories = system.trajectories();
         for ((drive, set), now) in
             (system.drives.iter().zip(&mut self.values.drives)).zip(&plain.drives)
         {
             *set = now.map(Jet::from_re);
             if let Drive::Input { .. } = drive
-                && let Some(given) = courses.next()
+                && let Some(given) = trajectories.next()
                 && given.len() == 3
             {
                 set[2].v1 = direction[given.start + 2];
@@ -198,7 +198,7 @@ impl<const D: usize> Derivatives<D> {
                 system.add_inertia(rate * rate, &self.one, &mut self.other);
                 take(&values.v, order, &mut self.one);
                 for v in &mut self.one {
-                    *v = left_node(v);
+                    *v = perpendicular_node(v);
                 }
                 system.add_inertia(-2.0 * rate, &self.one, &mut self.other);
                 add_order(&self.other, order, &mut self.f);

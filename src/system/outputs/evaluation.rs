@@ -68,9 +68,9 @@ impl<const D: usize> Evaluation<D> {
 
     /// Computes coordinates and rates.
     pub fn kinematics(&mut self, system: &System<D>, state: &State, work: &mut Work<D>) {
-        work.follow(state);
+        work.resume(state);
         self.time = system.now(state.time);
-        system.place(state.time, &state.coordinates, Some(&state.rates), work);
+        system.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
         self.x.copy_from_slice(&work.x);
         self.v.copy_from_slice(&work.v);
         self.angles.copy_from_slice(&work.angles);
@@ -135,7 +135,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             }
         }
         if let Some(load) = system.joints[joint].spring
-            && let Load::Rotational(spring) = &system.loads[load]
+            && let Load::RotationalSpring(spring) = &system.loads[load]
         {
             turning[2] += spring.moment(at);
         }
@@ -146,8 +146,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn coupling(&self, system: &System<D>, load: usize) -> (Vector<D, N>, N) {
         let at = self.instant(system);
         match &system.loads[load] {
-            Load::Coupling(coupling) => (coupling.force(at), N::of(0.0)),
-            Load::Turning(coupling) => (Vector::zeros(), coupling.moment(at)),
+            Load::Bushing(coupling) => (coupling.force(at), N::of(0.0)),
+            Load::RotationalBushing(coupling) => (Vector::zeros(), coupling.moment(at)),
             _ => (Vector::zeros(), N::of(0.0)),
         }
     }
@@ -241,7 +241,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
                 }
             }
         }
-        for lump in &system.lumps {
+        for lump in &system.lumped_masses {
             let marker = lump.marker.lift();
             let (m, j) = (N::of(lump.mass), N::of(lump.inertia));
             let (x, d) = (marker.position(&self.x), marker.direction(&self.x));
@@ -260,7 +260,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
                 sum += chain.element(j, &self.x) * element.weight().map(N::of);
             }
         }
-        for lump in &system.lumps {
+        for lump in &system.lumped_masses {
             sum += lump.marker.lift().position(&self.x) * N::of(lump.mass);
         }
         sum / N::of(system.mass())

@@ -12,7 +12,7 @@
 //! Riemannian Manifolds, 2nd ed. (2018), proposition 10.4 (variation of motions on a manifold).
 
 use super::probe::{Blocks, Nodes, Probe, SKEW};
-use crate::body::{Elimination, Node, left_node, map_node, no_block, no_node};
+use crate::body::{Elimination, Node, map_node, no_block, no_node, perpendicular_node};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number, moving};
 use crate::math::row_space::RowSpace;
@@ -230,7 +230,7 @@ impl<const D: usize> System<D> {
                     for (q, c) in [0, 1].into_iter().flat_map(|q| (0..D).map(move |c| (q, c))) {
                         let mut unit = no_node();
                         unit[q][c] = 1.0;
-                        let force = mass(left_node(&unit), *a, *b);
+                        let force = mass(perpendicular_node(&unit), *a, *b);
                         for (p, r) in [0, 1].into_iter().flat_map(|p| (0..D).map(move |r| (p, r))) {
                             block[p][r][q][c] = 2.0 * rate * force[p][r];
                         }
@@ -252,7 +252,7 @@ impl<const D: usize> System<D> {
             }
         }
         let mut scratch = vec![no_node(); self.reference.len()];
-        for lump in &self.lumps {
+        for lump in &self.lumped_masses {
             let marker = lump.marker;
             let nodes = &marker.nodes[..if marker.is_nodal() { 1 } else { 2 }];
             let scratch = std::cell::RefCell::new(&mut scratch);
@@ -278,7 +278,7 @@ impl<const D: usize> System<D> {
         let lift = |x: &f64| Jet::from_re(*x);
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
         let mut nodes = constraint.nodes(&self.chains);
-        if let ConstraintKind::Along(along) = &constraint.kind {
+        if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
             let chain = &self.chains[along.chain];
             let (element, _) = chain.find(work.travel[along.slide]);
             nodes = chain
@@ -289,7 +289,7 @@ impl<const D: usize> System<D> {
         }
         let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
             let mut travel: Vec<Jet> = work.travel.iter().map(lift).collect();
-            if let ConstraintKind::Along(along) = &constraint.kind {
+            if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
                 let place = &mut travel[along.slide];
                 *place = along.travel(&self.chains[along.chain], x, *place);
             }
@@ -375,7 +375,7 @@ impl<const D: usize> System<D> {
                 .gradient(&view)
                 .for_each(|node, term| {
                     let term = map_node(term, |t| t.v1);
-                    (self.elimination.assembly).gather_node(node, &term, &mut rate);
+                    (self.elimination.assembly).restrict_node(node, &term, &mut rate);
                 });
             self.elimination.project_in_place(&mut rate);
             rate

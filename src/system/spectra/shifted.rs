@@ -67,7 +67,7 @@ impl<'a, const D: usize> Linearization<'a, D> {
         for (k, q) in columns.iter().enumerate() {
             self.elimination.displacements(q, &mut y);
             let mut x: Vec<Node<D>> = vec![no_node(); assembly.nodes()];
-            assembly.spread(&y, &mut x);
+            assembly.prolong(&y, &mut x);
             nodal.push(x);
             for (which, matrix) in self.others.iter().enumerate() {
                 self.multiply(matrix, &y, &mut product);
@@ -108,7 +108,7 @@ impl<'a, const D: usize> Linearization<'a, D> {
         let assembly = &self.elimination.assembly;
         let (mut y, mut x) = (vec![0.0; q.len()], vec![no_node(); assembly.nodes()]);
         self.elimination.displacements(q, &mut y);
-        assembly.spread(&y, &mut x);
+        assembly.prolong(&y, &mut x);
         let mut force = vec![0.0; q.len()];
         self.multiply(&self.others[0], &y, &mut force);
         let others: f64 = y.iter().zip(force).map(|(y, f)| (y * f).abs()).sum();

@@ -63,9 +63,9 @@ impl<const D: usize> System<D> {
         let mut state = self.blank_state(time);
         self.start_courses(&mut state, inputs);
         let (nodes, rates) = described;
-        work.follow(&state);
+        work.resume(&state);
         // Drives first: targets of the rows depend on them.
-        self.place(time, &state.coordinates, None, work);
+        self.forward_kinematics(time, &state.coordinates, None, work);
         self.find_slides(nodes, &mut work.travel);
         let drawn = self.gaps_by_joint(nodes, work, 0.0);
         let bound = ABSURD * self.body_size();
@@ -75,8 +75,8 @@ impl<const D: usize> System<D> {
         let mut x = nodes.to_vec();
         let left = self.fit(&mut x, work);
         self.start_hints(&mut state, &x, inputs);
-        work.follow(&state);
-        self.place(time, &state.coordinates, None, work);
+        work.resume(&state);
+        self.forward_kinematics(time, &state.coordinates, None, work);
         match left {
             Ok(()) => self.approach(&x, work, &mut state),
             Err(error) => self
@@ -98,11 +98,11 @@ impl<const D: usize> System<D> {
         work: &mut Work<D>,
         state: &mut State,
     ) -> bool {
-        work.follow(state);
-        self.place(state.time, &state.coordinates, None, work);
+        work.resume(state);
+        self.forward_kinematics(state.time, &state.coordinates, None, work);
         let mut start = work.other.clone();
         start.fill(no_node());
-        self.follow(&work.drives, 1, &mut start);
+        self.add_driven(&work.drives, 1, &mut start);
         let missing = difference(rates, &start);
         let mut v = std::mem::take(&mut state.rates);
         self.coordinates_of(&missing, work, &mut v);
@@ -117,8 +117,8 @@ impl<const D: usize> System<D> {
 
     /// Nodal coordinates of a state.
     pub fn nodes_of(&self, state: &State, work: &mut Work<D>) -> Vec<Node<D>> {
-        work.follow(state);
-        self.place(state.time, &state.coordinates, None, work);
+        work.resume(state);
+        self.forward_kinematics(state.time, &state.coordinates, None, work);
         work.x.clone()
     }
 
@@ -172,8 +172,8 @@ impl<const D: usize> System<D> {
         }
         self.approach(x, work, state);
         equilibrium::close(self, inputs, (&open, nodes), work, state).ok()?;
-        work.follow(state);
-        self.place(state.time, &state.coordinates, None, work);
+        work.resume(state);
+        self.forward_kinematics(state.time, &state.coordinates, None, work);
         let gaps = self.gaps(&work.x, work, extent(&work.x));
         let fits = gaps.iter().all(|gap| gap.abs() <= CLOSE);
         let stretched = self
@@ -208,8 +208,8 @@ impl<const D: usize> System<D> {
     ) -> Vec<Gap> {
         let mut state = self.blank_state(time);
         self.start_courses(&mut state, inputs);
-        work.follow(&state);
-        self.place(time, &state.coordinates, None, work);
+        work.resume(&state);
+        self.forward_kinematics(time, &state.coordinates, None, work);
         self.find_slides(nodes, &mut work.travel);
         let size = self.body_size();
         let gaps = self.gaps_by_joint(nodes, work, 0.0).into_iter();
@@ -231,7 +231,7 @@ impl<const D: usize> System<D> {
 
     /// Motions that inputs drive start where the inputs say.
     fn start_courses(&self, state: &mut State, inputs: &[f64]) {
-        for (driven, course) in state.driven.iter_mut().zip(self.courses()) {
+        for (driven, course) in state.driven.iter_mut().zip(self.trajectories()) {
             let given = course.len();
             driven[..given].copy_from_slice(&inputs[course]);
         }
@@ -244,7 +244,7 @@ impl<const D: usize> System<D> {
         }
         for load in &self.loads {
             // What a coupling turns along with may have turned fully before.
-            if let Load::Turning(turning) = load {
+            if let Load::RotationalBushing(turning) = load {
                 let outside = turning.angle.value(Instant {
                     time: self.now(state.time),
                     inputs,
@@ -367,7 +367,7 @@ impl<const D: usize> System<D> {
     /// Where slides are on their chains, wherever they were before.
     fn find_slides(&self, x: &[Node<D>], travel: &mut [f64]) {
         for (travel, constraint) in travel.iter_mut().zip(&self.slides) {
-            if let ConstraintKind::Along(along) = &self.constraints[*constraint].kind {
+            if let ConstraintKind::PointOnCurve(along) = &self.constraints[*constraint].kind {
                 *travel = along.nearest(&self.chains[along.chain], x);
             }
         }
@@ -444,10 +444,10 @@ fn linear_size<const D: usize>(linear: &Linear<D>, size: f64) -> f64 {
 
 fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64 {
     match constraint.kind {
-        ConstraintKind::Unit(_) | ConstraintKind::Parallel(_) => 1.0,
+        ConstraintKind::UnitLength(_) | ConstraintKind::AngleBetween(_) => 1.0,
         ConstraintKind::Distance(_)
-        | ConstraintKind::Across(_)
-        | ConstraintKind::Along(_)
+        | ConstraintKind::PointOnLine(_)
+        | ConstraintKind::PointOnCurve(_)
         | ConstraintKind::Coincident(_) => size,
     }
 }

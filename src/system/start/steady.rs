@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::equilibrium::Turning;
 use crate::body::{Node, add_node, no_node, product};
-use crate::math::space::{Vector, axis, left};
+use crate::math::space::{Vector, axis, perpendicular};
 use crate::system::{State, System, Work};
 
 /// Part of the largest singular value below which motions and joints leave a field free.
@@ -40,14 +40,14 @@ pub enum NotSteady {
 impl<const D: usize> Steady<D> {
     /// Its field over nodes at these coordinates.
     pub fn rates(&self, x: &[Node<D>]) -> Vec<Node<D>> {
-        let turned = |v: [f64; D]| left(v.into()) * self.rate;
+        let turned = |v: [f64; D]| perpendicular(v.into()) * self.rate;
         let rate = |[p, d]: &Node<D>| [(self.velocity + turned(*p)).into(), turned(*d).into()];
         x.iter().map(rate).collect()
     }
 
     /// What it is seen from the turning frame: nothing where it does not turn.
     pub fn turning(&self) -> Option<Turning<D>> {
-        let center = left(self.velocity) / self.rate;
+        let center = perpendicular(self.velocity) / self.rate;
         (self.rate != 0.0).then_some(Turning {
             rate: self.rate,
             center,
@@ -68,7 +68,7 @@ impl<const D: usize> System<D> {
     ) -> Result<Steady<D>, NotSteady> {
         let x = self.nodes_of(state, work);
         let size = self.size();
-        // Unit translations, and the turn that moves a point at the distance of the size by 1.
+        // UnitLength translations, and the turn that moves a point at the distance of the size by 1.
         let field = |k: usize| -> Vec<Node<D>> {
             let (velocity, rate) = match k {
                 2 => (Vector::zeros(), 1.0 / size),

@@ -76,7 +76,7 @@ pub(super) use sampling::Sampling;
 use sampling::{BENDING, BETWEEN, LOBATTO, RADAU, RADAU_LAST, Sample};
 pub(super) use tangent::{Factors, transposed};
 pub(super) use vectors::TURNS;
-use vectors::{act, combine, dot, inner, times, turns, wedge};
+use vectors::{combine, contract, dot, inner, times, turns, wedge};
 
 /// Curvature times length of an element below which it counts as straight. Roundoff across the plane that it is bent in
 /// is magnified by one over this where a damped cable swings through its straight shape.
@@ -434,7 +434,7 @@ impl<N: Real> Kernel<N> {
         let m = self.moment(index, &at, rate, &now);
         let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);
-        let (mu, mw) = (act(&m, &at.u), act(&m, &at.w));
+        let (mu, mw) = (contract(&m, &at.u), contract(&m, &at.w));
         let weight = self.number(point.weight);
         let curved = weight * self.inverse_length;
         for d in 0..D {

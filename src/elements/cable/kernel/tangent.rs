@@ -4,7 +4,7 @@
 
 use super::{
     BENDING, BETWEEN, Curvature, Kernel, LOBATTO, Line, Motion, RADAU, RADAU_LAST, Sample,
-    Sampling, Square, TURNS, Vector, act, combine, inner, times, turns,
+    Sampling, Square, TURNS, Vector, combine, contract, inner, times, turns,
 };
 use crate::elements::EndBlocks;
 use crate::math::lanes::Real;
@@ -48,7 +48,7 @@ impl<N: Real, const D: usize> Sum<N, D> {
         }
     }
 
-    /// Adds the antisymmetric matrix of `act` to a block.
+    /// Adds the antisymmetric matrix of `contract` to a block.
     #[inline(always)]
     fn add_twist(&mut self, (i, j): (usize, usize), m: &[N; TURNS]) {
         let (block, mut k) = (&mut self.products[i][j], 0);
@@ -134,7 +134,7 @@ impl<N: Real> Kernel<N> {
 
     /// With `g` the gradient of a curvature and `m` the moment, the second derivatives of the energy by
     /// `u` and `w` are `EI g g^T` and `m` times those of the curvature; combined with the weights of the
-    /// three vectors all of them are products of vectors, multiples of 1 and multiples of `act`.
+    /// three vectors all of them are products of vectors, multiples of 1 and multiples of `contract`.
     #[inline(always)]
     fn add_bending_tangent<const D: usize>(
         &self,
@@ -160,7 +160,7 @@ impl<N: Real> Kernel<N> {
         self.add_material((&at, &now), (&s, &c), (stiffness, factors.of_size), sum);
         let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);
-        let (mu, mw) = (act(&m, &at.u), act(&m, &at.w));
+        let (mu, mw) = (contract(&m, &at.u), contract(&m, &at.w));
         // 4 p (p + 1) / a^2 = (2 p / a) (2 p / a + 2 / a), half of it on both sides.
         let half = along * (self.number(0.5) * now.decay + now.inverse);
         let (mut a, mut b) = ([at.u; 3], [at.u; 3]);
@@ -208,7 +208,7 @@ impl<N: Real> Kernel<N> {
             }
             let along = now.decay * inner::<N, D>(&unit, &now.value);
             let unit = times(&unit, now.scale);
-            let (by_w, across) = (act(&unit, &at.u), act(&unit, &at.w));
+            let (by_w, across) = (contract(&unit, &at.u), contract(&unit, &at.w));
             let by_u = each!(at.u, d => at.u[d].times_plus(along, across[d]));
             let mut g = [by_u; 3];
             for i in 0..3 {

@@ -74,9 +74,9 @@ pub(super) fn wedge<N: Real, const D: usize>(u: &Vector<N, D>, w: &Vector<N, D>)
     c
 }
 
-/// Contraction with the exterior product: `act(m, u) . w = m . (u ^ w)`.
+/// Contraction with the exterior product: `contract(m, u) . w = m . (u ^ w)`.
 #[inline(always)]
-pub(super) fn act<N: Real, const D: usize>(m: &[N; TURNS], u: &Vector<N, D>) -> Vector<N, D> {
+pub(super) fn contract<N: Real, const D: usize>(m: &[N; TURNS], u: &Vector<N, D>) -> Vector<N, D> {
     let (mut out, mut k) = ([u[0].constant(0.0); D], 0);
     for i in 0..D {
         for j in i + 1..D {

@@ -141,7 +141,7 @@ pub(super) fn close<const D: usize>(
 impl<const D: usize> System<D> {
     fn held_at(&self, inputs: &[f64], work: &mut Work<D>, state: &State) -> Self {
         let model = Model::new(self, inputs, work, state);
-        self.place(state.time, &state.coordinates, None, model.work);
+        self.forward_kinematics(state.time, &state.coordinates, None, model.work);
         self.held(state.time, model.work, true)
     }
 }

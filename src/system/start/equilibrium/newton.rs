@@ -280,7 +280,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
     /// 1 where a mode goes to where gravity pulls, else up, else to the right; else -1.
     fn side(&mut self, state: &State, mode: &[f64]) -> f64 {
         let (system, work) = (self.model.system, &mut *self.model.work);
-        system.place(state.time, &state.coordinates, None, work);
+        system.forward_kinematics(state.time, &state.coordinates, None, work);
         system
             .elimination
             .expand(mode, &mut work.y, &mut work.other);

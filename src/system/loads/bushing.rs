@@ -6,13 +6,13 @@ use nalgebra::SMatrix;
 use super::{Add, Instant};
 use crate::body::{Marker, Node};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, left};
+use crate::math::space::{Vector, perpendicular};
 use crate::system::end::{End, coupling, isotropic};
 use crate::system::signal::Signal;
 
 /// A spring and a damper in parallel between a marker and a point.
 #[derive(Clone, Debug)]
-pub struct Coupling<const D: usize = 2> {
+pub struct Bushing<const D: usize = 2> {
     /// The marker.
     pub marker: Marker,
     /// Stiffness, N/m.
@@ -25,7 +25,7 @@ pub struct Coupling<const D: usize = 2> {
     pub velocity: [Signal; D],
 }
 
-impl<const D: usize> Coupling<D> {
+impl<const D: usize> Bushing<D> {
     fn velocity<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
         self.velocity.each_ref().map(|c| c.value(at)).into()
     }
@@ -83,7 +83,7 @@ impl<const D: usize> Coupling<D> {
 
 /// A rotational spring and a damper in parallel between the direction of a marker and an angle.
 #[derive(Clone, Debug)]
-pub struct Turning {
+pub struct RotationalBushing {
     /// The marker.
     pub marker: Marker,
     /// Index of its angle among those that the system counts.
@@ -98,7 +98,7 @@ pub struct Turning {
     pub velocity: Signal,
 }
 
-impl Turning {
+impl RotationalBushing {
     fn end<const D: usize, N: Number>(&self) -> End<D, N> {
         End::Body(self.marker.lift())
     }
@@ -135,7 +135,7 @@ impl Turning {
     ) {
         let end: End<D> = self.end();
         let u = end.direction(at.x);
-        let turn = left(u) / u.norm_squared();
+        let turn = perpendicular(u) / u.norm_squared();
         let outer: SMatrix<f64, D, D> = turn * turn.transpose();
         let ends = [end, End::Ground(Vector::zeros())];
         let alone = |k: SMatrix<f64, D, D>| [[k, SMatrix::zeros()], [SMatrix::zeros(); 2]];
@@ -146,7 +146,7 @@ impl Turning {
         }
     }
 
-    /// As [`Coupling::power`].
+    /// As [`Bushing::power`].
     pub(super) fn power<const D: usize, N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
         let [turn, rate] = self.stretch(at);
         let (stiffness, damping) = (N::of(self.stiffness), N::of(self.damping));
@@ -160,7 +160,7 @@ impl Turning {
         N::of(0.5 * self.stiffness) * turn * turn
     }
 
-    /// As [`Coupling::work`].
+    /// As [`Bushing::work`].
     pub(super) fn work<const D: usize>(
         &self,
         before: Instant<'_, D>,
