@@ -171,3 +171,15 @@ pub enum MotionKind {
     /// Way along the direction of a slider from its point, m.
     Displacement,
 }
+
+impl Kind for MotionKind {
+    const PART: &'static str = "Motion";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Position => &[(&["marker"], &[])],
+            Self::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
+            Self::Displacement => &[(&["joint"], &[])],
+        }
+    }
+}

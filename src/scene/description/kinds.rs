@@ -20,65 +20,6 @@ pub trait Kind: DeserializeOwned {
     fn keys(&self) -> &'static [Keys];
 }
 
-impl Kind for MotionKind {
-    const PART: &'static str = "Motion";
-
-    fn keys(&self) -> &'static [Keys] {
-        match self {
-            Self::Position => &[(&["marker"], &[])],
-            Self::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
-            Self::Displacement => &[(&["joint"], &[])],
-        }
-    }
-}
-
-impl Kind for LoadKind {
-    const PART: &'static str = "Load";
-
-    fn keys(&self) -> &'static [Keys] {
-        match self {
-            Self::Force => &[(&["marker", "value"], &["follower"])],
-            Self::Moment => &[(&["marker", "value"], &[])],
-            Self::Torque => &[(&["joint", "value"], &[])],
-            Self::Distributed => &[(&["body", "value"], &[])],
-            Self::SpringDamper => &[(&["markers"], &["point", "stiffness", "damping", "length"])],
-        }
-    }
-}
-
-impl Kind for InputKind {
-    const PART: &'static str = "Input";
-
-    fn keys(&self) -> &'static [Keys] {
-        match self {
-            Self::Force => &[(&["marker"], &["follower"])],
-            Self::Moment => &[(&["marker"], &[])],
-            Self::Torque => &[(&["joint"], &[])],
-            Self::Distributed => &[(&["body"], &[])],
-            Self::RestLength => &[(&["load"], &[])],
-        }
-    }
-}
-
-impl Kind for PortKind {
-    const PART: &'static str = "Port";
-
-    fn keys(&self) -> &'static [Keys] {
-        match self {
-            Self::Force => &[(&[], &[])],
-            Self::Motion => &[(
-                &[],
-                &[
-                    "stiffness",
-                    "damping",
-                    "rotational_stiffness",
-                    "rotational_damping",
-                ],
-            )],
-        }
-    }
-}
-
 /// Makes one titled variant for every kind of all parts, each with the keys that it takes.
 pub fn tell_apart(schema: &mut Schema) {
     tell::<JointKind>(schema);

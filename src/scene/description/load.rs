@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{LoadValue, Value, Vector};
+use super::{Keys, Kind, LoadValue, Value, Vector};
 
 /// A load that is known in the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -108,13 +108,88 @@ pub enum InputKind {
     RestLength,
 }
 
-impl Input {
-    /// Number of components: those of a force in so many dimensions, 1 of others.
-    pub fn components(&self, dimension: usize) -> usize {
-        match self.kind {
-            InputKind::Force | InputKind::Distributed => dimension,
-            InputKind::Moment | InputKind::Torque | InputKind::RestLength => 1,
+impl Kind for LoadKind {
+    const PART: &'static str = "Load";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Force => &[(&["marker", "value"], &["follower"])],
+            Self::Moment => &[(&["marker", "value"], &[])],
+            Self::Torque => &[(&["joint", "value"], &[])],
+            Self::Distributed => &[(&["body", "value"], &[])],
+            Self::SpringDamper => &[(&["markers"], &["point", "stiffness", "damping", "length"])],
         }
+    }
+}
+
+impl Kind for InputKind {
+    const PART: &'static str = "Input";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Force => &[(&["marker"], &["follower"])],
+            Self::Moment => &[(&["marker"], &[])],
+            Self::Torque => &[(&["joint"], &[])],
+            Self::Distributed => &[(&["body"], &[])],
+            Self::RestLength => &[(&["load"], &[])],
+        }
+    }
+}
+
+/// A force or a moment, of a load as of an input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActionKind {
+    /// At a marker, N.
+    Force,
+    /// At a marker, N m.
+    Moment,
+    /// In a joint, N m.
+    Torque,
+    /// On a cable, N/m.
+    Distributed,
+}
+
+impl ActionKind {
+    /// Number of components: those of a force in so many dimensions, 1 of a moment.
+    pub fn components(self, dimension: usize) -> usize {
+        match self {
+            Self::Force | Self::Distributed => dimension,
+            Self::Moment | Self::Torque => 1,
+        }
+    }
+}
+
+impl LoadKind {
+    /// As a force or a moment; nothing of a spring and damper.
+    pub fn action(self) -> Option<ActionKind> {
+        match self {
+            Self::Force => Some(ActionKind::Force),
+            Self::Moment => Some(ActionKind::Moment),
+            Self::Torque => Some(ActionKind::Torque),
+            Self::Distributed => Some(ActionKind::Distributed),
+            Self::SpringDamper => None,
+        }
+    }
+}
+
+impl InputKind {
+    /// As a force or a moment; nothing of a length at rest.
+    pub fn action(self) -> Option<ActionKind> {
+        match self {
+            Self::Force => Some(ActionKind::Force),
+            Self::Moment => Some(ActionKind::Moment),
+            Self::Torque => Some(ActionKind::Torque),
+            Self::Distributed => Some(ActionKind::Distributed),
+            Self::RestLength => None,
+        }
+    }
+}
+
+impl Input {
+    /// Number of components.
+    pub fn components(&self, dimension: usize) -> usize {
+        let action = self.kind.action();
+        action.map_or(1, |action| action.components(dimension))
     }
 }
 

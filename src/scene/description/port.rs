@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{Keys, Kind};
+
 /// A marker that a master couples to another unit: one set of inputs and outputs, one terminal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -43,4 +45,23 @@ pub enum PortKind {
     Force,
     /// A motion comes in, the force that the scene exerts on the outside goes out.
     Motion,
+}
+
+impl Kind for PortKind {
+    const PART: &'static str = "Port";
+
+    fn keys(&self) -> &'static [Keys] {
+        match self {
+            Self::Force => &[(&[], &[])],
+            Self::Motion => &[(
+                &[],
+                &[
+                    "stiffness",
+                    "damping",
+                    "rotational_stiffness",
+                    "rotational_damping",
+                ],
+            )],
+        }
+    }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::checks::{Key, expected, finite, keys, needed, not_negative, quoted};
 use crate::scene::Error;
 use crate::scene::description::{Input, InputKind, Kind as _, Value};
-use crate::scene::resolved::{self, Action, LoadKind, Resolved};
+use crate::scene::resolved::{self, LoadKind, Resolved};
 use crate::system::Signal;
 
 impl Input {
@@ -71,45 +71,16 @@ impl<'a> Resolved<'a> {
         input: &'a Input,
         first: usize,
     ) -> Result<(resolved::InputKind<'a>, Vec<f64>), Error> {
-        let named = |key: &str, name: &'a Option<String>| {
-            let name = needed(path, key, "a name", name.as_deref())?;
-            Ok::<_, Error>((format!("{path}.{key}"), name))
+        let Some(kind) = input.kind.action() else {
+            let name = needed(path, "load", "a name", input.load.as_deref())?;
+            let start = self.set_rest_length(&format!("{path}.load"), name, first)?;
+            return Ok((resolved::InputKind::RestLength(name), vec![start]));
         };
         let count = input.components(self.scene.dimension);
-        let components = || (0..count).map(|k| Signal::Input(first + k)).collect();
-        let action = match input.kind {
-            InputKind::Force => {
-                let (at, name) = named("marker", &input.marker)?;
-                let marker = match input.follower {
-                    true => self.require_turning(&at, name)?,
-                    false => self.require_marker(&at, name)?,
-                };
-                Action::Force {
-                    marker,
-                    follower: input.follower,
-                    components: components(),
-                }
-            }
-            InputKind::Moment => {
-                let (at, name) = named("marker", &input.marker)?;
-                Action::Moment(self.require_turning(&at, name)?, Signal::Input(first))
-            }
-            InputKind::Torque => {
-                let (at, name) = named("joint", &input.joint)?;
-                Action::Torque(self.require_pivot(&at, name)?, Signal::Input(first))
-            }
-            InputKind::Distributed => {
-                let (at, name) = named("body", &input.body)?;
-                Action::Distributed(self.require_cable(&at, name)?, components())
-            }
-            InputKind::RestLength => {
-                let (at, name) = named("load", &input.load)?;
-                let start = self.set_rest_length(&at, name, first)?;
-                return Ok((resolved::InputKind::RestLength(name), vec![start]));
-            }
-        };
-        let start = vec![0.0; count];
-        Ok((resolved::InputKind::Action(action), start))
+        let components = (0..count).map(|k| Signal::Input(first + k)).collect();
+        let of = [&input.marker, &input.joint, &input.body];
+        let action = self.resolve_action(path, (kind, input.follower), of, components)?;
+        Ok((resolved::InputKind::Action(action), vec![0.0; count]))
     }
 
     /// Makes the rest length of a spring-damper, which nothing else changes, an input; what it was, m.

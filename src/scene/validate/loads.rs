@@ -2,7 +2,7 @@
 
 use super::checks::{Key, components, expected, keys, needed, not_negative, spring_damper, value};
 use crate::scene::Error;
-use crate::scene::description::{Kind as _, Load, LoadKind, LoadValue, Value};
+use crate::scene::description::{ActionKind, Kind as _, Load, LoadKind, LoadValue, Value};
 use crate::scene::resolved::{self, Action, Resolved, Spring};
 use crate::system::Signal;
 
@@ -56,57 +56,72 @@ impl<'a> Resolved<'a> {
     }
 
     fn resolve_load(&self, path: &str, load: &'a Load) -> Result<resolved::LoadKind<'a>, Error> {
+        let Some(kind) = load.kind.action() else {
+            return self.spring(path, load).map(resolved::LoadKind::Spring);
+        };
+        let given = needed(path, "value", "a value", load.value.as_ref())?;
+        let components = self.signals(&format!("{path}.value"), kind, given)?;
+        let of = [&load.marker, &load.joint, &load.body];
+        Ok(resolved::LoadKind::Action {
+            action: self.resolve_action(path, (kind, load.follower), of, components)?,
+            values: given.components(),
+        })
+    }
+
+    /// A force or a moment, which may turn along, with its components, on the marker, joint or body that it names.
+    pub(super) fn resolve_action(
+        &self,
+        path: &str,
+        (kind, follower): (ActionKind, bool),
+        [marker, joint, body]: [&'a Option<String>; 3],
+        components: Vec<Signal>,
+    ) -> Result<Action<'a>, Error> {
         let named = |key: &str, name: &'a Option<String>| {
             let name = needed(path, key, "a name", name.as_deref())?;
             Ok::<_, Error>((format!("{path}.{key}"), name))
         };
-        let given = || needed(path, "value", "a value", load.value.as_ref());
-        let place = format!("{path}.value");
-        let action = match load.kind {
-            LoadKind::Force => {
-                let (at, name) = named("marker", &load.marker)?;
-                let marker = match load.follower {
-                    true => self.require_turning(&at, name)?,
-                    false => self.require_marker(&at, name)?,
-                };
-                Action::Force {
-                    marker,
-                    follower: load.follower,
-                    components: self.vector_of(&place, given()?)?,
-                }
-            }
-            LoadKind::Moment => {
-                let (at, name) = named("marker", &load.marker)?;
-                Action::Moment(self.require_turning(&at, name)?, one(&place, given()?)?)
-            }
-            LoadKind::Torque => {
-                let (at, name) = named("joint", &load.joint)?;
-                Action::Torque(self.require_pivot(&at, name)?, one(&place, given()?)?)
-            }
-            LoadKind::Distributed => {
-                let (at, name) = named("body", &load.body)?;
-                Action::Distributed(
-                    self.require_cable(&at, name)?,
-                    self.vector_of(&place, given()?)?,
-                )
-            }
-            LoadKind::SpringDamper => {
-                return self.spring(path, load).map(resolved::LoadKind::Spring);
+        let marker = |turns: bool| {
+            let (at, name) = named("marker", marker)?;
+            match turns {
+                true => self.require_turning(&at, name),
+                false => self.require_marker(&at, name),
             }
         };
-        Ok(resolved::LoadKind::Action {
-            action,
-            values: given()?.components(),
+        let size = components.first().cloned();
+        let size = || needed(path, "value", "a value", size);
+        Ok(match kind {
+            ActionKind::Force => Action::Force {
+                marker: marker(follower)?,
+                follower,
+                components,
+            },
+            ActionKind::Moment => Action::Moment(marker(true)?, size()?),
+            ActionKind::Torque => {
+                let (at, name) = named("joint", joint)?;
+                Action::Torque(self.require_pivot(&at, name)?, size()?)
+            }
+            ActionKind::Distributed => {
+                let (at, name) = named("body", body)?;
+                Action::Distributed(self.require_cable(&at, name)?, components)
+            }
         })
     }
 
-    fn vector_of(&self, path: &str, given: &LoadValue) -> Result<Vec<Signal>, Error> {
-        components(
-            path,
-            self.scene.dimension,
-            given.components(),
-            |place, of| value(place, of, false).map(Signal::Function),
-        )
+    /// The components of a load as functions of time.
+    fn signals(
+        &self,
+        path: &str,
+        kind: ActionKind,
+        given: &LoadValue,
+    ) -> Result<Vec<Signal>, Error> {
+        let signal = |path: &str, of: &Value| value(path, of, false).map(Signal::Function);
+        match (kind, given) {
+            (ActionKind::Force | ActionKind::Distributed, _) => {
+                components(path, self.scene.dimension, given.components(), signal)
+            }
+            (_, LoadValue::One(of)) => Ok(vec![signal(path, of)?]),
+            (_, LoadValue::Vector(values)) => Err(expected(path, "one value", values.len())),
+        }
     }
 
     fn spring(&self, path: &str, load: &'a Load) -> Result<Spring<'a>, Error> {
@@ -127,12 +142,5 @@ impl<'a> Resolved<'a> {
             given: load.length.as_ref(),
             length: length.transpose()?.map(Signal::Function),
         })
-    }
-}
-
-fn one(path: &str, given: &LoadValue) -> Result<Signal, Error> {
-    match given {
-        LoadValue::One(of) => value(path, of, false).map(Signal::Function),
-        LoadValue::Vector(values) => Err(expected(path, "one value", values.len())),
     }
 }
