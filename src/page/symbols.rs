@@ -132,9 +132,9 @@ pub fn weld(canvas: &mut Canvas, at: Point, outward: Point, unit: f64) {
     ground(canvas, at, across, outward, 1.7 * unit, unit);
 }
 
-/// A pin between two rails on the ground.
-pub fn slider(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
-    rails(canvas, at, along, true, unit);
+/// A pin between two rails, of the ground or of a body.
+pub fn slider(canvas: &mut Canvas, at: Point, along: Point, is_grounded: bool, unit: f64) {
+    rails(canvas, at, along, is_grounded, unit);
     canvas.circle(
         at,
         0.42 * unit,

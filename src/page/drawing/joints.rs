@@ -36,7 +36,7 @@ impl Picture<'_> {
             Symbol::Weld => symbols::block(&mut self.canvas, second, place.direction, unit),
             Symbol::Slider => {
                 let along = self.along(joint);
-                symbols::slider(&mut self.canvas, second, along, unit);
+                symbols::slider(&mut self.canvas, second, along, ends.is_grounded(), unit);
             }
             Symbol::Prismatic => {
                 let along = self.along(joint);
