@@ -3,8 +3,8 @@
 
 use std::ops::Range;
 
-use super::connectivity::{Cluster, Dependent, Node, Row, clusters};
-use super::layout::{Bases, Held, Run, Tied, components, held, runs, vertices};
+use super::connectivity::{Cluster, Dependent, Node, Row, clusters, no_node};
+use super::layout::{Entry, Held, Run, Tied, components, entries, held, runs, vertices};
 use crate::math::sparse::{Cholesky, General, Matrix, Number, Pattern, Reach, Slot};
 
 /// A matrix over two nodes: by vector and axis of the one, then of the other.
@@ -49,7 +49,9 @@ pub struct Assembly<const D: usize = 2> {
     places: Vec<Place>,
     vertices: Vec<usize>,
     clusters: Vec<Cluster>,
-    bases: Bases,
+    /// What of all their bases is not zero, and which entries belong to every node.
+    entries: Vec<Entry>,
+    of_node: Vec<Range<usize>>,
     /// Where the free coordinates of every cluster are.
     ranges: Vec<Range<usize>>,
     /// Block of a node that is alone with itself.
@@ -100,9 +102,11 @@ impl<const D: usize> Assembly<D> {
             .collect();
         let range = |v: &Option<usize>| v.map_or(0..0, |v| of_mass.range(v));
         let ranges: Vec<Range<usize>> = of_cluster.iter().map(range).collect();
+        let (entries, of_node) = entries::<D>(&clusters, &ranges, nodes);
         let assembly = Self {
-            bases: Bases::new::<D>(&clusters, &ranges, nodes),
             ranges,
+            entries,
+            of_node,
             runs: runs(&pattern, &of_mass),
             components: components(&pattern, &sizes),
             held,
@@ -201,10 +205,9 @@ impl<const D: usize> Assembly<D> {
             }
             Place::Tied(index, _) => {
                 let start = self.ranges[index].start;
-                for (coordinate, entries) in self.bases.of(node) {
-                    for (free, value) in entries {
-                        matrix.values[slot.entry(row, free - start)] += value * term[coordinate];
-                    }
+                for entry in &self.entries[self.of_node[node].clone()] {
+                    let value = entry.value * term[entry.coordinate];
+                    matrix.values[slot.entry(row, entry.free - start)] += value;
                 }
             }
         }
@@ -243,7 +246,12 @@ impl<const D: usize> Assembly<D> {
                     .copy_from_slice(&y[*start..start + 2 * D]);
             }
         }
-        self.bases.prolong(y, x);
+        for node in self.clusters.iter().flat_map(|cluster| &cluster.nodes) {
+            x[*node] = no_node();
+        }
+        for entry in &self.entries {
+            x[entry.node].as_flattened_mut()[entry.coordinate] += entry.value * y[entry.free];
+        }
     }
 
     /// `y = N^T f`.
@@ -256,7 +264,9 @@ impl<const D: usize> Assembly<D> {
         for range in &self.ranges {
             y[range.clone()].fill(0.0);
         }
-        self.bases.restrict(f, y);
+        for entry in &self.entries {
+            y[entry.free] += entry.value * f[entry.node].as_flattened()[entry.coordinate];
+        }
     }
 
     /// Adds to `y` what a force on one node is restricted to.
@@ -268,11 +278,8 @@ impl<const D: usize> Assembly<D> {
                 y.iter_mut().zip(f).for_each(|(y, f)| *y += f);
             }
             Place::Tied(..) => {
-                for (coordinate, entries) in self.bases.of(node) {
-                    let force = f[coordinate];
-                    entries
-                        .iter()
-                        .for_each(|(free, value)| y[*free] += value * force);
+                for entry in &self.entries[self.of_node[node].clone()] {
+                    y[entry.free] += entry.value * f[entry.coordinate];
                 }
             }
         }

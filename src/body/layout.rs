@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::connectivity::{Cluster, Node};
+use super::connectivity::Cluster;
 use crate::math::sparse::{Component, Pattern};
 
 /// A constraint with a multiplier.
@@ -16,15 +16,15 @@ pub(super) struct Held {
     pub on: Vec<usize>,
 }
 
-/// The bases of all clusters, but for what of them is zero.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Bases {
-    /// Free coordinate and value.
-    entries: Vec<(usize, f64)>,
-    /// Node, coordinate of it, and its entries; node by node.
-    rows: Vec<(usize, usize, Range<usize>)>,
-    /// Rows of every node.
-    of_node: Vec<Range<usize>>,
+/// An entry of the basis of a cluster that is not zero.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    /// Free coordinate.
+    pub free: usize,
+    /// Node and coordinate of it.
+    pub node: usize,
+    pub coordinate: usize,
+    pub value: f64,
 }
 
 impl Held {
@@ -107,58 +107,28 @@ pub(super) fn vertices<const D: usize>(
     (vertices, sizes, of_cluster)
 }
 
-impl Bases {
-    /// Of clusters whose free coordinates have these ranges.
-    pub fn new<const D: usize>(
-        clusters: &[Cluster],
-        ranges: &[Range<usize>],
-        nodes: usize,
-    ) -> Self {
-        let mut bases = Self {
-            of_node: vec![0..0; nodes],
-            ..Self::default()
-        };
-        for (cluster, range) in clusters.iter().zip(ranges) {
-            for (row, node) in cluster.nodes.iter().enumerate() {
-                let first = bases.rows.len();
-                for coordinate in 0..2 * D {
-                    let start = bases.entries.len();
-                    let basis = cluster.basis.row(2 * D * row + coordinate);
-                    let values = basis.iter().enumerate().filter(|(_, value)| **value != 0.0);
-                    let stored = values.map(|(column, value)| (range.start + column, *value));
-                    bases.entries.extend(stored);
-                    let own = start..bases.entries.len();
-                    bases.rows.push((*node, coordinate, own));
-                }
-                bases.of_node[*node] = first..bases.rows.len();
+/// What of the bases of clusters is not zero, node by node, and where that of every node stands.
+pub(super) fn entries<const D: usize>(
+    clusters: &[Cluster],
+    ranges: &[Range<usize>],
+    nodes: usize,
+) -> (Vec<Entry>, Vec<Range<usize>>) {
+    let (mut entries, mut of_node) = (Vec::new(), vec![0..0; nodes]);
+    for (cluster, range) in clusters.iter().zip(ranges) {
+        for (row, node) in cluster.nodes.iter().enumerate() {
+            let first = entries.len();
+            for coordinate in 0..2 * D {
+                let basis = cluster.basis.row(2 * D * row + coordinate);
+                let stored = basis.iter().enumerate().filter(|(_, value)| **value != 0.0);
+                entries.extend(stored.map(|(column, value)| Entry {
+                    free: range.start + column,
+                    node: *node,
+                    coordinate,
+                    value: *value,
+                }));
             }
-        }
-        bases
-    }
-
-    /// The coordinates of a node, each with its entries.
-    pub fn of(&self, node: usize) -> impl Iterator<Item = (usize, &[(usize, f64)])> {
-        let rows = self.rows[self.of_node[node].clone()].iter();
-        rows.map(|(_, coordinate, own)| (*coordinate, &self.entries[own.clone()]))
-    }
-
-    /// Coordinates of tied nodes from free ones.
-    pub fn prolong<const D: usize>(&self, y: &[f64], x: &mut [Node<D>]) {
-        for (node, coordinate, own) in &self.rows {
-            let products = self.entries[own.clone()]
-                .iter()
-                .map(|(free, value)| value * y[*free]);
-            x[*node].as_flattened_mut()[*coordinate] = products.sum();
+            of_node[*node] = first..entries.len();
         }
     }
-
-    /// Adds to `y` what forces on tied nodes are restricted to (`N^T f`).
-    pub fn restrict<const D: usize>(&self, f: &[Node<D>], y: &mut [f64]) {
-        for (node, coordinate, own) in &self.rows {
-            let force = f[*node].as_flattened()[*coordinate];
-            for (free, value) in &self.entries[own.clone()] {
-                y[*free] += value * force;
-            }
-        }
-    }
+    (entries, of_node)
 }

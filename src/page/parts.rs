@@ -12,7 +12,7 @@ use crate::system::Drive;
 pub(super) fn parts(scene: &Scene) -> String {
     let resolved = scene.resolved();
     let joints = resolved.joints.iter().map(|joint| {
-        let kind = joint.kind.declaration().name;
+        let kind = joint.declaration().name;
         let holds = joint
             .holds
             .iter()

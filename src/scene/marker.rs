@@ -1,10 +1,11 @@
 //! Bodies and markers: how they are found by name, and where they are at the start.
 
+use super::description::Declaration;
 use super::resolved::{
     Action, BodyReference, Cable, CableId, Ends, First, Hold, Joint, Marker, MarkerId, MotionKind,
     Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
 };
-use super::{Body, CableBody, RigidBody, Scene, Symbol};
+use super::{Body, CableBody, RigidBody, Scene};
 use crate::math::vector::{dot, norm};
 use crate::system::Drive;
 
@@ -242,9 +243,9 @@ impl<'a> Ends<'a> {
 }
 
 impl<'a> Joint<'a> {
-    /// How it is drawn.
-    pub fn symbol(&self) -> Symbol {
-        self.kind.declaration().symbol
+    /// What is declared of its kind.
+    pub fn declaration(&self) -> Declaration {
+        self.kind.declaration()
     }
 
     /// Stiffness (N m/rad) and damping (N m s/rad) of its spring.

@@ -169,7 +169,7 @@ pub struct Joint<'a> {
     /// Which holder it is.
     pub holder: HolderId,
     /// As described.
-    pub kind: JointKind,
+    pub(super) kind: JointKind,
     /// What it joins.
     pub ends: Ends<'a>,
     /// What it holds.

@@ -23,7 +23,7 @@ impl Picture<'_> {
     fn joint(&mut self, joint: &Joint<'_>) {
         let (ends, place) = (&joint.ends, self.place(joint.ends.second));
         let (second, unit) = (place.point, self.unit);
-        match joint.symbol() {
+        match joint.declaration().symbol {
             Symbol::Pin => self.pin(ends),
             Symbol::Spiral => {
                 symbols::spiral(&mut self.canvas, second, unit);

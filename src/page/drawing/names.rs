@@ -101,7 +101,7 @@ impl<'a> Picture<'a> {
     fn add_joints(&self, labels: &mut [Label<'a>]) {
         let resolved = self.resolved;
         let joints = resolved.joints.iter();
-        let joints = joints.filter(|joint| joint.symbol() != Symbol::Link);
+        let joints = joints.filter(|joint| joint.declaration().symbol != Symbol::Link);
         let joints = joints.map(|joint| (joint.ends.second, joint.name, FAINT));
         let motions = resolved.motions.iter();
         let motions = motions.map(|m| (m.kind.marker(), m.name, symbols::MOTION));
@@ -181,7 +181,7 @@ impl<'a> Picture<'a> {
             }
         }
         for joint in &self.resolved.joints {
-            if joint.symbol() == Symbol::Link {
+            if joint.declaration().symbol == Symbol::Link {
                 self.name_link(&joint.ends, joint.name, FAINT);
             }
         }

@@ -159,31 +159,24 @@ impl ActionKind {
     }
 }
 
-impl LoadKind {
-    /// As a force or a moment; nothing of a spring and damper.
-    pub fn action(self) -> Option<ActionKind> {
-        match self {
-            Self::Force => Some(ActionKind::Force),
-            Self::Moment => Some(ActionKind::Moment),
-            Self::Torque => Some(ActionKind::Torque),
-            Self::Distributed => Some(ActionKind::Distributed),
-            Self::SpringDamper => None,
+/// Which kinds of loads and of inputs are forces and moments, and which is none.
+macro_rules! actions {
+    ($($of:ident but $none:ident),*) => {$(
+        impl $of {
+            /// As a force or a moment, if it is one.
+            pub fn action(self) -> Option<ActionKind> {
+                match self {
+                    Self::Force => Some(ActionKind::Force),
+                    Self::Moment => Some(ActionKind::Moment),
+                    Self::Torque => Some(ActionKind::Torque),
+                    Self::Distributed => Some(ActionKind::Distributed),
+                    Self::$none => None,
+                }
+            }
         }
-    }
+    )*};
 }
-
-impl InputKind {
-    /// As a force or a moment; nothing of a length at rest.
-    pub fn action(self) -> Option<ActionKind> {
-        match self {
-            Self::Force => Some(ActionKind::Force),
-            Self::Moment => Some(ActionKind::Moment),
-            Self::Torque => Some(ActionKind::Torque),
-            Self::Distributed => Some(ActionKind::Distributed),
-            Self::RestLength => None,
-        }
-    }
-}
+actions!(LoadKind but SpringDamper, InputKind but RestLength);
 
 impl Input {
     /// Number of components.

@@ -133,7 +133,9 @@ impl<'a> Resolved<'a> {
             }
             Condition::Distance => Hold::Distance(joint.length),
             Condition::Curve => {
-                let cable = self.require_cable(path, &joint.markers[0])?;
+                let First::Cable(cable) = ends.first else {
+                    unreachable!("the first end of a curve is a cable");
+                };
                 let slides = self.joints.iter().filter_map(|joint| joint.slide());
                 Hold::Curve(cable, SlideId(slides.count()))
             }

@@ -7,6 +7,10 @@ use crate::scene::resolved::{
 };
 use crate::scene::{Error, Vector};
 
+/// What is offered in space instead of what has an angle.
+const NOTHING_TURNS: &str =
+    "nothing that has an angle or takes a moment, which a cable without torsion does not,";
+
 impl<'a> Resolved<'a> {
     pub(super) fn require_marker(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         self.marker(name).ok_or_else(|| {
@@ -20,9 +24,7 @@ impl<'a> Resolved<'a> {
 
     /// A marker with an angle: in the plane, one with a direction.
     pub(super) fn require_turning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
-        let instead =
-            "nothing that has an angle or takes a moment, which a cable without torsion does not,";
-        planar(path, self.scene.dimension, instead, &quoted(name))?;
+        planar(path, self.scene.dimension, NOTHING_TURNS, &quoted(name))?;
         self.require_directed(path, name)
     }
 
@@ -110,9 +112,7 @@ impl<'a> Resolved<'a> {
 
     /// A joint with an angle of its own.
     pub(super) fn require_pivot(&self, path: &str, name: &str) -> Result<Pivot<'a>, Error> {
-        let instead =
-            "nothing that has an angle or takes a moment, which a cable without torsion does not,";
-        planar(path, self.scene.dimension, instead, &quoted(name))?;
+        planar(path, self.scene.dimension, NOTHING_TURNS, &quoted(name))?;
         let Some(pivot) = self.require_joint(path, name)?.pivot() else {
             return Err(expected(path, "a revolute joint or a hinge", quoted(name)));
         };
