@@ -4,15 +4,18 @@
 //! Methods are one-step: nothing of the past survives a communication point but the proposed step, so
 //! that inputs may jump there and a restored state continues bit for bit.
 
+mod controller;
 mod nystrom;
 mod radau;
 mod rk4;
 
+pub use controller::rescaled;
 pub use nystrom::{Nystrom, RKN43, Tableau, VERLET};
 pub use radau::Radau;
 pub use rk4::Rk4;
 
 use crate::system::{Accepted, Dynamics, State};
+use controller::Controller;
 
 /// Error that a step may make, in the mass norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +59,9 @@ pub trait Method: Send {
     /// Longest step that stability allows, s.
     fn longest_step(&self) -> f64;
     /// Forgets history: inputs may have jumped.
-    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]);
+    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
+        self.refresh(dynamics, time, q, v);
+    }
     /// Tries a step of length `h` from the state last begun with or accepted.
     fn attempt(
         &mut self,
@@ -89,12 +94,16 @@ pub trait Method: Send {
     ) {
         error.into_iter().for_each(|error| error.fill(0.0));
     }
-    /// Work that came in and that was dissipated over the last attempt, J.
-    fn work(&self) -> [f64; 2];
+    /// Work that came in and that was dissipated over the last attempt, J; zero where the method cannot tell.
+    fn work(&self) -> [f64; 2] {
+        [0.0; 2]
+    }
     /// Acceleration at the state last begun with or accepted, for the first step's length.
     fn acceleration(&self) -> &[f64];
     /// Newton iterations since [`Method::begin`].
-    fn newton_iterations(&self) -> u64;
+    fn newton_iterations(&self) -> u64 {
+        0
+    }
 }
 
 /// What a call of [`advance`] did.
@@ -125,21 +134,8 @@ pub enum Stop {
     Jumped(usize),
 }
 
-/// The error of an estimate of this power of the step as the driver, which takes the fourth, must see
-/// it to choose the right step.
-pub fn rescaled(error: f64, power: f64) -> f64 {
-    error.powf(4.0 / power)
-}
-
-/// Growth of the longest step after one whose stage equations were not solved.
-const RELAX: f64 = 1.1;
 /// Most corrections of a state that is read.
 const RELAXATIONS: usize = 3;
-
-/// The smallest and largest change of step length from one step to the next, and the safety factor.
-const SHRINK: f64 = 0.2;
-const GROW: f64 = 5.0;
-const SAFETY: f64 = 0.9;
 
 /// Advances the state to `until` in steps that each keep the tolerance; lands exactly, and on every
 /// time on the way at which something jumps. On failure the state is that of the last accepted step.
@@ -173,9 +169,7 @@ fn advance_smoothly(
     until: f64,
     (tolerance, counts): (&Tolerance, &mut Counts),
 ) -> Result<(), Stop> {
-    let mut grow = GROW;
-    // Steps for which stage equations could be solved: nearly those it grows to from one that failed.
-    let mut ceiling = f64::INFINITY;
+    let mut controller = Controller::new();
     method.begin(dynamics, state.time, &state.coordinates, &state.rates);
     if state.step <= 0.0 {
         state.step = first_step(method.acceleration(), &state.rates, tolerance);
@@ -190,29 +184,16 @@ fn advance_smoothly(
             return Err(Stop::TooMuchWork);
         }
         let wanted = state.step.min(method.longest_step());
-        // Whole steps to the end: a sliver left over would cost a step of its own.
-        let pieces = (remaining / wanted).ceil().max(1.0);
-        let h = if pieces < 4.0 {
-            remaining / pieces
-        } else {
-            wanted
-        };
+        let trial = Controller::trial(wanted, remaining);
         let from = (state.time, &state.coordinates[..], &state.rates[..]);
-        let attempt = method.attempt(dynamics, from, h, tolerance);
-        match attempt {
+        match method.attempt(dynamics, from, trial.h, tolerance) {
             Attempt::Done(error) if error <= 1.0 => {
                 method.accept(&mut state.coordinates, &mut state.rates);
-                state.time = if pieces <= 1.0 { until } else { state.time + h };
-                ceiling *= RELAX;
-                let next = h * (SAFETY * error.max(1e-10).powf(-0.25)).clamp(SHRINK, grow);
-                let next = next.min(ceiling);
-                grow = GROW;
-                // A step cut short by the communication point says nothing against the longer one.
-                state.step = if h < wanted {
-                    next.max(state.step).min(ceiling)
-                } else {
-                    next
+                state.time = match trial.is_last {
+                    true => until,
+                    false => state.time + trial.h,
                 };
+                state.step = controller.accept(trial, error, state.step);
                 counts.steps += 1;
                 for (sum, part) in state.work.iter_mut().zip(method.work()) {
                     *sum += part;
@@ -222,28 +203,12 @@ fn advance_smoothly(
             }
             failed => {
                 counts.rejected += 1;
-                // What just failed at this length will not succeed at a longer one.
-                grow = 1.0;
-                state.step = h * shrink(failed);
-                if let Attempt::Failed(_) = failed {
-                    ceiling = state.step;
-                }
+                state.step = controller.reject(trial, failed);
                 if state.step <= shortest {
                     return Err(reason(&state.rates, method.acceleration()));
                 }
             }
         }
-    }
-}
-
-/// The part of a step that was not accepted to try instead.
-fn shrink(outcome: Attempt) -> f64 {
-    match outcome {
-        Attempt::Done(error) if error.is_finite() => {
-            (SAFETY * error.powf(-0.25)).clamp(SHRINK, SAFETY)
-        }
-        Attempt::Done(_) => SHRINK,
-        Attempt::Failed(factor) => factor,
     }
 }
 

@@ -124,10 +124,6 @@ impl Method for Nystrom {
         self.longest_step
     }
 
-    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
-        self.refresh(dynamics, time, q, v);
-    }
-
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
         dynamics.acceleration(time, q, v, &mut self.a[0]);
     }
@@ -140,11 +136,6 @@ impl Method for Nystrom {
     ) {
         position.copy_from_slice(&self.error_q);
         velocity.copy_from_slice(&self.error_v);
-    }
-
-    /// No work: power reads rates, which stages do not have.
-    fn work(&self) -> [f64; 2] {
-        [0.0; 2]
     }
 
     fn attempt(
@@ -184,9 +175,5 @@ impl Method for Nystrom {
 
     fn acceleration(&self) -> &[f64] {
         &self.a[0]
-    }
-
-    fn newton_iterations(&self) -> u64 {
-        0
     }
 }

@@ -73,10 +73,6 @@ impl Method for Rk4 {
         self.longest_step
     }
 
-    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
-        self.refresh(dynamics, time, q, v);
-    }
-
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
         dynamics.acceleration(time, q, v, &mut self.a);
         self.power = dynamics.power();
@@ -141,10 +137,6 @@ impl Method for Rk4 {
 
     fn acceleration(&self) -> &[f64] {
         &self.a
-    }
-
-    fn newton_iterations(&self) -> u64 {
-        0
     }
 }
 

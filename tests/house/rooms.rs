@@ -418,14 +418,15 @@ fn every_element_and_integrator_names_its_source() {
 #[test]
 fn every_integrator_has_its_row_in_the_test_of_order() {
     let order = Source::read("tests/order/main.rs").text;
-    for source in sources(&["src/integrators"]) {
+    let methods = sources(&["src/integrators"]).into_iter();
+    for source in methods.filter(|source| source.text.contains("Method for ")) {
         let file = source.path.rsplit('/').next().unwrap_or_default();
         let stem = file.trim_end_matches(".rs");
         // A file with several methods names each.
         let parts = source.text.split("name: \"").skip(1);
         let named: Vec<&str> = parts.filter_map(|part| part.split('"').next()).collect();
         let names = if named.is_empty() { vec![stem] } else { named };
-        for name in names.into_iter().filter(|name| *name != "mod") {
+        for name in names {
             let row = format!("name: \"{name}\"");
             assert!(
                 order.contains(&row),

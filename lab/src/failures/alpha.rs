@@ -113,15 +113,7 @@ impl Method for Alpha {
         self.given.copy_from_slice(&self.next[3]);
     }
 
-    fn work(&self) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn acceleration(&self) -> &[f64] {
         &self.a
-    }
-
-    fn newton_iterations(&self) -> u64 {
-        0
     }
 }

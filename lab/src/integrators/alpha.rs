@@ -195,10 +195,6 @@ impl Method for Alpha {
         std::mem::swap(&mut self.alpha, &mut self.next);
     }
 
-    fn work(&self) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn acceleration(&self) -> &[f64] {
         &self.a
     }

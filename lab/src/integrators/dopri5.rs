@@ -76,10 +76,6 @@ impl Method for Dopri5 {
         f64::INFINITY
     }
 
-    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
-        self.refresh(dynamics, time, q, v);
-    }
-
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
         self.dq[0].copy_from_slice(v);
         dynamics.acceleration(time, q, v, &mut self.dv[0]);
@@ -123,16 +119,8 @@ impl Method for Dopri5 {
         self.dv.swap(0, 6);
     }
 
-    fn work(&self) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn acceleration(&self) -> &[f64] {
         &self.dv[0]
-    }
-
-    fn newton_iterations(&self) -> u64 {
-        0
     }
 }
 

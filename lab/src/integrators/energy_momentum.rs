@@ -352,10 +352,6 @@ impl Method for EnergyMomentum {
         v.copy_from_slice(&self.v);
     }
 
-    fn work(&self) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn acceleration(&self) -> &[f64] {
         &self.a
     }

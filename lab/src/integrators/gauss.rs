@@ -242,10 +242,6 @@ impl Method for Gauss {
         }
     }
 
-    fn work(&self) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn acceleration(&self) -> &[f64] {
         &self.a
     }

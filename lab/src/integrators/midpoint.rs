@@ -117,10 +117,6 @@ impl Method for Midpoint {
         }
     }
 
-    fn work(&self) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn acceleration(&self) -> &[f64] {
         &self.a
     }

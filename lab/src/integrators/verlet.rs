@@ -37,10 +37,6 @@ impl Method for Verlet {
         f64::INFINITY
     }
 
-    fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
-        self.refresh(dynamics, time, q, v);
-    }
-
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
         dynamics.acceleration(time, q, v, &mut self.a);
     }
@@ -75,15 +71,7 @@ impl Method for Verlet {
         std::mem::swap(&mut self.a, &mut self.end);
     }
 
-    fn work(&self) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn acceleration(&self) -> &[f64] {
         &self.a
-    }
-
-    fn newton_iterations(&self) -> u64 {
-        0
     }
 }

@@ -1,0 +1,151 @@
+//! The lengths of steps: from the error of the last one, the stability of the method and what is left to the end.
+//!
+//! Source: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., section II.4.
+
+use super::Attempt;
+
+/// The smallest and largest change of step length from one step to the next, and the safety factor.
+const SHRINK: f64 = 0.2;
+const GROW: f64 = 5.0;
+const SAFETY: f64 = 0.9;
+/// Growth of the longest step after one whose stage equations were not solved.
+const RELAX: f64 = 1.1;
+
+/// The error of an estimate of this power of the step as the controller, which takes the fourth, must see it to
+/// choose the right step.
+pub fn rescaled(error: f64, power: f64) -> f64 {
+    error.powf(4.0 / power)
+}
+
+/// A step to try.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Trial {
+    /// Its length, s.
+    pub h: f64,
+    /// Whether it reaches the end.
+    pub is_last: bool,
+    /// Whether it is shorter than wanted, to reach the end in whole steps.
+    is_cut: bool,
+}
+
+/// Chooses lengths of steps over a stretch without jumps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Controller {
+    /// Most growth after the next step: what just failed at a length will not succeed at a longer one.
+    grow: f64,
+    /// Steps for which stage equations could be solved: nearly those it grows to from one that failed, s.
+    ceiling: f64,
+}
+
+impl Controller {
+    pub fn new() -> Self {
+        Self {
+            grow: GROW,
+            ceiling: f64::INFINITY,
+        }
+    }
+
+    /// The step to try where `wanted` (s) is proposed and allowed. Whole steps to the end: a sliver left over
+    /// would cost a step of its own.
+    pub fn trial(wanted: f64, remaining: f64) -> Trial {
+        let pieces = (remaining / wanted).ceil().max(1.0);
+        let h = match pieces < 4.0 {
+            true => remaining / pieces,
+            false => wanted,
+        };
+        Trial {
+            h,
+            is_last: pieces <= 1.0,
+            is_cut: h < wanted,
+        }
+    }
+
+    /// The length to propose after a step with this error, in tolerances; `before` was proposed last.
+    pub fn accept(&mut self, trial: Trial, error: f64, before: f64) -> f64 {
+        self.ceiling *= RELAX;
+        let factor = SAFETY * error.max(1e-10).powf(-0.25);
+        let next = trial.h * factor.clamp(SHRINK, self.grow);
+        let next = next.min(self.ceiling);
+        self.grow = GROW;
+        // A step cut short by the communication point says nothing against the longer one.
+        match trial.is_cut {
+            true => next.max(before).min(self.ceiling),
+            false => next,
+        }
+    }
+
+    /// The length to propose after a step that was not accepted.
+    pub fn reject(&mut self, trial: Trial, outcome: Attempt) -> f64 {
+        self.grow = 1.0;
+        match outcome {
+            Attempt::Done(error) if error.is_finite() => {
+                trial.h * (SAFETY * error.powf(-0.25)).clamp(SHRINK, SAFETY)
+            }
+            Attempt::Done(_) => trial.h * SHRINK,
+            Attempt::Failed(factor) => {
+                self.ceiling = trial.h * factor;
+                self.ceiling
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The error of a step of `h` by a method of error `(h / right)^4`.
+    fn error(h: f64, right: f64) -> f64 {
+        (h / right).powi(4)
+    }
+
+    #[test]
+    fn finds_the_step_whose_error_is_just_tolerated() {
+        let mut controller = Controller::new();
+        let (mut step, mut rejected) = (1.0, 0);
+        for _ in 0..20 {
+            let trial = Controller::trial(step, 1e9);
+            let error = error(trial.h, 1e-3);
+            step = match error <= 1.0 {
+                true => controller.accept(trial, error, step),
+                false => {
+                    rejected += 1;
+                    controller.reject(trial, Attempt::Done(error))
+                }
+            };
+        }
+        assert!((step / 1e-3 - SAFETY).abs() < 1e-12, "{step}");
+        assert!(rejected <= 6, "{rejected}");
+    }
+
+    #[test]
+    fn steps_to_the_end_are_equal_and_no_sliver_is_left() {
+        let trial = Controller::trial(1.0, 2.1);
+        assert_eq!((trial.h, trial.is_last), (2.1 / 3.0, false));
+        let last = Controller::trial(1.0, 0.7);
+        assert_eq!((last.h, last.is_last), (0.7, true));
+        assert_eq!(Controller::trial(1.0, 9.5).h, 1.0);
+    }
+
+    #[test]
+    fn a_step_that_ends_at_the_communication_point_leaves_the_longer_one_proposed() {
+        let mut controller = Controller::new();
+        let cut = Controller::trial(1.0, 1e-3);
+        assert_eq!(controller.accept(cut, 1.0, 1.0), 1.0);
+        let whole = Controller::trial(1.0, 100.0);
+        assert_eq!(controller.accept(whole, 1.0, 1.0), SAFETY);
+    }
+
+    #[test]
+    fn grows_slowly_from_where_stage_equations_were_not_solved() {
+        let mut controller = Controller::new();
+        let failed = Controller::trial(1.0, 100.0);
+        let step = controller.reject(failed, Attempt::Failed(0.5));
+        assert_eq!(step, 0.5);
+        let next = controller.accept(Controller::trial(step, 100.0), 0.0, step);
+        // What just failed does not grow at all, then a tenth a step.
+        assert!(next <= 0.5 * RELAX);
+        let trial = Controller::trial(next, 100.0);
+        assert!(controller.accept(trial, 0.0, next) <= 0.5 * RELAX * RELAX);
+    }
+}
