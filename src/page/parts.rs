@@ -3,8 +3,7 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    Action, Ends, Hold, Joint, Load, LoadKind, Motion, MotionKind, Port, PortKind, Scene, Turning,
-    Value,
+    Ends, Hold, Joint, Load, LoadKind, Motion, MotionKind, Port, PortKind, Scene, Turning, Value,
 };
 use crate::system::Drive;
 
@@ -26,7 +25,7 @@ pub(super) fn parts(scene: &Scene) -> String {
     });
     let loads = resolved.loads.iter().map(|load| {
         let (acts, on, size) = load_in_words(scene.dimension, load);
-        row(&[&code(load.name), acts, &on, &size])
+        row(&[&code(load.name), &acts, &on, &size])
     });
     let ports = resolved.ports.iter();
     let ports = ports.map(|port| row(&[&code(port.name), &code(port.marker.name), &crosses(port)]));
@@ -182,20 +181,22 @@ fn course(motion: &Motion<'_>) -> String {
 }
 
 /// What acts, on what, and its size.
-fn load_in_words(dimension: usize, load: &Load<'_>) -> (&'static str, String, String) {
+fn load_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) {
     match &load.kind {
         LoadKind::Action {
             action,
             values: as_written,
         } => {
-            let what = match action {
-                Action::Force { follower: true, .. } => "force that turns along (along and across)",
-                Action::Force { .. } => "force, N",
-                Action::Moment(..) => "moment, N m",
-                Action::Torque(..) => "torque, N m",
-                Action::Distributed(..) => "force per reference length, N/m",
+            let [what, unit] = action.kind.words();
+            let turning = match action.follower {
+                true => " that turns along (along and across)",
+                false => "",
             };
-            (what, code(action.on()), values(as_written))
+            (
+                format!("{what}{turning}, {unit}"),
+                code(action.on()),
+                values(as_written),
+            )
         }
         LoadKind::Spring(spring) => {
             let (first, second) = (spring.ends.first_name(), spring.ends.second.name);
@@ -206,7 +207,7 @@ fn load_in_words(dimension: usize, load: &Load<'_>) -> (&'static str, String, St
             });
             let size = format!("{k} N/m, {c} N s/m{length}");
             (
-                "spring and damper",
+                "spring and damper".into(),
                 format!("{}{point}, {}", code(first), code(second)),
                 size,
             )

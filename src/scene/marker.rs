@@ -3,7 +3,7 @@
 use super::description::Declaration;
 use super::resolved::{
     Action, BodyReference, Cable, CableId, Ends, First, Hold, Joint, Marker, MarkerId, MotionKind,
-    Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
+    On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
 };
 use super::{Body, CableBody, RigidBody, Scene};
 use crate::math::vector::{dot, norm};
@@ -370,10 +370,10 @@ impl<'a> MotionKind<'a> {
 impl<'a> Action<'a> {
     /// Name of the marker, joint or cable that it acts on.
     pub fn on(&self) -> &'a str {
-        match self {
-            Self::Force { marker, .. } | Self::Moment(marker, _) => marker.name,
-            Self::Torque(pivot, _) => pivot.name,
-            Self::Distributed(cable, _) => &cable.body.name,
+        match self.on {
+            On::Marker(marker) => marker.name,
+            On::Joint(pivot) => pivot.name,
+            On::Cable(cable) => &cable.body.name,
         }
     }
 }

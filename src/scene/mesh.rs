@@ -3,7 +3,7 @@
 use super::Error;
 use super::description::ReadAt;
 use super::resolved::{
-    Action, Cable, InputKind, LoadKind, Marker, MotionKind, Of, Place, Resolved, Turning,
+    Cable, InputKind, LoadKind, Marker, MotionKind, Of, On, Place, Resolved, Turning,
 };
 
 /// Shortest stretch between two nodes, in elements of even length: shorter ones swing so fast that they
@@ -60,9 +60,9 @@ impl<'a> Resolved<'a> {
             InputKind::Action(action) => Some(action),
             InputKind::RestLength(_) => None,
         }));
-        found.extend(actions.into_iter().filter_map(|action| match action {
-            Action::Force { marker, .. } | Action::Moment(marker, _) => Some(*marker),
-            Action::Torque(..) | Action::Distributed(..) => None,
+        found.extend(actions.into_iter().filter_map(|action| match action.on {
+            On::Marker(marker) => Some(marker),
+            On::Joint(_) | On::Cable(_) => None,
         }));
         found.extend(self.outputs.iter().filter_map(|output| match output.of {
             Of::Marker(marker) if output.kind.read_at() == ReadAt::Node => Some(marker),

@@ -20,14 +20,14 @@ use serde::Deserialize;
 
 pub use assemble::{Assembled, assemble};
 pub use description::{
-    About, Accuracy, Body, CableBody, Experiment, Initial, InitialMotion, InitialState, Integrator,
-    Interpolation, Material, Method, OutputKind, RigidBody, Scene, Section, Shape, Spin, Strain,
-    Symbol, Table, Value, Vector,
+    About, Accuracy, ActionKind, Body, CableBody, Experiment, Initial, InitialMotion, InitialState,
+    Integrator, Interpolation, Material, Method, OutputKind, RigidBody, Scene, Section, Shape,
+    Spin, Strain, Symbol, Table, Value, Vector,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Hold,
     Holder, HolderId, Input, InputKind, Joint, Load, LoadKind, Marker, MarkerId, Mass, Motion,
-    MotionKind, Of, Output, Pivot, Place, Port, PortKind, Reaction, Resolved, Rigid, RigidId,
+    MotionKind, Of, On, Output, Pivot, Place, Port, PortKind, Reaction, Resolved, Rigid, RigidId,
     SlideId, Slider, Spring, Turning,
 };
 pub use timed::{Timed, finite_at, finite_near};

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::description::{
-    CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
+    ActionKind, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
 };
 use crate::system::{Drive, Signal};
 
@@ -264,22 +264,26 @@ pub struct Spring<'a> {
 
 /// A force or a moment, known or an input.
 #[derive(Clone, Debug)]
-pub enum Action<'a> {
-    /// A force at a marker, N.
-    Force {
-        /// Where.
-        marker: Marker<'a>,
-        /// Whether it turns with the marker.
-        follower: bool,
-        /// Its components.
-        components: Vec<Signal>,
-    },
-    /// A moment at a marker, N m.
-    Moment(Marker<'a>, Signal),
-    /// A moment in a joint, N m.
-    Torque(Pivot<'a>, Signal),
-    /// A force per reference length of a cable, N/m.
-    Distributed(Cable<'a>, Vec<Signal>),
+pub struct Action<'a> {
+    /// Which.
+    pub kind: ActionKind,
+    /// What it acts on; which of these follows from the kind.
+    pub on: On<'a>,
+    /// Whether it turns with the marker.
+    pub follower: bool,
+    /// Its components, as many as the kind has.
+    pub components: Vec<Signal>,
+}
+
+/// What a force or a moment acts on.
+#[derive(Clone, Copy, Debug)]
+pub enum On<'a> {
+    /// A marker.
+    Marker(Marker<'a>),
+    /// A joint: its second marker, and the opposite on its first.
+    Joint(Pivot<'a>),
+    /// A cable, per reference length.
+    Cable(Cable<'a>),
 }
 
 /// An input.

@@ -3,7 +3,7 @@
 use super::picture::{Picture, seen};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
-use crate::scene::{Action as Kind, Cable, InputKind, LoadKind, Marker, PortKind, Resolved};
+use crate::scene::{self, Cable, InputKind, LoadKind, Marker, On, PortKind, Resolved};
 use crate::system::Signal;
 
 /// Arrows that stand for a distributed force.
@@ -11,7 +11,7 @@ const ARROWS: u32 = 7;
 
 /// A load or an input that is drawn as an arrow.
 pub(super) struct Action<'a> {
-    pub kind: &'a Kind<'a>,
+    pub action: &'a scene::Action<'a>,
     /// What is written beside it.
     pub label: &'a str,
     /// Components of a force at the start.
@@ -21,27 +21,20 @@ pub(super) struct Action<'a> {
 /// All loads and inputs of a scene, those of ports included, but not those of springs.
 pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
     let inputs = resolved.inputs.iter().filter_map(|input| {
-        let InputKind::Action(kind) = &input.kind else {
+        let InputKind::Action(action) = &input.kind else {
             return None;
         };
-        let label = match kind {
-            Kind::Force { .. } => "force",
-            Kind::Moment(..) => "moment",
-            Kind::Torque(..) => "torque",
-            Kind::Distributed(..) => "distributed force",
-        };
-        let components = at_start(kind, &input.start);
         Some(Action {
-            kind,
-            label,
-            components,
+            action,
+            label: action.kind.words()[0],
+            components: at_start(action, &input.start),
         })
     });
     let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Action { action: kind, .. } => Some(Action {
-            kind,
+        LoadKind::Action { action, .. } => Some(Action {
+            action,
             label: load.name,
-            components: at_start(kind, &[]),
+            components: at_start(action, &[]),
         }),
         LoadKind::Spring(_) => None,
     });
@@ -51,10 +44,10 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
             PortKind::Motion { .. } | PortKind::Coupling { .. } => &[],
         };
         inputs.iter().filter_map(|input| match &input.kind {
-            InputKind::Action(kind) => Some(Action {
-                kind,
+            InputKind::Action(action) => Some(Action {
+                action,
                 label: port.name,
-                components: at_start(kind, &input.start),
+                components: at_start(action, &input.start),
             }),
             InputKind::RestLength(_) => None,
         })
@@ -63,11 +56,11 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
 }
 
 /// Components of a force at the start, from those of an input; moments have none.
-fn at_start(kind: &Kind<'_>, inputs: &[f64]) -> Vec<f64> {
-    let (Kind::Force { components, .. } | Kind::Distributed(_, components)) = kind else {
+fn at_start(action: &scene::Action<'_>, inputs: &[f64]) -> Vec<f64> {
+    if !action.kind.is_force() {
         return Vec::new();
-    };
-    let values = components.iter().enumerate();
+    }
+    let values = action.components.iter().enumerate();
     let value = |(axis, component): (usize, &Signal)| match component {
         Signal::Function(function) => function.value(0.0),
         Signal::Input(_) => inputs[axis],
@@ -78,10 +71,10 @@ fn at_start(kind: &Kind<'_>, inputs: &[f64]) -> Vec<f64> {
 impl<'a> Action<'a> {
     /// The marker that it acts on, or the second one of a joint; none on a cable as a whole.
     pub(super) fn marker(&self) -> Option<Marker<'a>> {
-        match self.kind {
-            Kind::Force { marker, .. } | Kind::Moment(marker, _) => Some(*marker),
-            Kind::Torque(pivot, _) => Some(pivot.ends.second),
-            Kind::Distributed(..) => None,
+        match self.action.on {
+            On::Marker(marker) => Some(marker),
+            On::Joint(pivot) => Some(pivot.ends.second),
+            On::Cable(_) => None,
         }
     }
 
@@ -91,9 +84,7 @@ impl<'a> Action<'a> {
         match self.components[..] {
             _ if self.components.iter().all(|part| *part == 0.0) => direction([-1.0, -1.0]),
             // Along, and across to the left; y points down the page.
-            [a, b] if matches!(self.kind, Kind::Force { follower: true, .. }) => {
-                direction([a * x + b * y, a * y - b * x])
-            }
+            [a, b] if self.action.follower => direction([a * x + b * y, a * y - b * x]),
             [a, b] => direction([a, -b]),
             ref components => {
                 let part = |k: usize| components.get(k).copied().unwrap_or(0.0);
@@ -107,11 +98,11 @@ impl<'a> Action<'a> {
 impl<'a> Picture<'a> {
     pub(super) fn actions(&mut self) {
         for action in actions(self.resolved) {
-            match action.kind {
-                Kind::Force { marker, .. } => self.force(&action, *marker),
-                Kind::Moment(marker, _) => self.turn(*marker),
-                Kind::Torque(pivot, _) => self.turn(pivot.ends.second),
-                Kind::Distributed(cable, _) => self.distributed(&action, *cable),
+            match action.action.on {
+                On::Marker(marker) if action.action.kind.is_force() => self.force(&action, marker),
+                On::Marker(marker) => self.turn(marker),
+                On::Joint(pivot) => self.turn(pivot.ends.second),
+                On::Cable(cable) => self.distributed(&action, cable),
             }
         }
     }

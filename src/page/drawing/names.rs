@@ -6,8 +6,7 @@ use super::picture::{BODY, FAINT, INK, Picture};
 use crate::page::canvas::{LINE, Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{
-    Action as Kind, BodyReference, CableBody, Ends, LoadKind, Place as On, PortKind, RigidBody,
-    Symbol,
+    BodyReference, CableBody, Ends, LoadKind, Place as On, PortKind, RigidBody, Symbol,
 };
 
 /// With more bodies than this, names would only cover each other.
@@ -125,7 +124,7 @@ impl<'a> Picture<'a> {
             let Some(label) = self.label_at(labels, place.point) else {
                 continue;
             };
-            if matches!(action.kind, Kind::Moment(..) | Kind::Torque(..)) {
+            if !action.action.kind.is_force() {
                 label.add(action.label, symbols::LOAD);
                 label.is_far = true;
             } else {

@@ -7,7 +7,7 @@ mod ports;
 pub use initial::Motions;
 
 use super::resolved::{
-    self, Action, BodyReference, CouplingId, Ends, First, Hold, InputKind, LoadKind, MarkerId,
+    self, Action, BodyReference, CouplingId, Ends, First, Hold, InputKind, LoadKind, MarkerId, On,
     Place, Resolved, Spring, Turning,
 };
 use super::{CableBody, Error, OutputKind, Scene, Strain};
@@ -378,25 +378,22 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     fn action(&self, action: &Action<'_>) -> Load<D> {
-        match action {
-            Action::Force {
-                marker,
-                follower,
-                components,
-            } => Load::Force(loads::Force {
-                marker: self.marker(*marker),
-                follower: *follower,
+        let components = &action.components;
+        let moment = |ends| {
+            Load::Moment(loads::Moment {
+                ends,
+                size: components[0].clone(),
+            })
+        };
+        match action.on {
+            On::Marker(marker) if action.kind.is_force() => Load::Force(loads::Force {
+                marker: self.marker(marker),
+                follower: action.follower,
                 components: each(components),
             }),
-            Action::Moment(marker, size) => Load::Moment(loads::Moment {
-                ends: self.on_marker(*marker),
-                size: size.clone(),
-            }),
-            Action::Torque(pivot, size) => Load::Moment(loads::Moment {
-                ends: self.ends(pivot.ends),
-                size: size.clone(),
-            }),
-            Action::Distributed(cable, components) => Load::Distributed(loads::Distributed {
+            On::Marker(marker) => moment(self.on_marker(marker)),
+            On::Joint(pivot) => moment(self.ends(pivot.ends)),
+            On::Cable(cable) => Load::Distributed(loads::Distributed {
                 chain: cable.id.chain,
                 components: each(components),
             }),

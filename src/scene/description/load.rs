@@ -149,12 +149,48 @@ pub enum ActionKind {
     Distributed,
 }
 
+/// What forces and moments act on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActsOn {
+    /// A marker.
+    Marker,
+    /// A joint with an angle.
+    Joint,
+    /// A cable as a whole.
+    Cable,
+}
+
 impl ActionKind {
+    /// What it acts on, whether it is a force, what it is called, and its unit.
+    fn declaration(self) -> (ActsOn, bool, [&'static str; 2]) {
+        match self {
+            Self::Force => (ActsOn::Marker, true, ["force", "N"]),
+            Self::Moment => (ActsOn::Marker, false, ["moment", "N m"]),
+            Self::Torque => (ActsOn::Joint, false, ["torque", "N m"]),
+            Self::Distributed => (ActsOn::Cable, true, ["distributed force", "N/m"]),
+        }
+    }
+
+    /// What it acts on.
+    pub fn acts_on(self) -> ActsOn {
+        self.declaration().0
+    }
+
+    /// Whether it is a force, not a moment.
+    pub fn is_force(self) -> bool {
+        self.declaration().1
+    }
+
+    /// What it is called, and its unit.
+    pub fn words(self) -> [&'static str; 2] {
+        self.declaration().2
+    }
+
     /// Number of components: those of a force in so many dimensions, 1 of a moment.
     pub fn components(self, dimension: usize) -> usize {
-        match self {
-            Self::Force | Self::Distributed => dimension,
-            Self::Moment | Self::Torque => 1,
+        match self.is_force() {
+            true => dimension,
+            false => 1,
         }
     }
 }

@@ -21,7 +21,7 @@ pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Sectio
 pub use initial::{Initial, InitialState};
 pub use joint::{Condition, Declaration, Joint, JointKind, Motion, MotionKind, Symbol};
 pub use kinds::{Keys, Kind, tell_apart};
-pub use load::{ActionKind, Input, InputKind, Load, LoadKind};
+pub use load::{ActionKind, ActsOn, Input, InputKind, Load, LoadKind};
 pub use output::{Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;

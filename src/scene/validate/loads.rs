@@ -2,8 +2,8 @@
 
 use super::checks::{Key, components, expected, keys, needed, not_negative, spring_damper, value};
 use crate::scene::Error;
-use crate::scene::description::{ActionKind, Kind as _, Load, LoadKind, LoadValue, Value};
-use crate::scene::resolved::{self, Action, Resolved, Spring};
+use crate::scene::description::{ActionKind, ActsOn, Kind as _, Load, LoadKind, LoadValue, Value};
+use crate::scene::resolved::{self, Action, On, Resolved, Spring};
 use crate::system::Signal;
 
 impl Load {
@@ -80,30 +80,29 @@ impl<'a> Resolved<'a> {
             let name = needed(path, key, "a name", name.as_deref())?;
             Ok::<_, Error>((format!("{path}.{key}"), name))
         };
-        let marker = |turns: bool| {
-            let (at, name) = named("marker", marker)?;
-            match turns {
-                true => self.require_turning(&at, name),
-                false => self.require_marker(&at, name),
+        let on = match kind.acts_on() {
+            ActsOn::Marker => {
+                let (at, name) = named("marker", marker)?;
+                // A direction is what a moment turns and what a follower turns with.
+                On::Marker(match follower || !kind.is_force() {
+                    true => self.require_turning(&at, name)?,
+                    false => self.require_marker(&at, name)?,
+                })
+            }
+            ActsOn::Joint => {
+                let (at, name) = named("joint", joint)?;
+                On::Joint(self.require_pivot(&at, name)?)
+            }
+            ActsOn::Cable => {
+                let (at, name) = named("body", body)?;
+                On::Cable(self.require_cable(&at, name)?)
             }
         };
-        let size = components.first().cloned();
-        let size = || needed(path, "value", "a value", size);
-        Ok(match kind {
-            ActionKind::Force => Action::Force {
-                marker: marker(follower)?,
-                follower,
-                components,
-            },
-            ActionKind::Moment => Action::Moment(marker(true)?, size()?),
-            ActionKind::Torque => {
-                let (at, name) = named("joint", joint)?;
-                Action::Torque(self.require_pivot(&at, name)?, size()?)
-            }
-            ActionKind::Distributed => {
-                let (at, name) = named("body", body)?;
-                Action::Distributed(self.require_cable(&at, name)?, components)
-            }
+        Ok(Action {
+            kind,
+            on,
+            follower,
+            components,
         })
     }
 
@@ -115,12 +114,10 @@ impl<'a> Resolved<'a> {
         given: &LoadValue,
     ) -> Result<Vec<Signal>, Error> {
         let signal = |path: &str, of: &Value| value(path, of, false).map(Signal::Function);
-        match (kind, given) {
-            (ActionKind::Force | ActionKind::Distributed, _) => {
-                components(path, self.scene.dimension, given.components(), signal)
-            }
-            (_, LoadValue::One(of)) => Ok(vec![signal(path, of)?]),
-            (_, LoadValue::Vector(values)) => Err(expected(path, "one value", values.len())),
+        match (kind.is_force(), given) {
+            (true, _) => components(path, self.scene.dimension, given.components(), signal),
+            (false, LoadValue::One(of)) => Ok(vec![signal(path, of)?]),
+            (false, LoadValue::Vector(values)) => Err(expected(path, "one value", values.len())),
         }
     }
 

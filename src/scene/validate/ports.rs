@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, not_negative, quoted, spring_damper};
 use crate::scene::Error;
-use crate::scene::description::{Kind as _, OutputKind, Port, PortKind};
+use crate::scene::description::{ActionKind, Kind as _, OutputKind, Port, PortKind};
 use crate::scene::resolved::{
-    self, Action, Coupling, CouplingId, InputKind, Marker, Motion, MotionKind, Of, Output,
+    self, Action, Coupling, CouplingId, InputKind, Marker, Motion, MotionKind, Of, On, Output,
     Resolved, Turning,
 };
 use crate::system::Signal;
@@ -101,26 +101,12 @@ impl<'a> Resolved<'a> {
 
     fn force_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
         use OutputKind::*;
-        let dimension = self.scene.dimension;
-        let first = self.place(dimension);
-        let mut inputs = vec![resolved::Input {
-            kind: InputKind::Action(Action::Force {
-                marker,
-                follower: false,
-                components: (0..dimension).map(|k| Signal::Input(first + k)).collect(),
-            }),
-            first,
-            start: vec![0.0; dimension],
-        }];
+        let mut inputs = vec![self.action_input(ActionKind::Force, marker)];
         let of = Of::Marker(marker);
         let mut outputs = vec![(Position, of), (Velocity, of), (Acceleration, of)];
         if port.turns() {
-            let (first, turning) = (self.place(1), Turning::Marker(marker));
-            inputs.push(resolved::Input {
-                kind: InputKind::Action(Action::Moment(marker, Signal::Input(first))),
-                first,
-                start: vec![0.0],
-            });
+            inputs.push(self.action_input(ActionKind::Moment, marker));
+            let turning = Turning::Marker(marker);
             let (angle, of) = (self.count_angle(turning), Of::Turning(turning));
             outputs.extend([
                 (Angle, angle),
@@ -131,6 +117,22 @@ impl<'a> Resolved<'a> {
         let outputs = outputs.into_iter();
         let outputs = outputs.map(|(kind, of)| Output { kind, of }).collect();
         resolved::PortKind::Force { inputs, outputs }
+    }
+
+    /// A force or a moment that comes in.
+    fn action_input(&mut self, kind: ActionKind, marker: Marker<'a>) -> resolved::Input<'a> {
+        let count = kind.components(self.scene.dimension);
+        let first = self.place(count);
+        resolved::Input {
+            kind: InputKind::Action(Action {
+                kind,
+                on: On::Marker(marker),
+                follower: false,
+                components: (0..count).map(|k| Signal::Input(first + k)).collect(),
+            }),
+            first,
+            start: vec![0.0; count],
+        }
     }
 
     /// The motions that come in: with two derivatives or, with a spring and damper, which do not feel

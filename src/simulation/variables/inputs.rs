@@ -2,7 +2,7 @@
 
 use super::unit::*;
 use super::{AXES, List, Source, Unit, component};
-use crate::scene::{Action, Coupling, Input, InputKind, MotionKind, PortKind, Resolved};
+use crate::scene::{ActionKind, Coupling, Input, InputKind, MotionKind, PortKind, Resolved};
 use crate::system::Drive;
 
 /// Adds the inputs of a scene.
@@ -51,31 +51,31 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
 fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     let axes = ["component x", "component y", "component z"];
     let (key, what, unit, ways): (_, _, _, &[&str]) = match &input.kind {
-        InputKind::Action(Action::Force { follower: true, .. }) => (
-            "follower_force",
-            "Force that turns along, on",
-            NEWTON,
-            &[
-                "along the direction there",
-                "across, to the left of the direction",
-            ],
-        ),
-        InputKind::Action(Action::Force { .. }) => ("force", "Force on", NEWTON, &axes),
-        InputKind::Action(Action::Moment(..)) => {
-            ("moment", "Moment on", NEWTON_METRE, &["counter-clockwise"])
-        }
-        InputKind::Action(Action::Torque(..)) => (
-            "torque",
-            "Torque in",
-            NEWTON_METRE,
-            &["on its second marker, opposite on its first"],
-        ),
-        InputKind::Action(Action::Distributed(..)) => (
-            "distributed_force",
-            "Force per reference length on",
-            NEWTON_PER_METRE,
-            &axes,
-        ),
+        InputKind::Action(action) => match action.kind {
+            ActionKind::Force if action.follower => (
+                "follower_force",
+                "Force that turns along, on",
+                NEWTON,
+                &[
+                    "along the direction there",
+                    "across, to the left of the direction",
+                ],
+            ),
+            ActionKind::Force => ("force", "Force on", NEWTON, &axes),
+            ActionKind::Moment => ("moment", "Moment on", NEWTON_METRE, &["counter-clockwise"]),
+            ActionKind::Torque => (
+                "torque",
+                "Torque in",
+                NEWTON_METRE,
+                &["on its second marker, opposite on its first"],
+            ),
+            ActionKind::Distributed => (
+                "distributed_force",
+                "Force per reference length on",
+                NEWTON_PER_METRE,
+                &axes,
+            ),
+        },
         InputKind::RestLength(_) => ("rest_length", "Length at rest of", METRE, &[""]),
     };
     let of = match &input.kind {
