@@ -180,6 +180,11 @@ impl<const D: usize> Assembly<D> {
         }
     }
 
+    /// The vertices that a constraint holds.
+    pub fn held(&self, constraint: usize) -> &[usize] {
+        &self.held[constraint].on
+    }
+
     /// What of `W^-1 y` is not zero, of the forces `y` of a constraint.
     pub fn reach(&self, constraint: usize, factor: &Cholesky) -> Reach {
         factor.reach(&self.of_mass, &self.held[constraint].on)

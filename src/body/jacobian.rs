@@ -8,6 +8,7 @@
 //! Sources: A. Bjorck, Numerical Methods for Least Squares Problems (1996), sections 2.7.4 (rank by the pivots) and
 //! 6.6.5 (refinement of semi-normal equations).
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::connectivity::Node;
@@ -104,8 +105,15 @@ struct Overlap {
 pub struct Jacobian {
     rows: SparseRows,
     reaches: Vec<Reach>,
-    overlaps: Vec<Overlap>,
+    /// Whether each row is the same in every configuration, and whether those rows are filled in.
+    constant: Vec<bool>,
+    is_begun: bool,
+    /// Overlaps of two constant rows, and the others.
+    fixed: Vec<Overlap>,
+    moving: Vec<Overlap>,
     pattern: Pattern,
+    /// `J J^T` of the constant rows.
+    base: Matrix<f64>,
     factors: Matrix<f64>,
     /// Where rows stand in vectors over `pattern`.
     place: Vec<usize>,
@@ -123,22 +131,44 @@ pub struct Jacobian {
 }
 
 impl Jacobian {
-    /// Storage for some of the constraints of an assembly.
-    pub fn new<const D: usize>(elimination: &Elimination<D>, constraints: &[usize]) -> Self {
+    /// Storage for some of the constraints of an assembly, and whether their rows are the same in every
+    /// configuration.
+    pub fn new<const D: usize>(
+        elimination: &Elimination<D>,
+        constraints: &[usize],
+        is_constant: impl Fn(usize) -> bool,
+    ) -> Self {
+        let constant: Vec<bool> = (0..constraints.len()).map(is_constant).collect();
         let reaches: Vec<Reach> = constraints.iter().map(|c| elimination.reach(*c)).collect();
         let rows = SparseRows::new(&reaches);
         let meetings = meetings(&rows);
-        let edges: Vec<(usize, usize)> = meetings.iter().map(|(rows, _, _)| *rows).collect();
-        let pattern = Pattern::new(&vec![1; rows.count()], &edges);
-        let entry = |i: usize, j: usize| pattern.slot(i, j).map_or(0, |slot| slot.at);
+        let blocks = Blocks::new(elimination, constraints);
+        let edge = |(i, j): (usize, usize)| (blocks.of_row[i].0, blocks.of_row[j].0);
+        let edges: Vec<(usize, usize)> = meetings.iter().map(|(rows, _, _)| edge(*rows)).collect();
+        let pattern = Pattern::new(&blocks.sizes, &edges);
+        let entry = |i: usize, j: usize| {
+            let [(v, r), (w, c)] = [i, j].map(|row| blocks.of_row[row]);
+            // Of a block with itself the lower triangle is read.
+            let (r, c) = if v == w { (r.max(c), r.min(c)) } else { (r, c) };
+            pattern.slot(v, w).map_or(0, |slot| slot.entry(r, c))
+        };
         let overlap = |((i, j), at, length): &((usize, usize), [usize; 2], usize)| Overlap {
             entry: entry(*i, *j) as u32,
             at: at.map(|at| at as u32),
             length: *length as u32,
         };
+        let (fixed, moving) = meetings
+            .iter()
+            .partition::<Vec<_>, _>(|((i, j), _, _)| constant[*i] && constant[*j]);
         Self {
-            overlaps: meetings.iter().map(overlap).collect(),
-            place: (0..rows.count()).map(|i| pattern.range(i).start).collect(),
+            fixed: fixed.into_iter().map(overlap).collect(),
+            moving: moving.into_iter().map(overlap).collect(),
+            constant,
+            is_begun: false,
+            base: Matrix::zeros(&pattern),
+            place: (blocks.of_row.iter())
+                .map(|(v, r)| pattern.range(*v).start + r)
+                .collect(),
             corners: (0..rows.count()).map(|i| entry(i, i)).collect(),
             factors: Matrix::zeros(&pattern),
             squares: vec![0.0; rows.count()],
@@ -161,6 +191,11 @@ impl Jacobian {
     /// Whether a row counts: the others do not give it.
     pub fn is_independent(&self, row: usize) -> bool {
         self.counts[self.place[row]]
+    }
+
+    /// Whether a row needs filling in: a constant one does once.
+    pub fn needs(&self, row: usize) -> bool {
+        !(self.is_begun && self.constant[row])
     }
 
     /// Fills in a row from the derivatives of a constraint by nodes: `terms` tells them one by one.
@@ -186,11 +221,12 @@ impl Jacobian {
         if self.factored.replace(least) == Some(least) {
             return;
         }
-        self.factors.values.fill(0.0);
-        for Overlap { entry, at, length } in &self.overlaps {
-            let [a, b] = at.map(|at| &self.rows.values[at as usize..(at + length) as usize]);
-            self.factors.values[*entry as usize] += dot(a, b);
+        if !self.is_begun {
+            add_products(&self.fixed, &self.rows.values, &mut self.base.values);
+            self.is_begun = true;
         }
+        self.factors.values.copy_from_slice(&self.base.values);
+        add_products(&self.moving, &self.rows.values, &mut self.factors.values);
         for (place, corner) in self.place.iter().zip(&self.corners) {
             self.squares[*place] = self.factors.values[*corner];
         }
@@ -209,7 +245,7 @@ impl Jacobian {
                     false => 0.0,
                 };
             }
-            self.factors.solve_numbers(&self.pattern, &mut self.missing);
+            self.factors.solve(&self.pattern, &mut self.missing);
             for (row, (place, lambda)) in self.place.iter().zip(&mut self.lambda).enumerate() {
                 let part = self.missing[*place];
                 if part != 0.0 {
@@ -223,6 +259,59 @@ impl Jacobian {
     /// Multipliers: what [`Jacobian::bring`] took out last is `J^T lambda`, zero for rows that do not count.
     pub fn multipliers(&self) -> &[f64] {
         &self.lambda
+    }
+}
+
+/// Rows in blocks: those that hold the same bodies, and with them those that hold one of these bodies alone.
+struct Blocks {
+    /// Block of every row and place in it.
+    of_row: Vec<(usize, usize)>,
+    sizes: Vec<usize>,
+}
+
+impl Blocks {
+    fn new<const D: usize>(elimination: &Elimination<D>, constraints: &[usize]) -> Self {
+        let held = |row: usize| elimination.assembly.held(constraints[row]);
+        let mut shared: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
+        for row in 0..constraints.len() {
+            shared.entry(held(row)).or_default().push(row);
+        }
+        // What holds one body alone has no block of its own where another of it has room: in chains all blocks are
+        // equal and follow each other.
+        let mut alone = BTreeMap::new();
+        shared.retain(|vertices, rows| match vertices {
+            [vertex] => alone.insert(*vertex, std::mem::take(rows)).is_some(),
+            _ => true,
+        });
+        let mut blocks: Vec<Vec<usize>> = Vec::new();
+        for (vertices, mut rows) in shared {
+            let room = rows.len();
+            let fits = |vertex: &&usize| alone.get(vertex).is_some_and(|own| own.len() <= room);
+            if let Some(own) = vertices.iter().find(fits).and_then(|v| alone.remove(v)) {
+                rows.extend(own);
+            }
+            blocks.push(rows);
+        }
+        blocks.extend(alone.into_values());
+        blocks.sort_unstable();
+        let mut of_row = vec![(0, 0); constraints.len()];
+        for (block, rows) in blocks.iter().enumerate() {
+            for (place, row) in rows.iter().enumerate() {
+                of_row[*row] = (block, place);
+            }
+        }
+        Self {
+            of_row,
+            sizes: blocks.iter().map(Vec::len).collect(),
+        }
+    }
+}
+
+/// Adds the parts of products of rows to the entries of a matrix.
+fn add_products(overlaps: &[Overlap], rows: &[f64], entries: &mut [f64]) {
+    for Overlap { entry, at, length } in overlaps {
+        let [a, b] = at.map(|at| &rows[at as usize..(at + length) as usize]);
+        entries[*entry as usize] += dot(a, b);
     }
 }
 

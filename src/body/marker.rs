@@ -76,11 +76,6 @@ impl Marker {
         marker
     }
 
-    /// Whether it is a node of a cable, or belongs to a rigid body.
-    pub fn is_nodal(&self) -> bool {
-        self.nodes[0] == self.nodes[1]
-    }
-
     /// Distance of a point of a rigid body from the centre of mass, m.
     pub fn arm(&self) -> f64 {
         self.values[1].hypot(self.across)
@@ -139,6 +134,11 @@ impl Marker {
 }
 
 impl<N: Number> Marker<N> {
+    /// Whether it is a node of a cable, or belongs to a rigid body: then the second node weighs nothing.
+    pub fn is_nodal(&self) -> bool {
+        self.nodes[0] == self.nodes[1]
+    }
+
     /// The point of a cable inside an element, which may move along it: `xi` has derivatives then.
     pub fn within<E: Element<D>, const D: usize>(
         body: usize,
@@ -160,20 +160,30 @@ impl<N: Number> Marker<N> {
     /// Position, or velocity or acceleration where `x` holds rates.
     #[inline(always)]
     pub fn position<const D: usize>(&self, x: &[Node<D, N>]) -> Vector<D, N> {
-        let [a, b] = self.nodes.map(|node| &x[node]);
         let [p, s, q, t] = self.values;
-        let mut sum = Vector::from_fn(|k, _| p * a[0][k] + s * a[1][k] + q * b[0][k] + t * b[1][k]);
-        sum[0] -= self.across * a[1][1];
-        sum[1] += self.across * a[1][0];
+        let a = &x[self.nodes[0]];
+        let mut sum = Vector::from_fn(|k, _| p * a[0][k] + s * a[1][k]);
+        if self.is_nodal() {
+            sum[0] -= self.across * a[1][1];
+            sum[1] += self.across * a[1][0];
+        } else {
+            let b = &x[self.nodes[1]];
+            sum += Vector::from_fn(|k, _| q * b[0][k] + t * b[1][k]);
+        }
         sum
     }
 
     /// Direction (not of unit length on a cable), or its rate.
     #[inline(always)]
     pub fn direction<const D: usize>(&self, x: &[Node<D, N>]) -> Vector<D, N> {
-        let [a, b] = self.nodes.map(|node| &x[node]);
         let [p, s, q, t] = self.slopes;
-        Vector::from_fn(|k, _| p * a[0][k] + s * a[1][k] + q * b[0][k] + t * b[1][k])
+        let a = &x[self.nodes[0]];
+        let own = Vector::from_fn(|k, _| p * a[0][k] + s * a[1][k]);
+        if self.is_nodal() {
+            return own;
+        }
+        let b = &x[self.nodes[1]];
+        own + Vector::from_fn(|k, _| q * b[0][k] + t * b[1][k])
     }
 
     /// Forces on the nodes of a force on the position and one on the direction.

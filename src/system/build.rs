@@ -216,16 +216,21 @@ impl<const D: usize> System<D> {
             travel: &travel,
         };
         let mut y = vec![0.0; assembly.free()];
-        let is_free = |constraint: &Constraint<D>| {
-            y.fill(0.0);
+        let is_free = |(index, constraint): (usize, &Constraint<D>)| {
             let mut size = 0.0;
             constraint.gradient(&view).for_each(|node, term| {
                 assembly.restrict_node(node, term, &mut y);
                 size += product(term, term);
             });
-            y.iter().any(|y| y.abs() > NOTHING * f64::sqrt(size))
+            let mut is_free = false;
+            for vertex in assembly.held(index) {
+                let range = assembly.of_mass().range(*vertex);
+                is_free |= (y[range.clone()].iter()).any(|y| y.abs() > NOTHING * f64::sqrt(size));
+                y[range].fill(0.0);
+            }
+            is_free
         };
-        let free: Vec<bool> = nonlinear.iter().map(is_free).collect();
+        let free: Vec<bool> = nonlinear.iter().enumerate().map(is_free).collect();
         for (index, (constraint, is_free)) in nonlinear.into_iter().zip(free).enumerate() {
             if is_free {
                 self.multipliers.push(index);

@@ -72,7 +72,9 @@ impl<const D: usize> Work<D> {
             let first = chain.nodes(0)[0];
             elastic[first..first + chain.node_count()].fill(true);
         }
-        let jacobian = Jacobian::new(&system.elimination, &system.multipliers);
+        let jacobian = Jacobian::new(&system.elimination, &system.multipliers, |row| {
+            system.constraints[row].is_linear()
+        });
         let lambda = vec![0.0; system.constraints.len()];
         Self {
             x: nodes.clone(),

@@ -2,19 +2,22 @@
 //! known when compiling. Blocks stand as in the values: diagonal, below, diagonal, below, ...
 
 use super::Number;
+use super::kernels::Pivots;
 
 /// Factors the columns of a run; `values` ends with the diagonal block that the last of them
-/// changes. The number of negative pivots, or `None` at one that is zero or not finite.
-pub(super) fn factor<T: Number, const B: usize>(values: &mut [T]) -> Option<usize> {
+/// changes; `start` is the first of their variables. Nothing where a pivot ends it.
+pub(super) fn factor<T: Number, const B: usize>(
+    values: &mut [T],
+    start: usize,
+    pivots: &mut impl Pivots<T>,
+) -> Option<()> {
     let blocks = values.as_chunks_mut::<B>().0.as_chunks_mut::<B>().0;
-    let mut negative = 0;
+    let mut start = start;
     let mut blocks = blocks.iter_mut();
     let mut diagonal = blocks.next()?;
     while let (Some(below), Some(next)) = (blocks.next(), blocks.next()) {
         for j in 0..B {
-            let pivot = diagonal[j][j];
-            negative += usize::from(pivot.is_negative());
-            let inverse = pivot.inverse()?;
+            let inverse = pivots(start + j, diagonal[j][j])?;
             diagonal[j][j] = inverse;
             let mut column = [T::from(0.0); B];
             for i in j + 1..B {
@@ -38,8 +41,9 @@ pub(super) fn factor<T: Number, const B: usize>(values: &mut [T]) -> Option<usiz
             }
         }
         diagonal = next;
+        start += B;
     }
-    Some(negative)
+    Some(())
 }
 
 /// Forward substitution over a run; `x` ends with the variables the last column changes.

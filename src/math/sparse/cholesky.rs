@@ -3,6 +3,7 @@
 //! Masses are isotropic: a block over two nodes of a chain is a 2 x 2 matrix times the identity of the
 //! plane or of space. Runs of such blocks have loops of their own, on two vectors a node.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::pattern::{Column, Step, of_size};
@@ -145,27 +146,21 @@ impl Cholesky {
 
     /// What of `W^-1 x` is not zero where `x` is not zero at some vertices alone.
     pub fn reach(&self, pattern: &Pattern, vertices: &[usize]) -> Reach {
-        let mut reached = vec![false; pattern.columns.len()];
-        let own = vertices.iter().filter(|v| !pattern.range(**v).is_empty());
-        own.for_each(|v| reached[pattern.column_of[*v]] = true);
-        for j in 0..reached.len() {
-            if reached[j] {
-                let rows = &pattern.rows[pattern.columns[j].rows.clone()];
-                rows.iter().for_each(|row| reached[row.column] = true);
-            }
-        }
         let mut reach = Reach {
             pieces: Vec::new(),
             variables: Vec::new(),
         };
-        for (index, piece) in self.pieces.iter().enumerate() {
+        let own = vertices.iter().filter(|v| !pattern.range(**v).is_empty());
+        let mut open: BTreeSet<usize> = own.map(|v| pattern.column_of[*v]).collect();
+        while let Some(j) = open.pop_first() {
+            let column = &pattern.columns[j];
+            open.extend(pattern.rows[column.rows.clone()].iter().map(|r| r.column));
+            let index = self.pieces.partition_point(|p| p.columns.end <= j);
+            let piece = &self.pieces[index];
             // A column of a run reaches the next one.
-            let first = piece.columns.clone().find(|j| reached[*j]);
-            if let Some(first) = first.filter(|_| !piece.is_identity) {
-                reach.pieces.push((index, first - piece.columns.start));
+            if !piece.is_identity && reach.pieces.last().is_none_or(|(last, _)| *last < index) {
+                reach.pieces.push((index, j - piece.columns.start));
             }
-        }
-        for column in (pattern.columns.iter().zip(reached)).filter_map(|(c, r)| r.then_some(c)) {
             let end = column.start + column.size;
             match reach.variables.last_mut() {
                 Some(last) if last.end == column.start => last.end = end,
@@ -234,7 +229,9 @@ fn pieces(pattern: &Pattern, factors: &Matrix<f64>) -> Vec<Piece> {
                 let links = of_size!(size, B => {
                     let blocks = factors.values[values.clone()].as_chunks::<B>().0;
                     let columns = blocks.as_chunks::<B>().0.as_chunks::<2>().0;
-                    columns.iter().map(Link::new).collect::<Option<Vec<Link>>>()
+                    let links = columns.iter().map(Link::new);
+                    // Two vectors a node.
+                    B.is_multiple_of(2).then(|| links.collect::<Option<Vec<Link>>>()).flatten()
                 });
                 let count = variables.len() / size;
                 (count, links, variables.start, *size)

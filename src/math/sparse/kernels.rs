@@ -4,93 +4,71 @@
 use super::pattern::{Column, Pattern, Step, of_size};
 use super::{Number, chains};
 
-/// L D L^T in place, column after column; the number of negative pivots, or `None` at one that is
-/// zero or not finite.
-pub(super) fn factor<T: Number>(pattern: &Pattern, values: &mut [T]) -> Option<usize> {
-    let mut negative = 0;
-    for step in &pattern.steps {
-        negative += match step {
-            Step::Chain {
-                size, values: run, ..
-            } => {
-                let run = &mut values[run.start..run.end + size * size];
-                of_size!(size, B => chains::factor::<T, B>(run)?)
+/// What becomes of a pivot: takes its variable and it and returns its inverse, zero for a row that drops out, or
+/// nothing where the factorization ends.
+pub(super) trait Pivots<T>: FnMut(usize, T) -> Option<T> {}
+
+impl<T, F: FnMut(usize, T) -> Option<T>> Pivots<T> for F {}
+
+/// Does something with the size of a column, known when compiling where it is a common one.
+macro_rules! of_any_size {
+    ($size:expr, $n:ident => $call:expr) => {
+        match $size {
+            1 => {
+                let $n = 1;
+                $call
             }
-            Step::Column(j) => {
-                let column = &pattern.columns[*j];
-                match column.size {
-                    4 => factor_column(4, pattern, column, values)?,
-                    6 => factor_column(6, pattern, column, values)?,
-                    size => factor_column(size, pattern, column, values)?,
-                }
+            2 => {
+                let $n = 2;
+                $call
             }
-        };
-    }
-    Some(negative)
+            3 => {
+                let $n = 3;
+                $call
+            }
+            4 => {
+                let $n = 4;
+                $call
+            }
+            6 => {
+                let $n = 6;
+                $call
+            }
+            $n => $call,
+        }
+    };
 }
 
-/// L D L^T in place of a matrix whose columns are single numbers, without those of little pivots.
-pub(super) fn factor_semidefinite(
+/// L D L^T in place, column after column; nothing where a pivot ends it.
+pub(super) fn factor<T: Number>(
     pattern: &Pattern,
-    values: &mut [f64],
-    (least, squares): (f64, &[f64]),
-    counts: &mut [bool],
-) {
-    for column in &pattern.columns {
-        let pivot = values[column.at];
-        let rows = &pattern.rows[column.rows.clone()];
-        let stays = pivot.is_finite() && pivot > least * squares[column.start];
-        counts[column.start] = stays;
-        let inverse = if stays { 1.0 / pivot } else { 0.0 };
-        values[column.at] = inverse;
-        let mut targets = pattern.targets[column.targets..].iter();
-        for (a, row) in rows.iter().enumerate() {
-            let entry = values[row.at];
-            values[row.at] = entry * inverse;
-            for (left, target) in rows[..=a].iter().zip(&mut targets) {
-                values[*target] -= entry * values[left.at];
-            }
-        }
-    }
-}
-
-/// Solves in place with the factors of a matrix whose columns are single numbers.
-pub(super) fn solve_numbers(pattern: &Pattern, values: &[f64], x: &mut [f64]) {
-    for column in &pattern.columns {
-        let own = x[column.start];
-        for row in &pattern.rows[column.rows.clone()] {
-            x[row.start] -= values[row.at] * own;
-        }
-    }
-    for column in pattern.columns.iter().rev() {
-        let mut own = x[column.start] * values[column.at];
-        for row in &pattern.rows[column.rows.clone()] {
-            own -= values[row.at] * x[row.start];
-        }
-        x[column.start] = own;
-    }
-}
-
-/// `x <- L^-1 x` over some steps.
-pub(super) fn forward<T: Number>(pattern: &Pattern, steps: &[Step], values: &[T], x: &mut [T]) {
-    for step in steps {
+    values: &mut [T],
+    pivots: &mut impl Pivots<T>,
+) -> Option<()> {
+    for step in &pattern.steps {
         match step {
             Step::Chain {
                 size,
                 values: run,
                 variables,
             } => {
-                let x = &mut x[variables.start..variables.end + size];
-                of_size!(size, B => chains::forward::<T, B>(&values[run.clone()], x));
+                let run = &mut values[run.start..run.end + size * size];
+                of_size!(size, B => chains::factor::<T, B>(run, variables.start, pivots)?);
             }
             Step::Column(j) => {
                 let column = &pattern.columns[*j];
-                match column.size {
-                    4 => forward_column(4, pattern, column, values, x),
-                    6 => forward_column(6, pattern, column, values, x),
-                    size => forward_column(size, pattern, column, values, x),
-                }
+                of_any_size!(column.size, n => factor_column(n, pattern, column, values, pivots)?);
             }
+        }
+    }
+    Some(())
+}
+
+/// `x <- L^-1 x` over some steps.
+pub(super) fn forward<T: Number>(pattern: &Pattern, steps: &[Step], values: &[T], x: &mut [T]) {
+    for step in steps {
+        if lone_number(pattern, step).is_none() {
+            forward_step(pattern, step, values, x);
         }
     }
 }
@@ -103,23 +81,66 @@ pub(super) fn backward<T: Number, const SCALE: bool>(
     x: &mut [T],
 ) {
     for step in steps.iter().rev() {
-        match step {
-            Step::Chain {
-                size,
-                values: run,
-                variables,
-            } => {
-                let x = &mut x[variables.start..variables.end + size];
-                of_size!(size, B => chains::backward::<T, B, SCALE>(&values[run.clone()], x));
-            }
-            Step::Column(j) => {
-                let column = &pattern.columns[*j];
-                match column.size {
-                    4 => backward_column::<T, SCALE>(4, pattern, column, values, x),
-                    6 => backward_column::<T, SCALE>(6, pattern, column, values, x),
-                    size => backward_column::<T, SCALE>(size, pattern, column, values, x),
-                }
-            }
+        match lone_number(pattern, step) {
+            None => backward_step::<T, SCALE>(pattern, step, values, x),
+            Some(column) if SCALE => x[column.start] = x[column.start] * values[column.at],
+            Some(_) => {}
+        }
+    }
+}
+
+/// The column of a step, where that is a single variable that nothing after it is coupled with.
+#[inline(always)]
+fn lone_number<'a>(pattern: &'a Pattern, step: &Step) -> Option<&'a Column> {
+    match step {
+        Step::Column(j) => {
+            let column = &pattern.columns[*j];
+            (column.size == 1 && column.rows.is_empty()).then_some(column)
+        }
+        Step::Chain { .. } => None,
+    }
+}
+
+/// Not inlined: what saves registers for all sizes would cost single numbers more than their work.
+#[inline(never)]
+fn forward_step<T: Number>(pattern: &Pattern, step: &Step, values: &[T], x: &mut [T]) {
+    match step {
+        Step::Chain {
+            size,
+            values: run,
+            variables,
+        } => {
+            let x = &mut x[variables.start..variables.end + size];
+            of_size!(size, B => chains::forward::<T, B>(&values[run.clone()], x));
+        }
+        Step::Column(j) => {
+            let column = &pattern.columns[*j];
+            of_any_size!(column.size, n => forward_column(n, pattern, column, values, x));
+        }
+    }
+}
+
+#[inline(never)]
+fn backward_step<T: Number, const SCALE: bool>(
+    pattern: &Pattern,
+    step: &Step,
+    values: &[T],
+    x: &mut [T],
+) {
+    match step {
+        Step::Chain {
+            size,
+            values: run,
+            variables,
+        } => {
+            let x = &mut x[variables.start..variables.end + size];
+            of_size!(size, B => chains::backward::<T, B, SCALE>(&values[run.clone()], x));
+        }
+        Step::Column(j) => {
+            let column = &pattern.columns[*j];
+            of_any_size!(column.size, n => {
+                backward_column::<T, SCALE>(n, pattern, column, values, x);
+            });
         }
     }
 }
@@ -150,9 +171,10 @@ fn factor_column<T: Number>(
     pattern: &Pattern,
     column: &Column,
     values: &mut [T],
-) -> Option<usize> {
+    pivots: &mut impl Pivots<T>,
+) -> Option<()> {
     let (diagonal, rest) = values[column.at..].split_at_mut(size * size);
-    let negative = factor_diagonal(size, diagonal)?;
+    factor_diagonal(size, diagonal, column.start, pivots)?;
     let rows = &pattern.rows[column.rows.clone()];
     let height: usize = rows.iter().map(|row| row.size).sum();
     let (panel, later) = rest.split_at_mut(height * size);
@@ -189,13 +211,17 @@ fn factor_column<T: Number>(
         }
         top += row.size;
     }
-    Some(negative)
+    Some(())
 }
 
 /// L D L^T of a diagonal block from its lower triangle; the diagonal becomes the inverse pivots.
 #[inline(always)]
-fn factor_diagonal<T: Number>(size: usize, diagonal: &mut [T]) -> Option<usize> {
-    let mut negative = 0;
+fn factor_diagonal<T: Number>(
+    size: usize,
+    diagonal: &mut [T],
+    start: usize,
+    pivots: &mut impl Pivots<T>,
+) -> Option<()> {
     for i in 0..size {
         let (above, rest) = diagonal.split_at_mut(i * size);
         let line = &mut rest[..size];
@@ -208,10 +234,9 @@ fn factor_diagonal<T: Number>(size: usize, diagonal: &mut [T]) -> Option<usize> 
             pivot = pivot - scaled * line[k];
             line[k] = scaled;
         }
-        negative += usize::from(pivot.is_negative());
-        line[i] = pivot.inverse()?;
+        line[i] = pivots(start + i, pivot)?;
     }
-    Some(negative)
+    Some(())
 }
 
 /// Forward substitution with the unit lower triangle of a factored diagonal block.

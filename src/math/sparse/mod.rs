@@ -108,7 +108,13 @@ impl<T: Number> Matrix<T> {
     /// number of negative pivots (0 for complex matrices), or `None`, with the content undefined,
     /// at a pivot that is zero or not finite.
     pub fn factor(&mut self, pattern: &Pattern) -> Option<usize> {
-        kernels::factor(pattern, &mut self.values)
+        let mut negative = 0;
+        let mut pivots = |_: usize, pivot: T| {
+            negative += usize::from(pivot.is_negative());
+            pivot.inverse()
+        };
+        kernels::factor(pattern, &mut self.values, &mut pivots)?;
+        Some(negative)
     }
 
     /// Solves in place with the factors.
@@ -119,19 +125,20 @@ impl<T: Number> Matrix<T> {
 }
 
 impl Matrix<f64> {
-    /// Factors a positive semidefinite matrix of numbers, not of blocks, in place. A row whose pivot is less than
-    /// `least` times its square drops out: what solves say of it is zero. `counts` tells of every row whether it stays.
+    /// Factors a positive semidefinite matrix in place. A row whose pivot is less than `least` times its square drops
+    /// out: what solves say of it is zero. `counts` tells of every row whether it stays.
     pub fn factor_semidefinite(
         &mut self,
         pattern: &Pattern,
-        least: (f64, &[f64]),
+        (least, squares): (f64, &[f64]),
         counts: &mut [bool],
     ) {
-        kernels::factor_semidefinite(pattern, &mut self.values, least, counts);
-    }
-
-    /// Solves in place with the factors of a matrix of numbers.
-    pub fn solve_numbers(&self, pattern: &Pattern, x: &mut [f64]) {
-        kernels::solve_numbers(pattern, &self.values, x);
+        let mut pivots = |row: usize, pivot: f64| {
+            let stays = pivot.is_finite() && pivot > least * squares[row];
+            counts[row] = stays;
+            Some(if stays { 1.0 / pivot } else { 0.0 })
+        };
+        // No pivot ends it.
+        let _ = kernels::factor(pattern, &mut self.values, &mut pivots);
     }
 }

@@ -73,13 +73,21 @@ impl Step {
     }
 }
 
-/// The block sizes for which runs have loops of their own: nodes of cables in the plane and in space.
-pub(super) const CHAINS: [usize; 2] = [4, 6];
+/// The block sizes for which runs have loops of their own: pins and nodes of cables, in the plane and in space.
+pub(super) const CHAINS: [usize; 4] = [2, 3, 4, 6];
 
 /// Does something with the size of a run's blocks known when compiling.
 macro_rules! of_size {
     ($size:expr, $b:ident => $call:expr) => {
         match $size {
+            2 => {
+                const $b: usize = 2;
+                $call
+            }
+            3 => {
+                const $b: usize = 3;
+                $call
+            }
             4 => {
                 const $b: usize = 4;
                 $call

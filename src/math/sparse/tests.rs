@@ -397,26 +397,60 @@ fn multipliers_come_after_what_they_hold() {
 
 #[test]
 fn rows_with_little_pivots_drop_out() {
-    // Rows 1 and 2 of three are the same.
-    let pattern = Pattern::new(&[1; 3], &[(0, 1), (1, 2), (0, 2)]);
-    let rows = [[1.0, 2.0], [0.5, -1.0], [0.5, -1.0]];
-    let mut a = Matrix::zeros(&pattern);
-    let dot = |i: usize, j: usize| rows[i][0] * rows[j][0] + rows[i][1] * rows[j][1];
-    for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)] {
-        a.values[pattern.slot(i, j).expect("stored").at] = dot(i, j);
+    // Every row twice, in blocks of every kind: chains of equal blocks, other columns, one dense block.
+    for sizes in [&[1; 6][..], &[2; 3], &[3; 2], &[2, 1, 3], &[1, 5], &[6]] {
+        let rows: [[f64; 3]; 6] = [
+            [1.0, 2.0, 0.3],
+            [0.5, -1.0, 0.0],
+            [1.0, 2.0, 0.3],
+            [-0.2, 0.1, 0.7],
+            [0.5, -1.0, 0.0],
+            [-0.2, 0.1, 0.7],
+        ];
+        let dot = |a: usize, b: usize| (0..3).map(|k| rows[a][k] * rows[b][k]).sum::<f64>();
+        let blocks = 0..sizes.len();
+        let edges: Vec<_> = blocks
+            .clone()
+            .flat_map(|v| (0..v).map(move |w| (v, w)))
+            .collect();
+        let pattern = Pattern::new(sizes, &edges);
+        let first: Vec<usize> = blocks.clone().map(|v| sizes[..v].iter().sum()).collect();
+        let mut a = Matrix::zeros(&pattern);
+        for (v, w) in edges.iter().copied().chain(blocks.clone().map(|v| (v, v))) {
+            let slot = pattern.slot(v, w).expect("stored");
+            for r in 0..sizes[v] {
+                for c in 0..sizes[w] {
+                    a.values[slot.entry(r, c)] = dot(first[v] + r, first[w] + c);
+                }
+            }
+        }
+        let place = |v: usize, r: usize| (first[v] + r, pattern.range(v).start + r);
+        let places: Vec<(usize, usize)> = blocks
+            .flat_map(|v| (0..sizes[v]).map(move |r| place(v, r)))
+            .collect();
+        let (mut squares, mut counts, mut b) = ([0.0; 6], [true; 6], [0.0; 6]);
+        let x = [0.3, -0.7, 0.4];
+        for &(row, at) in &places {
+            squares[at] = dot(row, row);
+            b[at] = (0..3).map(|k| rows[row][k] * x[k]).sum();
+        }
+        a.factor_semidefinite(&pattern, (1e-8, &squares), &mut counts);
+        assert_eq!(
+            counts.iter().filter(|stays| **stays).count(),
+            3,
+            "{sizes:?}"
+        );
+        for &(row, at) in &places {
+            if !counts[at] {
+                b[at] = 0.0;
+            }
+            let twin = |(other, _): &&(usize, usize)| *other != row && rows[*other] == rows[row];
+            let twin = places.iter().find(twin).expect("every row stands twice");
+            assert_ne!(counts[at], counts[twin.1], "{sizes:?}");
+        }
+        a.solve(&pattern, &mut b);
+        let found: [f64; 3] =
+            std::array::from_fn(|k| places.iter().map(|(row, at)| rows[*row][k] * b[*at]).sum());
+        assert!(error(&found, &x) < 1e-14, "{sizes:?}");
     }
-    let (mut squares, mut counts, mut b) = ([0.0; 3], [true; 3], [0.0; 3]);
-    let x = [0.3, -0.7];
-    for i in 0..3 {
-        squares[pattern.range(i).start] = dot(i, i);
-        b[pattern.range(i).start] = rows[i][0] * x[0] + rows[i][1] * x[1];
-    }
-    a.factor_semidefinite(&pattern, (1e-8, &squares), &mut counts);
-    assert_eq!(counts, [true, true, false]);
-    a.solve(&pattern, &mut b);
-    let found: [f64; 2] = std::array::from_fn(|k| {
-        let terms = (0..3).map(|i| rows[i][k] * b[pattern.range(i).start]);
-        terms.sum()
-    });
-    assert!(error(&found, &x) < 1e-14);
 }

@@ -252,6 +252,11 @@ impl<const D: usize> Constraint<D> {
         }
     }
 
+    /// Whether its derivatives are the same in every configuration.
+    pub fn is_linear(&self) -> bool {
+        matches!(self.kind, ConstraintKind::Coincident(_))
+    }
+
     /// Whether its force has a stiffness that is told block by block of these nodes.
     pub fn is_stiff(&self) -> bool {
         !matches!(

@@ -69,6 +69,9 @@ impl<const D: usize> System<D> {
             travel: &work.travel,
         };
         for (row, constraint) in self.constraints.iter().enumerate() {
+            if !work.jacobian.needs(row) {
+                continue;
+            }
             let gradient = constraint.gradient(&view);
             (work.jacobian).fill(&self.elimination, row, |tell| gradient.for_each(tell));
         }
@@ -168,14 +171,17 @@ impl<const D: usize> System<D> {
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
             self.forward_kinematics(time, q, None, work);
-            let residual = self.position_residual(&self.view(work));
+            let residual = self.missing_positions(work);
             // Two and more iterations are quadratic; what does not shrink is roundoff.
             if residual <= EXACT || residual > 0.5 * before {
                 return residual;
             }
+            // After the first one, the Jacobian in place shrinks the residual as much once more.
+            if before.is_infinite() || residual * (residual / before) > EXACT {
+                self.jacobians(work);
+            }
             before = residual;
-            self.jacobians(work);
-            self.correct(q, work, 1, Constraint::value);
+            self.correct(q, work, 1);
         }
         before
     }
@@ -184,22 +190,36 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work<D>) {
         self.jacobians(work);
         self.rate_kinematics(v, work);
-        self.correct(v, work, 2, constraint_rate);
-    }
-
-    /// Adds what takes `missing` away to first order, with the Jacobians in `work` and in so many passes.
-    fn correct(
-        &self,
-        q: &mut [f64],
-        work: &mut Work<D>,
-        passes: usize,
-        missing: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
-    ) {
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
         for (right, constraint) in right.iter_mut().zip(&self.constraints) {
-            *right = -missing(constraint, &view);
+            *right = -constraint_rate(constraint, &view);
         }
+        work.right = right;
+        self.correct(v, work, 2);
+    }
+
+    /// Takes the positions in `work` for what is missing. Returns the largest residual of constraints, relative to
+    /// their size.
+    fn missing_positions(&self, work: &mut Work<D>) -> f64 {
+        let mut right = std::mem::take(&mut work.right);
+        let view = self.view(work);
+        let mut largest = 0.0;
+        for (right, constraint) in right.iter_mut().zip(&self.constraints) {
+            *right = -constraint.value(&view);
+            largest = larger(largest, right.abs() / constraint.size(&self.chains));
+        }
+        for constraint in &self.settled {
+            let residual = constraint.value(&view).abs() / constraint.size(&self.chains);
+            largest = larger(largest, residual);
+        }
+        work.right = right;
+        largest
+    }
+
+    /// Adds what is missing to first order, with the Jacobian in `work` and in so many passes.
+    fn correct(&self, q: &mut [f64], work: &mut Work<D>, passes: usize) {
+        let right = std::mem::take(&mut work.right);
         work.jacobian.factor(RANK);
         let mut change = std::mem::take(&mut work.a);
         change.fill(0.0);
