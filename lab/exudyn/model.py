@@ -1,4 +1,4 @@
-"""A scene of planar cables in the product's format, as a system of Exudyn: the same data, from the same file."""
+"""A scene of planar cables or of pinned rigid bodies in the product's format, as a system of Exudyn: the same data, from the same file."""
 
 import re
 
@@ -13,15 +13,20 @@ from exudyn.itemInterface import (
     LoadMassProportional,
     LoadTorqueVector,
     MarkerBodyMass,
+    MarkerBodyPosition,
     MarkerBodyRigid,
     MarkerNodeCoordinate,
     MarkerNodePosition,
     MarkerNodeRigid,
     NodePoint2DSlope1,
     NodePointGround,
+    NodeRigidBody2D,
     ObjectANCFCable2D,
     ObjectGenericODE2,
     ObjectGround,
+    ObjectJointRevolute2D,
+    ObjectRigidBody2D,
+    SensorMarker,
     SensorNode,
 )
 
@@ -36,12 +41,14 @@ class Model:
         self.mbs = self.container.AddSystem()
         self.scene, self.options = scene, options
         self.markers = {}
+        # Markers of rigid bodies and where they are.
+        self.points = {}
         # Functions of time must live as long as the system.
         self.kept = []
         ground = self.mbs.AddNode(NodePointGround(referenceCoordinates=[0, 0, 0]))
         self.fixed = self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
         for body in scene["bodies"]:
-            self.cable(body)
+            self.rigid(body) if body["element"] == "rigid" else self.cable(body)
         for mass in scene.get("masses", []):
             self.mass(mass)
         for joint in scene.get("joints", []):
@@ -50,11 +57,45 @@ class Model:
             self.drive(motion)
         for load in scene.get("loads", []):
             self.load(load)
-        node = self.markers[options["marker"]]
-        self.sensor = self.mbs.AddSensor(
-            SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=exu.OutputVariableType.Position)
-        )
+        kept = {"storeInternal": True, "outputVariableType": exu.OutputVariableType.Position}
+        if options["marker"] in self.points:
+            marker, _ = self.points[options["marker"]]
+            sensor = SensorMarker(markerNumber=marker, **kept)
+        else:
+            sensor = SensorNode(nodeNumber=self.markers[options["marker"]], **kept)
+        self.sensor = self.mbs.AddSensor(sensor)
         self.mbs.Assemble()
+
+    def rigid(self, body):
+        """A rigid body with its weight."""
+        place, angle = np.array(body["position"]), body["angle"]
+        motion = body.get("motion", {"velocity": [0.0, 0.0], "spin": 0.0})
+        node = self.mbs.AddNode(
+            NodeRigidBody2D(
+                referenceCoordinates=[*place, angle],
+                initialVelocities=[*motion["velocity"], motion["spin"]],
+            )
+        )
+        number = self.mbs.AddObject(
+            ObjectRigidBody2D(physicsMass=body["mass"], physicsInertia=body["inertia"], nodeNumber=node)
+        )
+        centre = self.mbs.AddMarker(MarkerNodePosition(nodeNumber=node))
+        weight = [body["mass"] * component for component in self.scene["gravity"]]
+        self.mbs.AddLoad(LoadForceVector(markerNumber=centre, loadVector=[*weight, 0.0]))
+        axes = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        for name, point in body["markers"].items():
+            marker = self.mbs.AddMarker(MarkerBodyPosition(bodyNumber=number, localPosition=[*point, 0.0]))
+            self.points[f"{body['name']}.{name}"] = marker, place + axes @ point
+
+    def pin(self, first, second):
+        """A pin between rigid bodies, or to the ground where the second one is."""
+        marker, place = self.points[second]
+        if first == "ground":
+            ground = self.mbs.AddObject(ObjectGround())
+            other = self.mbs.AddMarker(MarkerBodyPosition(bodyNumber=ground, localPosition=[*place, 0.0]))
+        else:
+            other, _ = self.points[first]
+        self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=[other, marker]))
 
     def cable(self, body):
         """Nodes, elements and weight of a cable."""
@@ -116,6 +157,9 @@ class Model:
     def joint(self, joint):
         """Pins and slides along an axis, on coordinates."""
         first, second = joint["markers"]
+        if joint["kind"] == "revolute" and second in self.points:
+            self.pin(first, second)
+            return
         if joint["kind"] == "revolute":
             axes = [0, 1]
         elif joint["kind"] == "slider" and joint["direction"] == [1.0, 0.0]:

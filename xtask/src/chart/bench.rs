@@ -193,6 +193,14 @@ impl<'a> Bench<'a> {
         serde_json::from_str(&text).with_context(|| format!("{place} is no JSON"))
     }
 
+    /// Writes a scene for other programs and returns where it is.
+    pub fn write(&self, name: &str, scene: &Value) -> Result<PathBuf> {
+        let file = prepared(&self.scratch.join(name))?;
+        std::fs::write(&file, scene.to_string())
+            .with_context(|| format!("cannot write {}", shown(&file)))?;
+        Ok(file)
+    }
+
     /// Runs everything once.
     pub fn run(&self, title: &str, runs: &[Run]) -> Result<Vec<Outcome>> {
         self.repeat(title, runs, 1)

@@ -1,10 +1,11 @@
 //! CPU time of a step against the number of bodies, apart from each other, pinned in a chain and in loops.
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
 use super::bench::{Bench, Cost, REPEATS, Run};
-use super::numbers::{fitted_slope, three_digits};
+use super::exudyn::Exudyn;
+use super::numbers::{distance, fitted_slope, median, three_digits};
 use super::page;
 use super::plot::{Axis, Line, Mark, Panel, draw};
 
@@ -18,6 +19,12 @@ const ELEMENTS: u32 = 8;
 /// Angles over which bodies apart from each other are spread at the start, rad.
 const SPREAD: f64 = 0.6;
 const METHODS: [&str; 2] = ["radau", "rk4"];
+/// Loops that Exudyn computes too, its step (s), and the tolerance beside it.
+const PEER_LOOPS: &[u32] = &[20, 40, 80, 200];
+const PEER_STEP: f64 = 1e-3;
+const PEER_TOLERANCE: f64 = 1e-7;
+/// The point that is compared.
+const MARKER: &str = "rod1.end";
 
 /// How bodies are joined.
 #[derive(Clone, Copy, PartialEq)]
@@ -191,6 +198,86 @@ struct Row {
     chosen: String,
 }
 
+/// Loops in Exudyn: a step of fixed length beside one of rk4.
+struct Peer {
+    count: u32,
+    /// CPU time of a step, s: ours and Exudyn's.
+    per_step: [f64; 2],
+    /// Steps in the simulated time.
+    steps: [f64; 2],
+    /// How far apart both end, m.
+    distance: f64,
+}
+
+/// Runs the loops in both programs in turns.
+fn peers(bench: &Bench) -> Result<Vec<Peer>> {
+    let mut exudyn = Exudyn::start(bench.workspace())?;
+    let family = &FAMILIES[FAMILIES.len() - 1];
+    let mut peers = Vec::new();
+    for &count in PEER_LOOPS {
+        let mut scene = family.scene(count);
+        scene["outputs"] = json!([{ "kind": "position", "marker": MARKER }]);
+        scene["accuracy"] = json!({ "relative_tolerance": PEER_TOLERANCE });
+        let run = [Run::new(&scene, STOP_TIME, STOP_TIME).integrator("rk4")];
+        let title = format!("bodies, {count} loops beside Exudyn");
+        let file = bench.write("loops.scene.json", &scene)?;
+        let options = json!({
+            "scene": file, "marker": MARKER, "solver": "alpha", "newton": "modified", "linear": "sparse",
+            "step": PEER_STEP, "stop_time": STOP_TIME, "every": STOP_TIME,
+        });
+        let (mut times, mut ends, mut steps) = ([vec![], vec![]], [[0.0; 2]; 2], 0.0);
+        for _ in 0..REPEATS {
+            let outcome = &bench.run(&title, &run)?[0];
+            let (table, cost) = (outcome.table()?, outcome.cost()?);
+            steps = cost.steps;
+            times[0].push(cost.per_step());
+            for (axis, end) in ends[0].iter_mut().enumerate() {
+                let column = table.column(&format!("{MARKER}.position[{}]", axis + 1))?;
+                *end = *column.last().context("expected a row")?;
+            }
+            let answer = exudyn.run(&options)?;
+            times[1].push(answer.cpu_time / (STOP_TIME / PEER_STEP));
+            let [_, x, y] = answer.path.last().context("expected a path")?;
+            ends[1] = [*x, *y];
+        }
+        peers.push(Peer {
+            count,
+            per_step: times.map(|times| median(&times)),
+            steps: [steps, STOP_TIME / PEER_STEP],
+            distance: distance(ends[0], ends[1]),
+        });
+    }
+    Ok(peers)
+}
+
+fn peer_table(peers: &[Peer]) -> String {
+    let header = [
+        "loops",
+        "Flexbody: µs a step",
+        "steps",
+        "Exudyn: µs a step",
+        "steps",
+        "Exudyn over Flexbody, a step",
+        "a second",
+        "apart at the end, m",
+    ];
+    let cells = |peer: &Peer| {
+        let [own, other] = peer.per_step;
+        let [own_all, other_all] = [own * peer.steps[0], other * peer.steps[1]];
+        vec![
+            peer.count.to_string(),
+            three_digits(1e6 * own),
+            format!("{}", peer.steps[0]),
+            three_digits(1e6 * other),
+            format!("{}", peer.steps[1]),
+            three_digits(other / own),
+            three_digits(other_all / own_all),
+            format!("{:.1e}", peer.distance),
+        ]
+    };
+    page::table(&header, &peers.iter().map(cells).collect::<Vec<_>>())
+}
+
 /// Makes the chart.
 pub fn chart(bench: &Bench) -> Result<String> {
     let (mut plan, mut runs, mut choices) = (Vec::new(), Vec::new(), Vec::new());
@@ -217,7 +304,7 @@ pub fn chart(bench: &Bench) -> Result<String> {
         });
     }
     write(bench, &rows)?;
-    Ok(section(&rows))
+    Ok(section(&rows, &peers(bench)?))
 }
 
 type Quantity = (&'static str, fn(&Row) -> f64);
@@ -352,7 +439,7 @@ fn ratio(points: &[(f64, f64)], count: f64) -> f64 {
     }
 }
 
-fn section(rows: &[Row]) -> String {
+fn section(rows: &[Row], peers: &[Peer]) -> String {
     let of = |family: usize, quantity: usize| {
         let own = points(rows, &FAMILIES[family], QUANTITIES[quantity].1);
         three_digits(ratio(&own, 1.0))
@@ -375,12 +462,16 @@ Tolerance {TOLERANCE:e}, {STOP_TIME} s; CPU time of all steps over the number of
 Growth: time for 100 bodies over that for 1, over that for 10, and the slope between the two largest numbers (1 = proportional):
 
 {}
+The same loops beside Exudyn (1.13.6, generalized-alpha with modified Newton and sparse solver, steps of {PEER_STEP} s, from `lab/exudyn/model.py`), in turns, medians of {REPEATS}; rk4 at tolerance {PEER_TOLERANCE:e}:
+
+{}
 **What it means.** What is not joined costs in proportion to the number of bodies, and so does a chain of cables: 100 cables apart cost {} times what one costs (a Newton iteration; a step of rk4: {} times), 100 in a chain {} times ({} times). 100 rigid pendulums apart cost {} times ({} times); a step of one alone is mostly overhead. A step of radau costs more in a chain of cables for another reason as well: it takes more iterations and rejects more steps. \
 \
 100 rigid links in a chain cost {} times one ({} times), 100 loops {} times one ({} times); ten links cost {:.1} times what ten rigid pendulums apart cost. Up to 8 rigid bodies that pins tie together are reduced to their free coordinates; beyond that pins keep multipliers, and all constraints are solved for by sparse factors (docs/decisions/0029-constraints-at-linear-cost.md).
 ",
         table(rows),
         growth(rows),
+        peer_table(peers),
         of(0, 0),
         of(0, 2),
         of(1, 0),

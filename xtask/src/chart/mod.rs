@@ -13,6 +13,7 @@ mod cost;
 mod coupling;
 mod drift;
 mod energies;
+mod exudyn;
 mod failures;
 mod formulations;
 mod machine;

@@ -11,11 +11,10 @@ use crate::process::shown;
 use crate::table::Table;
 
 mod cases;
-mod exudyn;
 mod report;
 
+use super::exudyn::Exudyn;
 use cases::{CASES, Case};
-use exudyn::Exudyn;
 
 const SETTINGS: &str = "lab/exudyn/settings.json";
 /// Rounds of timed runs.
