@@ -303,7 +303,7 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
         let mut tangent: Tangent<2> = Tangent::new(
             elimination,
             body.is_damped(),
-            &Jacobian::new(elimination, &[]),
+            &Jacobian::new(elimination, &[], |_| false),
             &[],
             &elastic,
         );

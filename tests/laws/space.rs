@@ -159,7 +159,7 @@ impl Case {
         let mut tangent: Tangent<3> = Tangent::new(
             &self.elimination,
             false,
-            &Jacobian::new(&self.elimination, &[]),
+            &Jacobian::new(&self.elimination, &[], |_| false),
             &[],
             &elastic,
         );
