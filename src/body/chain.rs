@@ -210,8 +210,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
             return N::of(0.0);
         }
         let power = |(j, element): (usize, &E)| {
-            let (e, v) = (self.element(j, x), self.element(j, rate));
-            (element.force(&e, &Nodal::<D, N>::zeros()) - element.force(&e, &v)).dot(&v)
+            element.dissipation(&self.element(j, x), &self.element(j, rate))
         };
         let powers = self.elements.iter().enumerate().map(power);
         powers.fold(N::of(0.0), |sum, power| sum + power)

@@ -64,6 +64,8 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn energy<N: Number>(&self, e: &Nodal<D, N>) -> N;
     /// Elastic and damping force on the coordinates, `-dU/de - R(e) de/dt`, N and N m.
     fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N>;
+    /// Power that damping takes out, W.
+    fn dissipation<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> N;
     /// Tangent stiffness `-d force / de`, symmetric; with damping its symmetric part that matters,
     /// the rate of strain taken as given.
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D>;

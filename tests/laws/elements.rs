@@ -171,6 +171,9 @@ pub fn power<const D: usize>(s: &Specimen<D>) -> Outcome {
     let scale = s.energy_scale() * (1.0 + s.parameters.damping_time);
     let off = (total + rate + taken).abs();
     within("power of damping", off, 2e-9 * scale)?;
+    let dissipated = s.cable.dissipation(&s.e, &s.rate);
+    let off = (dissipated - (elastic - total)).abs();
+    within("dissipation", off, 1e-12 * scale)?;
     prop_assert!(taken >= -1e-13 * scale, "damping gives {taken:e} W");
     prop_assert_eq!(s.cable.is_damped(), s.parameters.damping_time > 0.0);
     Ok(())

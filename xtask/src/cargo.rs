@@ -7,6 +7,7 @@ use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
 use crate::anonymous;
+use crate::assembly;
 use crate::linker::Linker;
 use crate::package::PACKAGE;
 use crate::platform::Platform;
@@ -70,6 +71,9 @@ impl Workspace {
         let linker = Linker::prepare(self, platform)?;
         let flags = [self.flags()?, linker.flags].concat();
         let mut last = [vec!["-Cstrip=symbols".to_owned()], linker.arguments].concat();
+        if package == PACKAGE && platform.is_host() {
+            last.push(assembly::EMIT.into());
+        }
         if platform.is_darwin() {
             // Else the library calls itself by the path that it was built at.
             let name = format!("@rpath/{package}{}", platform.suffix());

@@ -8,6 +8,7 @@ use platform::Platform;
 
 mod anonymous;
 mod archive;
+mod assembly;
 mod cargo;
 mod chart;
 mod demo;

@@ -10,7 +10,7 @@ use crate::package::PACKAGE;
 use crate::platform::Platform;
 use crate::process::run;
 use crate::python::Python;
-use crate::{describe, fuzz};
+use crate::{assembly, describe, fuzz};
 
 type Step = (&'static str, fn(&Workspace) -> Result<()>);
 
@@ -102,7 +102,7 @@ fn declared_rust(workspace: &Workspace) -> Result<()> {
 fn rust_tests(workspace: &Workspace) -> Result<()> {
     std::thread::scope(|scope| {
         let products = scope.spawn(|| {
-            workspace.library(PACKAGE, Platform::host()?)?;
+            assembly::check(&workspace.library(PACKAGE, Platform::host()?)?)?;
             workspace.binary()
         });
         let tested = run(workspace.cargo("test").arg("--workspace"));

@@ -233,6 +233,10 @@ impl<const D: usize> Element<D> for Cable<D> {
         Nodal::from(self.kernel.lift().force(&e.data.0, rate))
     }
 
+    fn dissipation<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> N {
+        self.kernel.lift().dissipation(&e.data.0, &rate.data.0)
+    }
+
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D> {
         let rate = self.kernel.is_damped.then_some(&rate.data.0);
         let sum = self.kernel.tangent(&e.data.0, rate, elastic(1.0));

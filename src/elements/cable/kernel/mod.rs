@@ -28,6 +28,16 @@ macro_rules! each {
     }};
 }
 
+/// Something of rates where damping reads them. No closures here either.
+macro_rules! of_rate {
+    ($rate:expr, $some:ident => $of:expr) => {
+        match $rate {
+            Some($some) => Some($of),
+            None => None,
+        }
+    };
+}
+
 /// Calls a method once for each axial point. Written out: with points known when compiling.
 macro_rules! at_axial_points {
     ($self:ident, $method:ident($($argument:expr),*)) => {
@@ -301,7 +311,7 @@ impl<N: Real> Kernel<N> {
         rate: Option<&[Vector<N, D>; 4]>,
     ) -> [N; 3] {
         let v = self.vectors(e);
-        let dv = rate.map(|rate| self.vectors(rate));
+        let dv = of_rate!(rate, rate => self.vectors(rate));
         let points = self.sampling.points();
         let mut samples = self.natural_strain;
         for (sample, point) in samples.iter_mut().zip(points) {
@@ -342,19 +352,53 @@ impl<N: Real> Kernel<N> {
         let natural = &self.natural_curvature[index];
         let mut m: [N; TURNS] = each!(now.value, k => now.value[k] - natural[k]);
         if let Some(rate) = &rate {
-            let mut change = self.curvature_rate(at, rate, now);
-            if D > 2 {
-                // A cable without torsion has no frame that turns about its tangent: the rate of the size of the
-                // curvature is seen alike from all of them, and where it is straight all of the rate.
-                let (plane, straight) = self.plane::<D>(now);
-                let along = inner::<N, D>(&plane, &change);
-                change = each!(change, k => plane[k] * along + change[k] * straight);
-            }
+            let change = self.damped::<D>(now, &self.curvature_rate(at, rate, now));
             for k in 0..TURNS {
                 m[k] += self.damping_time * change[k];
             }
         }
         times(&m, self.bending_stiffness)
+    }
+
+    /// What of the rate of curvature damping acts against: in space a cable without torsion has no frame that turns
+    /// about its tangent; the rate of the size of the curvature is seen alike from all of them, and where it is straight
+    /// all of the rate.
+    #[inline(always)]
+    fn damped<const D: usize>(&self, now: &Curvature<N>, change: &[N; TURNS]) -> [N; TURNS] {
+        if D == 2 {
+            return *change;
+        }
+        let (plane, straight) = self.plane::<D>(now);
+        let along = inner::<N, D>(&plane, change);
+        each!(*change, k => plane[k] * along + change[k] * straight)
+    }
+
+    /// Power that damping takes out, W.
+    #[inline(always)]
+    pub fn dissipation<const D: usize>(
+        &self,
+        e: &[Vector<N, D>; 4],
+        rate: &[Vector<N, D>; 4],
+    ) -> N {
+        let (v, dv) = (self.vectors(e), self.vectors(rate));
+        let mut sum = self.number(0.0);
+        for point in self.sampling.points() {
+            let (u, du) = (combine(&point.slope, &v), combine(&point.slope, &dv));
+            let (_, f, _) = self.axial(dot(&u, &u));
+            let change = f * dot(&u, &du);
+            sum += self.number(point.weight) * self.axial_stiffness * change * change;
+        }
+        if self.bends {
+            for point in &BENDING {
+                let (at, rate) = (self.line(point, &v), self.line(point, &dv));
+                let now = self.curvature(&at);
+                let change = self.curvature_rate(&at, &rate, &now);
+                let damped = self.damped::<D>(&now, &change);
+                let product = inner::<N, D>(&damped, &change);
+                sum += self.number(point.weight) * self.bending_stiffness * product;
+            }
+        }
+        self.length * self.damping_time * sum
     }
 
     /// Strain energy, J.
@@ -384,7 +428,7 @@ impl<N: Real> Kernel<N> {
         rate: Option<&[Vector<N, D>; 4]>,
     ) -> [Vector<N, D>; 4] {
         let v = self.vectors(e);
-        let dv = rate.map(|rate| self.vectors(rate));
+        let dv = of_rate!(rate, rate => self.vectors(rate));
         let mut sum = [[self.number(0.0); D]; 3];
         at_axial_points!(self, add_axial_force((&v, &dv), &mut sum));
         if self.bends {
@@ -408,7 +452,7 @@ impl<N: Real> Kernel<N> {
         sum: &mut [Vector<N, D>; 3],
     ) {
         let u = combine(&point.slope, v);
-        let du = dv.as_ref().map(|dv| combine(&point.slope, dv));
+        let du = of_rate!(dv, dv => combine(&point.slope, dv));
         let (force, f, _) = self.axial_force(index, &u, du);
         let gradient = times(&u, self.number(point.weight) * force * f);
         for i in 0..3 {
@@ -429,7 +473,7 @@ impl<N: Real> Kernel<N> {
         sum: &mut [Vector<N, D>; 3],
     ) {
         let at = self.line(point, v);
-        let rate = dv.as_ref().map(|dv| self.line(point, dv));
+        let rate = of_rate!(dv, dv => self.line(point, dv));
         let now = self.curvature(&at);
         let m = self.moment(index, &at, rate, &now);
         let along = now.decay * inner::<N, D>(&m, &now.value);

@@ -90,7 +90,7 @@ impl<N: Real> Kernel<N> {
         factors: Factors<N>,
     ) -> [[Square<N, D>; 3]; 3] {
         let v = self.vectors(e);
-        let dv = rate.map(|rate| self.vectors(rate));
+        let dv = of_rate!(rate, rate => self.vectors(rate));
         let zero = self.number(0.0);
         let mut sum = Sum {
             products: [[[[zero; D]; D]; 3]; 3],
@@ -113,7 +113,7 @@ impl<N: Real> Kernel<N> {
         sum: &mut Sum<N, D>,
     ) {
         let u = combine(&point.slope, v);
-        let du = dv.as_ref().map(|dv| combine(&point.slope, dv));
+        let du = of_rate!(dv, dv => combine(&point.slope, dv));
         let (force, f, g) = self.axial_force(index, &u, du);
         let force = factors.stress * force;
         let along = factors.material * self.axial_stiffness * f * f + force * g;
@@ -145,7 +145,7 @@ impl<N: Real> Kernel<N> {
         sum: &mut Sum<N, D>,
     ) {
         let at = self.line(point, v);
-        let rate = dv.as_ref().map(|dv| self.line(point, dv));
+        let rate = of_rate!(dv, dv => self.line(point, dv));
         let now = self.curvature(&at);
         let weight = self.number(point.weight);
         let m = times(
