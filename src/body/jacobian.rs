@@ -193,6 +193,11 @@ impl Jacobian {
         self.counts[self.place[row]]
     }
 
+    /// Whether all rows count.
+    pub fn has_full_rank(&self) -> bool {
+        self.counts.iter().all(|counts| *counts)
+    }
+
     /// Whether a row needs filling in: a constant one does once.
     pub fn needs(&self, row: usize) -> bool {
         !(self.is_begun && self.constant[row])

@@ -28,7 +28,7 @@ const ITERATIONS: i32 = 10;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
 const LARGEST_TURN: f64 = 1.5;
 /// Part of the acceleration, in tolerances, that may be left unsolved in a state that is read.
-const UNSOLVED: f64 = 3.0;
+const UNSOLVED: f64 = 5.0;
 /// Rate of convergence below which the tangent is kept for the next step.
 const FAST: f64 = 1e-3;
 

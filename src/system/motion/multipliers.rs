@@ -23,6 +23,11 @@ const ITERATIONS: usize = 20;
 /// distance `d`) a residual of roundoff tilts the dependent row by `1e-15 / d^2`; leaving it out lets inertia rule for
 /// a time in proportion to `d`. This is in between (docs/decisions/0029-constraints-at-linear-cost.md).
 const RANK: f64 = 1e-3;
+/// The same for a state that rows which do not count have left by more than roundoff: where a motion dwells at a
+/// singular configuration.
+const FINE_RANK: f64 = 1e-5;
+/// Residual beyond which a state is off the constraints by more than roundoff.
+const ROUNDOFF: f64 = 1e-12;
 /// Residual at which positions are on the constraints.
 const EXACT: f64 = 2e-15;
 
@@ -168,20 +173,24 @@ impl<const D: usize> System<D> {
         q: &mut [f64],
         work: &mut Work<D>,
     ) -> f64 {
-        let mut before = f64::INFINITY;
+        let (mut before, mut rank) = (f64::INFINITY, RANK);
         for _ in 0..ITERATIONS {
             self.forward_kinematics(time, q, None, work);
             let residual = self.missing_positions(work);
-            // Two and more iterations are quadratic; what does not shrink is roundoff.
+            // Two and more iterations are quadratic; what does not shrink is roundoff, or in rows that do not count.
             if residual <= EXACT || residual > 0.5 * before {
-                return residual;
+                let is_left = residual > ROUNDOFF && !work.jacobian.has_full_rank();
+                if !is_left || rank == FINE_RANK {
+                    return residual;
+                }
+                (before, rank) = (f64::INFINITY, FINE_RANK);
             }
             // After the first one, the Jacobian in place shrinks the residual as much once more.
             if before.is_infinite() || residual * (residual / before) > EXACT {
                 self.jacobians(work);
             }
             before = residual;
-            self.correct(q, work, 1);
+            self.correct(q, work, (1, rank));
         }
         before
     }
@@ -189,14 +198,25 @@ impl<const D: usize> System<D> {
     /// Projects velocities onto the constraints at the positions and drives in `work`.
     pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work<D>) {
         self.jacobians(work);
+        self.missing_rates(v, work);
+        self.correct(v, work, (2, RANK));
+        if !work.jacobian.has_full_rank() && self.missing_rates(v, work) > ROUNDOFF {
+            self.correct(v, work, (2, FINE_RANK));
+        }
+    }
+
+    /// Takes velocities for what is missing. Returns the largest residual, relative to the size of its constraint, 1/s.
+    fn missing_rates(&self, v: &[f64], work: &mut Work<D>) -> f64 {
         self.rate_kinematics(v, work);
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
+        let mut largest = 0.0;
         for (right, constraint) in right.iter_mut().zip(&self.constraints) {
             *right = -constraint_rate(constraint, &view);
+            largest = larger(largest, right.abs() / constraint.size(&self.chains));
         }
         work.right = right;
-        self.correct(v, work, 2);
+        largest
     }
 
     /// Takes the positions in `work` for what is missing. Returns the largest residual of constraints, relative to
@@ -217,10 +237,11 @@ impl<const D: usize> System<D> {
         largest
     }
 
-    /// Adds what is missing to first order, with the Jacobian in `work` and in so many passes.
-    fn correct(&self, q: &mut [f64], work: &mut Work<D>, passes: usize) {
+    /// Adds what is missing to first order, with the Jacobian in `work`, in so many passes and by rows that others
+    /// leave so much of.
+    fn correct(&self, q: &mut [f64], work: &mut Work<D>, (passes, rank): (usize, f64)) {
         let right = std::mem::take(&mut work.right);
-        work.jacobian.factor(RANK);
+        work.jacobian.factor(rank);
         let mut change = std::mem::take(&mut work.a);
         change.fill(0.0);
         (work.jacobian).bring(passes, |row| right[row], &mut change);
