@@ -1,4 +1,5 @@
-"""A scene of planar cables or of pinned rigid bodies in the product's format, as a system of Exudyn: the same data, from the same file."""
+"""A scene of planar cables or of pinned rigid bodies in the product's format, as a system of Exudyn: the same data,
+from the same file."""
 
 import re
 
@@ -48,7 +49,10 @@ class Model:
         ground = self.mbs.AddNode(NodePointGround(referenceCoordinates=[0, 0, 0]))
         self.fixed = self.mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
         for body in scene["bodies"]:
-            self.rigid(body) if body["element"] == "rigid" else self.cable(body)
+            if body["element"] == "rigid":
+                self.rigid(body)
+            else:
+                self.cable(body)
         for mass in scene.get("masses", []):
             self.mass(mass)
         for joint in scene.get("joints", []):

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
 
 use crate::package::PACKAGE;
 use crate::process::shown;
@@ -23,31 +23,30 @@ pub fn check(library: &Path) -> Result<()> {
     let place = shown(&listing);
     let text = std::fs::read_to_string(&listing).with_context(|| format!("cannot read {place}"))?;
     let called = called(&text)?;
-    if !called.is_empty() {
-        bail!(
-            "{place}: expected vector instructions inlined, found functions that are one instruction each; \
-             a closure or a function that is not #[inline(always)] stands around them: {}",
-            called.join(", ")
-        );
-    }
+    ensure!(
+        called.is_empty(),
+        "{place}: expected vector instructions inlined, found functions that are one instruction each; \
+         a closure or a function that is not #[inline(always)] stands around them: {}",
+        called.join(", ")
+    );
     Ok(())
 }
 
 /// Names of functions that are a single instruction.
 fn called(listing: &str) -> Result<Vec<&str>> {
-    let mut labels = listing.lines().filter_map(|line| {
-        let label = line.strip_suffix(':')?;
-        (!label.starts_with(['.', ' ', '\t'])).then_some(label)
-    });
-    let mut count = 0;
-    let called: Vec<&str> = labels
-        .by_ref()
-        .inspect(|_| count += 1)
-        .filter(|label| label.contains(INSTRUCTIONS))
-        .filter(|label| !QUESTIONS.iter().any(|question| label.contains(question)))
+    let labels = listing.lines().filter_map(|line| line.strip_suffix(':'));
+    let labels: Vec<&str> = labels
+        .filter(|label| !label.starts_with(['.', ' ', '\t']))
         .collect();
-    ensure!(count > 0, "expected labels of functions, found none");
-    Ok(called)
+    ensure!(
+        !labels.is_empty(),
+        "expected labels of functions, found none"
+    );
+    let is_called = |label: &&str| {
+        let asks = QUESTIONS.iter().any(|question| label.contains(question));
+        label.contains(INSTRUCTIONS) && !asks
+    };
+    Ok(labels.into_iter().filter(is_called).collect())
 }
 
 #[cfg(test)]

@@ -12,30 +12,17 @@ impl<T, F: FnMut(usize, T) -> Option<T>> Pivots<T> for F {}
 
 /// Does something with the size of a column, known when compiling where it is a common one.
 macro_rules! of_any_size {
-    ($size:expr, $n:ident => $call:expr) => {
+    ([$($common:literal)*] $size:expr, $n:ident => $call:expr) => {
         match $size {
-            1 => {
-                let $n = 1;
+            $($common => {
+                let $n = $common;
                 $call
-            }
-            2 => {
-                let $n = 2;
-                $call
-            }
-            3 => {
-                let $n = 3;
-                $call
-            }
-            4 => {
-                let $n = 4;
-                $call
-            }
-            6 => {
-                let $n = 6;
-                $call
-            }
+            })*
             $n => $call,
         }
+    };
+    ($size:expr, $n:ident => $call:expr) => {
+        of_any_size!([1 2 3 4 6] $size, $n => $call)
     };
 }
 

@@ -78,25 +78,20 @@ pub(super) const CHAINS: [usize; 4] = [2, 3, 4, 6];
 
 /// Does something with the size of a run's blocks known when compiling.
 macro_rules! of_size {
-    ($size:expr, $b:ident => $call:expr) => {
+    ([$($known:literal)*] or $last:literal, $size:expr, $b:ident => $call:expr) => {
         match $size {
-            2 => {
-                const $b: usize = 2;
+            $($known => {
+                const $b: usize = $known;
                 $call
-            }
-            3 => {
-                const $b: usize = 3;
-                $call
-            }
-            4 => {
-                const $b: usize = 4;
-                $call
-            }
+            })*
             _ => {
-                const $b: usize = 6;
+                const $b: usize = $last;
                 $call
             }
         }
+    };
+    ($size:expr, $b:ident => $call:expr) => {
+        of_size!([2 3 4] or 6, $size, $b => $call)
     };
 }
 pub(super) use of_size;

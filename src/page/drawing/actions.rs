@@ -3,7 +3,7 @@
 use super::picture::{Picture, seen};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
-use crate::scene::{self, Cable, InputKind, LoadKind, Marker, On, PortKind, Resolved};
+use crate::scene::{self, Cable, Input, InputKind, LoadKind, Marker, On, PortKind, Resolved};
 use crate::system::Signal;
 
 /// Arrows that stand for a distributed force.
@@ -20,16 +20,15 @@ pub(super) struct Action<'a> {
 
 /// All loads and inputs of a scene, those of ports included, but not those of springs.
 pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
-    let inputs = resolved.inputs.iter().filter_map(|input| {
-        let InputKind::Action(action) = &input.kind else {
-            return None;
-        };
-        Some(Action {
+    let input = |input: &'a Input<'a>, label: Option<&'a str>| match &input.kind {
+        InputKind::Action(action) => Some(Action {
             action,
-            label: action.kind.words()[0],
+            label: label.unwrap_or(action.kind.words()[0]),
             components: at_start(action, &input.start),
-        })
-    });
+        }),
+        InputKind::RestLength(_) => None,
+    };
+    let inputs = resolved.inputs.iter().filter_map(|own| input(own, None));
     let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
         LoadKind::Action { action, .. } => Some(Action {
             action,
@@ -43,14 +42,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
             PortKind::Force { inputs, .. } => inputs,
             PortKind::Motion { .. } | PortKind::Coupling { .. } => &[],
         };
-        inputs.iter().filter_map(|input| match &input.kind {
-            InputKind::Action(action) => Some(Action {
-                action,
-                label: port.name,
-                components: at_start(action, &input.start),
-            }),
-            InputKind::RestLength(_) => None,
-        })
+        inputs.iter().filter_map(|own| input(own, Some(port.name)))
     });
     inputs.chain(loads).chain(ports).collect()
 }

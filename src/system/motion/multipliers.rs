@@ -176,7 +176,8 @@ impl<const D: usize> System<D> {
         let (mut before, mut rank) = (f64::INFINITY, RANK);
         for _ in 0..ITERATIONS {
             self.forward_kinematics(time, q, None, work);
-            let residual = self.missing_positions(work);
+            let missing = self.missing(work, Constraint::value);
+            let residual = larger(missing, self.settled_residual(&self.view(work)));
             // Two and more iterations are quadratic; what does not shrink is roundoff, or in rows that do not count.
             if residual <= EXACT || residual > 0.5 * before {
                 let is_left = residual > ROUNDOFF && !work.jacobian.has_full_rank();
@@ -208,30 +209,22 @@ impl<const D: usize> System<D> {
     /// Takes velocities for what is missing. Returns the largest residual, relative to the size of its constraint, 1/s.
     fn missing_rates(&self, v: &[f64], work: &mut Work<D>) -> f64 {
         self.rate_kinematics(v, work);
-        let mut right = std::mem::take(&mut work.right);
-        let view = self.view(work);
-        let mut largest = 0.0;
-        for (right, constraint) in right.iter_mut().zip(&self.constraints) {
-            *right = -constraint_rate(constraint, &view);
-            largest = larger(largest, right.abs() / constraint.size(&self.chains));
-        }
-        work.right = right;
-        largest
+        self.missing(work, constraint_rate)
     }
 
-    /// Takes the positions in `work` for what is missing. Returns the largest residual of constraints, relative to
-    /// their size.
-    fn missing_positions(&self, work: &mut Work<D>) -> f64 {
+    /// Takes the residuals of constraints at what is in `work` for what is missing. Returns the largest one, relative to
+    /// the size of its constraint.
+    fn missing(
+        &self,
+        work: &mut Work<D>,
+        residual: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
+    ) -> f64 {
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
         let mut largest = 0.0;
         for (right, constraint) in right.iter_mut().zip(&self.constraints) {
-            *right = -constraint.value(&view);
+            *right = -residual(constraint, &view);
             largest = larger(largest, right.abs() / constraint.size(&self.chains));
-        }
-        for constraint in &self.settled {
-            let residual = constraint.value(&view).abs() / constraint.size(&self.chains);
-            largest = larger(largest, residual);
         }
         work.right = right;
         largest
@@ -251,9 +244,19 @@ impl<const D: usize> System<D> {
 
     /// Largest residual of positions, relative to the size of the constraint.
     pub(in crate::system) fn position_residual<N: Number>(&self, view: &View<'_, D, N>) -> f64 {
-        let residual = |c: &Constraint<D>| c.value(view).plain().abs() / c.size(&self.chains);
-        let all = self.constraints.iter().chain(&self.settled);
-        all.map(residual).fold(0.0, larger)
+        let kept = self.constraints.iter().map(|c| self.relative(c, view));
+        kept.fold(self.settled_residual(view), larger)
+    }
+
+    /// The same of constraints that nothing free can violate.
+    fn settled_residual<N: Number>(&self, view: &View<'_, D, N>) -> f64 {
+        let settled = self.settled.iter().map(|c| self.relative(c, view));
+        settled.fold(0.0, larger)
+    }
+
+    /// Residual of a constraint, relative to its size.
+    fn relative<N: Number>(&self, constraint: &Constraint<D>, view: &View<'_, D, N>) -> f64 {
+        constraint.value(view).plain().abs() / constraint.size(&self.chains)
     }
 
     /// Largest residual of velocities, relative to the size of the constraint, 1/s.

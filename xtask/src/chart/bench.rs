@@ -193,7 +193,7 @@ impl<'a> Bench<'a> {
         serde_json::from_str(&text).with_context(|| format!("{place} is no JSON"))
     }
 
-    /// Writes a scene for other programs and returns where it is.
+    /// Writes a scene for a program and returns where it is.
     pub fn write(&self, name: &str, scene: &Value) -> Result<PathBuf> {
         let file = prepared(&self.scratch.join(name))?;
         std::fs::write(&file, scene.to_string())
@@ -241,9 +241,7 @@ impl<'a> Bench<'a> {
     /// Runs a measurement of the lab, its name followed by options, on a scene and returns its report.
     pub fn lab(&self, measurement: &[&str], scene: &Value) -> Result<Value> {
         let number = self.files.replace(self.files.get() + 1);
-        let file = prepared(&self.scratch.join(format!("{number}.scene.json")))?;
-        std::fs::write(&file, scene.to_string())
-            .with_context(|| format!("cannot write {}", shown(&file)))?;
+        let file = self.write(&format!("{number}.scene.json"), scene)?;
         let report = stdout(Command::new(&self.lab).args(measurement).arg(&file))?;
         std::fs::remove_file(&file).with_context(|| format!("cannot remove {}", shown(&file)))?;
         serde_json::from_str(&report).context("the report of the lab is no JSON")
@@ -258,9 +256,8 @@ impl<'a> Bench<'a> {
     fn execute(&self, run: &Run) -> Result<Outcome> {
         let number = self.files.replace(self.files.get() + 1);
         let file = |kind: &str| prepared(&self.scratch.join(format!("{number}.{kind}")));
-        let (scene, outputs, report) = (file("scene.json")?, file("csv")?, file("report.json")?);
-        std::fs::write(&scene, run.scene.to_string())
-            .with_context(|| format!("cannot write {}", shown(&scene)))?;
+        let scene = self.write(&format!("{number}.scene.json"), &run.scene)?;
+        let (outputs, report) = (file("csv")?, file("report.json")?);
         let mut command = match &run.lab {
             None => Command::new(&self.program),
             Some(_) => Command::new(&self.lab),
