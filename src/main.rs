@@ -15,8 +15,10 @@ use flexbody::simulation::{Causality, Report, SignalError, Signals, Simulation, 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use files::{Shapes, Sink, Table};
+use planning::{plan, planned};
 
 mod files;
+mod planning;
 
 #[derive(Parser)]
 #[command(version, about = "Flexible bodies: describe, simulate, schema")]
@@ -34,6 +36,14 @@ enum Command {
         /// Directory to write into; made if it does not exist.
         #[arg(long)]
         output: PathBuf,
+    },
+    /// Finds numbers of elements and a tolerance for the error that a scene asks for, and says why.
+    Plan {
+        /// Scene file.
+        scene: PathBuf,
+        /// Writes the scene with these numbers to a file.
+        #[arg(long)]
+        output: Option<PathBuf>,
     },
     /// Simulates a scene and writes its outputs at every communication point as CSV.
     Simulate(Simulate),
@@ -127,6 +137,7 @@ type Outcome<T> = Result<T, String>;
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Describe { scene, output } => describe(&scene, &output),
+        Command::Plan { scene, output } => plan(&scene, output.as_deref()),
         Command::Simulate(arguments) => simulate(&arguments),
         Command::Schema => print_schema(),
     };
@@ -154,10 +165,10 @@ fn print_schema() -> Outcome<()> {
 }
 
 fn describe(scene: &Path, output: &Path) -> Outcome<()> {
-    let (place, scene) = (scene, read(scene)?);
+    let (place, (scene, plan)) = (scene, planned(scene)?);
     // What contradicts itself is told here, not by the first master that runs it.
     check(&scene).map_err(|error| at(place, error))?;
-    for (name, text) in fmi2::describe(&scene) {
+    for (name, text) in fmi2::describe(&scene, plan.as_ref()) {
         let path = output.join(name);
         if let Some(directory) = path.parent() {
             fs::create_dir_all(directory).map_err(|error| at(directory, error))?;
@@ -168,7 +179,7 @@ fn describe(scene: &Path, output: &Path) -> Outcome<()> {
 }
 
 fn simulate(arguments: &Simulate) -> Outcome<()> {
-    let scene = read(&arguments.scene)?;
+    let (scene, _) = planned(&arguments.scene)?;
     let stop_time = arguments.stop_time.unwrap_or(scene.experiment.stop_time);
     let step = arguments.step.unwrap_or(scene.experiment.step);
     let points = communication_points(stop_time, step)?;

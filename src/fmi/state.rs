@@ -1,7 +1,7 @@
 //! A saved FMU state, and its bytes: versioned, tied to one model, checksummed, without pointers.
 //!
 //! Layout, little-endian: magic, format version, GUID, lifecycle state, flags, start time, stop
-//! time, time, sub-step, work of both kinds, eight lengths and that of the scene, the numbers, the scene
+//! time, time, sub-step, work of both kinds, what integrators go by, nine lengths and that of the scene, the numbers, the scene
 //! (JSON), SHA-256 of all before. With the scene inside, a state brings an instance without resources to life.
 
 use std::mem::MaybeUninit;
@@ -12,17 +12,17 @@ use sha2::{Digest, Sha256};
 use super::lifecycle;
 use super::status::Fault;
 use crate::simulation::{Snapshot, Spectra};
-use crate::system::State;
+use crate::system::{Pace, State};
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const GUID_BYTES: usize = 38;
 const HASH_BYTES: usize = 32;
 const ARRAYS: usize = 9;
 /// Numbers of every motion that inputs drive.
 const DRIVEN: usize = 5;
-/// Magic, version, GUID, two bytes, six numbers, lengths of the arrays and the scene.
-const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + 6 * 8 + (ARRAYS + 1) * 8;
+/// Magic, version, GUID, two bytes, six numbers and those of the pace, lengths of the arrays and the scene.
+const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + (6 + Pace::NUMBERS) * 8 + (ARRAYS + 1) * 8;
 const INITIALIZED: u8 = 1;
 const STARTED: u8 = 2;
 const STOP_DEFINED: u8 = 4;
@@ -74,7 +74,8 @@ impl SavedState {
         bytes.extend([self.lifecycle as u8, flags]);
         let stop = self.stop_time.unwrap_or(0.0);
         let [input, lost] = state.work;
-        for number in [self.start_time, stop, state.time, state.step, input, lost] {
+        let times = [self.start_time, stop, state.time, state.step, input, lost];
+        for number in times.into_iter().chain(state.pace.numbers()) {
             bytes.extend(number.to_le_bytes());
         }
         for array in self.arrays() {
@@ -117,6 +118,7 @@ impl SavedState {
         let [mode, flags] = reader.take()?;
         let (lifecycle, initialized, started) = stage(mode, flags)?;
         let [start_time, stop, time, step, input, lost] = reader.numbers()?;
+        let pace = Pace::from_numbers(reader.numbers()?);
         let mut lengths = [0; ARRAYS];
         for length in &mut lengths {
             *length = u64::from_le_bytes(reader.take()?);
@@ -151,6 +153,7 @@ impl SavedState {
         let state = State {
             time,
             step,
+            pace,
             coordinates,
             rates,
             angles,
@@ -320,6 +323,7 @@ mod tests {
                 state: State {
                     time: 0.25,
                     step: 1e-3,
+                    pace: Pace::from_numbers([1.0, 0.0, 120.0, 0.1, 60.0, 1e-4, 2e-3, 1e3]),
                     coordinates: vec![0.1, 0.2],
                     rates: vec![0.3, 0.4],
                     angles: vec![7.0],
@@ -383,7 +387,7 @@ mod tests {
         assert!(reason(other.to_bytes()).contains("expected one of the model"));
         let mut version = bytes.clone();
         version[8] = 1;
-        assert!(reason(version).contains("format version 3, found 1"));
+        assert!(reason(version).contains("format version 4, found 1"));
         let mut mode = bytes.clone();
         mode[50] = 64;
         assert!(reason(mode).contains("lifecycle"));

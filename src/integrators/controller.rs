@@ -25,7 +25,7 @@ pub(super) struct Trial {
     /// Whether it reaches the end.
     pub is_last: bool,
     /// Whether it is shorter than wanted, to reach the end in whole steps.
-    is_cut: bool,
+    pub is_cut: bool,
 }
 
 /// Chooses lengths of steps over a stretch without jumps.

@@ -8,14 +8,17 @@ mod controller;
 mod nystrom;
 mod radau;
 mod rk4;
+mod selection;
 
 pub use controller::rescaled;
 pub use nystrom::{Nystrom, RKN43, Tableau, VERLET};
 pub use radau::Radau;
 pub use rk4::Rk4;
+pub use selection::Methods;
 
 use crate::system::{Accepted, Dynamics, State};
 use controller::Controller;
+use selection::Rival;
 
 /// Error that a step may make, in the mass norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +61,10 @@ pub trait Method: Send {
     fn name(&self) -> &'static str;
     /// Longest step that stability allows, s.
     fn longest_step(&self) -> f64;
+    /// Operations ([`Dynamics::operations`]) of a step at least.
+    fn fewest_operations(&self) -> f64 {
+        1.0
+    }
     /// Forgets history: inputs may have jumped.
     fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
         self.refresh(dynamics, time, q, v);
@@ -134,6 +141,9 @@ pub enum Stop {
     Jumped(usize),
 }
 
+/// Error of a step, in tolerances and without what adds up of drives, below which twice its length would be accurate
+/// enough: it is not the fastest waves that set its length.
+const QUIET: f64 = 1.0 / 16.0;
 /// Most corrections of a state that is read.
 const RELAXATIONS: usize = 3;
 
@@ -149,27 +159,45 @@ pub fn advance(
     until: f64,
     tolerance: &Tolerance,
 ) -> (Counts, Result<(), Stop>) {
+    advance_choosing(&mut [method], dynamics, state, until, tolerance)
+}
+
+/// As [`advance`], with the cheaper of two methods where there are two.
+fn advance_choosing(
+    methods: &mut [&mut dyn Method],
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+    until: f64,
+    tolerance: &Tolerance,
+) -> (Counts, Result<(), Stop>) {
     let mut counts = Counts::default();
     let mut result = Ok(());
     while result.is_ok() && state.time < until {
         let end = dynamics.begin_stretch(state.time, until);
-        result = advance_smoothly(method, dynamics, state, end, (tolerance, &mut counts));
-        counts.newton_iterations += method.newton_iterations();
+        while result.is_ok() && state.time < end {
+            let index = state.pace.index(methods.len());
+            let rival = methods.get(1 - index).map(|method| Rival::of(&**method));
+            let method = &mut *methods[index];
+            let goal = (tolerance, rival, &mut counts);
+            result = advance_smoothly(method, dynamics, state, end, goal);
+            counts.newton_iterations += method.newton_iterations();
+        }
         let crossed = outcome(dynamics.end_stretch(state));
         result = result.and(crossed.map(drop));
     }
     (counts, result)
 }
 
-/// Advances over a stretch without jumps.
+/// Advances over a stretch without jumps, or until its rival is to go on.
 fn advance_smoothly(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
-    (tolerance, counts): (&Tolerance, &mut Counts),
+    (tolerance, rival, counts): (&Tolerance, Option<Rival>, &mut Counts),
 ) -> Result<(), Stop> {
     let mut controller = Controller::new();
+    let mut counted = dynamics.operations();
     method.begin(dynamics, state.time, &state.coordinates, &state.rates);
     if state.step <= 0.0 {
         state.step = first_step(method.acceleration(), &state.rates, tolerance);
@@ -200,6 +228,13 @@ fn advance_smoothly(
                 }
                 settle(method, dynamics, state)?;
                 relax(method, dynamics, state, (until, tolerance))?;
+                let operations = dynamics.operations();
+                let since = operations - std::mem::replace(&mut counted, operations);
+                let alike = dynamics.steps_in(tolerance.time, trial.h);
+                let step = (trial, since, error / alike < QUIET);
+                if rival.is_some_and(|rival| rival.takes_over(state, step)) {
+                    return Ok(());
+                }
             }
             failed => {
                 counts.rejected += 1;

@@ -124,6 +124,10 @@ impl Method for Nystrom {
         self.longest_step
     }
 
+    fn fewest_operations(&self) -> f64 {
+        (self.tableau.c.len() - 1) as f64
+    }
+
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
         dynamics.acceleration(time, q, v, &mut self.a[0]);
     }

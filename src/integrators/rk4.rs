@@ -73,6 +73,10 @@ impl Method for Rk4 {
         self.longest_step
     }
 
+    fn fewest_operations(&self) -> f64 {
+        4.0
+    }
+
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
         dynamics.acceleration(time, q, v, &mut self.a);
         self.power = dynamics.power();

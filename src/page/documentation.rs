@@ -4,9 +4,10 @@ use super::canvas::escape;
 use super::drawing::drawing;
 use super::number::number;
 use super::parts::parts;
+use super::plan::plan as planned;
 use super::table::{code, row, table};
 use crate::scene::{Body, InitialState, Integrator, Scene, Strain};
-use crate::simulation::{Causality, Variable, variables};
+use crate::simulation::{Causality, Plan, Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
 
@@ -24,13 +25,14 @@ pub struct Interface<'a> {
     pub categories: &'a [[&'a str; 2]],
 }
 
-/// The documentation of a scene as one HTML page. The same scene gives the same bytes.
-pub fn documentation(scene: &Scene, interface: &Interface<'_>) -> String {
+/// The documentation of a scene, and of how it was planned, as one HTML page. The same scene gives the same bytes.
+pub fn documentation(scene: &Scene, plan: Option<&Plan>, interface: &Interface<'_>) -> String {
     let variables = variables(scene);
     let sections = [
         summary(scene, interface.standard),
         format!("<figure>\n{}</figure>\n", drawing(scene)),
         model(scene),
+        planned(plan),
         parts(scene),
         parameters(&variables),
         inputs(&variables, interface.inputs),
@@ -102,16 +104,15 @@ fn body_in_words(body: &Body) -> String {
     let name = escape(body.name());
     match body {
         Body::Cable(cable) => {
-            let plural = if cable.elements == 1 {
-                "element"
-            } else {
-                "elements"
+            let elements = match cable.elements {
+                None => "elements still to be counted".into(),
+                Some(1) => "1 cable element".into(),
+                Some(count) => format!("{count} cable elements"),
             };
             format!(
-                "the flexible body <em>{name}</em>, {} m long, of {} cable {plural}",
+                "the flexible body <em>{name}</em>, {} m long, of {elements}",
                 // A length along an arc need not be a short number; four digits are enough to read.
                 number((cable.shape.length() * 1e4).round() / 1e4),
-                cable.elements
             )
         }
         Body::Rigid(rigid) => {
@@ -340,7 +341,7 @@ mod tests {
     #[test]
     fn the_page_names_every_variable_and_shows_the_scene() {
         let scene = example();
-        let page = documentation(&scene, &INTERFACE);
+        let page = documentation(&scene, None, &INTERFACE);
         for variable in variables(&scene)
             .iter()
             .filter(|variable| variable.name != "time")
@@ -348,6 +349,6 @@ mod tests {
             assert!(page.contains(&code(&variable.name)), "{}", variable.name);
         }
         assert!(page.contains("<svg") && page.contains("&quot;name&quot;: &quot;example&quot;"));
-        assert_eq!(page, documentation(&scene, &INTERFACE));
+        assert_eq!(page, documentation(&scene, None, &INTERFACE));
     }
 }

@@ -6,6 +6,7 @@ mod documentation;
 mod drawing;
 mod number;
 mod parts;
+mod plan;
 mod symbols;
 mod table;
 

@@ -17,11 +17,24 @@ impl<'a> Resolved<'a> {
     ///
     /// # Errors
     /// When there are too few elements for what acts inside the body, or it acts at two places that are closer
-    /// than a thousandth of an element.
+    /// than a thousandth of an element; when their number is left to the planner.
     pub fn nodes(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
         let path = format!("bodies[{}]", cable.id.body);
-        let elements = cable.body.elements as usize;
-        nodes(&path, elements, &self.loaded_coordinates(cable))
+        let Some(elements) = cable.body.elements else {
+            let message = "expected a number of elements, found \"auto\": `flexbody plan` finds it";
+            return Err(Error::new(format!("{path}.elements"), message));
+        };
+        nodes(&path, elements as usize, &self.loaded_coordinates(cable))
+    }
+
+    /// Fewest elements of a cable: what acts inside it acts at nodes.
+    ///
+    /// # Errors
+    /// When it acts at two places that are closer than a thousandth of an element.
+    pub fn fewest_elements(&self, cable: Cable<'_>) -> Result<u32, Error> {
+        let path = format!("bodies[{}]", cable.id.body);
+        let corners = corners(&path, 1, &self.loaded_coordinates(cable))?;
+        Ok(corners.len() as u32 - 1)
     }
 
     /// Material coordinates of a cable where joints, motions, loads, inputs, ports and masses act or where

@@ -35,6 +35,8 @@ handed_on! {
     fn remarks([&] self) -> &Remarks;
     fn redundant([&mut] self, state: &State) -> Vec<String>;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
+    fn size([&] self) -> f64;
+    fn natural([&] self, quantity: Quantity) -> Option<f64>;
     fn next_doubtful([&mut] self) -> Option<&str>;
     fn fits([&] self, state: &State) -> bool;
     fn forget([&mut] self);

@@ -5,12 +5,12 @@ use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
 use super::{Error, Quantity, Report, Source, Spectra, StepFailure, Variable, method};
 use crate::body::Node;
-use crate::integrators::{Method, Tolerance, advance};
+use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
 use crate::scene::{Assembled, Holder, InitialState, Resolved, Timed};
 use crate::system::{
-    Derivatives, Evaluation, Gap, Model, NotAssembled, SpectrumError, State, System, Work,
-    eigenvalues, equilibrium, moved, natural_frequencies,
+    Derivatives, Dynamics, Evaluation, Gap, Model, NotAssembled, SpectrumError, State, System,
+    Work, eigenvalues, equilibrium, moved, natural_frequencies,
 };
 
 /// What the derivatives at hand are by.
@@ -44,7 +44,7 @@ pub(super) struct Engine<const D: usize> {
     pub(super) bodies: Vec<String>,
     pub(super) assembled: Assembled<D>,
     pub(super) work: Work<D>,
-    pub(super) method: Box<dyn Method>,
+    pub(super) methods: Methods,
     pub(super) tolerance: Tolerance,
     evaluation: Evaluation<D>,
     evaluated: Evaluated,
@@ -128,7 +128,7 @@ impl<const D: usize> Engine<D> {
             kinetic: evaluation.kinetic_energy(system),
             inputs: &inputs,
         };
-        let (tolerance, method) = method::choose(resolved, &start, &mut work)?;
+        let (tolerance, methods) = method::choose(resolved, &start, &mut work)?;
         let outputs = variables
             .iter()
             .filter_map(|variable| match variable.source {
@@ -152,7 +152,7 @@ impl<const D: usize> Engine<D> {
             start: state.ok().map(|state| (inputs, state)),
             evaluation,
             work,
-            method,
+            methods,
             tolerance,
             assembled,
         })
@@ -290,8 +290,10 @@ impl<const D: usize> Engine<D> {
         let model = Model::new(system, &inputs.values, &mut self.work, state);
         let model = model.limited(self.most_work);
         let mut model = model.moving(&inputs.slopes).until(state, until);
-        let (counts, result) =
-            advance(&mut *self.method, &mut model, state, until, &self.tolerance);
+        let (counts, result) = self
+            .methods
+            .advance(&mut model, state, until, &self.tolerance);
+        let work = model.operations() * system.parts() as f64;
         inputs.advance(state.time - start);
         self.forget();
         if result.is_ok() && counts.steps > 0 {
@@ -300,10 +302,11 @@ impl<const D: usize> Engine<D> {
         state.work[0] -= self.set_energy(state, &inputs.values);
         self.forget();
         let report = Report {
-            method: self.method.name(),
+            method: self.methods.name(&state.pace),
             steps: counts.steps,
             rejected: counts.rejected,
             newton_iterations: counts.newton_iterations,
+            work,
         };
         let failure = |stop| StepFailure {
             time: state.time,
@@ -323,7 +326,7 @@ impl<const D: usize> Engine<D> {
             let mut model = Model::new(system, inputs, &mut self.work, state);
             let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
             let at = (state.time, &state.coordinates[..], &state.rates[..]);
-            self.method.error(&mut model, at, [q, v]);
+            self.methods.at(&state.pace).error(&mut model, at, [q, v]);
             let add = |(moved, now): (&mut f64, &f64)| *moved += now;
             q.iter_mut().zip(&state.coordinates).for_each(add);
             v.iter_mut().zip(&state.rates).for_each(add);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::integrators::{Method, Nystrom, RKN43, Radau, Rk4, Tolerance, VERLET};
+use crate::integrators::{Method, Methods, Nystrom, RKN43, Radau, Rk4, Tolerance, VERLET};
 use crate::scene::{Error, Integrator, LoadKind, Resolved};
 use crate::system::{State, System, Work, fastest};
 
@@ -38,7 +38,7 @@ pub(super) fn choose<const D: usize>(
     resolved: &Resolved<'_>,
     start: &Start<'_, D>,
     work: &mut Work<D>,
-) -> Result<(Tolerance, Box<dyn Method>), Error> {
+) -> Result<(Tolerance, Methods), Error> {
     let (scene, system) = (resolved.scene, start.system);
     let rate = natural_rate(resolved, system, start.kinetic);
     let relative = scene.relative_tolerance();
@@ -49,10 +49,10 @@ pub(super) fn choose<const D: usize>(
     };
     let n = system.coordinates();
     let radau = || -> Box<dyn Method> { Box::new(Radau::new(n)) };
-    if scene.method.integrator == Integrator::Radau {
-        return Ok((tolerance, radau()));
-    }
     let named = scene.method.integrator;
+    if named == Integrator::Radau {
+        return Ok((tolerance, Methods::one(radau())));
+    }
     if system.reads_rates() && matches!(named, Integrator::Verlet | Integrator::Rkn43) {
         let found = format!("{named:?}").to_lowercase();
         let message = format!(
@@ -62,21 +62,31 @@ pub(super) fn choose<const D: usize>(
         return Err(Error::new("method.integrator", message));
     }
     let (frequency, decay) = fastest(system, start.inputs, work, start.state);
-    let explicit = match system.reads_rates() {
+    let nystrom = |tableau| -> Box<dyn Method> { Box::new(Nystrom::new(tableau, n, frequency)) };
+    let rk4 = || -> Box<dyn Method> { Box::new(Rk4::new(n, frequency, decay)) };
+    let explicit = match named {
+        Integrator::Verlet => nystrom(&VERLET),
+        Integrator::Rkn43 => nystrom(&RKN43),
+        Integrator::Rk4 => rk4(),
+        _ if system.reads_rates() => rk4(),
+        _ if relative >= LOOSEST => nystrom(&VERLET),
+        _ => nystrom(&RKN43),
+    };
+    if named != Integrator::Auto {
+        return Ok((tolerance, Methods::one(explicit)));
+    }
+    let explicit_up_to = match system.reads_rates() {
         true => EXPLICIT_WITH_RATES,
         false => EXPLICIT,
     };
-    let is_soft = frequency.max(decay) <= explicit * rate / relative.min(LOOSE).cbrt();
-    let nystrom = |tableau| -> Box<dyn Method> { Box::new(Nystrom::new(tableau, n, frequency)) };
-    let method = match scene.method.integrator {
-        Integrator::Auto if !is_soft => radau(),
-        Integrator::Auto if system.reads_rates() => Box::new(Rk4::new(n, frequency, decay)),
-        Integrator::Auto if relative >= LOOSEST => nystrom(&VERLET),
-        Integrator::Auto | Integrator::Rkn43 => nystrom(&RKN43),
-        Integrator::Verlet => nystrom(&VERLET),
-        Integrator::Rk4 | Integrator::Radau => Box::new(Rk4::new(n, frequency, decay)),
-    };
-    Ok((tolerance, method))
+    let is_soft = frequency.max(decay) <= explicit_up_to * rate / relative.min(LOOSE).cbrt();
+    Ok((
+        tolerance,
+        match is_soft {
+            true => Methods::two(explicit, radau()),
+            false => Methods::two(radau(), explicit),
+        },
+    ))
 }
 
 /// How fast the scene moves, 1/s: by gravity, by its motion at the start, by the turning of its frame;

@@ -5,6 +5,7 @@ mod derivatives;
 mod dimension;
 mod engine;
 mod method;
+mod plan;
 mod quantities;
 mod shapes;
 mod signals;
@@ -16,12 +17,13 @@ mod variables;
 mod watch;
 
 pub use dimension::check;
+pub use plan::{Plan, PlannedBody, PlannedOutput, Price, Progress, Settles, plan};
 pub use quantities::Quantity;
 pub use signals::{SignalError, Signals};
 pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Causality, Parameter, Source, Unit, Variable, variables};
 
-use crate::scene::{Error as SceneError, Scene, finite_at};
+use crate::scene::{Accuracy, Error as SceneError, Scene, finite_at};
 use crate::system::State;
 use dimension::AnyEngine;
 use engine::Inputs;
@@ -69,7 +71,7 @@ pub struct StepFailure {
 }
 
 /// What the last call of [`Simulation::step`] did.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Name of the integrator.
     pub method: &'static str,
@@ -79,6 +81,8 @@ pub struct Report {
     pub rejected: u64,
     /// Newton iterations.
     pub newton_iterations: u64,
+    /// Work: operations, counted in accelerations, times parts of the system.
+    pub work: f64,
 }
 
 /// A scene in simulation.
@@ -140,6 +144,7 @@ impl Simulation {
                 steps: 0,
                 rejected: 0,
                 newton_iterations: 0,
+                work: 0.0,
             },
         }
     }
@@ -167,6 +172,18 @@ impl Simulation {
     /// What the last step did.
     pub fn report(&self) -> Report {
         self.report
+    }
+
+    /// The size of the scene, m, and what variables are where it moves by its nature; 0 of what is not measured by that.
+    fn natural(&self) -> (f64, Vec<f64>) {
+        let Some(engine) = &self.engine else {
+            return (0.0, vec![0.0; self.variables.len()]);
+        };
+        let natural = |variable: &Variable| match variable.source {
+            Source::Output(quantity) => engine.natural(quantity).unwrap_or(0.0),
+            _ => 0.0,
+        };
+        (engine.size(), self.variables.iter().map(natural).collect())
     }
 
     /// Gaps, in words, of joints that bodies as described do not fit by far: bodies were moved, or cables deformed, to
@@ -282,6 +299,11 @@ impl Simulation {
     /// # Errors
     /// Parameters that make no valid scene, no static equilibrium.
     pub fn initialize(&mut self, start_time: f64) -> Result<(), Error> {
+        if self.scene.is_to_be_planned() {
+            let message = "expected numbers of elements and a relative_tolerance, found some that are left to the \
+                           planner: `flexbody plan` finds them";
+            return Err(Error::Scene(SceneError::new("scene", message)));
+        }
         let scene = self.parametrized();
         let resolved = scene.resolve()?;
         finite_at(&scene.timed(), start_time)?;
@@ -426,7 +448,7 @@ fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
         DampingTime(id) => scene.cable_mut(id).material.damping_time = value,
         Area(id) => scene.cable_mut(id).section.area = value,
         SecondMoment(id) => scene.cable_mut(id).section.second_moment = value,
-        Elements(id) => scene.cable_mut(id).elements = value.max(0.0) as u32,
+        Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
         Mass(id) => scene.rigid_mut(id).mass = value,
         Inertia(id) => scene.rigid_mut(id).inertia = value,
         LumpedMass(i) => scene.masses[i].mass = value,
@@ -440,7 +462,12 @@ fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
         TurningDamping(i) => scene.ports[i].rotational_damping = Some(value),
         Gravity(axis) => scene.gravity[axis] = value,
         Rotation => scene.rotation = value,
-        RelativeTolerance => scene.accuracy.relative_tolerance = Some(value),
+        RelativeTolerance => {
+            scene.accuracy = Accuracy {
+                relative_tolerance: Some(value),
+                ..Accuracy::default()
+            };
+        }
         WorkLimit => scene.method.work_limit = value,
     }
 }

@@ -1,6 +1,7 @@
 //! Quantities that are read of a simulation: their values, of numbers of any kind, from an evaluated state; what
 //! they are computed from; how large they naturally are.
 
+use super::engine::Engine;
 use crate::body::Marker;
 use crate::integrators::Tolerance;
 use crate::math::jet::Number;
@@ -188,4 +189,16 @@ pub(super) fn natural<const D: usize>(
     let (size, rate) = (system.size(), 1.0 / tolerance.time);
     let force = system.mass() * size * rate * rate;
     nature(quantity).1(Scale { size, rate, force })
+}
+
+impl<const D: usize> Engine<D> {
+    /// Size of the scene, m.
+    pub(super) fn size(&self) -> f64 {
+        self.assembled.system.size()
+    }
+
+    /// What a quantity is where the scene moves at its natural rate, if it is compared with that.
+    pub(super) fn natural(&self, quantity: Quantity) -> Option<f64> {
+        natural(quantity, &self.assembled.system, &self.tolerance)
+    }
 }

@@ -80,6 +80,7 @@ impl Simulation {
             state.driven.as_flattened(),
             snapshot.slopes.as_flattened(),
             &[state.time, state.step],
+            &state.pace.numbers(),
             &state.work,
         ];
         if !numbers.into_iter().flatten().all(|x| x.is_finite()) {

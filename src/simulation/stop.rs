@@ -20,7 +20,7 @@ impl<const D: usize> Engine<D> {
         (start, until): (f64, f64),
         counts: &Counts,
     ) -> String {
-        let (method, tolerance) = (self.method.name(), self.tolerance.relative);
+        let (method, tolerance) = (self.methods.name(&state.pace), self.tolerance.relative);
         // Steps that shrink and shrink spend any work.
         let crawls = stop == Stop::TooMuchWork && state.step < CRAWL * (until - start);
         if crawls || matches!(stop, Stop::StepTooSmall | Stop::NotFinite | Stop::Broken) {

@@ -30,7 +30,7 @@ pub use spectra::spectrum::{
 pub use start::equilibrium;
 pub use start::placement::{Gap, NotAssembled};
 pub use start::steady::{NotSteady, Steady};
-pub use state::State;
+pub use state::{Pace, State};
 pub use work::Work;
 
 use std::ops::Range;
@@ -195,6 +195,7 @@ impl<const D: usize> System<D> {
         State {
             time,
             step: 0.0,
+            pace: Pace::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
             angles: vec![0.0; self.angles.len()],

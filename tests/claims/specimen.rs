@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use flexbody::fmi2::model_description;
 use flexbody::scene::Scene;
-use flexbody::simulation::Simulation;
+use flexbody::simulation::{Simulation, plan};
 use serde_json::Value;
 
 /// Relative error of what is computed without steps.
@@ -149,6 +149,11 @@ impl Specimen {
     pub fn judge_set(&self, scene: &Value, known: &[String], set: &[(usize, f64)]) -> Outcome {
         let described = match Scene::from_json(&scene.to_string()) {
             Ok(scene) => scene,
+            Err(error) => return Outcome::Refused(error.to_string()),
+        };
+        // What is left to the planner is planned as while packaging.
+        let described = match plan(&described, &mut |_, _, _| ()) {
+            Ok((scene, _)) => scene,
             Err(error) => return Outcome::Refused(error.to_string()),
         };
         let outcome = Run::new(self, described, known).and_then(|run| run.all(set));

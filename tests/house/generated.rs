@@ -5,6 +5,7 @@ use std::path::Path;
 
 use flexbody::fmi2;
 use flexbody::scene::Scene;
+use flexbody::simulation::plan;
 
 use crate::source::{files, name, no_complaints, root};
 
@@ -16,8 +17,9 @@ fn scene(path: &Path) -> Result<Scene, String> {
 #[test]
 fn the_committed_description_is_that_of_the_default_scene() {
     let scene = scene(&root().join("scenes/pendulum.json")).expect("the default scene");
+    let (scene, plan) = plan(&scene, &mut |_, _, _| ()).expect("a plan");
     let mut complaints = Vec::new();
-    let described = fmi2::describe(&scene);
+    let described = fmi2::describe(&scene, plan.as_ref());
     for (path, text) in &described {
         let committed = fs::read_to_string(root().join("modelDescription").join(path));
         if committed.ok().as_ref() != Some(text) {

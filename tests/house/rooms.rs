@@ -181,7 +181,7 @@ const OWNERS: [(&str, &[&str]); 14] = [
     ("cpu_time", &["main.rs"]),
     ("clap", &["main.rs"]),
     ("strsim", &["main.rs"]),
-    ("indicatif", &["main.rs"]),
+    ("indicatif", &["main.rs", "planning.rs"]),
 ];
 
 #[test]

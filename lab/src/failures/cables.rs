@@ -180,6 +180,7 @@ pub fn spaghetti() -> Outcome<Row> {
             format!("gains {} J of 555 J", short(gained)),
         ),
     };
+    scene["accuracy"] = json!({"relative_tolerance": 1e-5});
     let mut product = Product::start(&scene)?;
     let first = product.balance()?;
     let mut lost = 0.0_f64;

@@ -77,7 +77,7 @@ impl Picture<'_> {
             fill: "none",
         };
         self.canvas.polyline(points, false, style);
-        if !self.names || body.elements > MOST_NODES {
+        if !self.names || body.elements > Some(MOST_NODES) {
             return;
         }
         let node = Style {

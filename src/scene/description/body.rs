@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::accuracy::elements;
 use super::strict::{Strict, at, typed};
 use super::{Spin, Vector};
 
@@ -26,8 +27,10 @@ pub enum Body {
 pub struct CableBody {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
-    /// Number of elements.
-    pub elements: u32,
+    /// Number of elements; `"auto"`, or nothing said, is as many as the accuracy asks for, found while packaging.
+    #[serde(default, with = "elements")]
+    #[schemars(with = "elements::InJson")]
+    pub elements: Option<u32>,
     /// Material.
     pub material: Material,
     /// Cross section.

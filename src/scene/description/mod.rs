@@ -1,6 +1,7 @@
 //! What a scene may say. Field names are the JSON keys; units are SI, angles in rad.
 
 mod about;
+mod accuracy;
 mod body;
 mod initial;
 mod joint;
@@ -17,6 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use about::About;
+pub use accuracy::{Accuracy, Course, InputCourse};
 pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Section, Shape, Strain};
 pub use initial::{Initial, InitialState};
 pub use joint::{Condition, Declaration, Joint, JointKind, Motion, MotionKind, Symbol};
@@ -85,21 +87,14 @@ pub struct Scene {
     pub experiment: Experiment,
 }
 
-/// What accuracy is asked for.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Accuracy {
-    /// Error in time that a step may make, relative to the length of the body (root mean square
-    /// over its mass). By default 1e-4; 1e-7 in a scene without cables, which then keeps its energy to
-    /// 0.1 % over a thousand swings or turns.
-    #[serde(default)]
-    pub relative_tolerance: Option<f64>,
-}
-
 impl Scene {
     /// Says what is left out and follows from other values.
     pub fn write_out_defaults(&mut self) {
-        self.accuracy.relative_tolerance = Some(self.relative_tolerance());
+        if !self.is_to_be_planned() {
+            self.accuracy.relative_tolerance = Some(self.relative_tolerance());
+        } else if self.accuracy.relative_tolerance.is_none() {
+            self.accuracy.error = Some(self.error());
+        }
         let motions = self.bodies.iter_mut().map(Body::motion_mut);
         let zeros = motions.map(|motion| {
             if self.dimension == 3 && motion.spin == Spin::default() {
@@ -112,6 +107,17 @@ impl Scene {
                 *vector = Vector::zero(self.dimension.clamp(2, 3));
             }
         }
+    }
+
+    /// Whether numbers of elements or the tolerance are left to the planner.
+    pub fn is_to_be_planned(&self) -> bool {
+        let mut cables = self.bodies.iter().filter_map(Body::cable);
+        self.accuracy.error.is_some() || cables.any(|cable| cable.elements.is_none())
+    }
+
+    /// Error wanted of outputs where it is planned for: as given, or 1e-3.
+    pub fn error(&self) -> f64 {
+        self.accuracy.error.unwrap_or(1e-3)
     }
 
     /// Error in time that a step may make: as given, or by the kinds of bodies.

@@ -63,9 +63,11 @@ impl CableBody {
     fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let (material, section) = (&self.material, &self.section);
         let at = |key: &str| format!("{path}.{key}");
-        if !ELEMENTS.contains(&self.elements) {
+        if let Some(count) = self.elements
+            && !ELEMENTS.contains(&count)
+        {
             let wanted = format!("an integer from {} to {}", ELEMENTS.start(), ELEMENTS.end());
-            return Err(expected(&at("elements"), &wanted, self.elements));
+            return Err(expected(&at("elements"), &wanted, count));
         }
         positive(
             &at("material.youngs_modulus"),

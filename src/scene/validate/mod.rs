@@ -25,6 +25,8 @@ pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
 const ALL_ELEMENTS: u64 = 1_000_000;
 /// Relative tolerances: below, the error of a step drowns in roundoff; above, it is none at all.
 pub const TOLERANCE: RangeInclusive<f64> = 1e-12..=0.1;
+/// Errors of outputs that can be asked for.
+const ERROR: RangeInclusive<f64> = 1e-8..=0.1;
 
 impl Scene {
     /// Checks every value of the scene and resolves every reference.
@@ -57,12 +59,7 @@ impl Scene {
         resolved.resolve_outputs()?;
         resolved.resolve_ports()?;
         resolved.resolve_initial()?;
-        let tolerance = self.relative_tolerance();
-        if !TOLERANCE.contains(&tolerance) {
-            let (least, most) = (TOLERANCE.start(), TOLERANCE.end());
-            let wanted = format!("a number from {least:e} to {most}");
-            return Err(expected("accuracy.relative_tolerance", &wanted, tolerance));
-        }
+        self.validate_accuracy()?;
         positive("experiment.stop_time", "s", self.experiment.stop_time)?;
         positive("experiment.step", "s", self.experiment.step)?;
         positive(
@@ -71,6 +68,28 @@ impl Scene {
             self.method.work_limit,
         )?;
         Ok(resolved)
+    }
+
+    fn validate_accuracy(&self) -> Result<(), Error> {
+        let within = |key: &str, range: &RangeInclusive<f64>, value: f64| {
+            let wanted = format!("a number from {:e} to {:e}", range.start(), range.end());
+            match range.contains(&value) {
+                true => Ok(()),
+                false => Err(expected(&format!("accuracy.{key}"), &wanted, value)),
+            }
+        };
+        within("relative_tolerance", &TOLERANCE, self.relative_tolerance())?;
+        let Some(error) = self.accuracy.error else {
+            return Ok(());
+        };
+        within("error", &ERROR, error)?;
+        match self.accuracy.relative_tolerance {
+            Some(_) => {
+                let wanted = "nothing beside `relative_tolerance`, which follows from it";
+                Err(expected("accuracy.error", wanted, error))
+            }
+            None => Ok(()),
+        }
     }
 
     /// The scene with its references resolved.
@@ -106,7 +125,8 @@ impl Scene {
     /// Elements of all bodies together.
     pub(super) fn elements(&self) -> u64 {
         let cables = self.bodies.iter().filter_map(|body| body.cable());
-        cables.map(|cable| u64::from(cable.elements)).sum()
+        let counts = cables.map(|cable| cable.elements.unwrap_or(1));
+        counts.map(u64::from).sum()
     }
 
     fn validate_bodies(&self) -> Result<(), Error> {

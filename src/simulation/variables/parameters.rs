@@ -47,7 +47,7 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
     use Parameter::*;
     let (i, body) = (cable.id, cable.body);
     let (material, section) = (&body.material, &body.section);
-    let elements = f64::from(body.elements);
+    let elements = f64::from(body.elements.unwrap_or(1));
     #[rustfmt::skip] // a table
     let rows: [Row<'_>; 6] = [
         ("youngs_modulus", "Young's modulus", Some(PASCAL), YoungsModulus(i), material.youngs_modulus),

@@ -1,0 +1,163 @@
+//! Choice between two methods by what they cost: operations counted, never clocks, so that the same scene
+//! takes the same steps on every run.
+//!
+//! One method is in use; now and then the other takes a few steps of the same motion (both keep the tolerance, so
+//! nothing is lost but what they cost more), and the one that gets further with an operation goes on. What trials
+//! cost is bounded: after each that has failed, twice as many operations go by before the next.
+//!
+//! Source: for the change between explicit and implicit methods by what their steps are worth, L. Petzold, Automatic
+//! selection of methods for solving stiff and nonstiff systems, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148; that the
+//! price of steps is counted while they are taken is ours (docs/decisions/0034-integrator-by-counted-cost.md).
+
+use super::controller::Trial;
+use super::{Counts, Method, Stop, Tolerance, advance_choosing};
+use crate::system::{Dynamics, Pace, State};
+
+/// Operations before the first trial.
+const FIRST: f64 = 300.0;
+/// Operations from a trial that won to the next, and twice from one that failed.
+const PAUSE: f64 = 1e3;
+/// Operations over which the method in use is measured: what is older counts half, a quarter and so on.
+const WINDOW: f64 = 1e3;
+/// Steps of a trial that are measured, once they have stopped growing.
+const MEASURED: f64 = 4.0;
+/// Operations that a trial takes at most.
+const TRIAL: f64 = 600.0;
+/// How many times further with an operation a method must get to be preferred to the one in use.
+const GAIN: f64 = 1.1;
+/// How many times further the other must have got when it was last in use to be tried at once.
+const FALLEN: f64 = 2.0;
+/// Part of what the method before got for an operation below which a trial ends with its first step.
+const HOPELESS: f64 = 0.5;
+/// Growth from one step to the next from which on steps have not found their length yet.
+const GROWING: f64 = 1.5;
+
+/// One method, or two to choose from.
+pub struct Methods(Vec<Box<dyn Method>>);
+
+impl Methods {
+    /// No choice.
+    pub fn one(method: Box<dyn Method>) -> Self {
+        Self(vec![method])
+    }
+
+    /// Begins with the first.
+    pub fn two(first: Box<dyn Method>, second: Box<dyn Method>) -> Self {
+        Self(vec![first, second])
+    }
+
+    /// The method that is in use.
+    pub fn at(&mut self, pace: &Pace) -> &mut dyn Method {
+        let index = pace.index(self.0.len());
+        &mut *self.0[index]
+    }
+
+    /// Its name.
+    pub fn name(&self, pace: &Pace) -> &'static str {
+        self.0[pace.index(self.0.len())].name()
+    }
+
+    /// As [`advance`](super::advance), with the cheaper method.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn advance(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        state: &mut State,
+        until: f64,
+        tolerance: &Tolerance,
+    ) -> (Counts, Result<(), Stop>) {
+        match &mut self.0[..] {
+            [one, two] => {
+                let both: [&mut dyn Method; 2] = [&mut **one, &mut **two];
+                advance_choosing(&mut { both }, dynamics, state, until, tolerance)
+            }
+            methods => {
+                let only = &mut *methods[0];
+                advance_choosing(&mut [only], dynamics, state, until, tolerance)
+            }
+        }
+    }
+}
+
+/// The method that is not in use.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rival {
+    /// Time that it advances with an operation at most, s.
+    at_most: f64,
+}
+
+impl Rival {
+    pub fn of(method: &dyn Method) -> Self {
+        Self {
+            at_most: method.longest_step() / method.fewest_operations(),
+        }
+    }
+
+    /// Told of an accepted step, of the operations since the one before and whether a longer one would be accurate
+    /// enough: whether it goes on.
+    pub fn takes_over(
+        self,
+        state: &mut State,
+        (step, operations, is_quiet): (Trial, f64, bool),
+    ) -> bool {
+        let grows = !step.is_cut && state.step > GROWING * step.h;
+        let pace = &mut state.pace;
+        pace.time += step.h;
+        pace.operations += operations;
+        pace.cost += operations;
+        if pace.trial > 0.0 {
+            return takes_back(state, grows);
+        }
+        if pace.operations > WINDOW {
+            pace.time *= 0.5;
+            pace.operations *= 0.5;
+        }
+        let reached = pace.time / pace.operations;
+        let fallen = pace.other > FALLEN * reached && pace.cost > 0.25 * WINDOW;
+        if pace.cost < pace.pause.max(FIRST) && !fallen || self.at_most < GAIN * reached {
+            return false;
+        }
+        // An explicit method whose error sets its steps is not beaten by one that solves equations in each.
+        if self.at_most.is_infinite() && !is_quiet {
+            return false;
+        }
+        pace.trial = MEASURED;
+        change(state, reached);
+        true
+    }
+}
+
+/// In a trial: whether the method before goes on.
+fn takes_back(state: &mut State, grows: bool) -> bool {
+    let pace = &mut state.pace;
+    let reached = pace.time / pace.operations;
+    let ends = pace.cost > TRIAL || !grows && reached < HOPELESS * pace.other;
+    if grows && !ends {
+        // What growing steps have cost says nothing.
+        (pace.time, pace.operations) = (0.0, 0.0);
+        return false;
+    }
+    pace.trial -= 1.0;
+    if pace.trial > 0.0 && !ends {
+        return false;
+    }
+    pace.trial = 0.0;
+    if reached > GAIN * pace.other {
+        (pace.pause, pace.cost) = (PAUSE, 0.0);
+        return false;
+    }
+    pace.pause = 2.0 * pace.pause.max(PAUSE);
+    change(state, reached);
+    true
+}
+
+/// The other method goes on; the one in use advanced `reached` (s) with an operation.
+fn change(state: &mut State, reached: f64) {
+    let pace = &mut state.pace;
+    pace.method = 1.0 - pace.method;
+    pace.other = reached;
+    (pace.time, pace.operations, pace.cost) = (0.0, 0.0, 0.0);
+    std::mem::swap(&mut state.step, &mut pace.step);
+}

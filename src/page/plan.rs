@@ -1,0 +1,95 @@
+//! Where the numbers of a planned scene come from, as tables of the page.
+
+use super::canvas::escape;
+use super::number::number;
+use super::table::{code, row, table};
+use crate::simulation::{Plan, Price, Settles};
+
+/// The section; nothing of a scene that was not planned.
+pub fn plan(plan: Option<&Plan>) -> String {
+    let Some(plan) = plan else {
+        return String::new();
+    };
+    let note = format!(
+        "<p>Numbers of elements and the tolerance were found while packaging, for an error of {} in the default experiment \
+         of positions relative to the size of the scene, of angles in rad, of all else relative to the largest value: \
+         what twice as many elements and a tenth of the tolerance change is below it.{} {} runs were made, which cost {:.1} \
+         times one with the choice.</p>\n",
+        number(plan.error),
+        held(plan),
+        plan.runs,
+        plan.runs_cost
+    );
+    let rows = plan.bodies.iter().map(|body| {
+        let elements = body.elements.map(|n| n.to_string()).unwrap_or_default();
+        row(&[&code(&body.name), &body.kind, &elements, &escape(&body.why)])
+    });
+    let bodies = table(
+        "Numbers that were planned",
+        &note,
+        &["Body", "Kind", "Elements", "Why"],
+        rows.collect(),
+    );
+    let time = format!(
+        "<p>Relative tolerance {}, integrator {} at the end of the experiment.</p>\n",
+        number(plan.tolerance),
+        code(&plan.method)
+    );
+    bodies + &time + &outputs(plan) + &costs(plan)
+}
+
+fn held(plan: &Plan) -> String {
+    match plan.held.is_empty() {
+        true => String::new(),
+        false => {
+            let names: Vec<String> = plan.held.iter().map(|name| code(name)).collect();
+            format!(
+                " Inputs that kept their start values: {}.",
+                names.join(", ")
+            )
+        }
+    }
+}
+
+fn outputs(plan: &Plan) -> String {
+    let rows = plan.outputs.iter().map(|output| {
+        let settles = match output.settles {
+            Settles::Yes => "kept".into(),
+            Settles::Until(time) => format!("kept until {} s", number(time)),
+            Settles::No => "does not settle".into(),
+        };
+        row(&[
+            &code(&output.name),
+            &format!("{:.1e}", output.error),
+            &settles,
+        ])
+    });
+    let heads = ["Output", "Error estimated", "Error wanted"];
+    table("Errors estimated", "", &heads, rows.collect())
+}
+
+fn costs(plan: &Plan) -> String {
+    let rows = [
+        ("cheaper", &plan.cheaper),
+        ("chosen", &plan.chosen),
+        ("dearer", &plan.dearer),
+    ];
+    let rows = rows.iter().filter_map(|(name, price)| {
+        let price: &Price = price.as_ref()?;
+        let elements: Vec<String> = price.elements.iter().map(u32::to_string).collect();
+        let error = price.error.map(|error| format!("{error:.1e}"));
+        Some(row(&[
+            name,
+            &elements.join(", "),
+            &format!("{:.2}", price.milliseconds()),
+            &error.unwrap_or_default(),
+        ]))
+    });
+    let heads = [
+        "Choice",
+        "Elements",
+        "Milliseconds a second, about",
+        "Largest error estimated",
+    ];
+    table("Cost", "", &heads, rows.collect())
+}

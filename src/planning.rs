@@ -1,0 +1,127 @@
+//! What the headless runner does with scenes that leave numbers to the planner.
+
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use flexbody::scene::Scene;
+use flexbody::simulation::{self, Plan, Price, Settles};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::{Outcome, at, read};
+
+/// Reads a scene, and plans it where it leaves numbers to the planner.
+pub fn planned(path: &Path) -> Outcome<(Scene, Option<Plan>)> {
+    let scene = read(path)?;
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("planning {spinner} {msg}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(100));
+    let found = simulation::plan(&scene, &mut |run, elements, tolerance| {
+        bar.set_message(format!(
+            "run {run}: {elements} elements, tolerance {tolerance:e}"
+        ));
+    });
+    bar.finish_and_clear();
+    found.map_err(|error| at(path, error))
+}
+
+/// Plans a scene and prints the plan.
+pub fn plan(path: &Path, output: Option<&Path>) -> Outcome<()> {
+    let (scene, plan) = planned(path)?;
+    match &plan {
+        Some(plan) => print!("{}", in_words(plan)),
+        None => println!("nothing to plan: the scene gives numbers of elements and a tolerance"),
+    }
+    let Some(output) = output else {
+        return Ok(());
+    };
+    fs::write(output, scene.to_json()).map_err(|error| at(output, error))
+}
+
+/// The plan as tables of a terminal.
+fn in_words(plan: &Plan) -> String {
+    let mut text = format!("error wanted {:e}\n\nmodel\n", plan.error);
+    let rows = plan.bodies.iter().map(|body| {
+        let elements = body.elements.map(|n| n.to_string()).unwrap_or_default();
+        [
+            body.name.clone(),
+            body.kind.clone(),
+            elements,
+            body.why.clone(),
+        ]
+    });
+    text += &table(&["body", "kind", "elements", "why"], rows.collect());
+    text += &format!(
+        "time: relative tolerance {:e}, integrator {}\n",
+        plan.tolerance, plan.method
+    );
+    if !plan.held.is_empty() {
+        text += &format!(
+            "inputs held at their start values: {}\n",
+            plan.held.join(", ")
+        );
+    }
+    text += "\nerrors estimated\n";
+    let rows = plan.outputs.iter().map(|output| {
+        let settles = match output.settles {
+            Settles::Yes => String::new(),
+            Settles::Until(time) => format!("kept until {time:.3} s"),
+            Settles::No => "does not settle".into(),
+        };
+        [
+            output.name.clone(),
+            format!("{:.1e}", output.error),
+            settles,
+        ]
+    });
+    text += &table(&["output", "error", ""], rows.collect());
+    text += "\ncost\n";
+    let rows = [
+        ("cheaper", &plan.cheaper),
+        ("chosen", &plan.chosen),
+        ("dearer", &plan.dearer),
+    ];
+    let rows = rows.iter().filter_map(|(name, price)| {
+        let price: &Price = price.as_ref()?;
+        let elements: Vec<String> = price.elements.iter().map(u32::to_string).collect();
+        Some([
+            (*name).to_owned(),
+            elements.join(", "),
+            format!("about {:.2} ms a second", price.milliseconds()),
+            price
+                .error
+                .map(|error| format!("{error:.1e}"))
+                .unwrap_or_default(),
+        ])
+    });
+    text += &table(
+        &["choice", "elements", "cost", "largest error"],
+        rows.collect(),
+    );
+    text + &format!(
+        "{} runs, which cost {:.1} times one with the choice\n",
+        plan.runs, plan.runs_cost
+    )
+}
+
+/// Columns of text, as wide as their widest cell.
+fn table<const N: usize>(heads: &[&str; N], rows: Vec<[String; N]>) -> String {
+    let width = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells.max().unwrap_or(0).max(heads[column].len())
+    };
+    let line = |cells: [&str; N]| {
+        let cells = cells.iter().enumerate();
+        let cells: Vec<String> = cells
+            .map(|(i, cell)| format!("{cell:<0$}", width(i)))
+            .collect();
+        format!("  {}\n", cells.join("  ").trim_end())
+    };
+    let mut text = line(*heads);
+    for row in &rows {
+        text += &line(std::array::from_fn(|i| row[i].as_str()));
+    }
+    text
+}

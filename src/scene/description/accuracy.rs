@@ -1,0 +1,99 @@
+//! What accuracy is asked for, and what is left to the planner.
+
+use schemars::JsonSchema;
+use serde::de::{Deserializer, Error as _};
+use serde::{Deserialize, Serialize, Serializer};
+use serde_json::Value;
+
+use super::strict::{Strict, typed};
+
+/// What accuracy is asked for: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Accuracy {
+    /// Error wanted of every output over the default experiment: of positions relative to the size of the scene, of
+    /// angles and directions in rad, of all else relative to the largest value of its vector. By default 1e-3 where
+    /// numbers of elements are left to the planner.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<f64>,
+    /// Names of the outputs that count, without indices; by default all but energies, work and residuals.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub of: Vec<String>,
+    /// What inputs do in the experiment that is planned for; those that are not named keep their start values.
+    #[serde(default, rename = "for", skip_serializing_if = "Vec::is_empty")]
+    pub courses: Vec<InputCourse>,
+    /// Error in time that a step may make, relative to the length of the body (root mean square
+    /// over its mass). By default 1e-4; 1e-7 in a scene without cables, which then keeps its energy to
+    /// 0.1 % over a thousand swings or turns. Not beside `error`, from which it follows.
+    #[serde(default)]
+    pub relative_tolerance: Option<f64>,
+}
+
+/// What an input does in the experiment that is planned for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InputCourse {
+    /// Name of the input, with its index where it is a component.
+    pub input: String,
+    /// Value that it starts from.
+    pub from: f64,
+    /// Value that it goes to.
+    pub to: f64,
+    /// How it goes there.
+    #[serde(default)]
+    pub course: Course,
+}
+
+/// Ways from a value to another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Course {
+    /// A smooth ramp over the first tenth of the experiment, and one back over a tenth after its half.
+    #[default]
+    Ramp,
+    /// A jump after a tenth of the experiment, and one back after its half.
+    Step,
+    /// To and fro as a cosine, three times.
+    Sine,
+}
+
+/// A number of elements in JSON: an integer, or `"auto"`, which is none.
+pub(super) mod elements {
+    use super::*;
+
+    /// What stands in JSON.
+    #[derive(Serialize, JsonSchema)]
+    #[serde(untagged)]
+    #[allow(dead_code, reason = "for the schema")]
+    pub enum InJson {
+        /// As many as the accuracy asks for: found while packaging.
+        Auto(Word),
+        /// This many.
+        Count(u32),
+    }
+
+    /// The word for a number that is left to the planner.
+    #[derive(Serialize, JsonSchema)]
+    #[serde(rename_all = "snake_case")]
+    pub enum Word {
+        /// As many as the accuracy asks for.
+        Auto,
+    }
+
+    pub fn serialize<S: Serializer>(count: &Option<u32>, serializer: S) -> Result<S::Ok, S::Error> {
+        let value = count.map_or(InJson::Auto(Word::Auto), InJson::Count);
+        value.serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<u32>, D::Error> {
+        match Strict::deserialize(deserializer)?.0 {
+            Value::String(word) if word == "auto" => Ok(None),
+            Value::String(word) => Err(D::Error::custom(format!(
+                "expected \"auto\" or a positive integer, found \"{word}\""
+            ))),
+            count => typed(count).map(Some),
+        }
+    }
+}

@@ -1,0 +1,230 @@
+//! Runs of the default experiment.
+
+use std::f64::consts::PI;
+
+use crate::scene::{Course, Error, InputCourse, Scene};
+use crate::simulation::{Signals, Simulation, Source, Variable, variables};
+
+/// Communication points that are compared, about, where there are more.
+const POINTS: u64 = 10_000;
+/// Times that a cosine goes to and fro.
+const SWINGS: f64 = 3.0;
+
+/// A run: all variables at communication points.
+#[derive(Clone, Debug)]
+pub(super) struct Run {
+    pub times: Vec<f64>,
+    /// One value a variable, at every time.
+    pub rows: Vec<Vec<f64>>,
+    /// What variables are where the scene moves by its nature, and its size, m.
+    pub natural: Vec<f64>,
+    pub size: f64,
+    /// Work: operations times parts.
+    pub work: f64,
+    /// Integrator at the end.
+    pub method: &'static str,
+}
+
+/// Why a run was not finished.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Unfinished {
+    /// More work than there is left.
+    TooMuchWork,
+    /// No initial state, or a step that could not be taken.
+    Failed(String),
+}
+
+/// The experiment that is planned for.
+pub(super) struct Experiment {
+    signals: Option<Signals>,
+    steps: u64,
+    step: f64,
+    stop: f64,
+    /// Steps from one point that is compared to the next.
+    every: u64,
+}
+
+impl Experiment {
+    /// The default experiment of a scene.
+    ///
+    /// # Errors
+    /// A course of what is no input.
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
+        let (step, stop) = (scene.experiment.step, scene.experiment.stop_time);
+        // The last step is shorter where the stop time is no multiple, but not by rounding alone.
+        let steps = (stop / step - 1e-9).ceil().max(1.0) as u64;
+        let signals = signals(scene, steps)?;
+        Ok(Self {
+            signals,
+            steps,
+            step,
+            stop,
+            every: steps / POINTS + 1,
+        })
+    }
+
+    /// Runs a scene with numbers of elements and a tolerance, with at most so much work.
+    pub fn run(&self, scene: Scene, most_work: f64) -> Result<Run, Unfinished> {
+        let failed = |reason: String| Unfinished::Failed(reason);
+        let mut simulation = Simulation::new(scene);
+        if let Some(signals) = &self.signals {
+            let set = simulation.set_inputs(signals);
+            set.map_err(|error| failed(error.to_string()))?;
+        }
+        let started = simulation.initialize(0.0).and_then(|()| simulation.start());
+        started.map_err(|error| failed(error.to_string()))?;
+        let (size, natural) = simulation.natural();
+        let mut run = Run {
+            times: Vec::new(),
+            rows: Vec::new(),
+            natural,
+            size,
+            work: 0.0,
+            method: "",
+        };
+        for number in 0..=self.steps {
+            let until = (number as f64 * self.step).min(self.stop);
+            while simulation.time() < until {
+                match &self.signals {
+                    Some(signals) => simulation.step_along(signals, until).map_err(failed)?,
+                    None => simulation
+                        .step(until)
+                        .map_err(|failure| failed(failure.to_string()))?,
+                }
+                let report = simulation.report();
+                run.work += report.work;
+                run.method = report.method;
+                if run.work > most_work {
+                    return Err(Unfinished::TooMuchWork);
+                }
+            }
+            if number % self.every != 0 && number != self.steps {
+                continue;
+            }
+            let row = read(&mut simulation).map_err(|error| failed(error.to_string()))?;
+            run.times.push(simulation.time());
+            run.rows.push(row);
+        }
+        Ok(run)
+    }
+}
+
+/// All that is computed; 0 of all else.
+fn read(simulation: &mut Simulation) -> Result<Vec<f64>, crate::simulation::Error> {
+    (0..simulation.variables().len())
+        .map(|index| match simulation.variables()[index].source {
+            Source::Parameter(_) | Source::Time | Source::Input(_) => Ok(0.0),
+            _ => simulation.real(index),
+        })
+        .collect()
+}
+
+/// What inputs do, as a table with a row at every communication point.
+fn signals(scene: &Scene, steps: u64) -> Result<Option<Signals>, Error> {
+    let courses = &scene.accuracy.courses;
+    if courses.is_empty() {
+        return Ok(None);
+    }
+    let variables = variables(scene);
+    for (place, course) in courses.iter().enumerate() {
+        let is_input = variables
+            .iter()
+            .any(|v| v.name == course.input && matches!(v.source, Source::Input(_)));
+        if !is_input {
+            let message = format!("expected the name of an input, found \"{}\"", course.input);
+            return Err(Error::new(format!("accuracy.for[{place}].input"), message));
+        }
+    }
+    let columns = columns(courses, &variables);
+    let names: Vec<&str> = columns.iter().map(|(name, ..)| name.as_str()).collect();
+    let mut text = format!("time,{}\n", names.join(","));
+    let stop = scene.experiment.stop_time;
+    let mut row = |time: f64, passed: [bool; 2]| {
+        let value = |(_, course, order): &(String, &InputCourse, u32)| {
+            format!("{:?}", derivative(course, (time, stop), passed, *order))
+        };
+        let cells: Vec<String> = columns.iter().map(value).collect();
+        text += &format!("{time:?},{}\n", cells.join(","));
+    };
+    let jumps = JUMPS.map(|part| (part * steps as f64).round() as u64);
+    let every = steps / POINTS + 1;
+    for number in 0..=steps {
+        if number % every != 0 && number != steps && !jumps.contains(&number) {
+            continue;
+        }
+        let time = (number as f64 * scene.experiment.step).min(stop);
+        row(time, jumps.map(|jump| number > jump));
+        // A jump is two rows of one time.
+        if jumps.contains(&number) && number < steps {
+            row(time, jumps.map(|jump| number >= jump));
+        }
+    }
+    let read = Signals::from_csv(&text, &variables);
+    read.map(Some)
+        .map_err(|error| Error::new("accuracy.for", error.to_string()))
+}
+
+/// Columns of the table: inputs with a course, and the rates of driven motions that follow from it: name, course, order.
+pub(super) fn columns<'a>(
+    courses: &'a [InputCourse],
+    variables: &[Variable],
+) -> Vec<(String, &'a InputCourse, u32)> {
+    let mut found: Vec<(String, &InputCourse, u32)> = Vec::new();
+    for course in courses {
+        found.push((course.input.clone(), course, 0));
+        for [value, rate, acceleration] in RATES {
+            for (name, order) in [(rate, 1), (acceleration, 2)] {
+                let name = course.input.replace(value, name);
+                let is_named = courses.iter().any(|other| other.input == name);
+                if !is_named && variables.iter().any(|variable| variable.name == name) {
+                    found.push((name, course, order));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Words for a driven coordinate and its derivatives in the names of inputs.
+const RATES: [[&str; 3]; 3] = [
+    [".position", ".velocity", ".acceleration"],
+    [".displacement", ".velocity", ".acceleration"],
+    [".angle", ".angular_velocity", ".angular_acceleration"],
+];
+
+/// Derivative of an order of a course at a time in an experiment, s; of one that jumps only its value.
+fn derivative(
+    course: &InputCourse,
+    (time, stop): (f64, f64),
+    passed: [bool; 2],
+    order: u32,
+) -> f64 {
+    let value = |time: f64| at(course, time / stop, passed);
+    let h = DIFFERENCE * stop;
+    match (order, course.course) {
+        (0, _) => value(time),
+        (_, Course::Step) => 0.0,
+        (1, _) => (value(time + h) - value(time - h)) / (2.0 * h),
+        _ => (value(time + h) - 2.0 * value(time) + value(time - h)) / (h * h),
+    }
+}
+
+/// Part of the experiment over which courses are differentiated.
+const DIFFERENCE: f64 = 1e-4;
+/// Parts of the experiment after which what jumps does, and ramps begin or end.
+const JUMPS: [f64; 2] = [0.1, 0.5];
+
+/// Value of an input after a part of the experiment, where those jumps have passed.
+fn at(course: &InputCourse, part: f64, passed: [bool; 2]) -> f64 {
+    let InputCourse { from, to, .. } = course;
+    let way = match course.course {
+        Course::Ramp => {
+            let up = (part / JUMPS[0]).clamp(0.0, 1.0);
+            let back = ((part - JUMPS[1]) / JUMPS[0]).clamp(0.0, 1.0);
+            0.5 * ((PI * back).cos() - (PI * up).cos())
+        }
+        Course::Step => f64::from(u8::from(passed[0] && !passed[1])),
+        Course::Sine => 0.5 - 0.5 * (2.0 * PI * SWINGS * part).cos(),
+    };
+    from + way * (to - from)
+}

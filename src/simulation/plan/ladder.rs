@@ -1,0 +1,88 @@
+//! Choices from cheap to dear, and what outputs change from one to the next.
+
+use super::outputs::Difference;
+
+/// An output settles while a doubling, or a tenth, leaves at most this part of what the one before changed.
+const HALF: f64 = 0.5;
+/// Doublings in a row that left more, after which an output is said not to settle.
+const PATIENCE: usize = 3;
+/// How many times its least change an output that does not settle may change.
+const NEARLY: f64 = 2.0;
+
+/// What a run is made with.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Choice {
+    /// Elements of every cable, in the order of the bodies.
+    pub elements: Vec<u32>,
+    pub tolerance: f64,
+}
+
+/// Choices from cheap to dear, with what the next one changed.
+pub(super) struct Ladder {
+    pub rungs: Vec<(Choice, Vec<Difference>)>,
+    /// What an output may change.
+    limit: f64,
+}
+
+impl Ladder {
+    pub fn new(limit: f64) -> Self {
+        Self {
+            rungs: Vec::new(),
+            limit,
+        }
+    }
+
+    pub fn add(&mut self, choice: &Choice, found: Vec<Difference>) {
+        self.rungs.push((choice.clone(), found));
+    }
+
+    /// Whether no output would come closer on the next rung, and is still to.
+    pub fn is_climbed(&self) -> bool {
+        let Some((_, last)) = self.rungs.last() else {
+            return false;
+        };
+        let is_open = |(group, difference): (usize, &Difference)| {
+            difference.largest > self.limit && !self.is_stuck(group)
+        };
+        !last.iter().enumerate().any(is_open)
+    }
+
+    /// Whether an output has stopped coming closer.
+    fn is_stuck(&self, group: usize) -> bool {
+        let changes: Vec<f64> = self
+            .rungs
+            .iter()
+            .map(|(_, all)| all[group].largest)
+            .collect();
+        let steps = changes.windows(2).rev().take(PATIENCE);
+        steps.filter(|step| step[1] > HALF * step[0]).count() == PATIENCE
+    }
+
+    /// The cheapest choice on which all outputs are within the limit, and those that never are, nearly as close as they
+    /// come; where there is none, the one that comes nearest to it.
+    pub fn best(&self) -> Option<&(Choice, Vec<Difference>)> {
+        let groups = self.rungs.first().map_or(0, |(_, all)| all.len());
+        let closest = |group: usize| {
+            let changes = self.rungs.iter().map(|(_, all)| all[group].largest);
+            changes.fold(f64::INFINITY, f64::min)
+        };
+        let allowed: Vec<f64> = (0..groups)
+            .map(|group| self.limit.max(NEARLY * closest(group)))
+            .collect();
+        let excess = |all: &[Difference]| {
+            let parts = all.iter().zip(&allowed);
+            parts.fold(1.0, |most: f64, (found, allowed)| {
+                most.max(found.largest / allowed)
+            })
+        };
+        // The first of equals.
+        let mut rungs = self.rungs.iter();
+        let first = rungs.next()?;
+        Some(rungs.fold(first, |best, rung| {
+            match excess(&rung.1) < excess(&best.1) {
+                true => rung,
+                false => best,
+            }
+        }))
+    }
+}
