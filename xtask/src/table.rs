@@ -57,4 +57,10 @@ impl Table {
         };
         Ok(self.rows.iter().map(|row| row[index]).collect())
     }
+
+    /// A curve in the plane, from its two columns.
+    pub fn points(&self, x: &str, y: &str) -> Result<Vec<[f64; 2]>> {
+        let pairs = self.column(x)?.into_iter().zip(self.column(y)?);
+        Ok(pairs.map(|(x, y)| [x, y]).collect())
+    }
 }

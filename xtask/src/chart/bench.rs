@@ -1,7 +1,7 @@
 //! Runs of the `flexbody` program: what to simulate, its outputs, what it took.
 
 use std::cell::Cell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
@@ -13,7 +13,7 @@ use crate::package::PACKAGE;
 use crate::process::{prepared, shown, stdout};
 use crate::table::Table;
 
-use super::numbers::median;
+use super::numbers::{median, number};
 
 /// How often a timed run is repeated.
 pub const REPEATS: usize = 5;
@@ -34,8 +34,17 @@ pub struct Run {
     settings: Vec<(String, f64)>,
     stop_time: f64,
     step: f64,
-    /// Options of `lab integrate`, where that takes the steps.
-    lab: Option<Vec<String>>,
+    by: Program,
+}
+
+/// What takes the steps.
+#[derive(Clone)]
+enum Program {
+    Product,
+    /// `lab integrate` with options.
+    Lab(Vec<String>),
+    /// A program that understands the same, with options.
+    Other(PathBuf, Vec<String>),
 }
 
 impl Run {
@@ -46,18 +55,8 @@ impl Run {
             settings: Vec::new(),
             stop_time,
             step,
-            lab: None,
+            by: Program::Product,
         }
-    }
-
-    /// The initial configuration of a scene: only the first row of the outputs is of interest.
-    pub fn initial(scene: &Value) -> Self {
-        Self::new(scene, 1e-9, 1e-9)
-    }
-
-    /// Time at which it ends, s.
-    pub fn stop_time(&self) -> f64 {
-        self.stop_time
     }
 
     /// With a start value.
@@ -77,19 +76,20 @@ impl Run {
     }
 
     /// With an integrator by name.
-    pub fn integrator(self, name: &str) -> Self {
-        self.method(json!({ "integrator": name }))
-    }
-
-    /// By the lab, with these options.
-    pub fn by_lab(mut self, options: &[&str]) -> Self {
-        self.lab = Some(options.iter().map(|option| (*option).to_owned()).collect());
+    pub fn integrator(mut self, name: &str) -> Self {
+        self.scene["method"] = json!({ "integrator": name });
         self
     }
 
-    /// With a method as scenes have it.
-    pub fn method(mut self, method: Value) -> Self {
-        self.scene["method"] = method;
+    /// By the lab, with these options.
+    pub fn by_lab(mut self, options: Vec<String>) -> Self {
+        self.by = Program::Lab(options);
+        self
+    }
+
+    /// By a program that understands the same as the lab, with these options.
+    pub fn by_other(mut self, program: &Path, options: Vec<String>) -> Self {
+        self.by = Program::Other(program.to_owned(), options);
         self
     }
 }
@@ -171,26 +171,23 @@ impl<'a> Bench<'a> {
         self.workspace.path("docs/charts").join(name)
     }
 
-    /// A file of the cases, e.g. `elastica/case.json`.
-    pub fn case_file(&self, name: &str) -> PathBuf {
-        self.workspace.path("tests/cases").join(name)
-    }
-
-    /// A JSON file of the cases.
-    pub fn case_json(&self, name: &str) -> Result<Value> {
-        self.json(&self.case_file(name))
-    }
-
-    /// A ready scene.
-    pub fn scene_json(&self, name: &str) -> Result<Value> {
-        let file = self.workspace.path("scenes").join(name);
-        self.json(&file.with_extension("json"))
-    }
-
-    fn json(&self, path: &std::path::Path) -> Result<Value> {
-        let place = shown(path);
-        let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {place}"))?;
+    /// A JSON file of the project.
+    pub fn json(&self, name: &str) -> Result<Value> {
+        let path = self.workspace.path(name);
+        let place = shown(&path);
+        let text =
+            std::fs::read_to_string(&path).with_context(|| format!("cannot read {place}"))?;
         serde_json::from_str(&text).with_context(|| format!("{place} is no JSON"))
+    }
+
+    /// A JSON file of the cases, e.g. `elastica/case.json`.
+    pub fn case(&self, name: &str) -> Result<Value> {
+        self.json(&format!("tests/cases/{name}"))
+    }
+
+    /// A table of the cases.
+    pub fn table(&self, name: &str) -> Result<Table> {
+        Table::read(&self.workspace.path("tests/cases").join(name))
     }
 
     /// Writes a scene for a program and returns where it is.
@@ -203,21 +200,32 @@ impl<'a> Bench<'a> {
 
     /// Runs everything once.
     pub fn run(&self, title: &str, runs: &[Run]) -> Result<Vec<Outcome>> {
-        self.repeat(title, runs, 1)
+        self.repeat(title, runs, 1, 0.0)
     }
 
     /// Runs everything often enough for timing. Repetitions go round all runs, so that whatever
     /// else the machine does meanwhile meets all of them; CPU times are medians.
     pub fn time(&self, title: &str, runs: &[Run]) -> Result<Vec<Outcome>> {
-        self.repeat(title, runs, REPEATS)
+        self.repeat(title, runs, REPEATS, f64::INFINITY)
     }
 
-    fn repeat(&self, title: &str, runs: &[Run], times: usize) -> Result<Vec<Outcome>> {
+    /// The same so many times, but once where a run fails or takes longer than that, s.
+    pub fn repeat(
+        &self,
+        title: &str,
+        runs: &[Run],
+        times: usize,
+        long: f64,
+    ) -> Result<Vec<Outcome>> {
         let bar = progress_bar(title, runs.len() * times);
         let mut outcomes: Vec<Outcome> = Vec::new();
         let mut cpu_times = vec![Vec::new(); runs.len()];
         for round in 0..times {
             for (index, run) in runs.iter().enumerate() {
+                bar.inc(1);
+                if round > 0 && cpu_times[index].first().is_none_or(|time| *time > long) {
+                    continue;
+                }
                 let outcome = self.execute(run)?;
                 if let Ok(cost) = &outcome.cost {
                     cpu_times[index].push(cost.cpu_time);
@@ -225,7 +233,6 @@ impl<'a> Bench<'a> {
                 if round == 0 {
                     outcomes.push(outcome);
                 }
-                bar.inc(1);
             }
         }
         for (outcome, times) in outcomes.iter_mut().zip(&cpu_times) {
@@ -238,19 +245,12 @@ impl<'a> Bench<'a> {
         Ok(outcomes)
     }
 
-    /// Runs a measurement of the lab, its name followed by options, on a scene and returns its report.
-    pub fn lab(&self, measurement: &[&str], scene: &Value) -> Result<Value> {
-        let number = self.files.replace(self.files.get() + 1);
-        let file = self.write(&format!("{number}.scene.json"), scene)?;
-        let report = stdout(Command::new(&self.lab).args(measurement).arg(&file))?;
-        std::fs::remove_file(&file).with_context(|| format!("cannot remove {}", shown(&file)))?;
-        serde_json::from_str(&report).context("the report of the lab is no JSON")
-    }
-
-    /// Runs a measurement of the lab that has scenes of its own and returns its report.
-    pub fn lab_alone(&self, measurement: &str) -> Result<Value> {
-        let report = stdout(Command::new(&self.lab).arg(measurement))?;
-        serde_json::from_str(&report).context("the report of the lab is no JSON")
+    /// Runs a measurement of the lab, its name followed by options, on a scene if it has none of its own, and returns its report.
+    pub fn lab(&self, measurement: &[&str], scene: Option<&Value>) -> Result<Value> {
+        let file = scene.map(|scene| self.write("lab.scene.json", scene));
+        let mut command = Command::new(&self.lab);
+        command.args(measurement).args(file.transpose()?);
+        serde_json::from_str(&stdout(&mut command)?).context("the report of the lab is no JSON")
     }
 
     fn execute(&self, run: &Run) -> Result<Outcome> {
@@ -258,18 +258,21 @@ impl<'a> Bench<'a> {
         let file = |kind: &str| prepared(&self.scratch.join(format!("{number}.{kind}")));
         let scene = self.write(&format!("{number}.scene.json"), &run.scene)?;
         let (outputs, report) = (file("csv")?, file("report.json")?);
-        let mut command = match &run.lab {
-            None => Command::new(&self.program),
-            Some(_) => Command::new(&self.lab),
+        let (program, options) = match &run.by {
+            Program::Product => (&self.program, vec!["simulate".to_owned()]),
+            Program::Lab(options) => (
+                &self.lab,
+                [vec!["integrate".into()], options.clone()].concat(),
+            ),
+            Program::Other(program, options) => (program, options.clone()),
         };
-        let step = match &run.lab {
-            None => command.arg("simulate").arg(&scene).arg("--step"),
-            Some(options) => {
-                let command = command.arg("integrate").arg(&scene);
-                command.args(options).arg("--every")
-            }
-        };
-        step.arg(run.step.to_string());
+        let mut command = Command::new(program);
+        command.args(options).arg(&scene);
+        command.arg(match run.by {
+            Program::Product => "--step",
+            _ => "--every",
+        });
+        command.arg(run.step.to_string());
         command.arg("--stop-time").arg(run.stop_time.to_string());
         command.arg("--output").arg(&outputs);
         command.arg("--report").arg(&report);
@@ -278,7 +281,7 @@ impl<'a> Bench<'a> {
         }
         let finished = command
             .output()
-            .with_context(|| format!("cannot start {}", shown(&self.program)))?;
+            .with_context(|| format!("cannot start {}", shown(program)))?;
         let cost = match finished.status.success() {
             true => Ok(read_cost(&report)?),
             false => Err(String::from_utf8_lossy(&finished.stderr).trim().to_owned()),
@@ -296,38 +299,30 @@ impl<'a> Bench<'a> {
     }
 }
 
-fn read_cost(path: &std::path::Path) -> Result<Cost> {
+fn read_cost(path: &Path) -> Result<Cost> {
     let place = shown(path);
     let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {place}"))?;
     let report: Value =
         serde_json::from_str(&text).with_context(|| format!("{place} is no JSON"))?;
-    let number = |key: &str| {
-        let value = report[key].as_f64();
-        value.with_context(|| format!("{place}: expected a number {key}, found {}", report[key]))
-    };
-    let method = report["method"].as_str();
     let calculated = report["calculated"].as_object().into_iter().flatten();
+    let doubtful = report["doubtful"].as_array().into_iter().flatten();
     Ok(Cost {
         calculated: calculated
             .filter_map(|(name, value)| Some((name.clone(), value.as_f64()?)))
             .collect(),
-        method: method
-            .with_context(|| format!("{place}: expected a method"))?
-            .to_owned(),
-        steps: number("steps")?,
-        rejected: number("rejected")?,
-        newton_iterations: number("newton_iterations")?,
-        cpu_time: number("cpu_time")?,
-        doubtful: report["doubtful"]
-            .as_array()
-            .into_iter()
-            .flatten()
+        method: crate::chart::numbers::text(&report["method"])?.to_owned(),
+        steps: number(&report["steps"])?,
+        rejected: number(&report["rejected"])?,
+        newton_iterations: number(&report["newton_iterations"])?,
+        cpu_time: number(&report["cpu_time"])?,
+        doubtful: doubtful
             .filter_map(|name| Some(name.as_str()?.to_owned()))
             .collect(),
     })
 }
 
-fn progress_bar(title: &str, runs: usize) -> ProgressBar {
+/// A bar that counts runs.
+pub fn progress_bar(title: &str, runs: usize) -> ProgressBar {
     let template = "{msg} {bar:40} {pos}/{len} runs  {elapsed}";
     let style = ProgressStyle::with_template(template);
     ProgressBar::new(runs as u64)

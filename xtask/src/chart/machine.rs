@@ -1,14 +1,37 @@
-//! What the numbers were measured on.
+//! What the numbers were measured on, a row a chart in `docs/charts/machine.csv`.
 
 use std::process::Command;
 
+use anyhow::{Context, Result};
+
+use super::bench::Bench;
+use super::csv::Csv;
+
+const FILE: &str = "machine";
+
+/// Notes the machine of a chart that was just measured.
+pub fn note(bench: &Bench, chart: &str) -> Result<()> {
+    let before = std::fs::read_to_string(bench.output(&format!("{FILE}.csv"))).unwrap_or_default();
+    let mut csv = Csv::new(bench, FILE, "chart,machine");
+    for line in before.lines().skip(1) {
+        let (name, machine) = line
+            .split_once(',')
+            .context("machine.csv: expected two columns")?;
+        if name != chart {
+            csv.row(&[&name, &machine.trim_matches('"')]);
+        }
+    }
+    csv.row(&[&chart, &describe()]);
+    csv.save()
+}
+
 /// Processor, system, compiler and build flags in one sentence.
-pub fn describe() -> String {
+fn describe() -> String {
     let (system, processor) = (std::env::consts::OS, std::env::consts::ARCH);
     let model = processor_model().unwrap_or_else(|| "unknown processor".into());
     let compiler = compiler().unwrap_or_else(|| "unknown compiler".into());
     let flags = match std::env::var("RUSTFLAGS") {
-        Ok(flags) if !flags.trim().is_empty() => format!("RUSTFLAGS {:?}", flags.trim()),
+        Ok(flags) if !flags.trim().is_empty() => format!("RUSTFLAGS {}", flags.trim()),
         _ => format!("baseline {processor}, no RUSTFLAGS"),
     };
     format!(
