@@ -52,7 +52,10 @@ class Chart:
         self.names = {**lines, **self.setting.get("names", {})}
 
     def value(self, expression, variables):
-        return compiled(expression)({"names": self.names, **variables})
+        try:
+            return compiled(expression)({"names": self.names, **variables})
+        except Exception as error:
+            raise ValueError(f"charts.toml, {self.name}: {' '.join(expression.split())}: {error}") from error
 
     def text(self, template, variables):
         return ENGINE.from_string(template).render({"names": self.names, **variables})
@@ -75,8 +78,8 @@ class Chart:
         found = {}
         for setting in self.setting.get("panels", []):
             setting = {"files": [self.name], "each": "none", "by": "none", **self.setting, **setting}
-            parts = self.groups(self.rows(setting), setting["each"]).values()
-            for index, part in enumerate(parts):
+            parts = self.groups(self.rows(setting), setting["each"])
+            for index, part in enumerate(parts.values()):
                 file = setting["files"][index * len(setting["files"]) // len(parts)]
                 titled = {**setting, "title": self.text(setting["title"], part[0])}
                 found.setdefault(file, []).append((titled, self.lines(titled, part)))
@@ -135,23 +138,24 @@ class Chart:
 
     def section(self):
         """The section of the page."""
-        known = {"rows": rows_of(self.name) if (DATA / f"{self.name}.csv").exists() else [], "csv": rows_of}
-        template = ENGINE.get_template(f"{self.name}.md")
-        return template.render({"names": self.names, "table": self.table, **known}).strip() + "\n"
+        known = {"names": self.names, "rows": rows_of(self.name), "csv": rows_of, "table": self.table}
+        return ENGINE.get_template(f"{self.name}.md").render(known).strip() + "\n"
 
 
 def page():
     """The page of all charts."""
     machines = {row["chart"]: row["machine"] for row in rows_of("machine")}
+    for name in CHARTS.keys() - machines:
+        raise ValueError(f"machine.csv knows nothing of {name}: measure it by `cargo xtask chart {name}`")
     sections = [(Chart(name).section(), machines[name]) for name in CHARTS]
     return ENGINE.get_template("page.md").render(sections=sections).strip() + "\n"
 
 
-def draw(names, output, ending=".svg"):
+def draw(names, output):
     """Draws the named charts into a folder, and writes the page of all."""
     for name in names:
         for file, panels in Chart(name).pictures().items():
-            pictures.picture(output / f"{file}{ending}", panels)
+            pictures.picture(output / f"{file}.svg", panels)
     (output / "README.md").write_text(page(), encoding="utf-8", newline="\n")
 
 

@@ -86,8 +86,8 @@ def drawing(panels):
     """Panels, each a pair of its description and its lines, with one legend where the same line looks the same in all."""
     columns = len(panels) if len(panels) < 4 else 2
     rows, width = math.ceil(len(panels) / columns), WIDE if columns < 3 else NARROW
-    looks = {(line["name"], look(line), bool(line.get("dashed"))) for _, lines in panels for line, _ in lines}
-    shared = len(looks) == len({name for name, *_ in looks}) == len({(seen, dashed) for _, seen, dashed in looks})
+    looks = {(line["name"], (look(line), bool(line.get("dashed")))) for _, lines in panels for line, _ in lines}
+    shared = len(looks) == len({name for name, _ in looks}) == len({seen for _, seen in looks})
     figure = Figure(layout="constrained")
     handles, entries = {}, 0
     for axes, (setting, lines) in zip(figure.subplots(rows, columns, squeeze=False).flat, panels):
@@ -95,21 +95,18 @@ def drawing(panels):
         own = dict(zip(*reversed(axes.get_legend_handles_labels())))
         handles, entries = {**handles, **own}, max(entries, len(own))
         if not shared:
-            across = 2 if columns < 3 else 1
+            across, legends = 2 if columns < 3 else 1, rows
             axes.legend(loc="upper left", bbox_to_anchor=(-0.1, -0.13), ncols=across, borderaxespad=0, columnspacing=1.2)
     if shared:
-        across, entries = 3 if columns < 3 else 4, len(handles)
+        across, legends, entries = 3 if columns < 3 else 4, 1, len(handles)
         figure.legend(handles.values(), handles.keys(), loc="outside lower left", ncols=across, columnspacing=1.2)
-    figure.set_size_inches(columns * width, rows * HEIGHT + (rows if not shared else 1) * ROW * math.ceil(entries / across))
+    figure.set_size_inches(columns * width, rows * HEIGHT + legends * ROW * math.ceil(entries / across))
     return figure
 
 
 def picture(path, panels):
-    """Draws panels into an SVG or PNG file, numbers of an SVG with two decimals."""
+    """Draws panels into an SVG file, numbers with two decimals."""
+    text = io.StringIO()
     with matplotlib.rc_context(STYLE):
-        if path.suffix != ".svg":
-            drawing(panels).savefig(path)
-            return
-        text = io.StringIO()
         drawing(panels).savefig(text, format="svg", metadata={"Date": None, "Creator": None})
     path.write_text(re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue()), encoding="utf-8", newline="\n")

@@ -63,4 +63,12 @@ impl Table {
         let pairs = self.column(x)?.into_iter().zip(self.column(y)?);
         Ok(pairs.map(|(x, y)| [x, y]).collect())
     }
+
+    /// The path of a marker in the plane.
+    pub fn marker(&self, name: &str) -> Result<Vec<[f64; 2]>> {
+        self.points(
+            &format!("{name}.position[1]"),
+            &format!("{name}.position[2]"),
+        )
+    }
 }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::table::Table;
 
 use super::bench::{Bench, Run};
-use super::csv::{Csv, digits};
+use super::csv::Csv;
 use super::numbers::{Path, distance, numbers, path};
 
 const MESHES: [u32; 3] = [2, 4, 10];
@@ -33,22 +33,10 @@ pub fn measure(bench: &Bench) -> Result<()> {
     let header = "formulation,elements,time_s,gap_m,pin_distance_m,tip_error_m";
     let mut csv = Csv::new(bench, "as_printed", header);
     let mut add = |formulation: &str, elements: u32, moved: Moved| {
-        for (at, ((gap, pin), (tip, known))) in moved
-            .gap
-            .iter()
-            .zip(&moved.pin)
-            .zip(moved.tip.iter().zip(&known))
-            .enumerate()
-        {
-            let time = format!("{:.2}", STEP * at as f64);
-            csv.row(&[
-                &formulation,
-                &elements,
-                &time,
-                &digits(*gap),
-                &digits(*pin),
-                &digits(distance(*tip, *known)),
-            ]);
+        for (at, (tip, known)) in moved.tip.iter().zip(&known).enumerate() {
+            let (time, gap, pin) = (STEP * at as f64, moved.gap[at], moved.pin[at]);
+            let error = distance(*tip, *known);
+            csv.row(&[&formulation, &elements, &time, &gap, &pin, &error]);
         }
     };
     for elements in MESHES {
@@ -57,9 +45,7 @@ pub fn measure(bench: &Bench) -> Result<()> {
     let run = |elements| Run::new(&scene, STOP_TIME, STEP).elements(elements);
     let runs = MESHES.map(|elements| run(elements).tolerance(1e-6).integrator("rk4"));
     for (elements, outcome) in MESHES.into_iter().zip(bench.run("as printed", &runs)?) {
-        if let Some(table) = &outcome.table {
-            add("mass_weighted", elements, weighted(table)?);
-        }
+        add("mass_weighted", elements, weighted(&outcome?.table)?);
     }
     csv.save()
 }
@@ -87,17 +73,11 @@ fn as_printed(bench: &Bench, scene: &Value, elements: u32) -> Result<Moved> {
 
 /// What a run of the product did.
 fn weighted(table: &Table) -> Result<Moved> {
-    let marker = |name: &str| {
-        let column = |axis: u32| format!("rod.{name}.position[{axis}]");
-        table.points(&column(1), &column(2))
-    };
+    let marker = |name: &str| table.marker(&format!("rod.{name}"));
     let (left, right, root) = (marker("left")?, marker("right")?, marker("root")?);
+    let gaps = left.into_iter().zip(right);
     Ok(Moved {
-        gap: left
-            .into_iter()
-            .zip(right)
-            .map(|(left, right)| distance(left, right))
-            .collect(),
+        gap: gaps.map(|(left, right)| distance(left, right)).collect(),
         pin: root
             .into_iter()
             .map(|root| distance(root, [0.0; 2]))

@@ -1,10 +1,12 @@
 //! CPU time of a step against the number of bodies, apart from each other, pinned in a chain and in loops.
 
+use std::f64::consts::FRAC_PI_2;
+
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
 use super::bench::{Bench, REPEATS, Run};
-use super::csv::{Csv, digits};
+use super::csv::Csv;
 use super::exudyn::Exudyn;
 use super::numbers::{distance, median};
 
@@ -24,94 +26,67 @@ const PEER_TOLERANCE: f64 = 1e-7;
 /// The point that is compared.
 const MARKER: &str = "rod1.end";
 
-/// How bodies are joined.
-#[derive(Clone, Copy, PartialEq)]
-enum Joined {
-    Apart,
-    Chain,
-    /// Uprights pinned to the ground and rods between their heads: a four-bar linkage each.
-    Loops,
-}
+/// Bodies and joints of so many bodies or loops.
+type Parts = (Vec<Value>, Vec<Value>);
 
-/// A way to put bodies together.
-struct Family {
-    name: &'static str,
-    is_rigid: bool,
-    joined: Joined,
-    counts: &'static [u32],
-}
-
-#[rustfmt::skip]
+/// Ways to put bodies together, with numbers of them.
+type Family = (&'static str, fn(u32) -> Parts, &'static [u32]);
 const FAMILIES: [Family; 5] = [
-    Family { name: "cables apart", is_rigid: false, joined: Joined::Apart, counts: &[1, 10, 100] },
-    Family { name: "chain of cables", is_rigid: false, joined: Joined::Chain, counts: &[1, 10, 100] },
-    Family { name: "rigid apart", is_rigid: true, joined: Joined::Apart, counts: &[1, 10, 100] },
-    Family { name: "chain of rigid", is_rigid: true, joined: Joined::Chain, counts: &[1, 3, 10, 30, 100, 300, 1000] },
-    Family { name: "loops of rigid", is_rigid: true, joined: Joined::Loops, counts: &[1, 3, 10, 20, 40, 100, 200] },
+    ("cables apart", |n| links(n, cable, false), &[1, 10, 100]),
+    ("chain of cables", |n| links(n, cable, true), &[1, 10, 100]),
+    ("rigid apart", |n| links(n, rigid, false), &[1, 10, 100]),
+    (
+        "chain of rigid",
+        |n| links(n, rigid, true),
+        &[1, 3, 10, 30, 100, 300, 1000],
+    ),
+    ("loops of rigid", loops, &[1, 3, 10, 20, 40, 100, 200]),
 ];
 
-impl Family {
-    /// The scene of a number of bodies.
-    fn scene(&self, count: u32) -> Value {
-        let (bodies, joints) = match self.joined {
-            Joined::Loops => loops(count),
-            _ => self.links(count),
-        };
-        json!({
-            "name": "bodies",
-            "dimension": 2,
-            "gravity": [0.0, -9.81],
-            "bodies": bodies,
-            "joints": joints,
-            "outputs": [{ "kind": "energy" }],
-            "accuracy": { "relative_tolerance": TOLERANCE },
-            "experiment": { "stop_time": STOP_TIME, "step": STOP_TIME },
-        })
-    }
+/// The scene of such parts.
+fn scene((bodies, joints): Parts) -> Value {
+    json!({
+        "name": "bodies",
+        "dimension": 2,
+        "gravity": [0.0, -9.81],
+        "bodies": bodies,
+        "joints": joints,
+        "outputs": [{ "kind": "energy" }],
+        "accuracy": { "relative_tolerance": TOLERANCE },
+        "experiment": { "stop_time": STOP_TIME, "step": STOP_TIME },
+    })
+}
 
-    fn links(&self, count: u32) -> (Vec<Value>, Vec<Value>) {
-        let is_chain = self.joined == Joined::Chain;
-        let (mut bodies, mut joints) = (Vec::new(), Vec::new());
-        for index in 0..count {
-            let (from, angle) = if is_chain {
-                ([LENGTH * f64::from(index), 0.0], 0.0)
-            } else {
-                let part = f64::from(index) / f64::from(count.max(2) - 1);
-                ([0.0, 0.0], -SPREAD * part)
-            };
-            bodies.push(if self.is_rigid {
-                rigid(index, from, angle)
-            } else {
-                cable(index, from, angle)
-            });
-            let before = match index.checked_sub(1) {
-                Some(before) if is_chain => format!("link{before}.end"),
-                _ => "ground".to_owned(),
-            };
-            joints.push(json!({
-                "name": format!("pin{index}"),
-                "kind": "revolute",
-                "markers": [before, format!("link{index}.start")],
-            }));
-        }
-        (bodies, joints)
+/// Links in a chain, or each pinned to the ground.
+fn links(count: u32, link: fn(u32, [f64; 2], f64) -> Value, is_chain: bool) -> Parts {
+    let (mut bodies, mut joints) = (Vec::new(), Vec::new());
+    for index in 0..count {
+        let part = f64::from(index) / f64::from(count.max(2) - 1);
+        let (from, angle, before) = match index.checked_sub(1) {
+            Some(before) if is_chain => {
+                let from = [LENGTH * f64::from(index), 0.0];
+                (from, 0.0, format!("link{before}.end"))
+            }
+            _ if is_chain => ([0.0; 2], 0.0, "ground".to_owned()),
+            _ => ([0.0; 2], -SPREAD * part, "ground".to_owned()),
+        };
+        bodies.push(link(index, from, angle));
+        joints.push(json!({
+            "name": format!("pin{index}"),
+            "kind": "revolute",
+            "markers": [before, format!("link{index}.start")],
+        }));
     }
+    (bodies, joints)
 }
 
 /// Rods of 1 m and 1 kg, the uprights upright and moving to the right with 1 m/s at their heads: IFToMM's benchmark A02.
-fn loops(count: u32) -> (Vec<Value>, Vec<Value>) {
+fn loops(count: u32) -> Parts {
     let (mut bodies, mut joints) = (Vec::new(), Vec::new());
-    let rod = |name: String, position: [f64; 2], angle: f64, spin: f64, velocity: f64| {
-        json!({
-            "name": name,
-            "element": "rigid",
-            "mass": 1.0,
-            "inertia": 1.0 / 12.0,
-            "position": position,
-            "angle": angle,
-            "motion": { "velocity": [velocity, 0.0], "spin": spin },
-            "markers": { "start": [-0.5, 0.0], "end": [0.5, 0.0] },
-        })
+    let moving = |name: &str, position: [f64; 2], angle: f64, velocity: f64, spin: f64| {
+        let mut rod = rod(name, 1.0, position, angle);
+        rod["motion"] = json!({ "velocity": [velocity, 0.0], "spin": spin });
+        rod
     };
     let pin = |first: String, second: String| {
         let name = format!("{first} {second}").replace(['.', ' '], "_");
@@ -121,12 +96,12 @@ fn loops(count: u32) -> (Vec<Value>, Vec<Value>) {
         let x = f64::from(index);
         let name = format!("upright{index}");
         joints.push(pin("ground".into(), format!("{name}.start")));
-        bodies.push(rod(name, [x, 0.5], std::f64::consts::FRAC_PI_2, -1.0, 0.5));
+        bodies.push(moving(&name, [x, 0.5], FRAC_PI_2, 0.5, -1.0));
         if let Some(before) = index.checked_sub(1) {
             let name = format!("rod{index}");
             joints.push(pin(format!("upright{before}.end"), format!("{name}.start")));
             joints.push(pin(format!("upright{index}.end"), format!("{name}.end")));
-            bodies.push(rod(name, [x - 0.5, 1.0], 0.0, 0.0, 1.0));
+            bodies.push(moving(&name, [x - 0.5, 1.0], 0.0, 1.0, 0.0));
         }
     }
     (bodies, joints)
@@ -147,52 +122,56 @@ fn cable(index: u32, from: [f64; 2], angle: f64) -> Value {
     })
 }
 
-/// A uniform rod of 1 kg.
+/// A link that is a rod.
 fn rigid(index: u32, from: [f64; 2], angle: f64) -> Value {
     let (sine, cosine) = angle.sin_cos();
-    let half = 0.5 * LENGTH;
+    let middle = [
+        from[0] + 0.5 * LENGTH * cosine,
+        from[1] + 0.5 * LENGTH * sine,
+    ];
+    rod(&format!("link{index}"), LENGTH, middle, angle)
+}
+
+/// A uniform rod of 1 kg.
+fn rod(name: &str, length: f64, position: [f64; 2], angle: f64) -> Value {
     json!({
-        "name": format!("link{index}"),
+        "name": name,
         "element": "rigid",
         "mass": 1.0,
-        "inertia": LENGTH * LENGTH / 12.0,
-        "position": [from[0] + half * cosine, from[1] + half * sine],
+        "inertia": length * length / 12.0,
+        "position": position,
         "angle": angle,
-        "markers": { "start": [-half, 0.0], "end": [half, 0.0] },
+        "markers": { "start": [-0.5 * length, 0.0], "end": [0.5 * length, 0.0] },
     })
 }
 
 /// Measures.
 pub fn measure(bench: &Bench) -> Result<()> {
     let (mut plan, mut runs, mut choices) = (Vec::new(), Vec::new(), Vec::new());
-    for family in &FAMILIES {
-        for &count in family.counts {
-            let scene = family.scene(count);
-            plan.push((family.name, count));
+    for (name, family, counts) in FAMILIES {
+        for &count in counts {
+            let scene = scene(family(count));
+            plan.push((name, count));
             let run = |method: &str| Run::new(&scene, STOP_TIME, STOP_TIME).integrator(method);
             runs.extend(["radau", "rk4"].map(run));
             choices.push(Run::new(&scene, 1e-3, 1e-3).integrator("auto"));
         }
     }
     let choices = bench.run("bodies, choice", &choices)?;
-    let outcomes = bench.time("bodies", &runs)?;
+    let mut outcomes = bench.time("bodies", &runs)?.into_iter();
     let header = "family,bodies,chosen,radau_steps,radau_rejected,radau_newton_iterations,radau_iteration_s,\
                   radau_step_s,rk4_steps,rk4_rejected,rk4_step_s";
     let mut csv = Csv::new(bench, "bodies", header);
-    for (((family, count), pair), choice) in plan.iter().zip(outcomes.chunks(2)).zip(&choices) {
-        let (radau, rk4) = (pair[0].cost()?, pair[1].cost()?);
+    for ((family, count), choice) in plan.iter().zip(choices) {
+        let (choice, mut next) = (choice?, || outcomes.next().expect("as many as runs"));
+        let (radau, rk4) = (next()?, next()?);
+        let keys = ["steps", "rejected", "newton_iterations"];
+        let [steps, failed, newton] = keys.map(|key| radau.number(key));
+        let [own, rejected, _] = keys.map(|key| rk4.number(key));
+        let (each, step, rk4) = (radau.per(keys[2]), radau.per(keys[0]), rk4.per(keys[0]));
+        let method = choice.method();
         csv.row(&[
-            family,
-            count,
-            &choice.cost()?.method,
-            &radau.steps,
-            &radau.rejected,
-            &radau.newton_iterations,
-            &digits(radau.per_iteration()),
-            &digits(radau.per_step()),
-            &rk4.steps,
-            &rk4.rejected,
-            &digits(rk4.per_step()),
+            family, count, &method, &steps, &failed, &newton, &each, &step, &own, &rejected, &rk4,
         ]);
     }
     csv.save()?;
@@ -202,40 +181,31 @@ pub fn measure(bench: &Bench) -> Result<()> {
 /// Runs the loops in both programs in turns.
 fn peers(bench: &Bench) -> Result<()> {
     let mut exudyn = Exudyn::start(bench.workspace())?;
-    let family = &FAMILIES[FAMILIES.len() - 1];
+    let (_, family, _) = FAMILIES[FAMILIES.len() - 1];
     let header = "loops,own_step_s,own_steps,exudyn_step_s,exudyn_steps,distance_m";
     let mut csv = Csv::new(bench, "bodies_peers", header);
     for count in PEER_LOOPS {
-        let mut scene = family.scene(count);
+        let mut scene = scene(family(count));
         scene["outputs"] = json!([{ "kind": "position", "marker": MARKER }]);
         scene["accuracy"] = json!({ "relative_tolerance": PEER_TOLERANCE });
         let run = [Run::new(&scene, STOP_TIME, STOP_TIME).integrator("rk4")];
-        let options = json!({
-            "scene": bench.write("loops.scene.json", &scene)?, "marker": MARKER, "solver": "alpha", "newton": "modified",
-            "linear": "sparse", "step": PEER_STEP, "stop_time": STOP_TIME, "every": STOP_TIME,
-        });
-        let (mut own, mut other, mut steps, mut apart) = (Vec::new(), Vec::new(), 0.0, 0.0);
+        let title = format!("bodies, {count} loops beside Exudyn");
+        let (mut own, mut other, mut steps, mut apart) = (vec![], vec![], 0.0, 0.0);
         for _ in 0..REPEATS {
-            let outcome = &bench.run(&format!("bodies, {count} loops beside Exudyn"), &run)?[0];
-            let (table, cost, answer) = (outcome.table()?, outcome.cost()?, exudyn.run(&options)?);
-            own.push(cost.per_step());
+            let ran = bench.run(&title, &run)?.remove(0)?;
+            let answer = exudyn.run(&json!({
+                "scene": bench.write(&scene)?, "marker": MARKER, "solver": "alpha", "newton": "modified",
+                "linear": "sparse", "step": PEER_STEP, "stop_time": STOP_TIME, "every": STOP_TIME,
+            }))?;
+            own.push(ran.per("steps"));
             other.push(answer.cpu_time * PEER_STEP / STOP_TIME);
-            let path = table.points(
-                &format!("{MARKER}.position[1]"),
-                &format!("{MARKER}.position[2]"),
-            )?;
+            let path = ran.table.marker(MARKER)?;
             let ends = path.last().zip(answer.path.last());
-            let (end, [_, x, y]) = ends.context("expected a path")?;
-            (steps, apart) = (cost.steps, distance(*end, [*x, *y]));
+            let (end, other_end) = ends.context("expected a path")?;
+            (steps, apart) = (ran.number("steps"), distance(*end, *other_end));
         }
-        csv.row(&[
-            &count,
-            &digits(median(&own)),
-            &steps,
-            &digits(median(&other)),
-            &(STOP_TIME / PEER_STEP).round(),
-            &digits(apart),
-        ]);
+        let (own, other, taken) = (median(&own), median(&other), STOP_TIME / PEER_STEP);
+        csv.row(&[&count, &own, &steps, &other, &taken.round(), &apart]);
     }
     csv.save()
 }

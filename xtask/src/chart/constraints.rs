@@ -2,8 +2,8 @@
 
 use anyhow::{Context, Result};
 
-use super::bench::{Bench, Outcome, Run};
-use super::csv::{Csv, digits};
+use super::bench::{Bench, Ran, Run};
+use super::csv::Csv;
 use super::numbers::largest;
 use crate::table::Table;
 
@@ -38,75 +38,65 @@ const MECHANISMS: [(&str, &str, &str, Place); 4] = [
 pub fn measure(bench: &Bench) -> Result<()> {
     let (mut runs, mut plan) = (Vec::new(), Vec::new());
     for mechanism in MECHANISMS {
-        let scene = bench.case(mechanism.1)?;
-        let times = bench.table(mechanism.2)?.column("t")?;
+        let (scene, reference) = (bench.case(mechanism.1)?, bench.table(mechanism.2)?);
+        let times = reference.column("t")?;
         let last = times.last().zip(times.get(1));
-        let (stop_time, step) = last.context("expected a reference of two times at least")?;
+        let (stop, every) = last.context("expected a reference of two times at least")?;
         for method in METHODS {
             for tolerance in TOLERANCES {
-                let run = Run::new(&scene, *stop_time, *step);
-                let options = format!(
-                    "--method {} --constraints {} --tolerance {tolerance:e}",
-                    method.0, method.1
-                );
+                let run = Run::new(&scene, *stop, *every);
+                let options = [
+                    ("--method", method.0.to_owned()),
+                    ("--constraints", method.1.to_owned()),
+                    ("--tolerance", tolerance.to_string()),
+                ];
                 runs.push(match method.1 {
                     "projection" => run.tolerance(tolerance).integrator(method.0),
-                    _ => run.by_lab(options.split(' ').map(str::to_owned).collect()),
+                    _ => run.by_lab(&options, None),
                 });
                 plan.push((mechanism, method, tolerance));
             }
         }
     }
-    let header = "mechanism,integrator,constraints,tolerance,error_m,cpu_time_s,steps,rejected,newton_iterations,\
-                  residual_position,residual_velocity";
+    let header = "mechanism,integrator,constraints,tolerance,error_m,cpu_time_s,steps,rejected,\
+                  newton_iterations,residual_position,residual_velocity";
     let mut csv = Csv::new(bench, "constraints", header);
-    for ((mechanism, method, tolerance), outcome) in
-        plan.into_iter().zip(bench.time("constraints", &runs)?)
-    {
-        let reference = bench.table(mechanism.2)?;
-        let [error, time, steps, rejected, iterations, position, velocity] =
-            &cells(mechanism.3, &reference, &outcome)?;
-        let tolerance = format!("{tolerance:e}");
+    let outcomes = bench.time("constraints", &runs)?;
+    for ((mechanism, (integrator, treatment), tolerance), outcome) in plan.iter().zip(outcomes) {
+        let (name, _, reference, place) = mechanism;
+        let found = match outcome {
+            Ok(ran) => numbers(place, &bench.table(reference)?, &ran)?,
+            Err(_) => [f64::NAN; 7],
+        };
+        let [error, time, steps, rejected, newton, position, velocity] = &found;
         csv.row(&[
-            &mechanism.0,
-            &method.0,
-            &method.1,
-            &tolerance,
-            error,
-            time,
-            steps,
-            rejected,
-            iterations,
-            position,
+            name, integrator, treatment, tolerance, error, time, steps, rejected, newton, position,
             velocity,
         ]);
     }
     csv.save()
 }
 
-/// What a run showed; nothing where it failed.
-fn cells(place: Place, reference: &Table, outcome: &Outcome) -> Result<[String; 7]> {
-    let Ok(cost) = &outcome.cost else {
-        return Ok(Default::default());
-    };
-    let table = outcome.table()?;
-    let mut squares = vec![0.0; table.column("time")?.len()];
+/// Error, cost and residuals of a run.
+fn numbers(place: Place, reference: &Table, ran: &Ran) -> Result<[f64; 7]> {
+    let mut squares = vec![0.0; ran.table.column("time")?.len()];
     for (output, column) in place {
-        let pairs = table
-            .column(output)?
-            .into_iter()
-            .zip(reference.column(column)?);
+        let pairs = ran.table.column(output)?.into_iter();
+        let pairs = pairs.zip(reference.column(column)?);
         for (square, (found, known)) in squares.iter_mut().zip(pairs) {
             *square += (found - known).powi(2);
         }
     }
+    let residual = |kind: &str| ran.table.column(&format!("residual.{kind}")).map(largest);
+    let [steps, rejected, iterations] =
+        ["steps", "rejected", "newton_iterations"].map(|key| ran.number(key));
     Ok([
-        digits(largest(squares).sqrt()),
-        digits(cost.cpu_time),
-        cost.steps.to_string(),
-        cost.rejected.to_string(),
-        cost.newton_iterations.to_string(),
-        digits(largest(table.column("residual.position")?)),
-        digits(largest(table.column("residual.velocity")?)),
+        largest(squares).sqrt(),
+        ran.cpu_time,
+        steps,
+        rejected,
+        iterations,
+        residual("position")?,
+        residual("velocity")?,
     ])
 }

@@ -24,15 +24,9 @@ impl Csv {
         }
     }
 
-    /// Adds a row.
+    /// Adds a row. Numbers have five digits but for whole ones, what is no number is empty.
     pub fn row(&mut self, cells: &[&dyn Display]) {
-        let cells: Vec<String> = cells.iter().map(ToString::to_string).collect();
-        self.texts(&cells);
-    }
-
-    /// Adds a row of texts.
-    pub fn texts(&mut self, cells: &[String]) {
-        let cells: Vec<String> = cells.iter().map(|cell| quoted(cell)).collect();
+        let cells: Vec<String> = cells.iter().map(|cell| field(&cell.to_string())).collect();
         self.text += &(cells.join(",") + "\n");
     }
 
@@ -44,17 +38,17 @@ impl Csv {
     }
 }
 
-fn quoted(cell: &str) -> String {
-    match cell.contains([',', '"']) {
-        true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell.to_owned(),
-    }
-}
-
-/// A measured number with five digits; empty where there is none.
-pub fn digits(value: impl Into<Option<f64>>) -> String {
-    match value.into() {
-        Some(value) if !value.is_nan() => format!("{value:.4e}"),
-        _ => String::new(),
+fn field(text: &str) -> String {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_nan() => String::new(),
+        Ok(value) if value.is_finite() && value.fract() != 0.0 => {
+            let rounded = format!("{value:.4e}").parse().unwrap_or(value);
+            match (1e-2..1e5).contains(&value.abs()) {
+                true => rounded.to_string(),
+                false => format!("{rounded:e}"),
+            }
+        }
+        Err(_) if text.contains([',', '"']) => format!("\"{}\"", text.replace('"', "\"\"")),
+        _ => text.to_owned(),
     }
 }

@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::table::Table;
 
 use super::bench::{Bench, Run};
-use super::csv::{Csv, digits};
+use super::csv::Csv;
 use super::numbers::{largest, peaks};
 
 /// Scene of the case, name, integrator, tolerances. Not steel with rkn43: stability would hold it to
@@ -33,10 +33,8 @@ const MECHANISMS: [(&str, &str, f64); 3] = [
 
 /// Change of the total energy over a scale, by time.
 fn change(table: &Table, scale: f64) -> Result<Vec<(f64, f64)>> {
-    let parts =
-        ["energy.kinetic", "energy.strain", "energy.gravity"].map(|part| table.column(part));
-    let [kinetic, strain, gravity] = parts;
-    let (kinetic, strain, gravity) = (kinetic?, strain?, gravity?);
+    let part = |name: &str| table.column(&format!("energy.{name}"));
+    let (kinetic, strain, gravity) = (part("kinetic")?, part("strain")?, part("gravity")?);
     let total = |i: usize| kinetic[i] + strain[i] + gravity[i];
     let times = table.column("time")?.into_iter().enumerate();
     Ok(times
@@ -54,37 +52,24 @@ fn ends(curve: &[(f64, f64)]) -> [f64; 2] {
 pub fn drift(bench: &Bench) -> Result<()> {
     let header = "pendulum,method,tolerance,largest_drift,last_drift,steps,cpu_time_s";
     let mut csv = Csv::new(bench, "drift", header);
-    let mut curves = Csv::new(
-        bench,
-        "drift_curves",
-        "pendulum,method,time_s,largest_drift",
-    );
+    let header = "pendulum,method,time_s,largest_drift";
+    let mut curves = Csv::new(bench, "drift_curves", header);
     for (file, pendulum, method, tolerances) in PENDULUMS {
         let scene = bench.case(&format!("energy_drift/{file}"))?;
         let run = |tolerance: &f64| {
-            Run::new(&scene, SWINGS, 0.1)
-                .integrator(method)
-                .tolerance(*tolerance)
+            let run = Run::new(&scene, SWINGS, 0.1).integrator(method);
+            run.tolerance(*tolerance)
         };
         let runs: Vec<Run> = tolerances.iter().map(run).collect();
-        let outcomes = bench.run(&format!("drift, {pendulum}, {method}"), &runs)?;
-        for (tolerance, outcome) in tolerances.iter().zip(outcomes) {
-            let (curve, cost) = (change(outcome.table()?, scale(&scene)?)?, outcome.cost()?);
-            let [largest, last] = ends(&curve).map(digits);
-            let time = digits(cost.cpu_time);
-            csv.row(&[
-                &pendulum,
-                &method,
-                &format!("{tolerance:e}"),
-                &largest,
-                &last,
-                &cost.steps,
-                &time,
-            ]);
-            if *tolerance == 1e-5 {
-                for (time, largest) in peaks(&curve) {
-                    curves.row(&[&pendulum, &method, &time, &digits(largest)]);
-                }
+        let title = format!("drift, {pendulum}, {method}");
+        for (tolerance, outcome) in tolerances.iter().zip(bench.run(&title, &runs)?) {
+            let ran = outcome?;
+            let curve = change(&ran.table, scale(&scene)?)?;
+            let ([largest, last], steps) = (ends(&curve), ran.number("steps"));
+            let (time, name) = (ran.cpu_time, pendulum);
+            csv.row(&[&name, &method, tolerance, &largest, &last, &steps, &time]);
+            for (time, largest) in peaks(&curve).iter().filter(|_| *tolerance == 1e-5) {
+                curves.row(&[&pendulum, &method, time, largest]);
             }
         }
     }
@@ -111,36 +96,27 @@ pub fn energies(bench: &Bench) -> Result<()> {
     let mut csv = Csv::new(bench, "energies", header);
     let mut curves = Csv::new(bench, "energies_curves", "mechanism,time_s,largest_drift");
     let tolerances = [1e-4, 1e-6, 1e-8];
-    for (name, file, stop_time) in MECHANISMS {
+    for (name, file, stop) in MECHANISMS {
         let scene = bench.case(file)?;
         let run = |tolerance| {
-            Run::new(&scene, stop_time, 0.05)
-                .integrator("auto")
-                .tolerance(tolerance)
+            let run = Run::new(&scene, stop, 0.05).integrator("auto");
+            run.tolerance(tolerance)
         };
         let outcomes = bench.run(&format!("energies, {name}"), &tolerances.map(run))?;
         for (tolerance, outcome) in tolerances.into_iter().zip(outcomes) {
-            let (table, cost) = (outcome.table()?, outcome.cost()?);
-            let scale = largest(table.column("energy.kinetic")?);
-            let curve = change(table, scale)?;
-            let [highest, last] = ends(&curve).map(digits);
+            let ran = outcome?;
+            let most = |column: &str| anyhow::Ok(largest(ran.table.column(column)?));
+            let scale = most("energy.kinetic")?;
+            let curve = change(&ran.table, scale)?;
+            let (method, [top, last]) = (ran.method(), ends(&curve));
+            let (position, velocity) = (most("residual.position")?, most("residual.velocity")?);
+            let (steps, time) = (ran.number("steps"), ran.cpu_time);
             csv.row(&[
-                &name,
-                &stop_time,
-                &cost.method,
-                &format!("{tolerance:e}"),
-                &digits(scale),
-                &highest,
-                &last,
-                &digits(largest(table.column("residual.position")?)),
-                &digits(largest(table.column("residual.velocity")?)),
-                &cost.steps,
-                &digits(cost.cpu_time),
+                &name, &stop, &method, &tolerance, &scale, &top, &last, &position, &velocity,
+                &steps, &time,
             ]);
-            if tolerance == 1e-6 {
-                for (time, largest) in peaks(&curve) {
-                    curves.row(&[&name, &time, &digits(largest)]);
-                }
+            for (time, largest) in peaks(&curve).iter().filter(|_| tolerance == 1e-6) {
+                curves.row(&[&name, time, largest]);
             }
         }
     }

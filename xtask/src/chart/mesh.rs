@@ -5,8 +5,8 @@ use serde_json::Value;
 
 use crate::table::Table;
 
-use super::bench::{Bench, Outcome, Run};
-use super::csv::{Csv, digits};
+use super::bench::{Bench, Ran, Run};
+use super::csv::Csv;
 use super::numbers::{distance, largest};
 
 const MESHES: [u32; 7] = [2, 4, 8, 16, 32, 64, 128];
@@ -55,10 +55,14 @@ pub fn measure(bench: &Bench) -> Result<()> {
     for (name, case) in PENDULUMS {
         let scene = bench.case(&format!("{case}/scene.json"))?;
         let run = |mesh| Run::new(&scene, 1.1, 0.1).elements(mesh).tolerance(1e-7);
-        let outcomes = bench.run(&format!("soft pendulum, {name}"), &PENDULUM_MESHES.map(run))?;
+        let title = format!("soft pendulum, {name}");
+        let outcomes = bench.run(&title, &PENDULUM_MESHES.map(run))?;
         let reference = bench.table(&format!("{case}/reference.csv"))?;
-        let error = |outcome: &Outcome| Ok(Some(tip_error(outcome.table()?, &reference)?));
-        let errors = outcomes.iter().map(error).collect::<Result<Vec<_>>>()?;
+        let error = |outcome: Result<Ran>| Ok(Some(tip_error(&outcome?.table, &reference)?));
+        let errors = outcomes
+            .into_iter()
+            .map(error)
+            .collect::<Result<Vec<_>>>()?;
         add(&mut csv, "moving", name, &PENDULUM_MESHES, &errors);
     }
     csv.save()
@@ -86,9 +90,9 @@ fn still(bench: &Bench, name: &str, case: &str, claim: &Value) -> Result<Vec<Opt
         settings.iter().fold(run, set)
     };
     let outcomes = bench.run(name, &MESHES.map(run))?;
-    let error = |outcome: &Outcome| match outcome.cost {
-        Ok(_) => initial_error(outcome, &values).map(Some),
-        Err(_) => Ok(None),
+    let error = |outcome: &Result<Ran>| {
+        let ran = outcome.as_ref().ok();
+        ran.map(|ran| initial_error(ran, &values)).transpose()
     };
     outcomes.iter().map(error).collect()
 }
@@ -101,25 +105,23 @@ fn numbers(object: &Value) -> Vec<(String, f64)> {
 }
 
 /// Distance where positions are claimed, else relative error of the last value.
-fn initial_error(outcome: &Outcome, values: &[(String, f64)]) -> Result<f64> {
-    let table = outcome.table()?;
+fn initial_error(ran: &Ran, values: &[(String, f64)]) -> Result<f64> {
     let mut squares = Vec::new();
     for (name, value) in values.iter().filter(|(name, _)| name.contains("position")) {
-        squares.push((table.column(name)?[0] - value).powi(2));
+        squares.push((ran.table.column(name)?[0] - value).powi(2));
     }
     if !squares.is_empty() {
         return Ok(squares.iter().sum::<f64>().sqrt());
     }
     let (name, value) = values.last().context("expected a claim with values")?;
-    let mut calculated = outcome.cost()?.calculated.iter();
-    let found = calculated.find(|(other, _)| other == name);
-    let (_, found) = found.with_context(|| format!("expected {name} in the report of the run"))?;
+    let found = ran.report["calculated"][name].as_f64();
+    let found = found.with_context(|| format!("expected {name} in the report of the run"))?;
     Ok((found / value - 1.0).abs())
 }
 
 /// Largest distance of the tip from the reference over the points in time they share.
 fn tip_error(table: &Table, reference: &Table) -> Result<f64> {
-    let tips = table.points("rod.tip.position[1]", "rod.tip.position[2]")?;
+    let tips = table.marker("rod.tip")?;
     let (times, known) = (table.column("time")?, reference.column("t")?);
     let known_tips = reference.points("x_tip", "y_tip")?;
     let apart = |(time, tip): (f64, [f64; 2])| {
@@ -138,9 +140,9 @@ fn add(csv: &mut Csv, kind: &str, name: &str, meshes: &[u32], errors: &[Option<f
         let resolved = before.zip(*error).filter(|(a, b)| a.min(*b) > ROUNDOFF);
         let order = resolved.map(|(a, b)| {
             let finer = f64::from(*mesh) / f64::from(meshes[index - 1]);
-            format!("{:.2}", (a / b).ln() / finer.ln())
+            (a / b).ln() / finer.ln()
         });
-        let order = order.unwrap_or_default();
-        csv.row(&[&kind, &name, mesh, &digits(*error), &order]);
+        let [error, order] = [*error, order].map(|value| value.unwrap_or(f64::NAN));
+        csv.row(&[&kind, &name, mesh, &error, &order]);
     }
 }

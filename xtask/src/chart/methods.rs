@@ -1,13 +1,13 @@
 //! Integrators: error in time alone against CPU time, those of the product and those of the lab.
 
-use std::path::PathBuf;
+use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
-use super::bench::{Bench, Outcome, Run};
-use super::csv::{Csv, digits};
-use super::numbers::{distance, largest, number, text};
+use super::bench::{Bench, Ran, Run};
+use super::csv::Csv;
+use super::numbers::{largest_distance, number, text};
 
 /// Scenes, references, and steps and tolerances of all points.
 const SETTINGS: &str = "lab/methods.json";
@@ -16,6 +16,7 @@ const ROUNDS: usize = 3;
 const LONG: f64 = 0.4;
 
 /// A run: a method with a step, a tolerance, or both.
+#[derive(Clone, Copy)]
 struct Plan<'a> {
     method: &'a str,
     step: Option<f64>,
@@ -23,10 +24,8 @@ struct Plan<'a> {
 }
 
 impl Plan<'_> {
-    /// Step and tolerance.
-    fn cells(&self) -> [String; 2] {
-        [self.step, self.tolerance]
-            .map(|value| value.map_or(String::new(), |value| format!("{value:e}")))
+    fn numbers(&self) -> [f64; 2] {
+        [self.step, self.tolerance].map(|value| value.unwrap_or(f64::NAN))
     }
 }
 
@@ -34,10 +33,8 @@ impl Plan<'_> {
 pub fn measure(bench: &Bench) -> Result<()> {
     let settings = bench.json(SETTINGS)?;
     let with_diffsol = settings.to_string().contains("\"diffsol\"");
-    let diffsol = || {
-        let workspace = bench.workspace();
-        workspace.program_apart("lab/diffsol", "lab-diffsol")
-    };
+    let workspace = bench.workspace();
+    let diffsol = || workspace.program_apart("lab/diffsol", "lab-diffsol");
     let diffsol = with_diffsol.then(diffsol).transpose()?;
     let header = "scene,method,step_s,tolerance,error,cpu_time_s,left_out";
     let mut csv = Csv::new(bench, "methods", header);
@@ -46,7 +43,7 @@ pub fn measure(bench: &Bench) -> Result<()> {
     let mut scenes = Csv::new(bench, "methods_scenes", header);
     for setting in settings.as_array().into_iter().flatten() {
         let place = || format!("{SETTINGS}: {}", setting["name"]);
-        scene(bench, setting, &diffsol, &mut csv, &mut scenes).with_context(place)?;
+        scene(bench, setting, diffsol.as_deref(), &mut csv, &mut scenes).with_context(place)?;
     }
     csv.save()?;
     scenes.save()
@@ -56,87 +53,47 @@ pub fn measure(bench: &Bench) -> Result<()> {
 fn scene(
     bench: &Bench,
     setting: &Value,
-    diffsol: &Option<PathBuf>,
+    diffsol: Option<&Path>,
     csv: &mut Csv,
     scenes: &mut Csv,
 ) -> Result<()> {
     let (name, scene) = (text(&setting["name"])?, changed(bench, setting)?);
-    let runs = |plans: &[Plan]| -> Result<Vec<Run>> {
-        plans
-            .iter()
-            .map(|plan| run(setting, &scene, plan, diffsol))
-            .collect()
-    };
-    let references = plans(&setting["references"]);
+    let [stop, every, length] = ["stop_time", "every", "length"].map(|key| number(&setting[key]));
+    let (stop, every, length) = (stop?, every?, length?);
+    let run = |plan: &Plan| run(Run::new(&scene, stop, every), plan, diffsol);
     let title = format!("methods, {name}");
-    let known = bench.run(&format!("{title}, references"), &runs(&references)?)?;
-    let paths: Result<Vec<_>> = known
-        .iter()
-        .map(|outcome| places(&scene, outcome))
-        .collect();
-    let [reference, other] = &paths?[..] else {
-        anyhow::bail!("expected two references, found {}", references.len());
+    let [first, second] = plans(&setting["references"])[..] else {
+        bail!("expected two references");
     };
-    let length = number(&setting["length"])?;
-    let error = |path: &[[f64; 2]]| {
-        largest(
-            path.iter()
-                .zip(reference)
-                .map(|(a, b)| distance(*a, *b) / length),
-        )
-    };
-    let number = |key: &str| number(&setting[key]);
-    let [[step, tolerance], [other_step, other_tolerance]] =
-        [references[0].cells(), references[1].cells()];
-    let (stop, every, apart) = (number("stop_time")?, number("every")?, digits(error(other)));
+    let known = bench.run(
+        &format!("{title}, references"),
+        &[run(&first), run(&second)],
+    )?;
+    let known: Result<Vec<_>> = known.into_iter().map(|ran| places(&scene, &ran?)).collect();
+    let known = known?;
+    let error = |path: &[[f64; 2]]| largest_distance(path, &known[0]) / length;
+    let (a, b, apart) = (first.numbers(), second.numbers(), error(&known[1]));
+    let (one, other) = (first.method, second.method);
     scenes.row(&[
-        &name,
-        &stop,
-        &every,
-        &references[0].method,
-        &step,
-        &tolerance,
-        &references[1].method,
-        &other_step,
-        &other_tolerance,
-        &apart,
+        &name, &stop, &every, &one, &a[0], &a[1], &other, &b[0], &b[1], &apart,
     ]);
     let plans = plans(&setting["points"]);
-    let outcomes = bench.repeat(&title, &runs(&plans)?, ROUNDS, LONG)?;
+    let runs: Vec<Run> = plans.iter().map(run).collect();
     let mut points = Vec::new();
-    for (plan, outcome) in plans.iter().zip(outcomes) {
-        let path = outcome.cost().and_then(|_| places(&scene, &outcome));
-        let found = path
-            .map(|path| error(&path))
-            .ok()
-            .filter(|error| *error > 0.0 && error.is_finite());
-        points.push((
-            plan,
-            found,
-            outcome.cost.map_or(f64::NAN, |cost| cost.cpu_time),
-        ));
+    for (plan, outcome) in plans.iter().zip(bench.repeat(&title, &runs, ROUNDS, LONG)?) {
+        let found = outcome.and_then(|ran| Ok((error(&places(&scene, &ran)?), ran.cpu_time)));
+        let good = |(error, _): &(f64, f64)| *error > 0.0 && error.is_finite();
+        let (error, time) = found.ok().filter(good).unwrap_or((f64::NAN, f64::NAN));
+        points.push((plan.method, plan.numbers(), error, time));
     }
     // Errors of a method fall from row to row.
-    points.sort_by(|a, b| {
-        (a.0.method, b.1.unwrap_or(0.0))
-            .partial_cmp(&(b.0.method, a.1.unwrap_or(0.0)))
-            .expect("no NaN")
-    });
-    for (plan, error, time) in points {
-        let [step, tolerance] = plan.cells();
-        let time = error.map_or(String::new(), |_| digits(time));
-        csv.row(&[
-            &name,
-            &plan.method,
-            &step,
-            &tolerance,
-            &digits(error),
-            &time,
-            &"",
-        ]);
+    points.sort_by(|a, b| a.0.cmp(b.0).then(b.2.total_cmp(&a.2)));
+    for (method, [step, tolerance], error, time) in &points {
+        csv.row(&[&name, method, step, tolerance, error, time, &""]);
     }
     for (method, reason) in setting["left_out"].as_object().into_iter().flatten() {
-        csv.row(&[&name, method, &"", &"", &"", &"", &text(reason)?]);
+        let (reason, none) = (text(reason)?, f64::NAN);
+        csv.row(&[&name, method, &none, &none, &none, &none, &reason]);
     }
     Ok(())
 }
@@ -171,46 +128,32 @@ fn plans(settings: &Value) -> Vec<Plan<'_>> {
     runs.collect()
 }
 
-fn run(setting: &Value, scene: &Value, plan: &Plan, diffsol: &Option<PathBuf>) -> Result<Run> {
-    let run = Run::new(
-        scene,
-        number(&setting["stop_time"])?,
-        number(&setting["every"])?,
-    );
+fn run(run: Run, plan: &Plan, diffsol: Option<&Path>) -> Run {
     if let Some(method) = plan.method.strip_prefix("product_") {
         let run = run.integrator(method);
-        return Ok(match plan.tolerance {
+        return match plan.tolerance {
             Some(tolerance) => run.tolerance(tolerance),
             None => run,
-        });
+        };
     }
     let mut options = Vec::new();
     for (name, value) in [("--step", plan.step), ("--tolerance", plan.tolerance)] {
-        options.extend(
-            value
-                .iter()
-                .flat_map(|value| [name.to_owned(), value.to_string()]),
-        );
+        options.extend(value.map(|value| (name, value.to_string())));
     }
     if plan.method == "diffsol" {
-        let program = diffsol.as_ref().context("diffsol was not built")?;
-        return Ok(run.by_other(program, options));
+        return run.by_lab(&options, diffsol);
     }
     let method = plan.method.trim_end_matches("_adaptive").to_owned();
-    options.extend(["--method".to_owned(), method]);
-    Ok(run.by_lab(options))
+    options.push(("--method", method));
+    run.by_lab(&options, None)
 }
 
 /// Places of every marker that the scene reads, one after the other.
-fn places(scene: &Value, outcome: &Outcome) -> Result<Vec<[f64; 2]>> {
-    let table = outcome.table()?;
+fn places(scene: &Value, ran: &Ran) -> Result<Vec<[f64; 2]>> {
     let mut places = Vec::new();
     for output in scene["outputs"].as_array().into_iter().flatten() {
         let marker = text(&output["marker"])?;
-        places.extend(table.points(
-            &format!("{marker}.position[1]"),
-            &format!("{marker}.position[2]"),
-        )?);
+        places.extend(ran.table.marker(marker)?);
     }
     Ok(places)
 }

@@ -10,11 +10,8 @@ pub type Path = Vec<[f64; 2]>;
 pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    match sorted.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => sorted[n / 2],
-        n => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
-    }
+    let at = |index: usize| sorted.get(index).copied().unwrap_or(f64::NAN);
+    0.5 * (at(sorted.len().saturating_sub(1) / 2) + at(sorted.len() / 2))
 }
 
 /// The largest value; not a number where one is not.
@@ -66,4 +63,14 @@ pub fn path(value: &Value) -> Result<Path> {
     let rows = value.as_array().context("expected a path")?;
     let row = |row: &Value| Ok([number(&row[1])?, number(&row[2])?]);
     rows.iter().map(row).collect()
+}
+
+/// The middle values of numbers of several reports.
+pub fn medians<const N: usize>(reports: &[Value], keys: [&str; N]) -> Result<[f64; N]> {
+    let mut found = [0.0; N];
+    for (middle, key) in found.iter_mut().zip(keys) {
+        let numbers = reports.iter().map(|report| number(&report[key]));
+        *middle = median(&numbers.collect::<Result<Vec<_>>>()?);
+    }
+    Ok(found)
 }

@@ -1,63 +1,50 @@
 //! CPU time that a unit takes besides its solver: until the first step, and at every step.
 
+use std::fmt::Display;
+
 use anyhow::Result;
 use serde_json::{Value, json};
 
 use super::bench::Bench;
-use super::csv::{Csv, digits};
+use super::csv::Csv;
 use super::numbers::number;
 
-/// Parts of the lab's report and their times.
-const PARTS: [(&str, &[&str]); 3] = [
-    (
-        "start",
-        &[
-            "instantiate",
-            "set_up",
-            "enter",
-            "exit",
-            "first_step",
-            "whole",
-        ],
-    ),
-    ("step", &["solver", "step", "exchange", "outside"]),
+/// Parts of the lab's report with their times.
+const PARTS: [(&str, &str); 3] = [
+    ("start", "instantiate set_up enter exit first_step whole"),
+    ("step", "solver step exchange outside"),
     (
         "state",
-        &[
-            "save",
-            "restore",
-            "serialize",
-            "deserialize",
-            "directional",
-            "first",
-            "second",
-        ],
+        "save restore serialize deserialize directional first second",
     ),
 ];
 
 /// Measures.
 pub fn measure(bench: &Bench) -> Result<()> {
     let cable = bench.case("soft_pendulum/scene.json")?;
-    let names = PARTS.iter().flat_map(|(_, names)| *names);
-    let columns: Vec<String> = names.map(|name| format!("{name}_s")).collect();
-    let mut csv = Csv::new(
-        bench,
-        "overhead",
-        &format!("body,{},bytes", columns.join(",")),
-    );
+    let names = PARTS.map(|(_, names)| names.replace(' ', "_s,") + "_s");
+    let header = format!("body,{},bytes", names.join(","));
+    let mut csv = Csv::new(bench, "overhead", &header);
     for elements in [0, 1, 10, 100, 1000] {
         let report = bench.lab(&["overhead"], Some(&scene(&cable, elements)))?;
-        let mut cells = vec![match elements {
+        let body = match elements {
             0 => "rigid".to_owned(),
             count => count.to_string(),
-        }];
+        };
+        let mut times = Vec::new();
         for (part, names) in PARTS {
-            for name in names {
-                cells.push(digits(number(&report[part][name])?));
+            for name in names.split(' ') {
+                times.push(number(&report[part][name])?);
             }
         }
-        cells.push(number(&report["state"]["bytes"])?.to_string());
-        csv.texts(&cells);
+        times.push(number(&report["state"]["bytes"])?);
+        let times = times.iter().map(|time| time as &dyn Display);
+        csv.row(
+            &[&body as &dyn Display]
+                .into_iter()
+                .chain(times)
+                .collect::<Vec<_>>(),
+        );
     }
     csv.save()
 }

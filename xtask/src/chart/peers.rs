@@ -3,88 +3,21 @@
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
-use super::bench::{Bench, Run};
-use super::csv::{Csv, digits};
+use super::bench::{Bench, Ran, Run};
+use super::csv::Csv;
 use super::exudyn::Exudyn;
-use super::numbers::{Path, largest_distance, median, number, text};
+use super::numbers::{Path, largest_distance, median, number, numbers, text};
 use crate::table::Table;
 
 const SETTINGS: &str = "lab/exudyn/settings.json";
+/// Scenes of the settings, in the order of the page.
+const SCENES: &str = "soft_pendulum steel_pendulum flying_spaghetti spin_up slider_crank catenary";
 /// Rounds of timed runs.
 const ROUNDS: usize = 3;
 
-/// A scene that both programs run, as the product runs it; the rest is in the settings of Exudyn.
-struct Case {
-    /// Name in the settings.
-    name: &'static str,
-    /// Start values.
-    set: &'static [(&'static str, f64)],
-    /// Parameters that hold numbers of elements, each with its multiple.
-    elements: &'static [(&'static str, u32)],
-    /// Numbers of elements, times those multiples.
-    meshes: &'static [u32],
-    /// Relative tolerances.
-    tolerances: &'static [f64],
-    /// The product's finest run, which confirms the reference.
-    finest: (u32, f64),
-}
-
-const ROD: &[(&str, u32)] = &[("rod.elements", 1)];
-const STEEL: &[(&str, f64)] = &[("rod.youngs_modulus", 2.07e11), ("rod.density", 7800.0)];
-const CASES: [Case; 6] = [
-    Case {
-        name: "soft_pendulum",
-        set: &[],
-        elements: ROD,
-        meshes: &[5, 10, 20, 30, 40, 60, 80, 160, 320],
-        tolerances: &[1e-3, 1e-4, 1e-5, 1e-6],
-        finest: (320, 1e-7),
-    },
-    Case {
-        name: "steel_pendulum",
-        set: STEEL,
-        elements: ROD,
-        meshes: &[1, 2, 4, 8, 16],
-        tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7],
-        finest: (32, 1e-8),
-    },
-    Case {
-        name: "flying_spaghetti",
-        set: &[],
-        elements: ROD,
-        meshes: &[6, 8, 12, 16, 24, 32, 48, 64, 128],
-        tolerances: &[1e-3, 1e-4, 1e-5, 1e-6],
-        finest: (128, 1e-8),
-    },
-    Case {
-        name: "spin_up",
-        set: &[],
-        elements: ROD,
-        meshes: &[1, 2, 3, 4, 8, 16],
-        tolerances: &[1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8],
-        finest: (64, 1e-8),
-    },
-    Case {
-        name: "slider_crank",
-        set: &[],
-        elements: &[("crank.elements", 1), ("rod.elements", 2)],
-        meshes: &[1, 2, 4, 8, 16],
-        tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6],
-        finest: (32, 1e-7),
-    },
-    Case {
-        name: "catenary",
-        set: &[],
-        elements: ROD,
-        meshes: &[4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128],
-        tolerances: &[1e-3, 1e-5, 1e-7],
-        finest: (320, 1e-8),
-    },
-];
-
-/// A case with its settings.
+/// A scene with its settings, for both programs.
 struct Peers<'a> {
-    case: &'static Case,
+    name: &'a str,
     setting: &'a Value,
     scene: Value,
     reference: Path,
@@ -98,46 +31,32 @@ pub fn measure(bench: &Bench) -> Result<()> {
     let mut csv = Csv::new(bench, "peers", header);
     let header = "scene,file,marker,stop_time_s,every_s,length_m,reference,confirmed,sweep_runs";
     let mut scenes = Csv::new(bench, "peers_scenes", header);
-    for case in &CASES {
-        let setting = &settings[case.name];
-        let place = || format!("{SETTINGS}, {}", case.name);
-        let peers = Peers::new(bench, case, setting).with_context(place)?;
-        let number = |key: &str| number(&setting[key]).with_context(place);
-        let text = |key: &str| text(&setting[key]).with_context(place);
-        let finest = peers.run(case.finest.0, case.finest.1)?;
-        let finest = bench.run(&format!("peers, {}, finest", case.name), &[finest])?;
-        scenes.row(&[
-            &case.name,
-            &text("scene")?,
-            &text("marker")?,
-            &number("stop_time")?,
-            &number("every")?,
-            &number("length")?,
-            &text("source")?,
-            &digits(peers.error(&peers.path(finest[0].table()?)?)?),
-            &number("runs")?,
-        ]);
-        peers.measure(bench, &mut exudyn, &mut csv)?;
+    for name in SCENES.split(' ') {
+        let peers = Peers::new(bench, name, &settings[name]);
+        let measured = peers.and_then(|peers| {
+            peers.confirm(bench, &mut scenes)?;
+            peers.measure(bench, &mut exudyn, &mut csv)
+        });
+        measured.with_context(|| format!("{SETTINGS}, {name}"))?;
     }
     csv.save()?;
     scenes.save()
 }
 
 impl<'a> Peers<'a> {
-    fn new(bench: &Bench, case: &'static Case, setting: &'a Value) -> Result<Self> {
+    fn new(bench: &Bench, name: &'a str, setting: &'a Value) -> Result<Self> {
         let reference = bench.workspace().path(text(&setting["reference"])?);
         let reference = Table::read(&reference)?;
         let every = number(&setting["every"])?;
-        let on_grid = |t: &f64| ((t / every).round() * every - t).abs() < 1e-9;
+        let on_grid = |t: f64| ((t / every).round() * every - t).abs() < 1e-9;
         let places = reference.points("x_tip", "y_tip")?;
         let rows = reference.column("t")?.into_iter().zip(places);
         Ok(Self {
-            case,
+            name,
             setting,
             scene: bench.json(text(&setting["scene"])?)?,
             reference: rows
-                .filter(|row| on_grid(&row.0))
-                .map(|row| row.1)
+                .filter_map(|(t, place)| on_grid(t).then_some(place))
                 .collect(),
         })
     }
@@ -148,44 +67,51 @@ impl<'a> Peers<'a> {
     }
 
     /// A run of the product. What `auto` picks is what a user gets.
-    fn run(&self, elements: u32, tolerance: f64) -> Result<Run> {
-        let (stop, every) = (
-            number(&self.setting["stop_time"])?,
-            number(&self.setting["every"])?,
-        );
-        let mut run = Run::new(&self.scene, stop, every).tolerance(tolerance);
-        for (name, value) in self.case.set {
-            run = run.set(name, *value);
-        }
-        for (name, multiple) in self.case.elements {
-            run = run.set(name, f64::from(elements * multiple));
+    fn run(&self, elements: f64, tolerance: f64) -> Result<Run> {
+        let [stop, every] = ["stop_time", "every"].map(|key| number(&self.setting[key]));
+        let mut run = Run::new(&self.scene, stop?, every?).tolerance(tolerance);
+        let product = &self.setting["product"];
+        for (key, unit) in [("set", 1.0), ("elements", elements)] {
+            for (name, value) in product[key].as_object().into_iter().flatten() {
+                run = run.set(name, unit * number(value)?);
+            }
         }
         Ok(run.integrator("auto"))
     }
 
-    /// What the marker did.
-    fn path(&self, table: &Table) -> Result<Path> {
-        let marker = text(&self.setting["marker"])?;
-        table.points(
-            &format!("{marker}.position[1]"),
-            &format!("{marker}.position[2]"),
-        )
+    /// What the marker did, against the reference.
+    fn error_of(&self, ran: &Ran) -> Result<f64> {
+        self.error(&ran.table.marker(text(&self.setting["marker"])?)?)
+    }
+
+    /// Holds the product's finest run against the reference.
+    fn confirm(&self, bench: &Bench, scenes: &mut Csv) -> Result<()> {
+        let setting = self.setting;
+        let [elements, tolerance] = numbers(&setting["product"]["finest"])?[..] else {
+            anyhow::bail!("expected elements and tolerance of the finest run");
+        };
+        let finest = self.run(elements, tolerance)?;
+        let ran = bench.run(&format!("peers, {}, finest", self.name), &[finest])?;
+        let confirmed = self.error_of(&ran.into_iter().next().context("expected a run")??)?;
+        let [file, marker, source] = ["scene", "marker", "source"].map(|key| text(&setting[key]));
+        let (file, marker, source) = (file?, marker?, source?);
+        let keys = ["stop_time", "every", "length", "runs"];
+        let [stop, every, length, runs] = keys.map(|key| &setting[key]);
+        scenes.row(&[
+            &self.name, &file, &marker, &stop, &every, &length, &source, &confirmed, &runs,
+        ]);
+        Ok(())
     }
 
     /// Runs all points of both programs in rounds.
     fn measure(&self, bench: &Bench, exudyn: &mut Exudyn, csv: &mut Csv) -> Result<()> {
-        let points = self.setting["points"]
-            .as_array()
-            .context("expected points")?;
-        let meshes = self.case.meshes.iter();
-        let plan: Vec<(u32, f64)> = meshes
-            .flat_map(|mesh| {
-                self.case
-                    .tolerances
-                    .iter()
-                    .map(|tolerance| (*mesh, *tolerance))
-            })
-            .collect();
+        let (product, points) = (&self.setting["product"], self.setting["points"].as_array());
+        let points = points.context("expected points")?;
+        let tolerances = numbers(&product["tolerances"])?;
+        let mut plan = Vec::new();
+        for mesh in numbers(&product["meshes"])? {
+            plan.extend(tolerances.iter().map(|tolerance| (mesh, *tolerance)));
+        }
         let runs = plan
             .iter()
             .map(|(elements, tolerance)| self.run(*elements, *tolerance));
@@ -195,43 +121,27 @@ impl<'a> Peers<'a> {
         for round in 1..=ROUNDS {
             for (point, (error, times)) in points.iter().zip(&mut others) {
                 let answer = exudyn.run(&self.options(bench, point)?)?;
-                let path: Path = answer.path.iter().map(|row| [row[1], row[2]]).collect();
-                *error = self.error(&path)?;
+                *error = self.error(&answer.path)?;
                 times.push(answer.cpu_time);
             }
-            let title = format!("peers, {}, round {round} of {ROUNDS}", self.case.name);
+            let title = format!("peers, {}, round {round} of {ROUNDS}", self.name);
             for (outcome, (error, times)) in bench.run(&title, &runs)?.iter().zip(&mut own) {
                 // A mesh too coarse for its scene may fail: no point then.
-                let Ok(table) = outcome.table() else { continue };
-                *error = self.error(&self.path(table)?)?;
-                times.push(outcome.cost()?.cpu_time);
+                let Ok(ran) = outcome else { continue };
+                *error = self.error_of(ran)?;
+                times.push(ran.cpu_time);
             }
         }
+        let scene = self.name;
         for (point, (error, times)) in points.iter().zip(others) {
             let pins = point.get("heavy").map_or("own", |_| "heavy nodes");
-            let (elements, time) = (number(&point["elements"])?, digits(median(&times)));
-            csv.row(&[
-                &self.case.name,
-                &"Exudyn",
-                &pins,
-                &described(point)?,
-                &elements,
-                &digits(error),
-                &time,
-            ]);
+            let (words, count, time) = (described(point)?, &point["elements"], median(&times));
+            csv.row(&[&scene, &"Exudyn", &pins, &words, count, &error, &time]);
         }
-        for ((elements, tolerance), (error, times)) in plan.iter().zip(own) {
+        for ((count, tolerance), (error, times)) in plan.iter().zip(own) {
+            let (words, time) = (format!("tolerance {tolerance:e}"), median(&times));
             if !times.is_empty() {
-                let (settings, time) = (format!("tolerance {tolerance:e}"), digits(median(&times)));
-                csv.row(&[
-                    &self.case.name,
-                    &"Flexbody",
-                    &"",
-                    &settings,
-                    elements,
-                    &digits(error),
-                    &time,
-                ]);
+                csv.row(&[&scene, &"Flexbody", &"", &words, count, &error, &time]);
             }
         }
         Ok(())

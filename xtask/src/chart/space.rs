@@ -4,20 +4,12 @@ use anyhow::{Context, Result};
 use serde_json::Value;
 
 use super::bench::{Bench, progress_bar};
-use super::csv::{Csv, digits};
-use super::numbers::{Path, distance, largest_distance, median, number, path};
+use super::csv::Csv;
+use super::numbers::{Path, distance, largest_distance, medians, number, path};
 
 /// Names of the lab.
-const KINDS: [&str; 8] = [
-    "cubic",
-    "cubic_graded",
-    "cubic_mass",
-    "cubic_mass_bending",
-    "quintic",
-    "quintic_mass",
-    "spline3",
-    "spline4",
-];
+const KINDS: &str =
+    "cubic cubic_graded cubic_mass cubic_mass_bending quintic quintic_mass spline3 spline4";
 /// Meshes and slenderness of the elastica.
 const STILL: [u32; 5] = [2, 4, 8, 16, 32];
 const SLENDER: [&str; 4] = ["100", "10000", "1e+06", "1e+08"];
@@ -65,10 +57,10 @@ pub fn measure(bench: &Bench) -> Result<()> {
     let [reference, other] = fine;
     let (reference, other) = (reference?, other?);
     moving(bench, &mut csv, &SPAGHETTI, &reference)?;
-    let apart = digits(largest_distance(&reference, &other) / SPAGHETTI.length);
-    let (kind, elements) = FINE[1];
-    let name = format!("{}, reference", SPAGHETTI.title);
-    csv.row(&[&name, &"", &kind, &elements, &"", &apart, &"", &"", &""]);
+    let (name, no) = (format!("{}, reference", SPAGHETTI.title), f64::NAN);
+    let apart = largest_distance(&reference, &other) / SPAGHETTI.length;
+    let (kind, count) = FINE[1];
+    csv.row(&[&name, &no, &kind, &count, &no, &apart, &no, &no, &no]);
     csv.save()
 }
 
@@ -86,24 +78,23 @@ fn elastica(bench: &Bench, csv: &mut Csv) -> Result<()> {
         let force = claim["set"]["rod.tip.force[2]"].to_string();
         let exact = |axis: u32| number(&claim["values"][format!("rod.tip.position[{axis}]")]);
         let exact = [exact(1)?, exact(2)?];
-        let ratio = format!("{:e}", ratio.parse::<f64>()?);
-        for kind in KINDS {
-            for elements in STILL {
-                let options =
-                    format!("bend --element {kind} --elements {elements} --force {force}");
+        let (ratio, no) = (ratio.parse::<f64>()?, f64::NAN);
+        for kind in KINDS.split(' ') {
+            for count in STILL {
+                let options = format!("bend --element {kind} --elements {count} --force {force}");
                 let report = bench.lab(&options.split(' ').collect::<Vec<_>>(), Some(&scene))?;
                 let error = distance([number(&report["x"])?, number(&report["y"])?], exact);
-                let coordinates = number(&report["coordinates"])?;
+                let size = number(&report["coordinates"])?;
                 csv.row(&[
                     &"elastica",
                     &ratio,
                     &kind,
-                    &elements,
-                    &coordinates,
-                    &digits(error),
-                    &"",
-                    &"",
-                    &"",
+                    &count,
+                    &size,
+                    &error,
+                    &no,
+                    &no,
+                    &no,
                 ]);
             }
         }
@@ -121,11 +112,9 @@ fn run(bench: &Bench, moving: &Moving, kind: &str, elements: u32) -> Result<Valu
 
 /// All kinds on all meshes, by turns; CPU times are medians.
 fn moving(bench: &Bench, csv: &mut Csv, moving: &Moving, reference: &Path) -> Result<()> {
-    let plan = KINDS
-        .iter()
-        .flat_map(|kind| moving.meshes.map(|elements| (*kind, elements)));
-    let plan: Vec<(&str, u32)> = plan.collect();
-    let bar = progress_bar(moving.title, plan.len() * ROUNDS);
+    let all = |kind| moving.meshes.map(|elements| (kind, elements));
+    let plan: Vec<(&str, u32)> = KINDS.split(' ').flat_map(all).collect();
+    let bar = progress_bar(moving.title, plan.len() * ROUNDS)?;
     let mut reports = vec![Vec::new(); plan.len()];
     for _ in 0..ROUNDS {
         for ((kind, elements), reports) in plan.iter().zip(&mut reports) {
@@ -135,26 +124,23 @@ fn moving(bench: &Bench, csv: &mut Csv, moving: &Moving, reference: &Path) -> Re
     }
     bar.finish_and_clear();
     for ((kind, elements), reports) in plan.iter().zip(&reports) {
-        let middle = |key: &str| -> Result<String> {
-            let numbers: Result<Vec<f64>> =
-                reports.iter().map(|report| number(&report[key])).collect();
-            Ok(digits(median(&numbers?)))
-        };
+        let keys = [
+            "coordinates",
+            "cpu_time",
+            "largest_frequency",
+            "iteration_time",
+        ];
+        let [size, time, most, iteration] = medians(reports, keys)?;
         let path = path(&reports[0]["path"])?;
+        let (found, known) = (path.len(), reference.len());
         anyhow::ensure!(
-            path.len() == reference.len(),
-            "expected as many points in time as in the reference"
+            found == known,
+            "expected {known} points in time, found {found}"
         );
+        let error = largest_distance(&path, reference) / moving.length;
+        let (scene, none) = (moving.title, f64::NAN);
         csv.row(&[
-            &moving.title,
-            &"",
-            kind,
-            elements,
-            &number(&reports[0]["coordinates"])?,
-            &digits(largest_distance(&path, reference) / moving.length),
-            &middle("cpu_time")?,
-            &middle("largest_frequency")?,
-            &middle("iteration_time")?,
+            &scene, &none, kind, elements, &size, &error, &time, &most, &iteration,
         ]);
     }
     Ok(())
