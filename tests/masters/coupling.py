@@ -1,10 +1,9 @@
-"""What coupling costs in accuracy: measures for the chart `coupling` and prints JSON.
+"""What coupling costs in accuracy: measures for the chart `coupling` and writes its CSV files into a folder.
 
 Two masses have closed forms for all that is measured. The beam and the mass at its tip have the
 scene that holds both, which is compared with the closed form of its undamped modes."""
 
-import json
-import os
+import csv
 import sys
 import tempfile
 from pathlib import Path
@@ -171,16 +170,41 @@ def beam(systems, package):
     }
 
 
+def write(folder, name, header, rows):
+    """A CSV file; nothing is an empty field."""
+    with open(Path(folder) / f"{name}.csv", "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([header, *rows])
+
+
+def written(folder, masses, beam):
+    """What was measured, in three files."""
+    rows = [
+        [name, row["master"], row["degree"], f"{row['step']:.6e}", f"{row['error']:.4e}", f"{row['attempts']:.2f}"]
+        for name, system in (("two_masses", masses), ("beam", beam))
+        for row in system["curves"]
+    ]
+    write(folder, "coupling", ["system", "master", "degree", "step_s", "error", "attempts"], rows)
+    shown = lambda step: "" if step is None else f"{step:.5f}"
+    rows = [
+        [system, units, row["coupling"], row["master"], row["degree"], shown(row["step"]), shown(figure)]
+        for system, units, found, figures in (
+            *(("two_masses", units, found, masses["figures"]) for units, found in masses["units"].items()),
+            ("two_masses", "partners", masses["limits"], [None] * len(masses["limits"])),
+            ("beam", "scene and partner", beam["limits"], [None] * len(beam["limits"])),
+        )
+        for row, figure in zip(found, figures)
+    ]
+    write(folder, "coupling_limits", ["system", "units", "coupling", "master", "degree", "largest_stable_step_s", "figure_s"], rows)
+    rows = [["two_masses", f"{masses['period']:.4e}", ""], ["beam", f"{beam['period']:.4e}", f"{beam['closed_form']:.1e}"]]
+    write(folder, "coupling_systems", ["system", "period_s", "closed_form"], rows)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        # What masters print is not part of the answer.
-        answer = os.dup(1)
-        os.dup2(2, 1)
         systems = Systems(Path(folder))
         package = Scenes(systems)
         block = lambda has_spring, position: package(mass_scene, has_spring, position)
-        result = {"two_masses": two_masses(systems.partners, block), "beam": beam(systems, package)}
-        os.write(answer, json.dumps(result).encode())
+        written(sys.argv[1], two_masses(systems.partners, block), beam(systems, package))
 
 
 if __name__ == "__main__":

@@ -75,11 +75,14 @@ enum Command {
     Demo,
     /// Regenerates the committed modelDescription/ and scenes/scene.schema.json
     Describe,
-    /// Regenerates docs/charts: pictures, CSV files and the page that explains them
+    /// Regenerates docs/charts: CSV files, pictures of them and the page that explains them
     Chart {
         /// Which charts [default: all]
-        #[arg(value_name = "NAME")]
-        charts: Vec<chart::Chart>,
+        #[arg(value_name = "NAME", value_parser = chart::names())]
+        charts: Vec<String>,
+        /// Draw and write anew from the CSV files that there are, without measuring
+        #[arg(long)]
+        draw: bool,
     },
     /// Makes the FMUs that others are coupled with in tests: mass, spring, controller, cylinder
     Partners {
@@ -115,7 +118,7 @@ fn main() -> ExitCode {
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),
-        Command::Chart { charts } => chart::chart(&workspace, &charts),
+        Command::Chart { charts, draw } => chart::chart(&workspace, &charts, !draw),
         Command::Partners { output } => partners::partners(&workspace, output.as_deref()),
         Command::Test => test::test(&workspace),
     });

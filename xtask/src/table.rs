@@ -57,4 +57,18 @@ impl Table {
         };
         Ok(self.rows.iter().map(|row| row[index]).collect())
     }
+
+    /// A curve in the plane, from its two columns.
+    pub fn points(&self, x: &str, y: &str) -> Result<Vec<[f64; 2]>> {
+        let pairs = self.column(x)?.into_iter().zip(self.column(y)?);
+        Ok(pairs.map(|(x, y)| [x, y]).collect())
+    }
+
+    /// The path of a marker in the plane.
+    pub fn marker(&self, name: &str) -> Result<Vec<[f64; 2]>> {
+        self.points(
+            &format!("{name}.position[1]"),
+            &format!("{name}.position[2]"),
+        )
+    }
 }

@@ -9,6 +9,8 @@ use serde_json::Value;
 use crate::cargo::Workspace;
 use crate::python::Python;
 
+use super::numbers::{Path, number, path};
+
 const SERVER: &str = "lab/exudyn/run.py";
 
 /// The running program.
@@ -20,8 +22,8 @@ pub struct Exudyn {
 
 /// What a run gave.
 pub struct Answer {
-    /// Time, s, and place, m, of the marker.
-    pub path: Vec<[f64; 3]>,
+    /// Places of the marker, m.
+    pub path: Path,
     /// CPU time of the steps alone, s.
     pub cpu_time: f64,
 }
@@ -62,14 +64,10 @@ impl Exudyn {
         if answer["good"] != Value::Bool(true) {
             bail!("Exudyn failed in the run {options}: {}", answer["failure"]);
         }
-        let cpu_time = answer["cpu_time"].as_f64().context("expected a CPU time")?;
-        let rows = answer["path"].as_array().context("expected a path")?;
-        let row = |row: &Value| -> Result<[f64; 3]> {
-            let number = |index: usize| row[index].as_f64().context("expected a number");
-            Ok([number(0)?, number(1)?, number(2)?])
-        };
-        let path = rows.iter().map(row).collect::<Result<_>>()?;
-        Ok(Answer { path, cpu_time })
+        Ok(Answer {
+            path: path(&answer["path"])?,
+            cpu_time: number(&answer["cpu_time"])?,
+        })
     }
 }
 

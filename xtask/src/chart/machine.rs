@@ -1,18 +1,41 @@
-//! What the numbers were measured on.
+//! What the numbers were measured on, a row a chart in `docs/charts/machine.csv`.
 
-use std::process::Command;
+use anyhow::{Context, Result};
+
+use crate::cargo::release;
+
+use super::bench::Bench;
+use super::csv::Csv;
+
+const FILE: &str = "machine";
+
+/// Notes the machine of a chart that was just measured.
+pub fn note(bench: &Bench, chart: &str) -> Result<()> {
+    let before = std::fs::read_to_string(bench.output(&format!("{FILE}.csv"))).unwrap_or_default();
+    let mut csv = Csv::new(bench, FILE, "chart,machine");
+    for line in before.lines().skip(1) {
+        let (name, machine) = line
+            .split_once(',')
+            .context("machine.csv: expected two columns")?;
+        if name != chart {
+            csv.row(&[&name, &machine.trim_matches('"')]);
+        }
+    }
+    csv.row(&[&chart, &describe()]);
+    csv.save()
+}
 
 /// Processor, system, compiler and build flags in one sentence.
-pub fn describe() -> String {
+fn describe() -> String {
     let (system, processor) = (std::env::consts::OS, std::env::consts::ARCH);
     let model = processor_model().unwrap_or_else(|| "unknown processor".into());
-    let compiler = compiler().unwrap_or_else(|| "unknown compiler".into());
+    let compiler = release().unwrap_or_else(|_| "of unknown version".into());
     let flags = match std::env::var("RUSTFLAGS") {
-        Ok(flags) if !flags.trim().is_empty() => format!("RUSTFLAGS {:?}", flags.trim()),
+        Ok(flags) if !flags.trim().is_empty() => format!("RUSTFLAGS {}", flags.trim()),
         _ => format!("baseline {processor}, no RUSTFLAGS"),
     };
     format!(
-        "{model} ({system}, {processor}), one thread, {compiler}, release profile \
+        "{model} ({system}, {processor}), one thread, rustc {compiler}, release profile \
          (opt-level 3, fat LTO, one codegen unit), {flags}{}",
         load().unwrap_or_default()
     )
@@ -29,23 +52,16 @@ fn load() -> Option<String> {
 /// Only Linux tells without a library.
 fn processor_model() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = text.lines().find(|line| line.starts_with("model name"))?;
     let field = |name: &str| {
         let line = text.lines().find(|line| line.starts_with(name))?;
         Some(line.split_once(':')?.1.trim().to_owned())
     };
-    let name = line.split_once(':')?.1.trim();
-    match (field("cpu family"), field("model\t")) {
-        (Some(family), Some(model)) => Some(format!("{name}, family {family} model {model}")),
-        _ => Some(name.to_owned()),
-    }
-}
-
-fn compiler() -> Option<String> {
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let output = Command::new(rustc).arg("--version").output().ok()?;
-    let text = String::from_utf8(output.stdout).ok()?;
-    // Without the date in parentheses.
-    let words: Vec<&str> = text.split_whitespace().take(2).collect();
-    (words.len() == 2).then(|| words.join(" "))
+    let (name, numbers) = (
+        field("model name")?,
+        field("cpu family").zip(field("model\t")),
+    );
+    Some(match numbers {
+        Some((family, model)) => format!("{name}, family {family} model {model}"),
+        None => name,
+    })
 }

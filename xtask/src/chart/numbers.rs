@@ -1,65 +1,34 @@
-//! Small statistics, and numbers as the page shows them.
+//! Small statistics, and numbers out of reports.
+
+use anyhow::{Context, Result};
+use serde_json::Value;
+
+/// A curve in the plane, point by point.
+pub type Path = Vec<[f64; 2]>;
 
 /// The middle value; the mean of the two middle ones where their number is even.
 pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    match sorted.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => sorted[n / 2],
-        n => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
-    }
+    let at = |index: usize| sorted.get(index).copied().unwrap_or(f64::NAN);
+    0.5 * (at(sorted.len().saturating_sub(1) / 2) + at(sorted.len() / 2))
 }
 
-/// Largest size so far of a curve over time, at every tenth point.
+/// The largest value; not a number where one is not.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    let larger = |most: f64, value: f64| if value <= most { most } else { value };
+    values.into_iter().fold(0.0, larger)
+}
+
+/// Largest size so far of a curve over time, at about a hundred points.
 pub fn peaks(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let every = (curve.len() / 100).max(1);
     let mut largest = 0.0_f64;
     let so_far = curve.iter().map(|(time, value)| {
         largest = largest.max(value.abs());
         (*time, largest)
     });
-    so_far.skip(10).step_by(10).collect()
-}
-
-/// Slope of the straight line through two points on logarithmic axes.
-pub fn slope(a: (f64, f64), b: (f64, f64)) -> f64 {
-    (b.1 / a.1).ln() / (b.0 / a.0).ln()
-}
-
-/// Slope of the line of least squares on logarithmic axes; nothing where the points have no two
-/// different abscissae.
-pub fn fitted_slope(points: &[(f64, f64)]) -> Option<f64> {
-    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
-    let count = logs.len() as f64;
-    let mean_x = logs.iter().map(|p| p.0).sum::<f64>() / count;
-    let mean_y = logs.iter().map(|p| p.1).sum::<f64>() / count;
-    let spread: f64 = logs.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
-    let common: f64 = logs.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum();
-    (spread > 1e-3).then(|| common / spread)
-}
-
-/// Time needed for an error, from points of time and error, the tolerance tightening from one to the
-/// next: the least over the points that are at least as good and over the straight lines between
-/// neighbours on logarithmic axes. Nothing where no point is as good.
-pub fn needed_for(points: &[(f64, f64)], error: f64) -> Option<f64> {
-    let good = points.iter().filter(|point| point.1 <= error);
-    let between = points.windows(2).filter_map(|pair| {
-        let [a, b] = [pair[0], pair[1]];
-        let inside = (b.1..a.1).contains(&error);
-        let part = (error / a.1).ln() / (b.1 / a.1).ln();
-        inside.then(|| a.0 * (b.0 / a.0).powf(part))
-    });
-    good.map(|point| point.0)
-        .chain(between)
-        .min_by(f64::total_cmp)
-}
-
-/// Largest distance between two plane curves given point by point.
-pub fn largest_distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| distance(*a, *b))
-        .fold(0.0, f64::max)
+    so_far.skip(every).step_by(every).collect()
 }
 
 /// Distance between two points.
@@ -67,31 +36,41 @@ pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Two digits, e.g. `3.1e-5`, `0.31`, `31`; zero is `0`.
-pub fn short(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 {
-        return "0".to_owned();
-    }
-    if !(0.01..99.5).contains(&size) {
-        return format!("{value:.1e}");
-    }
-    let decimals = match size {
-        9.95.. => 0,
-        0.995.. => 1,
-        0.0995.. => 2,
-        _ => 3,
-    };
-    format!("{value:.decimals$}")
+/// Largest distance between two curves.
+pub fn largest_distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
+    largest(a.iter().zip(b).map(|(a, b)| distance(*a, *b)))
 }
 
-/// A time in milliseconds with three digits.
-pub fn milliseconds(seconds: f64) -> String {
-    three_digits(1e3 * seconds)
+/// A number of a report.
+pub fn number(value: &Value) -> Result<f64> {
+    let message = || format!("expected a number, found {value}");
+    value.as_f64().with_context(message)
 }
 
-/// Three digits without an exponent.
-pub fn three_digits(value: f64) -> String {
-    let before = value.abs().log10().floor().clamp(-3.0, 2.0);
-    format!("{value:.*}", (2.0 - before) as usize)
+/// The numbers of a list; none where there is no list.
+pub fn numbers(value: &Value) -> Result<Vec<f64>> {
+    value.as_array().into_iter().flatten().map(number).collect()
+}
+
+/// A text of a report.
+pub fn text(value: &Value) -> Result<&str> {
+    let message = || format!("expected a text, found {value}");
+    value.as_str().with_context(message)
+}
+
+/// A curve of a report, rows of time and place.
+pub fn path(value: &Value) -> Result<Path> {
+    let rows = value.as_array().context("expected a path")?;
+    let row = |row: &Value| Ok([number(&row[1])?, number(&row[2])?]);
+    rows.iter().map(row).collect()
+}
+
+/// The middle values of numbers of several reports.
+pub fn medians<const N: usize>(reports: &[Value], keys: [&str; N]) -> Result<[f64; N]> {
+    let mut found = [0.0; N];
+    for (middle, key) in found.iter_mut().zip(keys) {
+        let numbers = reports.iter().map(|report| number(&report[key]));
+        *middle = median(&numbers.collect::<Result<Vec<_>>>()?);
+    }
+    Ok(found)
 }
