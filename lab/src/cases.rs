@@ -10,7 +10,7 @@ use flexbody::integrators::advance;
 use flexbody::simulation::Simulation;
 use flexbody::system::Model;
 
-use crate::failures::named;
+use crate::failures::support::named;
 use crate::integrate::tolerance;
 use crate::integrators::Probe;
 use crate::scene::{Start, read};

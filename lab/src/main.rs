@@ -13,6 +13,7 @@ mod integrators;
 mod laws;
 mod outputs;
 mod overhead;
+mod rivals;
 mod scene;
 mod space;
 mod swing;
@@ -36,6 +37,8 @@ enum Command {
     Failures(failures::Failures),
     /// Integrates a scene with a named method.
     Integrate(integrate::Integrate),
+    /// Measures the formulations that the report argues against, and the product beside them.
+    Rivals(rivals::Rivals),
     /// Moves one rod in a named discretization.
     Space(space::Space),
     /// Lets a pinned rod fall in a named formulation.
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         Command::Accelerate(arguments) => accelerate::accelerate(&arguments),
         Command::Failures(arguments) => failures::failures(&arguments),
         Command::Integrate(arguments) => integrate::integrate(&arguments),
+        Command::Rivals(arguments) => rivals::rivals(&arguments),
         Command::Space(arguments) => space::space(&arguments),
         Command::Bend(arguments) => space::bend(&arguments),
         Command::Overhead(arguments) => overhead::overhead(&arguments),

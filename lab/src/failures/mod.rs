@@ -7,16 +7,15 @@ mod constraints;
 mod elimination;
 mod locking;
 mod ratios;
+mod rivals;
 mod snap;
 mod steps;
-mod support;
+pub mod support;
 
 use serde_json::{Value, json};
 
 use crate::scene::Outcome;
 use support::Row;
-#[cfg(test)]
-pub use support::named;
 
 /// What to measure.
 #[derive(clap::Args)]
@@ -33,6 +32,10 @@ const ROWS: &[Measure] = &[
     ("printed", elimination::printed),
     ("green", elimination::green),
     ("locking", locking::locking),
+    ("shear_locking", rivals::shear_locking),
+    ("large_bending_by_modes", rivals::large_bending_by_modes),
+    ("softening", rivals::softening),
+    ("increments", rivals::increments),
     ("roll_up", snap::roll_up),
     ("slack", snap::slack),
     ("buckling", snap::buckling),
