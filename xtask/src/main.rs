@@ -69,6 +69,15 @@ enum Command {
         #[arg(long, value_name = "C.fmu")]
         output: Option<PathBuf>,
     },
+    /// Finds numbers of elements and a tolerance for the error that a scene asks for, and says why
+    Plan {
+        /// The scene
+        #[arg(value_name = "SCENE.json")]
+        scene: PathBuf,
+        /// Writes the scene with these numbers
+        #[arg(long, value_name = "FILE.json")]
+        output: Option<PathBuf>,
+    },
     /// Simulates a scene (natively) or an FMU (with fmpy) to a CSV file
     Simulate(simulate::Arguments),
     /// Packages the pendulum, simulates it with fmpy, compares and draws it
@@ -115,6 +124,7 @@ fn main() -> ExitCode {
             second,
             output,
         } => merge::merge(&workspace, [&first, &second], output.as_deref()),
+        Command::Plan { scene, output } => simulate::plan(&workspace, &scene, output.as_deref()),
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),

@@ -97,6 +97,22 @@ pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
+/// Plans a scene, and writes it with the numbers found where that is wanted.
+pub fn plan(workspace: &Workspace, scene: &Path, output: Option<&Path>) -> Result<()> {
+    check_readable(scene)?;
+    let mut command = Command::new(workspace.binary()?);
+    command.arg("plan").arg(scene);
+    let output = output.map(prepared).transpose()?;
+    if let Some(output) = &output {
+        command.arg("--output").arg(output);
+    }
+    run(&mut command).with_context(|| format!("{} was not planned", scene.display()))?;
+    if let Some(output) = output {
+        println!("wrote {}", shown(&output));
+    }
+    Ok(())
+}
+
 impl Arguments {
     /// Passes on what both ways of simulating understand.
     fn settings<'a>(&self, command: &'a mut Command) -> &'a mut Command {
