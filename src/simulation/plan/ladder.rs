@@ -59,30 +59,46 @@ impl Ladder {
     }
 
     /// The cheapest choice on which all outputs are within the limit, and those that never are, nearly as close as they
-    /// come; where there is none, the one that comes nearest to it.
-    pub fn best(&self) -> Option<&(Choice, Vec<Difference>)> {
-        let groups = self.rungs.first().map_or(0, |(_, all)| all.len());
+    /// come, for nearly as long; where there is none, the one that comes nearest to it. With it what all dearer ones change at most: an
+    /// output that changes more on a dearer rung was not as close as it seemed.
+    pub fn best(&self) -> Option<(Choice, Vec<Difference>)> {
+        let mut rungs = self.rungs.clone();
+        for index in (1..rungs.len()).rev() {
+            let (cheaper, dearer) = rungs.split_at_mut(index);
+            let later = &dearer[0].1;
+            for (now, later) in cheaper[index - 1].1.iter_mut().zip(later) {
+                *now = now.worst(*later);
+            }
+        }
+        let groups = rungs.first().map_or(0, |(_, all)| all.len());
         let closest = |group: usize| {
-            let changes = self.rungs.iter().map(|(_, all)| all[group].largest);
+            let changes = rungs.iter().map(|(_, all)| all[group].largest);
             changes.fold(f64::INFINITY, f64::min)
         };
         let allowed: Vec<f64> = (0..groups)
             .map(|group| self.limit.max(NEARLY * closest(group)))
             .collect();
-        let excess = |all: &[Difference]| {
-            let parts = all.iter().zip(&allowed);
-            parts.fold(1.0, |most: f64, (found, allowed)| {
-                most.max(found.largest / allowed)
+        let good_for = |rung: usize, group: usize| self.rungs[rung].1[group].until;
+        let longest = |group: usize| {
+            let times = (0..self.rungs.len()).filter_map(|rung| good_for(rung, group));
+            times.fold(0.0, f64::max)
+        };
+        let longest: Vec<f64> = (0..groups).map(longest).collect();
+        let excess = |rung: usize| {
+            let groups = rungs[rung].1.iter().enumerate();
+            groups.fold(1.0, |most: f64, (group, found)| {
+                let short = match good_for(rung, group) {
+                    Some(time) => longest[group] / (NEARLY * time).max(f64::MIN_POSITIVE),
+                    None => 1.0,
+                };
+                most.max(found.largest / allowed[group]).max(short)
             })
         };
         // The first of equals.
-        let mut rungs = self.rungs.iter();
-        let first = rungs.next()?;
-        Some(rungs.fold(first, |best, rung| {
-            match excess(&rung.1) < excess(&best.1) {
-                true => rung,
-                false => best,
-            }
-        }))
+        let best = (0..rungs.len()).reduce(|best, rung| match excess(rung) < excess(best) {
+            true => rung,
+            false => best,
+        });
+        best.map(|best| rungs.swap_remove(best))
     }
 }

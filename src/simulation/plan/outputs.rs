@@ -40,6 +40,17 @@ pub(super) struct Difference {
     pub until: Option<f64>,
 }
 
+impl Difference {
+    /// The larger of two, good for the shorter time.
+    pub fn worst(self, other: Self) -> Self {
+        let until = [self.until, other.until].into_iter().flatten();
+        Self {
+            largest: self.largest.max(other.largest),
+            until: until.reduce(f64::min),
+        }
+    }
+}
+
 /// The outputs of a scene that count.
 ///
 /// # Errors

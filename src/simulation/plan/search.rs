@@ -195,8 +195,7 @@ impl<'a, 'p> Search<'a, 'p> {
             }
             tried.tolerance = tenth(tried.tolerance);
         }
-        let best = ladder.best().cloned();
-        let (best, found) = best.unwrap_or_default();
+        let (best, found) = ladder.best().unwrap_or_default();
         choice.tolerance = best.tolerance;
         Ok(found)
     }
@@ -254,14 +253,21 @@ impl<'a, 'p> Search<'a, 'p> {
             }
             tried = closer;
         }
-        let Some((best, found)) = ladder.best().cloned() else {
+        let Some((best, found)) = ladder.best() else {
             return Ok(Vec::new());
         };
         *choice = best;
         let mut closer = choice.clone();
         self.refine(&mut closer);
         self.coarsen_one_by_one(choice, &closer, &found);
-        Ok(self.compare(choice, &closer, self.error).unwrap_or(found))
+        let last = self
+            .compare(choice, &closer, self.error)
+            .unwrap_or_default();
+        let worst = |(a, b): (&Difference, &Difference)| a.worst(*b);
+        Ok(match last.is_empty() {
+            true => found,
+            false => found.iter().zip(&last).map(worst).collect(),
+        })
     }
 
     /// Halves the numbers of elements of single cables while that changes no more than may be.
