@@ -173,15 +173,17 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         }
     }
 
-    /// Adds elastic and damping forces.
-    pub fn add_force(&self, x: &[Node<D>], rate: &[Node<D>], force: &mut [Node<D>]) {
-        let chain = self;
+    /// Adds elastic and damping forces. The power that damping takes out, W.
+    pub fn add_force(&self, x: &[Node<D>], rate: &[Node<D>], force: &mut [Node<D>]) -> f64 {
+        let (chain, mut power) = (self, 0.0);
         vectorized(AddForce {
             chain,
             x,
             rate,
             force,
+            power: &mut power,
         });
+        power
     }
 
     /// Adds elastic and damping forces of numbers of any kind, element by element.
@@ -312,6 +314,8 @@ struct AddForce<'a, E: Element<D>, const D: usize> {
     x: &'a [Node<D>],
     rate: &'a [Node<D>],
     force: &'a mut [Node<D>],
+    /// Power that damping takes out, W.
+    power: &'a mut f64,
 }
 
 impl<E: Element<D>, const D: usize> Work for AddForce<'_, E, D> {
@@ -323,7 +327,7 @@ impl<E: Element<D>, const D: usize> Work for AddForce<'_, E, D> {
             chain.read(pack, self.x, &mut e);
             if chain.is_damped {
                 chain.read(pack, self.rate, &mut v);
-                E::pack_force(simd, &pack.kernel, (&e, Some(&v)), &mut f);
+                *self.power += E::pack_force(simd, &pack.kernel, (&e, Some(&v)), &mut f);
             } else {
                 E::pack_force(simd, &pack.kernel, (&e, None), &mut f);
             }

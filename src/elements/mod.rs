@@ -84,13 +84,13 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn goes_with(&self, other: &Self) -> bool;
     /// Up to [`PACK`] elements, for the calls below; entries beyond the number of elements do not count.
     fn pack(elements: &[Self]) -> Self::Pack;
-    /// [`Self::force`] of a pack; with rates where it is damped.
+    /// [`Self::force`] of a pack; with rates where it is damped. [`Self::dissipation`] of all its elements.
     fn pack_force<S: Simd>(
         simd: S,
         pack: &Self::Pack,
         motion: (&NodalPack<D>, Option<&NodalPack<D>>),
         out: &mut NodalPack<D>,
-    );
+    ) -> f64;
     /// [`Self::stiffness`] of a pack; with rates where it is damped.
     fn pack_stiffness<S: Simd>(
         simd: S,

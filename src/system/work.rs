@@ -39,8 +39,9 @@ pub struct Work<const D: usize = 2> {
     /// What constraints ask for.
     pub(super) right: Vec<f64>,
     pub(super) tangent: Tangent<D>,
-    /// Power that comes in and that is dissipated at the last acceleration, W.
+    /// Power that comes in and that is dissipated at the last acceleration, W; what of the latter cables take out.
     pub(super) power: [f64; 2],
+    pub(super) dissipated: f64,
 }
 
 /// What constraints depend on beside rates.
@@ -108,6 +109,7 @@ impl<const D: usize> Work<D> {
                 travel: vec![0.0; system.slides.len()],
             },
             power: [0.0; 2],
+            dissipated: 0.0,
         }
     }
 

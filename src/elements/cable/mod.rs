@@ -230,11 +230,11 @@ impl<const D: usize> Element<D> for Cable<D> {
 
     fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N> {
         let rate = self.kernel.is_damped.then_some(&rate.data.0);
-        Nodal::from(self.kernel.lift().force(&e.data.0, rate))
+        Nodal::from(self.kernel.lift().force(&e.data.0, rate).0)
     }
 
     fn dissipation<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> N {
-        self.kernel.lift().dissipation(&e.data.0, &rate.data.0)
+        self.kernel.lift().force(&e.data.0, Some(&rate.data.0)).1
     }
 
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D> {
@@ -310,11 +310,12 @@ impl<const D: usize> Element<D> for Cable<D> {
         pack: &Pack,
         (e, rate): (&NodalPack<D>, Option<&NodalPack<D>>),
         out: &mut NodalPack<D>,
-    ) {
+    ) -> f64 {
+        let mut powers = [0.0; PACK];
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
             let e = read(simd, e, group);
-            let f = match rate {
+            let (f, power) = match rate {
                 Some(rate) => kernel.force(&e, Some(&read(simd, rate, group))),
                 None => kernel.force(&e, None),
             };
@@ -323,7 +324,15 @@ impl<const D: usize> Element<D> for Cable<D> {
                     f[k][d].write(&mut out[k][d], group);
                 }
             }
+            if rate.is_some() {
+                power.write(&mut powers, group);
+            }
         }
+        let mut sum = 0.0;
+        for power in &powers[..pack.count] {
+            sum += power;
+        }
+        sum
     }
 
     #[inline(always)]

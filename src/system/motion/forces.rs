@@ -83,12 +83,13 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Total force on the nodes in `work`, but for constraints.
+    /// Total force on the nodes in `work`, but for constraints, and what damping of cables takes out.
     pub(in crate::system) fn forces(&self, time: f64, work: &mut Work<D>) {
         let mut force = std::mem::take(&mut work.f);
         force.copy_from_slice(&self.weight);
+        work.dissipated = 0.0;
         for chain in &self.chains {
-            chain.add_force(&work.x, &work.v, &mut force);
+            work.dissipated += chain.add_force(&work.x, &work.v, &mut force);
         }
         let at = self.instant(time, work);
         for load in &self.loads {
@@ -189,7 +190,7 @@ impl<const D: usize> System<D> {
         work.supply = supply;
     }
 
-    /// Power that comes in through loads and motions and that is dissipated, W, at the state and
+    /// Power that comes in through loads and motions and that is dissipated, W, at the state, forces and
     /// accelerations in place.
     pub(in crate::system) fn powers(&self, time: f64, a: &[f64], work: &mut Work<D>) -> [f64; 2] {
         if !self.drives.is_empty() {
@@ -197,19 +198,24 @@ impl<const D: usize> System<D> {
         }
         let multiplied = self.constraints.iter().zip(work.lambda.iter().copied());
         let at = self.instant(time, work);
-        self.power(at, &self.view(work), &work.supply, multiplied)
+        self.power(
+            at,
+            &self.view(work),
+            (&work.supply, work.dissipated),
+            multiplied,
+        )
     }
 
-    /// Power that comes in and that is dissipated, W, with the forces that linear constraints supply and
-    /// the multipliers of the others.
+    /// Power that comes in and that is dissipated, W, with the forces that linear constraints supply, what damping of
+    /// cables takes out, and the multipliers of the other constraints.
     pub(in crate::system) fn power<'a, N: Number>(
         &self,
         at: Instant<'_, D, N>,
         view: &View<'_, D, N>,
-        supply: &[Node<D, N>],
+        (supply, by_cables): (&[Node<D, N>], N),
         multiplied: impl Iterator<Item = (&'a Constraint<D>, N)>,
     ) -> [N; 2] {
-        let mut power = [N::of(0.0); 2];
+        let mut power = [N::of(0.0), by_cables];
         if !self.drives.is_empty() {
             for driven in &self.driven {
                 let rate = self.linear[driven.row].target.derivatives(view.drives)[1];
@@ -225,9 +231,6 @@ impl<const D: usize> System<D> {
             let [supplied, dissipated] = load.power(at);
             power[0] += supplied;
             power[1] += dissipated;
-        }
-        for chain in &self.chains {
-            power[1] += chain.dissipation(view.x, view.v);
         }
         power
     }
