@@ -201,21 +201,10 @@ impl<const D: usize> Assembly<D> {
         let Some(slot) = self.pattern.slot(vertex, self.vertices[node]) else {
             return;
         };
-        let term = term.as_flattened();
-        match self.places[node] {
-            Place::Alone(_) => {
-                for (column, value) in term.iter().enumerate() {
-                    matrix.values[slot.entry(row, column)] += value;
-                }
-            }
-            Place::Tied(index, _) => {
-                let start = self.ranges[index].start;
-                for entry in &self.entries[self.of_node[node].clone()] {
-                    let value = entry.value * term[entry.coordinate];
-                    matrix.values[slot.entry(row, entry.free - start)] += value;
-                }
-            }
-        }
+        self.each_entry(node, |column, coordinate, weight| {
+            let value = weight * term.as_flattened()[coordinate];
+            matrix.values[slot.entry(row, column)] += value;
+        });
     }
 
     /// Nodes that rows tie together.
@@ -352,28 +341,31 @@ impl<const D: usize> Assembly<D> {
             return;
         };
         let (m, n) = (self.pattern.range(va).len(), self.pattern.range(vb).len());
-        for r in 0..m {
-            for c in 0..n {
-                let mut value = 0.0;
-                for (i, row) in block.as_flattened().iter().enumerate() {
-                    let left = self.weight(a, i, r);
-                    if left != 0.0 {
-                        let sum = row
-                            .as_flattened()
-                            .iter()
-                            .enumerate()
-                            .map(|(j, k)| k * self.weight(b, j, c));
-                        value += left * sum.sum::<f64>();
-                    }
+        let (by_row, by_column) = if slot.transposed { (1, m) } else { (n, 1) };
+        let values = &mut matrix.values[slot.at..slot.at + m * n];
+        let twice = a != b && va == vb;
+        self.each_entry(a, |r, i, left| {
+            let row = block.as_flattened()[i].as_flattened();
+            self.each_entry(b, |c, j, right| {
+                let value = left * row[j] * right;
+                values[r * by_row + c * by_column] += value;
+                if twice {
+                    values[c * n + r] += value;
                 }
-                let at = if slot.transposed {
-                    c * m + r
-                } else {
-                    r * n + c
-                };
-                matrix.values[slot.at + at] += value;
-                if a != b && va == vb {
-                    matrix.values[slot.at + c * n + r] += value;
+            });
+        });
+    }
+
+    /// Calls with every free coordinate of its vertex that moves a node, counted from the first, the coordinate of the
+    /// node that it moves, and how much.
+    #[inline(always)]
+    fn each_entry(&self, node: usize, mut call: impl FnMut(usize, usize, f64)) {
+        match self.places[node] {
+            Place::Alone(_) => (0..2 * D).for_each(|k| call(k, k, 1.0)),
+            Place::Tied(index, _) => {
+                let start = self.ranges[index].start;
+                for entry in &self.entries[self.of_node[node].clone()] {
+                    call(entry.free - start, entry.coordinate, entry.value);
                 }
             }
         }
