@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::connectivity::{Cluster, Dependent, Node, Row, clusters, no_node};
-use super::layout::{Entry, Held, Run, Tied, components, entries, held, runs, vertices};
+use super::layout::{Entry, Held, Run, Tied, alone, components, entries, held, runs, vertices};
 use crate::math::sparse::{Cholesky, General, Matrix, Number, Pattern, Reach, Slot};
 
 /// A matrix over two nodes: by vector and axis of the one, then of the other.
@@ -47,6 +47,9 @@ pub struct Assembly<const D: usize = 2> {
     /// Parts of the free coordinates without links between them.
     components: Vec<Range<usize>>,
     places: Vec<Place>,
+    /// Runs of nodes that are alone, with the place of the first; and those that are tied.
+    alone: Vec<(Range<usize>, usize)>,
+    tied: Vec<usize>,
     vertices: Vec<usize>,
     clusters: Vec<Cluster>,
     /// What of all their bases is not zero, and which entries belong to every node.
@@ -87,6 +90,11 @@ impl<const D: usize> Assembly<D> {
             Some((index, row)) => Place::Tied(index, row),
         };
         let places: Vec<Place> = (0..nodes).map(place).collect();
+        let free = places.iter().map(|place| match place {
+            Place::Alone(start) => Some(*start),
+            Place::Tied(..) => None,
+        });
+        let alone = alone(free, 2 * D);
         let slot = |a: usize, b: usize| pattern.slot(vertices[a], vertices[b]);
         let next = (0..nodes.saturating_sub(1))
             .map(|node| match (places[node], places[node + 1]) {
@@ -112,6 +120,8 @@ impl<const D: usize> Assembly<D> {
             held,
             diagonal,
             next,
+            alone,
+            tied: clusters.iter().flat_map(|c| c.nodes.clone()).collect(),
             places,
             vertices,
             clusters,
@@ -234,32 +244,51 @@ impl<const D: usize> Assembly<D> {
 
     /// `x = N y`.
     pub fn prolong(&self, y: &[f64], x: &mut [Node<D>]) {
-        for (place, x) in self.places.iter().zip(x.iter_mut()) {
-            if let Place::Alone(start) = place {
-                x.as_flattened_mut()
-                    .copy_from_slice(&y[*start..start + 2 * D]);
-            }
+        for (nodes, start) in &self.alone {
+            let x = x[nodes.clone()].as_flattened_mut().as_flattened_mut();
+            x.copy_from_slice(&y[*start..*start + x.len()]);
         }
-        for node in self.clusters.iter().flat_map(|cluster| &cluster.nodes) {
+        for node in &self.tied {
             x[*node] = no_node();
         }
+        self.follow(y, x);
+    }
+
+    /// `x = start + N y`.
+    pub fn prolong_from(&self, start: &[Node<D>], y: &[f64], x: &mut [Node<D>]) {
+        for (nodes, first) in &self.alone {
+            let x = x[nodes.clone()].as_flattened_mut().as_flattened_mut();
+            let start = start[nodes.clone()].as_flattened().as_flattened();
+            for ((x, start), y) in x.iter_mut().zip(start).zip(&y[*first..]) {
+                *x = start + y;
+            }
+        }
+        for node in &self.tied {
+            x[*node] = start[*node];
+        }
+        self.follow(y, x);
+    }
+
+    /// Adds how tied nodes follow the free coordinates.
+    fn follow(&self, y: &[f64], x: &mut [Node<D>]) {
+        let x = x.as_flattened_mut().as_flattened_mut();
         for entry in &self.entries {
-            x[entry.node].as_flattened_mut()[entry.coordinate] += entry.value * y[entry.free];
+            x[entry.at] += entry.value * y[entry.free];
         }
     }
 
     /// `y = N^T f`.
     pub fn restrict(&self, f: &[Node<D>], y: &mut [f64]) {
-        for (place, f) in self.places.iter().zip(f) {
-            if let Place::Alone(start) = place {
-                y[*start..start + 2 * D].copy_from_slice(f.as_flattened());
-            }
+        for (nodes, start) in &self.alone {
+            let f = f[nodes.clone()].as_flattened().as_flattened();
+            y[*start..*start + f.len()].copy_from_slice(f);
         }
         for range in &self.ranges {
             y[range.clone()].fill(0.0);
         }
+        let f = f.as_flattened().as_flattened();
         for entry in &self.entries {
-            y[entry.free] += entry.value * f[entry.node].as_flattened()[entry.coordinate];
+            y[entry.free] += entry.value * f[entry.at];
         }
     }
 

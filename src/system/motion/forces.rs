@@ -29,10 +29,8 @@ impl<const D: usize> System<D> {
                 }
             };
         }
-        self.elimination.expand(q, &mut work.y, &mut work.x);
-        for (x, reference) in work.x.iter_mut().zip(&self.reference) {
-            add_node(x, 1.0, reference);
-        }
+        self.elimination
+            .expand_from(&self.reference, q, &mut work.y, &mut work.x);
         self.add_driven(&work.drives, 0, &mut work.x);
         self.find_travel(&work.x, &mut work.travel);
         if let Some(v) = v {
