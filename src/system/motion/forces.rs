@@ -29,9 +29,12 @@ impl<const D: usize> System<D> {
                 }
             };
         }
+        for (target, driven) in work.targets.iter_mut().zip(&self.driven) {
+            *target = self.linear[driven.row].target.derivatives(&work.drives);
+        }
         self.elimination
             .expand_from(&self.reference, q, &mut work.y, &mut work.x);
-        self.add_driven(&work.drives, 0, &mut work.x);
+        self.add_driven(&work.targets, 0, &mut work.x);
         self.find_travel(&work.x, &mut work.travel);
         if let Some(v) = v {
             self.rate_kinematics(v, work);
@@ -50,18 +53,18 @@ impl<const D: usize> System<D> {
     /// Puts nodal rates into `work`; what drives them is that of the last [`System::forward_kinematics`].
     pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Work<D>) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
-        self.add_driven(&work.drives, 1, &mut work.v);
+        self.add_driven(&work.targets, 1, &mut work.v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
     pub(in crate::system) fn add_driven(
         &self,
-        drives: &[[f64; 3]],
+        targets: &[[f64; 3]],
         order: usize,
         out: &mut [Node<D>],
     ) {
-        for driven in &self.driven {
-            let mut value = self.linear[driven.row].target.derivatives(drives)[order];
+        for (driven, target) in self.driven.iter().zip(targets) {
+            let mut value = target[order];
             if order == 0 {
                 value -= driven.reference;
             }
@@ -107,8 +110,7 @@ impl<const D: usize> System<D> {
     /// Generalized forces `T^T (f - M G c'')` of the nodal forces in `work`, which stay.
     pub(in crate::system) fn reduce(&self, work: &mut Work<D>, a: &mut [f64]) {
         let change = |sign: f64, work: &mut Work<D>| {
-            for driven in &self.driven {
-                let second = self.linear[driven.row].target.derivatives(&work.drives)[2];
+            for (driven, [_, _, second]) in self.driven.iter().zip(&work.targets) {
                 add(&driven.inertia, sign * second, &mut work.f);
             }
         };
@@ -173,7 +175,7 @@ impl<const D: usize> System<D> {
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
     pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work<D>) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
-        self.add_driven(&work.drives, 2, &mut work.other);
+        self.add_driven(&work.targets, 2, &mut work.other);
         for (supply, f) in work.supply.iter_mut().zip(&work.f) {
             *supply = map_node(f, |f| -f);
         }
