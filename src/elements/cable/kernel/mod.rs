@@ -440,7 +440,7 @@ impl<N: Real> Kernel<N> {
         for i in 0..3 {
             if point.slope[i] != 0.0 {
                 for d in 0..D {
-                    sum[i][d] += gradient[d] * self.number(point.slope[i]);
+                    sum[i][d] = gradient[d].times_plus(self.number(point.slope[i]), sum[i][d]);
                 }
             }
         }
@@ -467,11 +467,11 @@ impl<N: Real> Kernel<N> {
         let (mu, mw) = (contract(&m, &at.u), contract(&m, &at.w));
         let curved = weight * self.inverse_length;
         for d in 0..D {
-            let by_u = -(mw[d] + at.u[d] * along) * weight;
+            let by_u = at.u[d].times_plus(along, mw[d]) * -weight;
             let by_w = mu[d] * curved;
             for i in 0..3 {
-                sum[i][d] +=
-                    by_u * self.number(point.slope[i]) + by_w * self.number(point.curvature[i]);
+                let by_u = by_u.times_plus(self.number(point.slope[i]), sum[i][d]);
+                sum[i][d] = by_w.times_plus(self.number(point.curvature[i]), by_u);
             }
         }
     }
