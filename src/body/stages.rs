@@ -353,14 +353,16 @@ impl<const D: usize> Tangent<D> {
         // The real system comes first.
         let (has_real, first) = (S % 2 == 1, S % 2);
         for (free, at) in assembly.runs() {
-            for (k, at) in free.zip(at) {
+            let q: [&[f64]; S] = std::array::from_fn(|i| &q[i][free.clone()]);
+            let (x, z) = (&mut self.x[at.clone()], &mut self.z[at]);
+            for (k, (x, z)) in x.iter_mut().zip(z).enumerate() {
                 let y: [f64; S] = std::array::from_fn(|i| q[i][k]);
                 if has_real {
-                    self.x[at] = product(&forward[0], &y);
+                    *x = product(&forward[0], &y);
                 }
                 if S > 1 {
                     let [re, im] = [first, first + 1].map(|row| product(&forward[row], &y));
-                    self.z[at] = Complex::new(re, im);
+                    *z = Complex::new(re, im);
                 }
             }
         }
@@ -372,14 +374,15 @@ impl<const D: usize> Tangent<D> {
             self.complex.solve(assembly.pattern(), &mut self.z);
         }
         for (free, at) in assembly.runs() {
-            for (k, at) in free.zip(at) {
-                let solution: [f64; S] = std::array::from_fn(|i| match i {
-                    0 if has_real => self.x[at],
-                    i if i == first => self.z[at].re,
-                    _ => self.z[at].im,
-                });
-                for (q, row) in q.iter_mut().zip(back) {
-                    q[k] = product(row, &solution);
+            let (x, z) = (&self.x[at.clone()], &self.z[at]);
+            for (q, row) in q.iter_mut().zip(back) {
+                for ((q, x), z) in q[free.clone()].iter_mut().zip(x).zip(z) {
+                    let solution: [f64; S] = std::array::from_fn(|i| match i {
+                        0 if has_real => *x,
+                        i if i == first => z.re,
+                        _ => z.im,
+                    });
+                    *q = product(row, &solution);
                 }
             }
         }
@@ -441,7 +444,7 @@ fn rotated<const D: usize>(
         // Opposite directions have no smallest rotation, and the step is far too long anyway.
         return *v;
     }
-    v - sum * (sum.dot(v) / scale) + to * (2.0 * from.dot(v))
+    v - sum * (sum.dot(v) * (1.0 / scale)) + to * (2.0 * from.dot(v))
 }
 
 fn product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
