@@ -14,6 +14,7 @@ pub use nystrom::{Nystrom, RKN43, Tableau, VERLET};
 pub use radau::Radau;
 pub use rk4::Rk4;
 
+use crate::math::vector::norm as size;
 use crate::system::{Accepted, Dynamics, State};
 use controller::Controller;
 
@@ -37,10 +38,6 @@ impl Tolerance {
         // Not f64::max, which would hide a NaN.
         (if p > v { p } else { v + 0.0 * p }) / (self.position * self.relative)
     }
-}
-
-fn size(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Outcome of one attempted step.
