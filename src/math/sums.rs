@@ -1,21 +1,24 @@
 //! Weighted sums of long vectors, in lanes: what methods of integration make of their stages.
 
-use super::lanes::{Simd, Work, vectorized};
+use super::lanes::{Simd, Work, vectorized_where};
 
 /// A weight and the vector that it belongs to.
 pub type Term<'a> = (f64, &'a [f64]);
+
+/// Numbers from which on a sum goes in lanes.
+const LONG: usize = 16;
 
 /// Most terms of a sum.
 pub const TERMS: usize = 6;
 
 /// `out = sum of all terms`, at least one and at most [`TERMS`]; all vectors are of one length.
 pub fn sum(out: &mut [f64], terms: &[Term<'_>]) {
-    vectorized(Sum::<'_, false> { out, terms });
+    vectorized_where(out.len() >= LONG, Sum::<'_, false> { out, terms });
 }
 
 /// `out += sum of all terms`, at least one and at most [`TERMS`]; all vectors are of one length.
 pub fn add(out: &mut [f64], terms: &[Term<'_>]) {
-    vectorized(Sum::<'_, true> { out, terms });
+    vectorized_where(out.len() >= LONG, Sum::<'_, true> { out, terms });
 }
 
 /// [`sum`], or [`add`] if `ADDS`.
