@@ -7,7 +7,7 @@
 //! 235-250: RKN4(3)4FM (Table 3).
 
 use super::{Attempt, Method, Tolerance, rescaled};
-use crate::math::sums::{TERMS, Term, sum};
+use crate::math::sums::{TERMS, Term, add, sum};
 use crate::system::Dynamics;
 
 /// Part of the stability limit that is used: the bound on the frequency is that of the reference
@@ -104,15 +104,20 @@ impl Nystrom {
     }
 }
 
-/// `out = start + factor * sum of the weighted vectors`, all together at most [`TERMS`].
+/// `out = start + factor * sum of the weighted vectors`, with at most as many vectors at the start as a sum takes.
 fn set(out: &mut [f64], start: &[Term<'_>], factor: f64, (weights, a): (&[f64], &[Vec<f64>])) {
-    let mut terms = [(0.0, &a[0][..]); TERMS];
-    let (first, rest) = terms.split_at_mut(start.len());
-    first.copy_from_slice(start);
-    for ((term, weight), a) in rest.iter_mut().zip(weights).zip(a) {
-        *term = (factor * weight, a);
+    let (mut terms, mut count) = ([(0.0, &a[0][..]); TERMS], start.len());
+    terms[..count].copy_from_slice(start);
+    let mut write: fn(&mut [f64], &[Term<'_>]) = sum;
+    for (weight, a) in weights.iter().zip(a) {
+        if count == TERMS {
+            write(out, &terms);
+            (write, count) = (add, 0);
+        }
+        terms[count] = (factor * weight, a);
+        count += 1;
     }
-    sum(out, &terms[..start.len() + weights.len()]);
+    write(out, &terms[..count]);
 }
 
 impl Method for Nystrom {
