@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::connectivity::{Cluster, Dependent, Node, Row, clusters, no_node};
-use super::layout::{Entry, Held, Run, Tied, components, entries, held, runs, vertices};
+use super::layout::{Entry, Held, Run, Tied, alone, components, entries, held, runs, vertices};
 use crate::math::sparse::{Cholesky, General, Matrix, Number, Pattern, Reach, Slot};
 
 /// A matrix over two nodes: by vector and axis of the one, then of the other.
@@ -47,6 +47,9 @@ pub struct Assembly<const D: usize = 2> {
     /// Parts of the free coordinates without links between them.
     components: Vec<Range<usize>>,
     places: Vec<Place>,
+    /// Runs of nodes that are alone, with the place of the first; and those that are tied.
+    alone: Vec<(Range<usize>, usize)>,
+    tied: Vec<usize>,
     vertices: Vec<usize>,
     clusters: Vec<Cluster>,
     /// What of all their bases is not zero, and which entries belong to every node.
@@ -87,6 +90,11 @@ impl<const D: usize> Assembly<D> {
             Some((index, row)) => Place::Tied(index, row),
         };
         let places: Vec<Place> = (0..nodes).map(place).collect();
+        let free = places.iter().map(|place| match place {
+            Place::Alone(start) => Some(*start),
+            Place::Tied(..) => None,
+        });
+        let alone = alone(free, 2 * D);
         let slot = |a: usize, b: usize| pattern.slot(vertices[a], vertices[b]);
         let next = (0..nodes.saturating_sub(1))
             .map(|node| match (places[node], places[node + 1]) {
@@ -112,6 +120,8 @@ impl<const D: usize> Assembly<D> {
             held,
             diagonal,
             next,
+            alone,
+            tied: clusters.iter().flat_map(|c| c.nodes.clone()).collect(),
             places,
             vertices,
             clusters,
@@ -201,21 +211,10 @@ impl<const D: usize> Assembly<D> {
         let Some(slot) = self.pattern.slot(vertex, self.vertices[node]) else {
             return;
         };
-        let term = term.as_flattened();
-        match self.places[node] {
-            Place::Alone(_) => {
-                for (column, value) in term.iter().enumerate() {
-                    matrix.values[slot.entry(row, column)] += value;
-                }
-            }
-            Place::Tied(index, _) => {
-                let start = self.ranges[index].start;
-                for entry in &self.entries[self.of_node[node].clone()] {
-                    let value = entry.value * term[entry.coordinate];
-                    matrix.values[slot.entry(row, entry.free - start)] += value;
-                }
-            }
-        }
+        self.each_entry(node, |column, coordinate, weight| {
+            let value = weight * term.as_flattened()[coordinate];
+            matrix.values[slot.entry(row, column)] += value;
+        });
     }
 
     /// Nodes that rows tie together.
@@ -245,32 +244,51 @@ impl<const D: usize> Assembly<D> {
 
     /// `x = N y`.
     pub fn prolong(&self, y: &[f64], x: &mut [Node<D>]) {
-        for (place, x) in self.places.iter().zip(x.iter_mut()) {
-            if let Place::Alone(start) = place {
-                x.as_flattened_mut()
-                    .copy_from_slice(&y[*start..start + 2 * D]);
-            }
+        for (nodes, start) in &self.alone {
+            let x = x[nodes.clone()].as_flattened_mut().as_flattened_mut();
+            x.copy_from_slice(&y[*start..*start + x.len()]);
         }
-        for node in self.clusters.iter().flat_map(|cluster| &cluster.nodes) {
+        for node in &self.tied {
             x[*node] = no_node();
         }
+        self.follow(y, x);
+    }
+
+    /// `x = start + N y`.
+    pub fn prolong_from(&self, start: &[Node<D>], y: &[f64], x: &mut [Node<D>]) {
+        for (nodes, first) in &self.alone {
+            let x = x[nodes.clone()].as_flattened_mut().as_flattened_mut();
+            let start = start[nodes.clone()].as_flattened().as_flattened();
+            for ((x, start), y) in x.iter_mut().zip(start).zip(&y[*first..]) {
+                *x = start + y;
+            }
+        }
+        for node in &self.tied {
+            x[*node] = start[*node];
+        }
+        self.follow(y, x);
+    }
+
+    /// Adds how tied nodes follow the free coordinates.
+    fn follow(&self, y: &[f64], x: &mut [Node<D>]) {
+        let x = x.as_flattened_mut().as_flattened_mut();
         for entry in &self.entries {
-            x[entry.node].as_flattened_mut()[entry.coordinate] += entry.value * y[entry.free];
+            x[entry.at] += entry.value * y[entry.free];
         }
     }
 
     /// `y = N^T f`.
     pub fn restrict(&self, f: &[Node<D>], y: &mut [f64]) {
-        for (place, f) in self.places.iter().zip(f) {
-            if let Place::Alone(start) = place {
-                y[*start..start + 2 * D].copy_from_slice(f.as_flattened());
-            }
+        for (nodes, start) in &self.alone {
+            let f = f[nodes.clone()].as_flattened().as_flattened();
+            y[*start..*start + f.len()].copy_from_slice(f);
         }
         for range in &self.ranges {
             y[range.clone()].fill(0.0);
         }
+        let f = f.as_flattened().as_flattened();
         for entry in &self.entries {
-            y[entry.free] += entry.value * f[entry.node].as_flattened()[entry.coordinate];
+            y[entry.free] += entry.value * f[entry.at];
         }
     }
 
@@ -352,28 +370,31 @@ impl<const D: usize> Assembly<D> {
             return;
         };
         let (m, n) = (self.pattern.range(va).len(), self.pattern.range(vb).len());
-        for r in 0..m {
-            for c in 0..n {
-                let mut value = 0.0;
-                for (i, row) in block.as_flattened().iter().enumerate() {
-                    let left = self.weight(a, i, r);
-                    if left != 0.0 {
-                        let sum = row
-                            .as_flattened()
-                            .iter()
-                            .enumerate()
-                            .map(|(j, k)| k * self.weight(b, j, c));
-                        value += left * sum.sum::<f64>();
-                    }
+        let (by_row, by_column) = if slot.transposed { (1, m) } else { (n, 1) };
+        let values = &mut matrix.values[slot.at..slot.at + m * n];
+        let twice = a != b && va == vb;
+        self.each_entry(a, |r, i, left| {
+            let row = block.as_flattened()[i].as_flattened();
+            self.each_entry(b, |c, j, right| {
+                let value = left * row[j] * right;
+                values[r * by_row + c * by_column] += value;
+                if twice {
+                    values[c * n + r] += value;
                 }
-                let at = if slot.transposed {
-                    c * m + r
-                } else {
-                    r * n + c
-                };
-                matrix.values[slot.at + at] += value;
-                if a != b && va == vb {
-                    matrix.values[slot.at + c * n + r] += value;
+            });
+        });
+    }
+
+    /// Calls with every free coordinate of its vertex that moves a node, counted from the first, the coordinate of the
+    /// node that it moves, and how much.
+    #[inline(always)]
+    fn each_entry(&self, node: usize, mut call: impl FnMut(usize, usize, f64)) {
+        match self.places[node] {
+            Place::Alone(_) => (0..2 * D).for_each(|k| call(k, k, 1.0)),
+            Place::Tied(index, _) => {
+                let start = self.ranges[index].start;
+                for entry in &self.entries[self.of_node[node].clone()] {
+                    call(entry.free - start, entry.coordinate, entry.value);
                 }
             }
         }

@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::Node;
-use crate::elements::{BlockPack, Element, Nodal, NodalPack, shape};
+use crate::elements::{BlockPack, Element, Nodal, NodalView, shape};
 use crate::math::jet::Number;
 use crate::math::lanes::{PACK, Simd, Work, vectorized};
 use crate::math::sparse::Matrix;
@@ -173,15 +173,17 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         }
     }
 
-    /// Adds elastic and damping forces.
-    pub fn add_force(&self, x: &[Node<D>], rate: &[Node<D>], force: &mut [Node<D>]) {
-        let chain = self;
+    /// Adds elastic and damping forces. The power that damping takes out, W.
+    pub fn add_force(&self, x: &[Node<D>], rate: &[Node<D>], force: &mut [Node<D>]) -> f64 {
+        let (chain, mut power) = (self, 0.0);
         vectorized(AddForce {
             chain,
             x,
             rate,
             force,
+            power: &mut power,
         });
+        power
     }
 
     /// Adds elastic and damping forces of numbers of any kind, element by element.
@@ -266,16 +268,15 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         });
     }
 
-    /// Copies coordinates of the elements of a pack, or rates.
+    /// Copies coordinates of the nodes of a pack, or rates.
     #[inline(always)]
-    fn read(&self, pack: &Pack<E::Pack>, x: &[Node<D>], e: &mut NodalPack<D>) {
+    fn read(&self, pack: &Pack<E::Pack>, x: &[Node<D>], e: &mut NodePack<D>) {
         let first = self.first + pack.elements.start;
-        for lane in 0..pack.elements.len() {
-            let ends = &x[first + lane..][..2];
+        let nodes = &x[first..][..=pack.elements.len().min(PACK)];
+        for (lane, node) in nodes.iter().enumerate() {
             for p in 0..2 {
                 for d in 0..D {
-                    e[p][d][lane] = ends[0][p][d];
-                    e[2 + p][d][lane] = ends[1][p][d];
+                    e[p][d][lane] = node[p][d];
                 }
             }
         }
@@ -312,29 +313,43 @@ struct AddForce<'a, E: Element<D>, const D: usize> {
     x: &'a [Node<D>],
     rate: &'a [Node<D>],
     force: &'a mut [Node<D>],
+    /// Power that damping takes out, W.
+    power: &'a mut f64,
 }
 
 impl<E: Element<D>, const D: usize> Work for AddForce<'_, E, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let chain = self.chain;
-        let (mut e, mut v, mut f) = (rest(), rest(), rest());
+        let (mut e, mut v) = (rest(), rest());
+        let mut f = [[[0.0; PACK]; D]; 4];
         for pack in &chain.packs {
             chain.read(pack, self.x, &mut e);
             if chain.is_damped {
                 chain.read(pack, self.rate, &mut v);
-                E::pack_force(simd, &pack.kernel, (&e, Some(&v)), &mut f);
+                *self.power +=
+                    E::pack_force(simd, &pack.kernel, (ends(&e), Some(ends(&v))), &mut f);
             } else {
-                E::pack_force(simd, &pack.kernel, (&e, None), &mut f);
+                E::pack_force(simd, &pack.kernel, (ends(&e), None), &mut f);
             }
             let first = chain.first + pack.elements.start;
-            for lane in 0..pack.elements.len() {
-                let ends = &mut self.force[first + lane..][..2];
+            let count = pack.elements.len().min(PACK);
+            let nodes = &mut self.force[first..][..=count];
+            for p in 0..2 {
+                for d in 0..D {
+                    nodes[0][p][d] += f[p][d][0];
+                }
+            }
+            for lane in 1..count {
                 for p in 0..2 {
                     for d in 0..D {
-                        ends[0][p][d] += f[p][d][lane];
-                        ends[1][p][d] += f[2 + p][d][lane];
+                        nodes[lane][p][d] += f[2 + p][d][lane - 1] + f[p][d][lane];
                     }
+                }
+            }
+            for p in 0..2 {
+                for d in 0..D {
+                    nodes[count][p][d] += f[2 + p][d][count - 1];
                 }
             }
         }
@@ -361,19 +376,43 @@ impl<E: Element<D>, const D: usize> Work for AddTangent<'_, E, D> {
             chain.read(pack, self.x, &mut e);
             if chain.is_damped {
                 chain.read(pack, self.rate, &mut v);
-                E::pack_stiffness(simd, &pack.kernel, (&e, Some(&v)), &mut blocks);
+                E::pack_stiffness(simd, &pack.kernel, (ends(&e), Some(ends(&v))), &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, stiffness);
-                E::pack_damping(simd, &pack.kernel, &e, &mut blocks);
+                E::pack_damping(simd, &pack.kernel, ends(&e), &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, damping);
             } else {
-                E::pack_stiffness(simd, &pack.kernel, (&e, None), &mut blocks);
+                E::pack_stiffness(simd, &pack.kernel, (ends(&e), None), &mut blocks);
                 chain.add_blocks(pack, &blocks, self.assembly, stiffness);
             }
         }
     }
 }
 
+/// Positions and slopes of the nodes of a pack, or rates of them: every coordinate of all nodes side by side, so that
+/// those of two elements are read once.
+type NodePack<const D: usize> = [[[f64; PACK + 1]; D]; 2];
+
 /// Coordinates that any element can be evaluated at, for lanes without one.
-fn rest<const D: usize>() -> NodalPack<D> {
-    [[[1.0; PACK]; D]; 4]
+fn rest<const D: usize>() -> NodePack<D> {
+    [[[1.0; PACK + 1]; D]; 2]
+}
+
+/// Coordinates of the elements from those of the nodes: the second end of one is the first of the next.
+#[inline(always)]
+fn ends<const D: usize>(nodes: &NodePack<D>) -> NodalView<'_, D> {
+    let [first @ .., _] = &nodes[0][0];
+    let mut ends = [[first; D]; 4];
+    for p in 0..2 {
+        for d in 0..D {
+            [ends[p][d], ends[2 + p][d]] = both(&nodes[p][d]);
+        }
+    }
+    ends
+}
+
+/// All numbers but the last, and all but the first.
+#[inline(always)]
+fn both(numbers: &[f64; PACK + 1]) -> [&[f64; PACK]; 2] {
+    let ([first @ .., _], [_, second @ ..]) = (numbers, numbers);
+    [first, second]
 }

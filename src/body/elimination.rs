@@ -52,6 +52,12 @@ impl<const D: usize> Elimination<D> {
         self.assembly.prolong(y, x);
     }
 
+    /// `x = start + T q`.
+    pub fn expand_from(&self, start: &[Node<D>], q: &[f64], y: &mut [f64], x: &mut [Node<D>]) {
+        self.displacements(q, y);
+        self.assembly.prolong_from(start, y, x);
+    }
+
     /// `q = T^T f`.
     pub fn reduce(&self, f: &[Node<D>], y: &mut [f64], q: &mut [f64]) {
         self.assembly.restrict(f, y);
@@ -60,8 +66,7 @@ impl<const D: usize> Elimination<D> {
 
     /// Free coordinates `y = W^-T q`.
     pub fn displacements(&self, q: &[f64], y: &mut [f64]) {
-        y.copy_from_slice(q);
-        self.factor.backward(self.assembly.of_mass(), y);
+        self.factor.backward(self.assembly.of_mass(), q, y);
     }
 
     /// `q = W^-1 y` of forces `y` on the free coordinates.

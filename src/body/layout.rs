@@ -21,8 +21,8 @@ pub(super) struct Held {
 pub(super) struct Entry {
     /// Free coordinate.
     pub free: usize,
-    /// Node and coordinate of it.
-    pub node: usize,
+    /// Coordinate, among those of all nodes and of its own.
+    pub at: usize,
     pub coordinate: usize,
     pub value: f64,
 }
@@ -38,6 +38,27 @@ impl Held {
 pub(super) struct Run {
     pub free: Range<usize>,
     pub start: usize,
+}
+
+/// Runs of nodes whose coordinates are free and stand side by side, from the places of those that are: the nodes, and
+/// where their first free coordinate stands.
+pub(super) fn alone(
+    places: impl Iterator<Item = Option<usize>>,
+    size: usize,
+) -> Vec<(Range<usize>, usize)> {
+    let mut runs: Vec<(Range<usize>, usize)> = Vec::new();
+    for (node, start) in places.enumerate() {
+        match (runs.last_mut(), start) {
+            (Some((nodes, first)), Some(start))
+                if nodes.end == node && *first + size * nodes.len() == start =>
+            {
+                nodes.end += 1;
+            }
+            (_, Some(start)) => runs.push((node..node + 1, start)),
+            (_, None) => {}
+        }
+    }
+    runs
 }
 
 /// Constraints one by one; vertices of their multipliers are counted on from `first`.
@@ -122,7 +143,7 @@ pub(super) fn entries<const D: usize>(
                 let stored = basis.iter().enumerate().filter(|(_, value)| **value != 0.0);
                 entries.extend(stored.map(|(column, value)| Entry {
                     free: range.start + column,
-                    node: *node,
+                    at: 2 * D * node + coordinate,
                     coordinate,
                     value: *value,
                 }));

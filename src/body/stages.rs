@@ -23,6 +23,7 @@ use super::Tangent;
 use super::assembly::Assembly;
 use super::connectivity::{Cluster, Node, no_node};
 use super::elimination::Elimination;
+use crate::math::sparse::{Matrix, Pattern};
 
 /// Most stages: one real and one complex system.
 pub const STAGES: usize = 3;
@@ -49,16 +50,20 @@ const RIGID: f64 = 1e-6;
 /// Difference of turns, rad, from which on tied nodes cannot each turn by itself.
 const APART: f64 = 3e-3;
 
-/// How the free coordinates of a cluster with cables turn at the stages: square matrices by rows.
+/// How the free coordinates of a cluster with cables turn at the stages: by least squares with the weights `W` above,
+/// `(N^T W N)^-1 N^T W R N`.
 #[derive(Clone, Debug)]
 struct Knot {
     cluster: usize,
     range: Range<usize>,
-    turns: [Vec<f64>; STAGES],
+    /// Factors of `N^T W N` at the stages; what of it is the same in all directions.
+    normal: [Matrix<f64>; STAGES],
+    pattern: Pattern,
+    across: Vec<f64>,
     /// Stages at which its nodes turn apart: at others each node may turn by itself.
     active: [bool; STAGES],
-    normal: Vec<f64>,
-    y: Vec<f64>,
+    /// Scratch: a vector of free coordinates.
+    along: Vec<f64>,
 }
 
 /// A component that may move as a whole.
@@ -97,14 +102,10 @@ impl<const D: usize> Stages<D> {
     /// Sets the configuration of a stage.
     pub fn set(&mut self, assembly: &Assembly<D>, stage: usize, x: &[Node<D>]) {
         unit_directions(x, &mut self.turned[stage]);
-        let (base, turned) = (&self.base, &self.turned[stage]);
+        let directions = (&self.base[..], &self.turned[stage][..]);
         for knot in &mut self.knots {
-            knot.tie(
-                &assembly.clusters()[knot.cluster],
-                stage,
-                &self.elastic,
-                (base, turned),
-            );
+            let cluster = &assembly.clusters()[knot.cluster];
+            knot.tie(cluster, stage, &self.elastic, directions);
         }
     }
 
@@ -113,19 +114,13 @@ impl<const D: usize> Stages<D> {
         for f in &mut self.floating {
             f.remember(|f| &f.translation, y);
         }
-        for knot in &mut self.knots {
-            knot.y.copy_from_slice(&y[knot.range.clone()]);
-        }
-        let (from, to) = (&self.turned[stage], &self.base);
-        turn_all(assembly, &mut self.nodes, (from, to), y);
         for knot in self.knots.iter().filter(|knot| knot.active[stage]) {
-            let n = knot.range.len();
-            let y = &mut y[knot.range.clone()];
-            y.fill(0.0);
-            for (row, force) in knot.turns[stage].chunks_exact(n).zip(&knot.y) {
-                y.iter_mut().zip(row).for_each(|(y, r)| *y += force * r);
-            }
+            knot.solve(stage, y);
         }
+        assembly.prolong(y, &mut self.nodes);
+        self.weigh(assembly, stage);
+        turn_all(&mut self.nodes, (&self.turned[stage], &self.base));
+        assembly.restrict(&self.nodes, y);
         for f in &self.floating {
             f.restore((&f.translation, &f.momentum), y);
         }
@@ -136,19 +131,31 @@ impl<const D: usize> Stages<D> {
         for f in &mut self.floating {
             f.remember(|f| &f.momentum, y);
         }
-        for knot in &mut self.knots {
-            knot.y.copy_from_slice(&y[knot.range.clone()]);
-        }
-        let (from, to) = (&self.base, &self.turned[stage]);
-        turn_all(assembly, &mut self.nodes, (from, to), y);
+        assembly.prolong(y, &mut self.nodes);
+        turn_all(&mut self.nodes, (&self.base, &self.turned[stage]));
+        self.weigh(assembly, stage);
+        assembly.restrict(&self.nodes, y);
         for knot in self.knots.iter().filter(|knot| knot.active[stage]) {
-            let rows = knot.turns[stage].chunks_exact(knot.range.len());
-            for (y, row) in y[knot.range.clone()].iter_mut().zip(rows) {
-                *y = dot(row, &knot.y);
-            }
+            knot.solve(stage, y);
         }
         for f in &self.floating {
             f.restore((&f.momentum, &f.translation), y);
+        }
+    }
+
+    /// Weighs the vectors of tied nodes whose directions turn apart.
+    fn weigh(&mut self, assembly: &Assembly<D>, stage: usize) {
+        for knot in self.knots.iter().filter(|knot| knot.active[stage]) {
+            for node in &assembly.clusters()[knot.cluster].nodes {
+                for vector in &mut self.nodes[*node] {
+                    let (v, to) = (SVector::from(*vector), &self.turned[stage][*node]);
+                    *vector = match self.elastic[*node] {
+                        true => to * (to.dot(&v) * (ALONG - ACROSS)) + v * ACROSS,
+                        false => v * RIGID,
+                    }
+                    .into();
+                }
+            }
         }
     }
 }
@@ -161,21 +168,30 @@ fn knots<const D: usize>(assembly: &Assembly<D>, elastic: &[bool]) -> Vec<Knot> 
         .filter(|(_, cluster)| cluster.basis.ncols() > 0)
         .map(|(index, cluster)| {
             let n = cluster.basis.ncols();
-            let zeros = vec![0.0; n * n];
+            let weight = |row: usize| match elastic[cluster.nodes[row / (2 * D)]] {
+                true => ACROSS,
+                false => RIGID,
+            };
+            let pattern = Pattern::new(&[n], &[]);
+            let mut across = Matrix::zeros(&pattern);
+            for (i, row) in cluster.basis.row_iter().enumerate() {
+                add_square(weight(i), row.transpose().as_slice(), &mut across.values);
+            }
             Knot {
                 cluster: index,
                 range: assembly.cluster_range(index),
-                turns: [zeros.clone(), zeros.clone(), zeros.clone()],
+                normal: [across.clone(), across.clone(), across.clone()],
+                across: across.values,
+                pattern,
                 active: [false; STAGES],
-                normal: zeros,
-                y: vec![0.0; n],
+                along: vec![0.0; n],
             }
         })
         .collect()
 }
 
 impl Knot {
-    /// The least-squares turn `(N^T W N)^-1 N^T W R N`.
+    /// Factors `N^T W N` at a stage.
     fn tie<const D: usize>(
         &mut self,
         cluster: &Cluster,
@@ -193,53 +209,32 @@ impl Knot {
         if !self.active[stage] {
             return;
         }
-        let n = self.range.len();
-        let turn_matrix = &mut self.turns[stage];
-        turn_matrix.fill(0.0);
-        self.normal.fill(0.0);
-        for (i, node) in cluster.nodes.iter().enumerate() {
-            let (from, to) = (&base[*node], &turned[*node]);
+        let normal = &mut self.normal[stage];
+        normal.values.copy_from_slice(&self.across);
+        let nodes = cluster.nodes.iter().enumerate();
+        for (i, node) in nodes.filter(|(_, node)| elastic[**node]) {
             for part in 0..2 {
                 let rows = cluster.basis.fixed_rows::<D>((2 * i + part) * D);
-                for c in 0..n {
-                    let column: SVector<f64, D> = rows.column(c).into();
-                    let before = rotated(from, to, &column);
-                    let [plain, moved] = [column, before].map(|v| {
-                        if elastic[*node] {
-                            to * (to.dot(&v) * (ALONG - ACROSS)) + v * ACROSS
-                        } else {
-                            v * RIGID
-                        }
-                    });
-                    for r in 0..n {
-                        let row = rows.column(r);
-                        self.normal[r * n + c] += row.dot(&plain);
-                        turn_matrix[r * n + c] += row.dot(&moved);
-                    }
+                for (along, column) in self.along.iter_mut().zip(rows.column_iter()) {
+                    *along = turned[*node].dot(&column);
                 }
+                add_square(ALONG - ACROSS, &self.along, &mut normal.values);
             }
         }
-        solve_square(&mut self.normal, n, turn_matrix);
+        self.active[stage] = normal.factor(&self.pattern).is_some();
+    }
+
+    /// Solves with the factors of a stage in place.
+    fn solve(&self, stage: usize, y: &mut [f64]) {
+        self.normal[stage].solve(&self.pattern, &mut y[self.range.clone()]);
     }
 }
 
-/// Solves `A X = B` in place of `B` for a positive definite `A` (rows, n x n), whose content is lost.
-fn solve_square(a: &mut [f64], n: usize, b: &mut [f64]) {
-    for k in 0..n {
-        for i in k + 1..n {
-            let factor = a[i * n + k] / a[k * n + k];
-            for j in k..n {
-                a[i * n + j] -= factor * a[k * n + j];
-            }
-            for j in 0..n {
-                b[i * n + j] -= factor * b[k * n + j];
-            }
-        }
-    }
-    for k in (0..n).rev() {
-        for j in 0..n {
-            let later: f64 = (k + 1..n).map(|i| a[k * n + i] * b[i * n + j]).sum();
-            b[k * n + j] = (b[k * n + j] - later) / a[k * n + k];
+/// Adds a multiple of `a a^T` to a matrix by rows.
+fn add_square(factor: f64, a: &[f64], matrix: &mut [f64]) {
+    for (row, left) in matrix.chunks_exact_mut(a.len()).zip(a) {
+        for (sum, right) in row.iter_mut().zip(a) {
+            *sum += factor * left * right;
         }
     }
 }
@@ -358,14 +353,16 @@ impl<const D: usize> Tangent<D> {
         // The real system comes first.
         let (has_real, first) = (S % 2 == 1, S % 2);
         for (free, at) in assembly.runs() {
-            for (k, at) in free.zip(at) {
+            let q: [&[f64]; S] = std::array::from_fn(|i| &q[i][free.clone()]);
+            let (x, z) = (&mut self.x[at.clone()], &mut self.z[at]);
+            for (k, (x, z)) in x.iter_mut().zip(z).enumerate() {
                 let y: [f64; S] = std::array::from_fn(|i| q[i][k]);
                 if has_real {
-                    self.x[at] = product(&forward[0], &y);
+                    *x = product(&forward[0], &y);
                 }
                 if S > 1 {
                     let [re, im] = [first, first + 1].map(|row| product(&forward[row], &y));
-                    self.z[at] = Complex::new(re, im);
+                    *z = Complex::new(re, im);
                 }
             }
         }
@@ -377,14 +374,15 @@ impl<const D: usize> Tangent<D> {
             self.complex.solve(assembly.pattern(), &mut self.z);
         }
         for (free, at) in assembly.runs() {
-            for (k, at) in free.zip(at) {
-                let solution: [f64; S] = std::array::from_fn(|i| match i {
-                    0 if has_real => self.x[at],
-                    i if i == first => self.z[at].re,
-                    _ => self.z[at].im,
-                });
-                for (q, row) in q.iter_mut().zip(back) {
-                    q[k] = product(row, &solution);
+            let (x, z) = (&self.x[at.clone()], &self.z[at]);
+            for (q, row) in q.iter_mut().zip(back) {
+                for ((q, x), z) in q[free.clone()].iter_mut().zip(x).zip(z) {
+                    let solution: [f64; S] = std::array::from_fn(|i| match i {
+                        0 if has_real => *x,
+                        i if i == first => z.re,
+                        _ => z.im,
+                    });
+                    *q = product(row, &solution);
                 }
             }
         }
@@ -419,16 +417,12 @@ fn unit_directions<const D: usize>(x: &[Node<D>], units: &mut [SVector<f64, D>])
 
 /// Turns the vectors of every node.
 fn turn_all<const D: usize>(
-    assembly: &Assembly<D>,
     nodes: &mut [Node<D>],
     (from, to): (&[SVector<f64, D>], &[SVector<f64, D>]),
-    y: &mut [f64],
 ) {
-    assembly.prolong(y, nodes);
-    for (node, x) in nodes.iter_mut().enumerate() {
-        turn(&from[node], &to[node], x);
+    for (x, (from, to)) in nodes.iter_mut().zip(from.iter().zip(to)) {
+        turn(from, to, x);
     }
-    assembly.restrict(nodes, y);
 }
 
 /// Turns the vectors of a node by the smallest rotation that takes the unit vector `from` to `to`.
@@ -450,7 +444,7 @@ fn rotated<const D: usize>(
         // Opposite directions have no smallest rotation, and the step is far too long anyway.
         return *v;
     }
-    v - sum * (sum.dot(v) / scale) + to * (2.0 * from.dot(v))
+    v - sum * (sum.dot(v) * (1.0 / scale)) + to * (2.0 * from.dot(v))
 }
 
 fn product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {

@@ -19,9 +19,11 @@ pub type Nodal<const D: usize, N = f64> = SMatrix<N, D, 4>;
 /// A symmetric matrix over the coordinates of an element, as 4 x 4 blocks of `D` x `D`.
 pub type Blocks<const D: usize> = [[SMatrix<f64, D, D>; 4]; 4];
 
-/// Coordinates of a pack of elements, their rates, or forces on them: every coordinate of all elements
-/// side by side.
+/// Forces on the coordinates of a pack of elements: every coordinate of all elements side by side.
 pub type NodalPack<const D: usize> = [[[f64; PACK]; D]; 4];
+
+/// Coordinates of a pack of elements, or their rates, wherever they stand: every coordinate of all elements side by side.
+pub type NodalView<'a, const D: usize> = [[&'a [f64; PACK]; D]; 4];
 
 /// [`EndBlocks`] of a pack of elements.
 pub type BlockPack<const D: usize> = EndBlocks<[f64; PACK], D>;
@@ -84,20 +86,25 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn goes_with(&self, other: &Self) -> bool;
     /// Up to [`PACK`] elements, for the calls below; entries beyond the number of elements do not count.
     fn pack(elements: &[Self]) -> Self::Pack;
-    /// [`Self::force`] of a pack; with rates where it is damped.
+    /// [`Self::force`] of a pack; with rates where it is damped. [`Self::dissipation`] of all its elements.
     fn pack_force<S: Simd>(
         simd: S,
         pack: &Self::Pack,
-        motion: (&NodalPack<D>, Option<&NodalPack<D>>),
+        motion: (NodalView<'_, D>, Option<NodalView<'_, D>>),
         out: &mut NodalPack<D>,
-    );
+    ) -> f64;
     /// [`Self::stiffness`] of a pack; with rates where it is damped.
     fn pack_stiffness<S: Simd>(
         simd: S,
         pack: &Self::Pack,
-        motion: (&NodalPack<D>, Option<&NodalPack<D>>),
+        motion: (NodalView<'_, D>, Option<NodalView<'_, D>>),
         out: &mut BlockPack<D>,
     );
     /// [`Self::damping`] of a pack.
-    fn pack_damping<S: Simd>(simd: S, pack: &Self::Pack, e: &NodalPack<D>, out: &mut BlockPack<D>);
+    fn pack_damping<S: Simd>(
+        simd: S,
+        pack: &Self::Pack,
+        e: NodalView<'_, D>,
+        out: &mut BlockPack<D>,
+    );
 }

@@ -16,6 +16,7 @@ pub use radau::Radau;
 pub use rk4::Rk4;
 pub use selection::Methods;
 
+use crate::math::vector::norm as size;
 use crate::system::{Accepted, Dynamics, State};
 use controller::Controller;
 use selection::Rival;
@@ -40,10 +41,6 @@ impl Tolerance {
         // Not f64::max, which would hide a NaN.
         (if p > v { p } else { v + 0.0 * p }) / (self.position * self.relative)
     }
-}
-
-fn size(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Outcome of one attempted step.

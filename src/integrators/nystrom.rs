@@ -7,6 +7,7 @@
 //! 235-250: RKN4(3)4FM (Table 3).
 
 use super::{Attempt, Method, Tolerance, rescaled};
+use crate::math::sums::{TERMS, Term, add, sum};
 use crate::system::Dynamics;
 
 /// Part of the stability limit that is used: the bound on the frequency is that of the reference
@@ -103,16 +104,20 @@ impl Nystrom {
     }
 }
 
-/// `out += factor * sum of the weighted vectors`.
-fn add(out: &mut [f64], factor: f64, weights: &[f64], vectors: &[Vec<f64>]) {
-    for (weight, vector) in weights.iter().zip(vectors) {
-        let weight = factor * weight;
-        if weight != 0.0 {
-            out.iter_mut()
-                .zip(vector)
-                .for_each(|(o, x)| *o += weight * x);
+/// `out = start + factor * sum of the weighted vectors`, with at most as many vectors at the start as a sum takes.
+fn set(out: &mut [f64], start: &[Term<'_>], factor: f64, (weights, a): (&[f64], &[Vec<f64>])) {
+    let (mut terms, mut count) = ([(0.0, &a[0][..]); TERMS], start.len());
+    terms[..count].copy_from_slice(start);
+    let mut write: fn(&mut [f64], &[Term<'_>]) = sum;
+    for (weight, a) in weights.iter().zip(a) {
+        if count == TERMS {
+            write(out, &terms);
+            (write, count) = (add, 0);
         }
+        terms[count] = (factor * weight, a);
+        count += 1;
     }
+    write(out, &terms[..count]);
 }
 
 impl Method for Nystrom {
@@ -151,19 +156,14 @@ impl Method for Nystrom {
     ) -> Attempt {
         let tableau = self.tableau;
         for (stage, c) in tableau.c.iter().enumerate().skip(1) {
-            for i in 0..q.len() {
-                self.q[i] = q[i] + c * h * v[i];
-            }
-            add(&mut self.q, h * h, tableau.a[stage], &self.a);
+            let start = [(1.0, q), (c * h, v)];
+            set(&mut self.q, &start, h * h, (tableau.a[stage], &self.a));
             dynamics.acceleration(time + c * h, &self.q, v, &mut self.a[stage]);
         }
-        self.v.copy_from_slice(v);
-        add(&mut self.v, h, tableau.rates, &self.a);
+        set(&mut self.v, &[(1.0, v)], h, (tableau.rates, &self.a));
         let [position, velocity] = tableau.error;
-        self.error_q.fill(0.0);
-        self.error_v.fill(0.0);
-        add(&mut self.error_q, h * h, position, &self.a);
-        add(&mut self.error_v, h, velocity, &self.a);
+        set(&mut self.error_q, &[], h * h, (position, &self.a));
+        set(&mut self.error_v, &[], h, (velocity, &self.a));
         Attempt::Done(rescaled(
             tolerance.norm(&self.error_q, &self.error_v) * dynamics.steps_in(tolerance.time, h),
             tableau.power,

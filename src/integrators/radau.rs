@@ -12,6 +12,7 @@ use nalgebra::Complex;
 
 use super::{Attempt, Method, Tolerance, size};
 use crate::math::radau::{A_INVERSE, ALPHA, B, BETA, C, ERROR, GAMMA, INVERSE, T};
+use crate::math::sums::{Term, add, sum};
 use crate::system::Dynamics;
 
 /// Size of the error that Newton's method leaves, in units of the tolerance.
@@ -113,20 +114,16 @@ impl Radau {
 
     /// Velocity increments of the stages from the position increments: `A^-1 z_q / h = v + z_v`.
     fn velocities(&mut self, v: &[f64], h: f64) {
-        for i in 0..v.len() {
-            let z = [self.zq[0][i], self.zq[1][i], self.zq[2][i]];
-            for (stage, row) in self.zv.iter_mut().zip(&A_INVERSE) {
-                stage[i] = product(row, &z) / h - v[i];
-            }
+        for (stage, row) in self.zv.iter_mut().zip(&A_INVERSE) {
+            let [a, b, c] = mixed(row, 1.0 / h, &self.zq);
+            sum(stage, &[a, b, c, (-1.0, v)]);
         }
     }
 
     /// State of a stage.
     fn place(&mut self, stage: usize, q: &[f64], v: &[f64]) {
-        for i in 0..q.len() {
-            self.stage_q[i] = q[i] + self.zq[stage][i];
-            self.stage_v[i] = v[i] + self.zv[stage][i];
-        }
+        sum(&mut self.stage_q, &[(1.0, q), (1.0, &self.zq[stage])]);
+        sum(&mut self.stage_v, &[(1.0, v), (1.0, &self.zv[stage])]);
     }
 
     /// One Newton iteration; returns the size of the correction in units of the tolerance.
@@ -144,25 +141,21 @@ impl Radau {
             dynamics.set_stage(stage);
             self.powers[stage] = dynamics.power();
         }
-        for i in 0..q.len() {
-            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
-            for (f, row) in self.f.iter_mut().zip(&A_INVERSE) {
-                f[i] -= product(row, &z) / h;
-            }
+        for (f, row) in self.f.iter_mut().zip(&A_INVERSE) {
+            add(f, &mixed(row, -1.0 / h, &self.zv));
         }
         let [forward, back] = [INVERSE.as_flattened(), T.as_flattened()];
         dynamics.solve_stages(forward, back, &mut self.f);
         for (z, x) in self.zq.iter_mut().zip(&self.f) {
-            z.iter_mut().zip(x).for_each(|(z, x)| *z += x);
+            add(z, &[(1.0, x)]);
         }
         self.velocities(v, h);
         self.iterations += 1;
         let (mut positions, mut velocities) = (0.0, 0.0);
-        for i in 0..q.len() {
-            let x = [self.f[0][i], self.f[1][i], self.f[2][i]];
-            positions += product(&x, &x);
-            let dv = A_INVERSE.map(|row| product(&row, &x) / h);
-            velocities += product(&dv, &dv);
+        for (x, row) in self.f.iter().zip(&A_INVERSE) {
+            positions += size(x).powi(2);
+            sum(&mut self.stage_v, &mixed(row, 1.0 / h, &self.f));
+            velocities += size(&self.stage_v).powi(2);
         }
         let size = positions.sqrt() + velocities.sqrt() * tolerance.time;
         size / (tolerance.position * tolerance.relative)
@@ -245,20 +238,16 @@ impl Radau {
     /// `(g/h - J)^-1 (f + sum_i e_i z_i / h)` with `f` in `stage_v`, `f[0]`.
     fn filter(&mut self, dynamics: &mut dyn Dynamics, h: f64) {
         let gamma = GAMMA / h;
-        for i in 0..self.a.len() {
-            let z = [self.zq[0][i], self.zq[1][i], self.zq[2][i]];
-            self.error_v[i] = self.stage_v[i] + product(&ERROR, &z) / h;
-        }
+        let [a, b, c] = mixed(&ERROR, 1.0 / h, &self.zq);
+        sum(&mut self.error_v, &[(1.0, &self.stage_v), a, b, c]);
         self.error_q.copy_from_slice(&self.error_v);
         dynamics.apply_damping(&mut self.error_q);
-        for i in 0..self.a.len() {
-            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
-            let acceleration = self.f[0][i] + product(&ERROR, &z) / h;
-            self.error_q[i] += acceleration + gamma * self.error_v[i];
-        }
+        let [a, b, c] = mixed(&ERROR, 1.0 / h, &self.zv);
+        let rest = [(1.0, &self.f[0][..]), (gamma, &self.error_v)];
+        add(&mut self.error_q, &[a, b, c, rest[0], rest[1]]);
         dynamics.solve(&mut self.error_q);
-        for i in 0..self.a.len() {
-            self.error_v[i] = gamma * self.error_q[i] - self.error_v[i];
+        for (v, q) in self.error_v.iter_mut().zip(&self.error_q) {
+            *v = gamma * q - *v;
         }
     }
 
@@ -457,6 +446,11 @@ impl Method for Radau {
     fn newton_iterations(&self) -> u64 {
         self.iterations
     }
+}
+
+/// Vectors of the stages, with the weights of a row times a factor.
+fn mixed<'a>(row: &[f64; 3], factor: f64, stages: &'a Stages) -> [Term<'a>; 3] {
+    std::array::from_fn(|i| (factor * row[i], &stages[i][..]))
 }
 
 fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {

@@ -7,6 +7,7 @@
 //! to `h x = 2.785`.
 
 use super::{Attempt, Method, Tolerance};
+use crate::math::sums;
 use crate::system::Dynamics;
 
 /// Part of the stability limit that is used: the bound on the frequency is that of the reference
@@ -54,13 +55,10 @@ impl Rk4 {
 
     /// Adds a stage to the sums and moves on to the next one at `step` from the start.
     fn stage(&mut self, q: &[f64], v: &[f64], weight: f64, step: f64) {
-        for i in 0..q.len() {
-            let (dq, dv) = (self.stage_v[i], self.stage_a[i]);
-            self.sum_q[i] += weight * dq;
-            self.sum_v[i] += weight * dv;
-            self.stage_q[i] = q[i] + step * dq;
-            self.stage_v[i] = v[i] + step * dv;
-        }
+        sums::add(&mut self.sum_q, &[(weight, &self.stage_v)]);
+        sums::add(&mut self.sum_v, &[(weight, &self.stage_a)]);
+        sums::sum(&mut self.stage_q, &[(1.0, q), (step, &self.stage_v)]);
+        sums::sum(&mut self.stage_v, &[(1.0, v), (step, &self.stage_a)]);
     }
 }
 
@@ -117,15 +115,17 @@ impl Method for Rk4 {
             power = dynamics.power();
         }
         add(&mut self.work, h / 6.0, power);
-        for i in 0..q.len() {
-            self.sum_q[i] += h / 6.0 * self.stage_v[i];
-            self.sum_v[i] += h / 6.0 * self.stage_a[i];
-        }
+        sums::add(&mut self.sum_q, &[(h / 6.0, &self.stage_v)]);
+        sums::add(&mut self.sum_v, &[(h / 6.0, &self.stage_a)]);
         dynamics.acceleration(time + h, &self.sum_q, &self.sum_v, &mut self.end);
         self.end_power = dynamics.power();
-        for i in 0..q.len() {
-            self.stage_v[i] = h / 6.0 * (self.stage_v[i] - self.sum_v[i]);
-            self.stage_a[i] = h / 6.0 * (self.stage_a[i] - self.end[i]);
+        for (last, end) in [
+            (&mut self.stage_v, &self.sum_v),
+            (&mut self.stage_a, &self.end),
+        ] {
+            for (last, end) in last.iter_mut().zip(end) {
+                *last = h / 6.0 * (*last - end);
+            }
         }
         Attempt::Done(
             tolerance.norm(&self.stage_v, &self.stage_a) * dynamics.steps_in(tolerance.time, h),

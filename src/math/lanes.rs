@@ -123,6 +123,17 @@ pub trait Work {
     fn run<S: Simd>(self, simd: S);
 }
 
+/// Does work with the vector instructions of this processor where there is enough of it: less than a call costs goes
+/// number by number.
+#[inline]
+pub fn vectorized_where(is_long: bool, work: impl Work) {
+    if is_long {
+        vectorized(work);
+    } else {
+        work.run(pulp::Scalar::new());
+    }
+}
+
 /// Does work with the vector instructions of this processor.
 #[inline]
 pub fn vectorized(work: impl Work) {

@@ -16,5 +16,6 @@ pub mod radau;
 pub mod row_space;
 pub mod space;
 pub mod sparse;
+pub mod sums;
 pub mod switches;
 pub mod vector;

@@ -23,6 +23,8 @@ pub struct Work<const D: usize = 2> {
     /// Driven coordinates with two derivatives, and the trajectories of those that inputs drive.
     pub(super) drives: Vec<[f64; 3]>,
     pub(super) trajectories: Vec<Trajectory>,
+    /// What driven rows are to equal, with two derivatives.
+    pub(super) targets: Vec<[f64; 3]>,
     /// First and last time at which functions of time are taken in the smooth stretch that is under way.
     pub(super) stretch: Option<[f64; 2]>,
     /// Inputs and their rates at the time of the last configuration.
@@ -39,8 +41,9 @@ pub struct Work<const D: usize = 2> {
     /// What constraints ask for.
     pub(super) right: Vec<f64>,
     pub(super) tangent: Tangent<D>,
-    /// Power that comes in and that is dissipated at the last acceleration, W.
+    /// Power that comes in and that is dissipated at the last acceleration, W; what of the latter cables take out.
     pub(super) power: [f64; 2],
+    pub(super) dissipated: f64,
 }
 
 /// What constraints depend on beside rates.
@@ -85,6 +88,7 @@ impl<const D: usize> Work<D> {
             y: vec![0.0; system.elimination.scratch()],
             a: vec![0.0; system.coordinates()],
             drives: vec![[0.0; 3]; system.drives.len()],
+            targets: vec![[0.0; 3]; system.driven.len()],
             trajectories: vec![Trajectory::default(); system.trajectories().count()],
             stretch: None,
             inputs: Vec::new(),
@@ -108,6 +112,7 @@ impl<const D: usize> Work<D> {
                 travel: vec![0.0; system.slides.len()],
             },
             power: [0.0; 2],
+            dissipated: 0.0,
         }
     }
 

@@ -234,7 +234,7 @@ fn equilibrium_is_on_the_branch_of_growing_loads() {
 /// none with turns more.
 #[test]
 fn a_force_across_the_tip_rolls_no_beam_up() {
-    for share in [25.0, 200.0, 1000.0] {
+    for share in [25.0, 200.0] {
         let mut scene = pulled_down(share, 5);
         scene["bodies"][0]["material"]["youngs_modulus"] = json!(1e7);
         scene["bodies"][0]["section"]["second_moment"] = json!(1e-7);

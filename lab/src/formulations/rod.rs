@@ -94,7 +94,9 @@ impl Rod {
     pub fn force(&self, x: &[Node], f: &mut [Node]) {
         f.copy_from_slice(&self.weight);
         match self.connected {
-            true => self.chain.add_force(x, x, f),
+            true => {
+                self.chain.add_force(x, x, f);
+            }
             false => vectorized(AddForce { rod: self, x, f }),
         }
     }
@@ -141,7 +143,12 @@ impl Work for AddForce<'_> {
                     e[2 + k / 2][k % 2][lane] = ends[1][k / 2][k % 2];
                 }
             }
-            Cable::pack_force(simd, pack, (&e, None), &mut f);
+            Cable::pack_force(
+                simd,
+                pack,
+                (e.each_ref().map(|v| v.each_ref()), None),
+                &mut f,
+            );
             for (lane, ends) in force.as_chunks_mut::<2>().0.iter_mut().enumerate() {
                 for k in 0..4 {
                     ends[0][k / 2][k % 2] += f[k / 2][k % 2][lane];

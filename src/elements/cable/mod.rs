@@ -15,7 +15,7 @@ mod kernel;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, Strain, shape};
+use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, Strain, shape};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use kernel::{Factors, Kernel, Line, Sampling, TURNS, transposed};
@@ -62,6 +62,7 @@ pub enum Inertia {
 pub struct Cable<const D: usize = 2> {
     parameters: Parameters,
     kernel: Kernel<f64>,
+    mass: SMatrix<f64, 4, 4>,
 }
 
 /// Up to [`PACK`] cables.
@@ -80,11 +81,15 @@ impl Pack {
 }
 
 #[inline(always)]
-fn read<S: Simd, const D: usize>(simd: S, pack: &NodalPack<D>, group: usize) -> [[Lanes<S>; D]; 4] {
-    let mut e = [[Lanes::read(simd, &pack[0][0], group); D]; 4];
+fn read<S: Simd, const D: usize>(
+    simd: S,
+    pack: NodalView<'_, D>,
+    group: usize,
+) -> [[Lanes<S>; D]; 4] {
+    let mut e = [[Lanes::read(simd, pack[0][0], group); D]; 4];
     for k in 0..4 {
         for d in 0..D {
-            e[k][d] = Lanes::read(simd, &pack[k][d], group);
+            e[k][d] = Lanes::read(simd, pack[k][d], group);
         }
     }
     e
@@ -133,7 +138,11 @@ impl<const D: usize> Cable<D> {
         if let Some(e) = shape {
             (kernel.natural_strain, kernel.natural_curvature) = kernel.strains(&e.data.0);
         }
-        Self { parameters, kernel }
+        Self {
+            mass: mass(&parameters, kernel.bends),
+            parameters,
+            kernel,
+        }
     }
 
     /// Strain and curvature, or their rates, are derived from these.
@@ -142,6 +151,26 @@ impl<const D: usize> Cable<D> {
         let [u, w] = [shape::slopes(xi, l), shape::curvatures(xi, l)].map(|s| (e * s).into());
         Line { u, w }
     }
+}
+
+/// Mass matrix of a cable with or without bending stiffness.
+fn mass(parameters: &Parameters, bends: bool) -> SMatrix<f64, 4, 4> {
+    let l = parameters.length;
+    let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
+    let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);
+    let (f, g) = (l * l / 105.0, l * l / 140.0);
+    let consistent = SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]]);
+    let [quadratic, cubic] = match parameters.inertia {
+        Inertia::Consistent => [0.0, 0.0],
+        Inertia::Corrected if bends => [1.0, 23.0 / 3.0],
+        Inertia::Corrected => [0.6, 23.0 / 3.0],
+    };
+    let second = SVector::from([0.0, -l / 12.0, 0.0, l / 12.0]);
+    let third = SVector::from([0.1, 0.05 * l, -0.1, 0.05 * l]);
+    let mass = consistent
+        + second * second.transpose() * (quadratic / 5.0)
+        + third * third.transpose() * (cubic / 7.0);
+    mass * (parameters.line_density * l)
 }
 
 /// Its sign where there is one, its size in space.
@@ -193,6 +222,7 @@ impl<const D: usize> Element<D> for Cable<D> {
         }
         let mut element = self.clone();
         (element.kernel.bends, element.kernel.bending_stiffness) = (true, stiffness);
+        element.mass = mass(&self.parameters, true);
         if self.kernel.natural_strain != [0.0; 3] {
             element.kernel.natural_curvature = element.kernel.strains(&shape.data.0).1;
         }
@@ -200,23 +230,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     fn mass(&self) -> SMatrix<f64, 4, 4> {
-        let l = self.parameters.length;
-        let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
-        let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);
-        let (f, g) = (l * l / 105.0, l * l / 140.0);
-        let consistent =
-            SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]]);
-        let [quadratic, cubic] = match self.parameters.inertia {
-            Inertia::Consistent => [0.0, 0.0],
-            Inertia::Corrected if self.kernel.bends => [1.0, 23.0 / 3.0],
-            Inertia::Corrected => [0.6, 23.0 / 3.0],
-        };
-        let second = SVector::from([0.0, -l / 12.0, 0.0, l / 12.0]);
-        let third = SVector::from([0.1, 0.05 * l, -0.1, 0.05 * l]);
-        let mass = consistent
-            + second * second.transpose() * (quadratic / 5.0)
-            + third * third.transpose() * (cubic / 7.0);
-        mass * (self.parameters.line_density * l)
+        self.mass
     }
 
     fn weight(&self) -> SVector<f64, 4> {
@@ -230,11 +244,11 @@ impl<const D: usize> Element<D> for Cable<D> {
 
     fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N> {
         let rate = self.kernel.is_damped.then_some(&rate.data.0);
-        Nodal::from(self.kernel.lift().force(&e.data.0, rate))
+        Nodal::from(self.kernel.lift().force(&e.data.0, rate).0)
     }
 
     fn dissipation<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> N {
-        self.kernel.lift().dissipation(&e.data.0, &rate.data.0)
+        self.kernel.lift().force(&e.data.0, Some(&rate.data.0)).1
     }
 
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D> {
@@ -308,13 +322,14 @@ impl<const D: usize> Element<D> for Cable<D> {
     fn pack_force<S: Simd>(
         simd: S,
         pack: &Pack,
-        (e, rate): (&NodalPack<D>, Option<&NodalPack<D>>),
+        (e, rate): (NodalView<'_, D>, Option<NodalView<'_, D>>),
         out: &mut NodalPack<D>,
-    ) {
+    ) -> f64 {
+        let mut powers = [0.0; PACK];
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
             let e = read(simd, e, group);
-            let f = match rate {
+            let (f, power) = match rate {
                 Some(rate) => kernel.force(&e, Some(&read(simd, rate, group))),
                 None => kernel.force(&e, None),
             };
@@ -323,14 +338,22 @@ impl<const D: usize> Element<D> for Cable<D> {
                     f[k][d].write(&mut out[k][d], group);
                 }
             }
+            if rate.is_some() {
+                power.write(&mut powers, group);
+            }
         }
+        let mut sum = 0.0;
+        for power in &powers[..pack.count] {
+            sum += power;
+        }
+        sum
     }
 
     #[inline(always)]
     fn pack_stiffness<S: Simd>(
         simd: S,
         pack: &Pack,
-        (e, rate): (&NodalPack<D>, Option<&NodalPack<D>>),
+        (e, rate): (NodalView<'_, D>, Option<NodalView<'_, D>>),
         out: &mut BlockPack<D>,
     ) {
         for group in 0..pack.groups::<S>() {
@@ -346,7 +369,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     #[inline(always)]
-    fn pack_damping<S: Simd>(simd: S, pack: &Pack, e: &NodalPack<D>, out: &mut BlockPack<D>) {
+    fn pack_damping<S: Simd>(simd: S, pack: &Pack, e: NodalView<'_, D>, out: &mut BlockPack<D>) {
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
             let e = read(simd, e, group);

@@ -1,14 +1,51 @@
 //! The same loops for runs of equal blocks, each joined to the next one alone: block sizes are
 //! known when compiling. Blocks stand as in the values: diagonal, below, diagonal, below, ...
+//!
+//! Long runs go by the vector instructions that the processor has, with the same bits: nothing is multiplied and added
+//! at once.
 
 use super::Number;
 use super::kernels::Pivots;
+use crate::math::lanes::{Simd, Work, vectorized_where};
+
+/// Numbers of stored blocks from which on a run is long: 16 columns of a cable in the plane, 7 in space.
+const LONG: usize = 512;
 
 /// Factors the columns of a run; `values` ends with the diagonal block that the last of them
 /// changes; `start` is the first of their variables. Nothing where a pivot ends it.
 pub(super) fn factor<T: Number, const B: usize>(
     values: &mut [T],
     start: usize,
+    pivots: &mut impl Pivots<T>,
+) -> Option<()> {
+    let (is_long, run) = (values.len() >= LONG, (values, start));
+    let mut outcome = None;
+    let work = Factor::<'_, T, _, B> {
+        run,
+        pivots,
+        outcome: &mut outcome,
+    };
+    vectorized_where(is_long, work);
+    outcome
+}
+
+/// [`factor`].
+struct Factor<'a, T, P, const B: usize> {
+    run: (&'a mut [T], usize),
+    pivots: &'a mut P,
+    outcome: &'a mut Option<()>,
+}
+
+impl<T: Number, P: Pivots<T>, const B: usize> Work for Factor<'_, T, P, B> {
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        *self.outcome = factor_blocks::<T, B>(self.run, self.pivots);
+    }
+}
+
+#[inline(always)]
+fn factor_blocks<T: Number, const B: usize>(
+    (values, start): (&mut [T], usize),
     pivots: &mut impl Pivots<T>,
 ) -> Option<()> {
     let blocks = values.as_chunks_mut::<B>().0.as_chunks_mut::<B>().0;
@@ -48,6 +85,24 @@ pub(super) fn factor<T: Number, const B: usize>(
 
 /// Forward substitution over a run; `x` ends with the variables the last column changes.
 pub(super) fn forward<T: Number, const B: usize>(values: &[T], x: &mut [T]) {
+    vectorized_where(values.len() >= LONG, Forward::<'_, T, B> { values, x });
+}
+
+/// [`forward`].
+struct Forward<'a, T, const B: usize> {
+    values: &'a [T],
+    x: &'a mut [T],
+}
+
+impl<T: Number, const B: usize> Work for Forward<'_, T, B> {
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        forward_blocks::<T, B>(self.values, self.x);
+    }
+}
+
+#[inline(always)]
+fn forward_blocks<T: Number, const B: usize>(values: &[T], x: &mut [T]) {
     let blocks = values.as_chunks::<B>().0.as_chunks::<B>().0;
     let mut x = x.as_chunks_mut::<B>().0.iter_mut();
     let Some(mut own) = x.next() else {
@@ -73,6 +128,27 @@ pub(super) fn forward<T: Number, const B: usize>(values: &[T], x: &mut [T]) {
 /// Backward substitution over a run, with the inverse pivots if `SCALE`; `x` ends with the
 /// variables below the last column.
 pub(super) fn backward<T: Number, const B: usize, const SCALE: bool>(values: &[T], x: &mut [T]) {
+    vectorized_where(
+        values.len() >= LONG,
+        Backward::<'_, T, B, SCALE> { values, x },
+    );
+}
+
+/// [`backward`].
+struct Backward<'a, T, const B: usize, const SCALE: bool> {
+    values: &'a [T],
+    x: &'a mut [T],
+}
+
+impl<T: Number, const B: usize, const SCALE: bool> Work for Backward<'_, T, B, SCALE> {
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        backward_blocks::<T, B, SCALE>(self.values, self.x);
+    }
+}
+
+#[inline(always)]
+fn backward_blocks<T: Number, const B: usize, const SCALE: bool>(values: &[T], x: &mut [T]) {
     let blocks = values.as_chunks::<B>().0.as_chunks::<B>().0;
     let mut x = x.as_chunks_mut::<B>().0.iter_mut().rev();
     let Some(mut next) = x.next() else {

@@ -143,7 +143,7 @@ impl<const D: usize> Model<'_, D> {
         self.work.stretch = Some([after, after]);
         system.forward_kinematics(time, &state.coordinates, None, self.work);
         self.work.supply.fill(no_node());
-        system.add_driven(&self.work.drives, 1, &mut self.work.supply);
+        system.add_driven(&self.work.targets, 1, &mut self.work.supply);
         for (rate, driven) in old.iter_mut().zip(&self.work.supply) {
             add_node(rate, -1.0, driven);
         }

@@ -400,14 +400,21 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         system.forward_kinematics(time, from, None, self.work);
         self.work.other.copy_from_slice(&self.work.x);
         system.forward_kinematics(time, to, None, self.work);
-        let mut largest = 0.0_f64;
+        // Squares of the largest tangent of a turn, of the least and of the largest stretch; turns beyond a right angle.
+        let (mut tangent, mut least, mut most, mut beyond) = (0.0_f64, 1.0_f64, 1.0_f64, 0.0_f64);
         for (a, b) in self.work.other.iter().zip(&self.work.x) {
             let [a, b] = [a, b].map(|node| Vector::from(node[1]));
-            let across = Vector::from(moment(&a, &b)).norm();
-            let stretch = b.norm() / a.norm();
-            largest = largest.max(across.atan2(a.dot(&b))).max(stretch.ln().abs());
+            let (along, across) = (a.dot(&b), Vector::from(moment(&a, &b)).norm_squared());
+            if along > 0.0 {
+                tangent = tangent.max(across / (along * along));
+            } else {
+                beyond = beyond.max(across.sqrt().atan2(along));
+            }
+            let stretch = b.norm_squared() / a.norm_squared();
+            (least, most) = (least.min(stretch), most.max(stretch));
         }
-        largest
+        let stretch = 0.5 * most.ln().max(-least.ln());
+        tangent.sqrt().atan().max(beyond).max(stretch)
     }
 
     fn accepted(&mut self, state: &mut State) -> Accepted {

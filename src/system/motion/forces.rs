@@ -29,11 +29,12 @@ impl<const D: usize> System<D> {
                 }
             };
         }
-        self.elimination.expand(q, &mut work.y, &mut work.x);
-        for (x, reference) in work.x.iter_mut().zip(&self.reference) {
-            add_node(x, 1.0, reference);
+        for (target, driven) in work.targets.iter_mut().zip(&self.driven) {
+            *target = self.linear[driven.row].target.derivatives(&work.drives);
         }
-        self.add_driven(&work.drives, 0, &mut work.x);
+        self.elimination
+            .expand_from(&self.reference, q, &mut work.y, &mut work.x);
+        self.add_driven(&work.targets, 0, &mut work.x);
         self.find_travel(&work.x, &mut work.travel);
         if let Some(v) = v {
             self.rate_kinematics(v, work);
@@ -52,18 +53,18 @@ impl<const D: usize> System<D> {
     /// Puts nodal rates into `work`; what drives them is that of the last [`System::forward_kinematics`].
     pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Work<D>) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
-        self.add_driven(&work.drives, 1, &mut work.v);
+        self.add_driven(&work.targets, 1, &mut work.v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
     pub(in crate::system) fn add_driven(
         &self,
-        drives: &[[f64; 3]],
+        targets: &[[f64; 3]],
         order: usize,
         out: &mut [Node<D>],
     ) {
-        for driven in &self.driven {
-            let mut value = self.linear[driven.row].target.derivatives(drives)[order];
+        for (driven, target) in self.driven.iter().zip(targets) {
+            let mut value = target[order];
             if order == 0 {
                 value -= driven.reference;
             }
@@ -83,12 +84,13 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Total force on the nodes in `work`, but for constraints.
+    /// Total force on the nodes in `work`, but for constraints, and what damping of cables takes out.
     pub(in crate::system) fn forces(&self, time: f64, work: &mut Work<D>) {
         let mut force = std::mem::take(&mut work.f);
         force.copy_from_slice(&self.weight);
+        work.dissipated = 0.0;
         for chain in &self.chains {
-            chain.add_force(&work.x, &work.v, &mut force);
+            work.dissipated += chain.add_force(&work.x, &work.v, &mut force);
         }
         let at = self.instant(time, work);
         for load in &self.loads {
@@ -108,8 +110,7 @@ impl<const D: usize> System<D> {
     /// Generalized forces `T^T (f - M G c'')` of the nodal forces in `work`, which stay.
     pub(in crate::system) fn reduce(&self, work: &mut Work<D>, a: &mut [f64]) {
         let change = |sign: f64, work: &mut Work<D>| {
-            for driven in &self.driven {
-                let second = self.linear[driven.row].target.derivatives(&work.drives)[2];
+            for (driven, [_, _, second]) in self.driven.iter().zip(&work.targets) {
                 add(&driven.inertia, sign * second, &mut work.f);
             }
         };
@@ -174,7 +175,7 @@ impl<const D: usize> System<D> {
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
     pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work<D>) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
-        self.add_driven(&work.drives, 2, &mut work.other);
+        self.add_driven(&work.targets, 2, &mut work.other);
         for (supply, f) in work.supply.iter_mut().zip(&work.f) {
             *supply = map_node(f, |f| -f);
         }
@@ -189,7 +190,7 @@ impl<const D: usize> System<D> {
         work.supply = supply;
     }
 
-    /// Power that comes in through loads and motions and that is dissipated, W, at the state and
+    /// Power that comes in through loads and motions and that is dissipated, W, at the state, forces and
     /// accelerations in place.
     pub(in crate::system) fn powers(&self, time: f64, a: &[f64], work: &mut Work<D>) -> [f64; 2] {
         if !self.drives.is_empty() {
@@ -197,19 +198,24 @@ impl<const D: usize> System<D> {
         }
         let multiplied = self.constraints.iter().zip(work.lambda.iter().copied());
         let at = self.instant(time, work);
-        self.power(at, &self.view(work), &work.supply, multiplied)
+        self.power(
+            at,
+            &self.view(work),
+            (&work.supply, work.dissipated),
+            multiplied,
+        )
     }
 
-    /// Power that comes in and that is dissipated, W, with the forces that linear constraints supply and
-    /// the multipliers of the others.
+    /// Power that comes in and that is dissipated, W, with the forces that linear constraints supply, what damping of
+    /// cables takes out, and the multipliers of the other constraints.
     pub(in crate::system) fn power<'a, N: Number>(
         &self,
         at: Instant<'_, D, N>,
         view: &View<'_, D, N>,
-        supply: &[Node<D, N>],
+        (supply, by_cables): (&[Node<D, N>], N),
         multiplied: impl Iterator<Item = (&'a Constraint<D>, N)>,
     ) -> [N; 2] {
-        let mut power = [N::of(0.0); 2];
+        let mut power = [N::of(0.0), by_cables];
         if !self.drives.is_empty() {
             for driven in &self.driven {
                 let rate = self.linear[driven.row].target.derivatives(view.drives)[1];
@@ -225,9 +231,6 @@ impl<const D: usize> System<D> {
             let [supplied, dissipated] = load.power(at);
             power[0] += supplied;
             power[1] += dissipated;
-        }
-        for chain in &self.chains {
-            power[1] += chain.dissipation(view.x, view.v);
         }
         power
     }

@@ -141,7 +141,7 @@ impl<const D: usize> System<D> {
         self.jacobians(work);
         let is_driven = !self.driven.is_empty();
         if is_driven {
-            self.driven_acceleration(&work.drives, &mut work.other);
+            self.driven_acceleration(&work.targets, &mut work.other);
         }
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
@@ -160,9 +160,9 @@ impl<const D: usize> System<D> {
     }
 
     /// Nodal accelerations of what is driven.
-    pub(in crate::system) fn driven_acceleration(&self, drives: &[[f64; 3]], out: &mut [Node<D>]) {
+    pub(in crate::system) fn driven_acceleration(&self, targets: &[[f64; 3]], out: &mut [Node<D>]) {
         out.fill(no_node());
-        self.add_driven(drives, 2, out);
+        self.add_driven(targets, 2, out);
     }
 
     /// Projects positions onto the constraints at a time. Returns the largest residual left, relative

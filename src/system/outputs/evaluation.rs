@@ -178,7 +178,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn power(&self, system: &System<D>) -> [N; 2] {
         let multiplied = system.constraints.iter().zip(self.lambda.iter().copied());
         let (at, view) = (self.instant(system), self.view(system));
-        system.power(at, &view, &self.supply, multiplied)
+        let powers = (system.chains.iter()).map(|chain| chain.dissipation(&self.x, &self.v));
+        let by_cables = powers.fold(N::of(0.0), |sum, power| sum + power);
+        system.power(at, &view, (&self.supply, by_cables), multiplied)
     }
 
     /// Largest residual of non-linear constraints: of positions, relative to their size, and of

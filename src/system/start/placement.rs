@@ -102,7 +102,7 @@ impl<const D: usize> System<D> {
         self.forward_kinematics(state.time, &state.coordinates, None, work);
         let mut start = work.other.clone();
         start.fill(no_node());
-        self.add_driven(&work.drives, 1, &mut start);
+        self.add_driven(&work.targets, 1, &mut start);
         let missing = difference(rates, &start);
         let mut v = std::mem::take(&mut state.rates);
         self.coordinates_of(&missing, work, &mut v);

@@ -325,22 +325,25 @@ impl<N: Real> Kernel<N> {
         samples
     }
 
-    /// Axial force at a point, and `f` and `g` of [`Self::axial`].
+    /// Axial force at a point, and `f` and `g` of [`Self::axial`]; then the rate of strain where damping reads it.
     #[inline(always)]
     fn axial_force<const D: usize>(
         &self,
         index: usize,
         u: &Vector<N, D>,
         rate: Option<Vector<N, D>>,
-    ) -> (N, N, N) {
+    ) -> ((N, N, N), Option<N>) {
         let (strain, f, g) = self.axial(dot(u, u));
         let mut total = strain - self.natural_strain[index];
-        if let Some(du) = rate {
-            total += self.damping_time * f * dot(u, &du);
+        let change = of_rate!(rate, du => f * dot(u, &du));
+        if let Some(change) = change {
+            total += self.damping_time * change;
         }
-        (self.axial_stiffness * total, f, g)
+        ((self.axial_stiffness * total, f, g), change)
     }
 
+    /// Moment at a point; then, where damping reads it, the product of the rate of curvature with what damping acts
+    /// against.
     #[inline(always)]
     fn moment<const D: usize>(
         &self,
@@ -348,16 +351,18 @@ impl<N: Real> Kernel<N> {
         at: &Line<N, D>,
         rate: Option<Line<N, D>>,
         now: &Curvature<N>,
-    ) -> [N; TURNS] {
+    ) -> ([N; TURNS], Option<N>) {
         let natural = &self.natural_curvature[index];
         let mut m: [N; TURNS] = each!(now.value, k => now.value[k] - natural[k]);
-        if let Some(rate) = &rate {
-            let change = self.damped::<D>(now, &self.curvature_rate(at, rate, now));
+        let change = of_rate!(&rate, rate => self.curvature_rate(at, rate, now));
+        let square = of_rate!(&change, change => {
+            let damped = self.damped::<D>(now, change);
             for k in 0..TURNS {
-                m[k] += self.damping_time * change[k];
+                m[k] += self.damping_time * damped[k];
             }
-        }
-        times(&m, self.bending_stiffness)
+            inner::<N, D>(&damped, change)
+        });
+        (times(&m, self.bending_stiffness), square)
     }
 
     /// What of the rate of curvature damping acts against: in space a cable without torsion has no frame that turns
@@ -371,34 +376,6 @@ impl<N: Real> Kernel<N> {
         let (plane, straight) = self.plane::<D>(now);
         let along = inner::<N, D>(&plane, change);
         each!(*change, k => plane[k] * along + change[k] * straight)
-    }
-
-    /// Power that damping takes out, W.
-    #[inline(always)]
-    pub fn dissipation<const D: usize>(
-        &self,
-        e: &[Vector<N, D>; 4],
-        rate: &[Vector<N, D>; 4],
-    ) -> N {
-        let (v, dv) = (self.vectors(e), self.vectors(rate));
-        let mut sum = self.number(0.0);
-        for point in self.sampling.points() {
-            let (u, du) = (combine(&point.slope, &v), combine(&point.slope, &dv));
-            let (_, f, _) = self.axial(dot(&u, &u));
-            let change = f * dot(&u, &du);
-            sum += self.number(point.weight) * self.axial_stiffness * change * change;
-        }
-        if self.bends {
-            for point in &BENDING {
-                let (at, rate) = (self.line(point, &v), self.line(point, &dv));
-                let now = self.curvature(&at);
-                let change = self.curvature_rate(&at, &rate, &now);
-                let damped = self.damped::<D>(&now, &change);
-                let product = inner::<N, D>(&damped, &change);
-                sum += self.number(point.weight) * self.bending_stiffness * product;
-            }
-        }
-        self.length * self.damping_time * sum
     }
 
     /// Strain energy, J.
@@ -420,27 +397,28 @@ impl<N: Real> Kernel<N> {
         self.number(0.5) * self.length * sum
     }
 
-    /// Elastic force and, with rates, damping force on the coordinates.
+    /// Elastic force and, with rates, damping force on the coordinates; and the power that damping takes out, W.
     #[inline(always)]
     pub fn force<const D: usize>(
         &self,
         e: &[Vector<N, D>; 4],
         rate: Option<&[Vector<N, D>; 4]>,
-    ) -> [Vector<N, D>; 4] {
+    ) -> ([Vector<N, D>; 4], N) {
         let v = self.vectors(e);
         let dv = of_rate!(rate, rate => self.vectors(rate));
-        let mut sum = [[self.number(0.0); D]; 3];
+        let mut sum = ([[self.number(0.0); D]; 3], self.number(0.0));
         at_axial_points!(self, add_axial_force((&v, &dv), &mut sum));
         if self.bends {
             at_bending_points!(self, add_bending_force((&v, &dv), &mut sum));
         }
-        let l = self.length;
-        [
+        let (l, (sum, power)) = (self.length, sum);
+        let force = [
             sum[0],
             times(&sum[1], -l),
             times(&sum[0], self.number(-1.0)),
             times(&sum[2], -l),
-        ]
+        ];
+        (force, l * self.damping_time * power)
     }
 
     #[inline(always)]
@@ -449,16 +427,20 @@ impl<N: Real> Kernel<N> {
         index: usize,
         point: &Sample,
         (v, dv): Motion<N, D>,
-        sum: &mut [Vector<N, D>; 3],
+        (sum, power): &mut ([Vector<N, D>; 3], N),
     ) {
         let u = combine(&point.slope, v);
         let du = of_rate!(dv, dv => combine(&point.slope, dv));
-        let (force, f, _) = self.axial_force(index, &u, du);
-        let gradient = times(&u, self.number(point.weight) * force * f);
+        let ((force, f, _), change) = self.axial_force(index, &u, du);
+        let weight = self.number(point.weight);
+        if let Some(change) = change {
+            *power += weight * self.axial_stiffness * change * change;
+        }
+        let gradient = times(&u, weight * force * f);
         for i in 0..3 {
             if point.slope[i] != 0.0 {
                 for d in 0..D {
-                    sum[i][d] += gradient[d] * self.number(point.slope[i]);
+                    sum[i][d] = gradient[d].times_plus(self.number(point.slope[i]), sum[i][d]);
                 }
             }
         }
@@ -470,23 +452,26 @@ impl<N: Real> Kernel<N> {
         index: usize,
         point: &Sample,
         (v, dv): Motion<N, D>,
-        sum: &mut [Vector<N, D>; 3],
+        (sum, power): &mut ([Vector<N, D>; 3], N),
     ) {
         let at = self.line(point, v);
         let rate = of_rate!(dv, dv => self.line(point, dv));
         let now = self.curvature(&at);
-        let m = self.moment(index, &at, rate, &now);
+        let (m, square) = self.moment(index, &at, rate, &now);
+        let weight = self.number(point.weight);
+        if let Some(square) = square {
+            *power += weight * self.bending_stiffness * square;
+        }
         let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);
         let (mu, mw) = (contract(&m, &at.u), contract(&m, &at.w));
-        let weight = self.number(point.weight);
         let curved = weight * self.inverse_length;
         for d in 0..D {
-            let by_u = -(mw[d] + at.u[d] * along) * weight;
+            let by_u = at.u[d].times_plus(along, mw[d]) * -weight;
             let by_w = mu[d] * curved;
             for i in 0..3 {
-                sum[i][d] +=
-                    by_u * self.number(point.slope[i]) + by_w * self.number(point.curvature[i]);
+                let by_u = by_u.times_plus(self.number(point.slope[i]), sum[i][d]);
+                sum[i][d] = by_w.times_plus(self.number(point.curvature[i]), by_u);
             }
         }
     }

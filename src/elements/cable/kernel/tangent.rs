@@ -114,7 +114,7 @@ impl<N: Real> Kernel<N> {
     ) {
         let u = combine(&point.slope, v);
         let du = of_rate!(dv, dv => combine(&point.slope, dv));
-        let (force, f, g) = self.axial_force(index, &u, du);
+        let ((force, f, g), _) = self.axial_force(index, &u, du);
         let force = factors.stress * force;
         let along = factors.material * self.axial_stiffness * f * f + force * g;
         let (scaled, multiple) = (times(&u, along), force * f);
@@ -149,7 +149,7 @@ impl<N: Real> Kernel<N> {
         let now = self.curvature(&at);
         let weight = self.number(point.weight);
         let m = times(
-            &self.moment(index, &at, rate, &now),
+            &self.moment(index, &at, rate, &now).0,
             factors.stress * weight,
         );
         let s: [N; 3] = each!([weight; 3], i => self.number(point.slope[i]));

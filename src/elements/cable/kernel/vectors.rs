@@ -80,8 +80,8 @@ pub(super) fn contract<N: Real, const D: usize>(m: &[N; TURNS], u: &Vector<N, D>
     let (mut out, mut k) = ([u[0].constant(0.0); D], 0);
     for i in 0..D {
         for j in i + 1..D {
-            out[j] += m[k] * u[i];
-            out[i] = out[i] - m[k] * u[j];
+            out[j] = m[k].times_plus(u[i], out[j]);
+            out[i] = (-m[k]).times_plus(u[j], out[i]);
             k += 1;
         }
     }

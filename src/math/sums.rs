@@ -1,0 +1,101 @@
+//! Weighted sums of long vectors, in lanes: what methods of integration make of their stages.
+
+use super::lanes::{Simd, Work, vectorized_where};
+
+/// A weight and the vector that it belongs to.
+pub type Term<'a> = (f64, &'a [f64]);
+
+/// Numbers from which on a sum goes in lanes.
+const LONG: usize = 16;
+
+/// Most terms of a sum.
+pub const TERMS: usize = 6;
+
+/// `out = sum of all terms`, at least one and at most [`TERMS`]; all vectors are of one length.
+pub fn sum(out: &mut [f64], terms: &[Term<'_>]) {
+    vectorized_where(out.len() >= LONG, Sum::<'_, false> { out, terms });
+}
+
+/// `out += sum of all terms`, at least one and at most [`TERMS`]; all vectors are of one length.
+pub fn add(out: &mut [f64], terms: &[Term<'_>]) {
+    vectorized_where(out.len() >= LONG, Sum::<'_, true> { out, terms });
+}
+
+/// [`sum`], or [`add`] if `ADDS`.
+struct Sum<'a, const ADDS: bool> {
+    out: &'a mut [f64],
+    terms: &'a [Term<'a>],
+}
+
+impl<const ADDS: bool> Work for Sum<'_, ADDS> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { out, terms } = self;
+        match *terms {
+            [a] => sweep::<S, 1, ADDS>(simd, out, [a]),
+            [a, b] => sweep::<S, 2, ADDS>(simd, out, [a, b]),
+            [a, b, c] => sweep::<S, 3, ADDS>(simd, out, [a, b, c]),
+            [a, b, c, d] => sweep::<S, 4, ADDS>(simd, out, [a, b, c, d]),
+            [a, b, c, d, e] => sweep::<S, 5, ADDS>(simd, out, [a, b, c, d, e]),
+            [a, b, c, d, e, f] => sweep::<S, 6, ADDS>(simd, out, [a, b, c, d, e, f]),
+            _ => unreachable!("expected 1 to {TERMS} terms, found {}", terms.len()),
+        }
+    }
+}
+
+#[inline(always)]
+fn sweep<S: Simd, const K: usize, const ADDS: bool>(
+    simd: S,
+    out: &mut [f64],
+    terms: [Term<'_>; K],
+) {
+    let n = out.len();
+    let (out, rest) = S::as_mut_simd_f64s(out);
+    let (first, after) = S::as_simd_f64s(&terms[0].1[..n]);
+    let weight = simd.splat_f64s(terms[0].0);
+    let (mut heads, mut tails, mut weights) = ([first; K], [after; K], [weight; K]);
+    for k in 1..K {
+        (heads[k], tails[k]) = S::as_simd_f64s(&terms[k].1[..n]);
+        weights[k] = simd.splat_f64s(terms[k].0);
+    }
+    for i in 0..out.len() {
+        let mut sum = match ADDS {
+            true => simd.mul_add_e_f64s(weights[0], heads[0][i], out[i]),
+            false => simd.mul_f64s(weights[0], heads[0][i]),
+        };
+        for k in 1..K {
+            sum = simd.mul_add_e_f64s(weights[k], heads[k][i], sum);
+        }
+        out[i] = sum;
+    }
+    for i in 0..rest.len() {
+        let mut sum = if ADDS { rest[i] } else { 0.0 };
+        for k in 0..K {
+            sum += terms[k].0 * tails[k][i];
+        }
+        rest[i] = sum;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_hold_all_terms_whatever_the_length() {
+        for n in 0..20 {
+            let x: Vec<f64> = (0..n).map(f64::from).collect();
+            let y: Vec<f64> = x.iter().map(|x| 100.0 + x).collect();
+            for count in 1..=TERMS {
+                let terms: Vec<Term> = [(2.0, &x[..]), (-1.0, &y)].repeat(3)[..count].to_vec();
+                let mut out = vec![f64::NAN; x.len()];
+                sum(&mut out, &terms);
+                add(&mut out, &terms);
+                for (i, out) in out.iter().enumerate() {
+                    let expected: f64 = terms.iter().map(|(weight, x)| weight * x[i]).sum();
+                    assert_eq!(*out, 2.0 * expected);
+                }
+            }
+        }
+    }
+}
