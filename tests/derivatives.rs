@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use flexbody::scene::{Body, Initial, InitialState, Scene};
-use flexbody::simulation::{Simulation, Source};
+use flexbody::simulation::{Simulation, Source, plan};
 
 /// Steps before derivatives are taken, and their length, s.
 const STEPS: usize = 20;
@@ -42,7 +42,8 @@ struct Moving {
 impl Moving {
     fn new(path: &Path) -> Self {
         let text = std::fs::read_to_string(path).expect("a readable scene");
-        let mut scene = Scene::from_json(&text).expect("a valid scene");
+        let scene = Scene::from_json(&text).expect("a valid scene");
+        let (mut scene, _) = plan(&scene, &mut |_, _, _| ()).expect("a plan");
         scene.accuracy.relative_tolerance = Some(1e-10);
         // Soft enough for differences over a time that rounding does not notice.
         scene.initial = Initial::State(InitialState::AsShaped);

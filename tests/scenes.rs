@@ -1,7 +1,7 @@
 //! What a scene may not say, and how it is told: the place, what was expected, what was found.
 
 use flexbody::scene::Scene;
-use flexbody::simulation::Simulation;
+use flexbody::simulation::{Simulation, plan};
 use serde_json::{Value, json};
 
 const SCENE: &str = include_str!("../scenes/cantilever.json");
@@ -157,6 +157,15 @@ fn told(pointer: &str, value: Value) -> String {
     }
 }
 
+/// A scene with the numbers that it leaves to the planner.
+fn planned(text: &str) -> Result<Scene, String> {
+    let scene = Scene::from_json(text).map_err(|error| error.to_string())?;
+    let planned = plan(&scene, &mut |_, _, _| ());
+    planned
+        .map(|(scene, _)| scene)
+        .map_err(|error| error.to_string())
+}
+
 #[test]
 fn every_bad_value_is_named_with_its_place() {
     for (pointer, value, expected) in BAD {
@@ -195,8 +204,7 @@ fn what_is_held_twice_is_reported_and_held_once() {
     let mut scene: Value = serde_json::from_str(SCENE).expect("a shipped scene");
     let again = json!({"name": "again", "kind": "revolute", "markers": ["ground", "beam.root"]});
     scene["joints"].as_array_mut().expect("joints").push(again);
-    let scene = Scene::from_json(&scene.to_string()).expect("a scene");
-    let mut simulation = Simulation::new(scene);
+    let mut simulation = Simulation::new(planned(&scene.to_string()).expect("a scene"));
     simulation.initialize(0.0).expect("an equilibrium");
     assert_eq!(simulation.redundant_joints(), ["again"]);
 }
@@ -205,8 +213,7 @@ fn what_is_held_twice_is_reported_and_held_once() {
 fn started(change: impl Fn(&mut Value)) -> Result<Vec<String>, String> {
     let mut scene: Value = serde_json::from_str(FOUR_BAR).expect("a shipped scene");
     change(&mut scene);
-    let scene = Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())?;
-    let mut simulation = Simulation::new(scene);
+    let mut simulation = Simulation::new(planned(&scene.to_string())?);
     let told = simulation
         .initialize(0.0)
         .map_err(|error| error.to_string());
@@ -276,7 +283,7 @@ fn experiment(path: &std::path::Path) -> (u64, u64) {
     let value: Value = serde_json::from_str(&text).expect("JSON");
     let proposed = |key: &str| value["experiment"][key].as_f64().expect("a proposal");
     let (stop, step) = (proposed("stop_time"), proposed("step"));
-    let mut simulation = Simulation::new(Scene::from_json(&text).expect("a scene"));
+    let mut simulation = Simulation::new(planned(&text).expect("a scene"));
     simulation.initialize(0.0).expect("an initial state");
     let (mut accepted, mut rejected, mut number) = (0, 0, 0_u32);
     while simulation.time() < stop {

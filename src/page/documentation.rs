@@ -130,7 +130,9 @@ fn model(scene: &Scene) -> String {
     let formulation = "joints that are linear in the coordinates are eliminated by QR factorizations and the \
                        mass by its Cholesky factor: they hold exactly, and the inertia is the identity";
     let integrator = match scene.method.integrator {
-        Integrator::Auto => "chosen from the stiffness of the scene and the tolerance",
+        Integrator::Auto => {
+            "an explicit method or Radau IIA of order 5, whichever gets further with the same work while it runs"
+        }
         Integrator::Radau => "Radau IIA of order 5, implicit",
         Integrator::Rk4 => "Runge-Kutta of order 4, explicit",
         Integrator::Verlet => "velocity Verlet of order 2, explicit",

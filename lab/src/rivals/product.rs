@@ -16,7 +16,7 @@ pub type Path = Vec<Vec<Vector>>;
 fn scene(played: Played, elements: usize, tolerance: f64) -> serde_json::Value {
     let mut scene = played.json();
     scene["bodies"][played.rod_index()]["elements"] = json!(elements);
-    scene["accuracy"]["relative_tolerance"] = json!(tolerance);
+    scene["accuracy"] = json!({"relative_tolerance": tolerance});
     scene
 }
 

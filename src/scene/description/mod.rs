@@ -159,7 +159,7 @@ fn work_limit() -> f64 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
-    /// Chosen from the stiffness of the scene and the tolerance.
+    /// An explicit method or the implicit one, whichever gets further with the same work while it runs.
     #[default]
     Auto,
     /// Radau IIA of order 5, implicit: for stiff scenes.

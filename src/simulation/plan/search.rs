@@ -6,7 +6,7 @@ use super::ladder::{Choice, Ladder};
 use super::outputs::{Difference, Group, difference, groups};
 use super::report::Plan;
 use crate::scene::{Body, BodyReference, Error, Scene};
-use crate::simulation::{Variable, variables};
+use crate::simulation::{Variable, check, variables};
 
 /// Parts of the error wanted that doubling, and a tenth of the tolerance, may change.
 const OF_SPACE: f64 = 2.0 / 3.0;
@@ -67,6 +67,8 @@ impl<'a, 'p> Search<'a, 'p> {
             elements: self.coarsest()?,
             tolerance: self.first_tolerance(),
         };
+        // What contradicts itself is told with its place.
+        check(&self.planned(&choice))?;
         let in_time = self.find_tolerance(&mut choice)?;
         let in_space = self.find_elements(&mut choice)?;
         let in_time = self.verify_tolerance(&mut choice).unwrap_or(in_time);
