@@ -191,3 +191,83 @@ fn what_cannot_be_asked_for_is_refused_with_its_place() {
         .to_string();
     assert!(told.contains("left to the planner"), "{told}");
 }
+
+/// A steel rod that swings from the horizontal on a pin.
+fn swinging(model: &str, outputs: Value) -> Result<Scene, String> {
+    edited(BEAM, |scene| {
+        scene["gravity"] = json!([0.0, -9.81]);
+        scene["joints"].as_array_mut().expect("joints").pop();
+        scene["bodies"][0]["section"]["second_moment"] = json!(1e-7);
+        scene["bodies"][0]["model"] = json!(model);
+        scene["bodies"][0]["motion"] = json!({"velocity": [0.0, 0.0], "spin": -1.0});
+        scene["outputs"] = outputs.clone();
+        scene["accuracy"] = json!({"error": 1e-4, "of": ["rod.b.position", "rod.b.angle"]});
+        scene["experiment"] = json!({"stop_time": 0.5, "step": 0.01});
+    })
+}
+
+/// Position of the tip and energies.
+fn seen() -> Value {
+    json!([{"kind": "position", "marker": "rod.b"}, {"kind": "angle", "marker": "rod.b"},
+           {"kind": "energy"}, {"kind": "momentum"}])
+}
+
+fn at_the_end(scene: Scene, names: &[&str]) -> Vec<f64> {
+    let stop = scene.experiment.stop_time;
+    let mut simulation = Simulation::new(scene);
+    simulation.initialize(0.0).expect("a start");
+    simulation.step(stop).expect("a step");
+    let index = |name: &&str| simulation.variables().iter().position(|v| v.name == **name);
+    let indices: Option<Vec<usize>> = names.iter().map(index).collect();
+    let values = indices.expect("outputs").into_iter();
+    values
+        .map(|index| simulation.real(index).expect("a number"))
+        .collect()
+}
+
+#[test]
+fn a_cable_that_need_not_bend_is_rigid_and_keeps_its_names() {
+    let (rigid, plan) = planned(&swinging("auto", seen()).expect("a scene")).expect("a plan");
+    assert!(rigid.bodies[0].rigid().is_some(), "{plan:?}");
+    assert_eq!(plan.expect("a plan").bodies[0].kind, "rigid");
+    let (bends, _) = planned(&swinging("flexible", seen()).expect("a scene")).expect("a plan");
+    assert!(bends.bodies[0].cable().is_some(), "a named model is kept");
+    // Mass, inertia, motion and markers are those of the rod.
+    let names = [
+        "rod.b.position[1]",
+        "rod.b.position[2]",
+        "rod.b.angle",
+        "energy.kinetic",
+        "energy.gravity",
+        "momentum[1]",
+        "momentum[2]",
+        "angular_momentum",
+    ];
+    let [a, b] = [rigid, bends].map(|scene| at_the_end(scene, &names));
+    for ((name, a), b) in names.iter().zip(&a).zip(&b) {
+        assert!(
+            (a - b).abs() < 1e-2 * b.abs().max(0.1),
+            "{name}: {a} rigid, {b} flexible"
+        );
+    }
+}
+
+#[test]
+fn what_a_rigid_body_has_not_keeps_a_cable_flexible_or_is_refused() {
+    let mut outputs = seen();
+    outputs
+        .as_array_mut()
+        .expect("a list")
+        .push(json!({"kind": "curvature", "marker": "rod.middle"}));
+    let (bends, _) = planned(&swinging("auto", outputs.clone()).expect("a scene")).expect("a plan");
+    assert!(bends.bodies[0].cable().is_some());
+    let told = planned(&swinging("rigid", outputs).expect("a scene")).expect_err("no curvature");
+    assert!(
+        told.starts_with(
+            "bodies[0].model: expected a cable that can be rigid, found outputs[4].marker: "
+        ),
+        "{told}"
+    );
+    let (rigid, _) = planned(&swinging("rigid", seen()).expect("a scene")).expect("a plan");
+    assert!(rigid.bodies[0].rigid().is_some());
+}

@@ -11,6 +11,7 @@ mod marker;
 mod mesh;
 mod ports;
 mod resolved;
+mod rigid;
 mod shape;
 mod timed;
 mod validate;
@@ -21,8 +22,8 @@ use serde::Deserialize;
 pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, ActionKind, Body, CableBody, Course, Experiment, Initial, InitialMotion,
-    InitialState, InputCourse, Integrator, Interpolation, Material, Method, OutputKind, RigidBody,
-    Scene, Section, Shape, Spin, Strain, Symbol, Table, Value, Vector,
+    InitialState, InputCourse, Integrator, Interpolation, Material, Method, Model, OutputKind,
+    RigidBody, Scene, Section, Shape, Spin, Strain, Symbol, Table, Value, Vector,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Hold,

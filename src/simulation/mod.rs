@@ -174,16 +174,21 @@ impl Simulation {
         self.report
     }
 
-    /// The size of the scene, m, and what variables are where it moves by its nature; 0 of what is not measured by that.
+    /// The size of the scene, m, and what computed variables are where it moves by its nature; 0 of what is not measured
+    /// by that.
     fn natural(&self) -> (f64, Vec<f64>) {
         let Some(engine) = &self.engine else {
-            return (0.0, vec![0.0; self.variables.len()]);
+            return (0.0, Vec::new());
         };
         let natural = |variable: &Variable| match variable.source {
             Source::Output(quantity) => engine.natural(quantity).unwrap_or(0.0),
             _ => 0.0,
         };
-        (engine.size(), self.variables.iter().map(natural).collect())
+        let computed = self
+            .variables
+            .iter()
+            .filter(|variable| variable.is_computed());
+        (engine.size(), computed.map(natural).collect())
     }
 
     /// Gaps, in words, of joints that bodies as described do not fit by far: bodies were moved, or cables deformed, to

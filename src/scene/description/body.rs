@@ -31,6 +31,9 @@ pub struct CableBody {
     #[serde(default, with = "elements")]
     #[schemars(with = "elements::InJson")]
     pub elements: Option<u32>,
+    /// Whether it bends.
+    #[serde(default)]
+    pub model: Model,
     /// Material.
     pub material: Material,
     /// Cross section.
@@ -46,6 +49,21 @@ pub struct CableBody {
     /// Named material coordinates: 0 is the first end, 1 the last.
     #[serde(default)]
     pub markers: BTreeMap<String, f64>,
+}
+
+/// Whether a cable bends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Model {
+    /// It does, unless its number of elements is left to the planner, which finds that this changes no output by more than
+    /// the error wanted: then it is a rigid body of the same name with the same markers.
+    #[default]
+    Auto,
+    /// It does.
+    Flexible,
+    /// It is a rigid body of the same name with the same markers, made while packaging. In the plane, straight, where
+    /// nothing is read of it that takes a cable.
+    Rigid,
 }
 
 /// A rigid body; without inertia, a particle. In space there are particles only.

@@ -19,7 +19,9 @@ use serde::{Deserialize, Serialize};
 
 pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
-pub use body::{Body, CableBody, InitialMotion, Mass, Material, RigidBody, Section, Shape, Strain};
+pub use body::{
+    Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Section, Shape, Strain,
+};
 pub use initial::{Initial, InitialState};
 pub use joint::{Condition, Declaration, Joint, JointKind, Motion, MotionKind, Symbol};
 pub use kinds::{Keys, Kind, tell_apart};
@@ -112,7 +114,8 @@ impl Scene {
     /// Whether numbers of elements or the tolerance are left to the planner.
     pub fn is_to_be_planned(&self) -> bool {
         let mut cables = self.bodies.iter().filter_map(Body::cable);
-        self.accuracy.error.is_some() || cables.any(|cable| cable.elements.is_none())
+        let is_open = |cable: &CableBody| cable.elements.is_none() || cable.model == Model::Rigid;
+        self.accuracy.error.is_some() || cables.any(is_open)
     }
 
     /// Error wanted of outputs where it is planned for: as given, or 1e-3.

@@ -1,6 +1,6 @@
 //! The account of a search: what was chosen, and why.
 
-use super::experiment::{Run, columns};
+use super::experiment::{Run, Unfinished, columns};
 use super::ladder::Choice;
 use super::outputs::Difference;
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
@@ -16,15 +16,16 @@ impl Search<'_, '_> {
         in_time: &[Difference],
     ) -> Plan {
         let _ = self.run(choice);
-        let scaled = |by: fn(u32) -> u32, search: &Self| {
-            let elements = choice.elements.iter().enumerate();
-            let elements = elements.map(|(i, n)| if search.is_free(i) { by(*n) } else { *n });
-            Choice {
-                elements: elements.collect(),
-                tolerance: choice.tolerance,
-            }
+        let mut double = choice.clone();
+        self.refine(&mut double);
+        // The rung below, if there was one.
+        let below = |made: &&(Choice, Result<Run, Unfinished>)| {
+            let mut refined = made.0.clone();
+            self.refine(&mut refined);
+            refined == *choice && made.0 != *choice
         };
-        let [half, double] = [scaled(|n| n / 2, self), scaled(|n| 2 * n, self)];
+        let half = self.runs.iter().find(below).map(|(made, _)| made.clone());
+        let half = half.unwrap_or_else(|| choice.clone());
         let half_error = match half != *choice && self.known(&half).is_some() {
             true => self.compare(&half, choice, self.error).ok(),
             false => None,
@@ -99,29 +100,35 @@ impl Search<'_, '_> {
     fn bodies(&self, choice: &Choice, in_space: &[Difference]) -> Vec<PlannedBody> {
         let largest = in_space.iter().enumerate();
         let largest = largest.max_by(|a, b| a.1.largest.total_cmp(&b.1.largest));
+        let changes = largest.map(|(group, difference)| {
+            format!(
+                "changes {} most, by {:.1e}",
+                self.groups[group].name, difference.largest
+            )
+        });
         let mut counts = choice.elements.iter().enumerate();
         let bodies = self.scene.bodies.iter().map(|body| {
-            let Some(_) = body.cable() else {
-                return PlannedBody {
-                    name: body.name().to_owned(),
-                    kind: "rigid".into(),
-                    elements: None,
-                    why: "as the scene says".into(),
-                };
+            let (cable, count) = match body.cable() {
+                Some(_) => counts
+                    .next()
+                    .map_or((None, 0), |(cable, count)| (Some(cable), *count)),
+                None => (None, 0),
             };
-            let (cable, count) = counts.next().unwrap_or((0, &0));
-            let why = match (self.is_free(cable), largest) {
-                (false, _) => "as the scene says".into(),
-                (true, Some((group, difference))) => format!(
-                    "doubling all changes {} most, by {:.1e}",
-                    self.groups[group].name, difference.largest
-                ),
-                (true, None) => "not more could be tried".into(),
+            let is_free = cable.is_some_and(|cable| self.is_free(cable));
+            let why = match (is_free, &changes, count) {
+                (false, ..) => "as the scene says".into(),
+                (true, Some(changes), 0) => format!("to let it bend {changes}"),
+                (true, Some(changes), _) => format!("doubling all {changes}"),
+                (true, None, _) => "not more could be tried".into(),
+            };
+            let (kind, elements) = match count {
+                0 => ("rigid", None),
+                count => ("cable", Some(count)),
             };
             PlannedBody {
                 name: body.name().to_owned(),
-                kind: "cable".into(),
-                elements: Some(*count),
+                kind: kind.into(),
+                elements,
                 why,
             }
         });

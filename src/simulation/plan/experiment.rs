@@ -10,13 +10,13 @@ const POINTS: u64 = 10_000;
 /// Times that a cosine goes to and fro.
 const SWINGS: f64 = 3.0;
 
-/// A run: all variables at communication points.
+/// A run: what is computed, at communication points.
 #[derive(Clone, Debug)]
 pub(super) struct Run {
     pub times: Vec<f64>,
-    /// One value a variable, at every time.
+    /// One value a computed variable, in their order, at every time.
     pub rows: Vec<Vec<f64>>,
-    /// What variables are where the scene moves by its nature, and its size, m.
+    /// What these are where the scene moves by its nature, and its size, m.
     pub natural: Vec<f64>,
     pub size: f64,
     /// Work: operations times parts.
@@ -36,7 +36,8 @@ pub(super) enum Unfinished {
 
 /// The experiment that is planned for.
 pub(super) struct Experiment {
-    signals: Option<Signals>,
+    /// Table of the inputs.
+    signals: Option<String>,
     steps: u64,
     step: f64,
     stop: f64,
@@ -67,7 +68,13 @@ impl Experiment {
     pub fn run(&self, scene: Scene, most_work: f64) -> Result<Run, Unfinished> {
         let failed = |reason: String| Unfinished::Failed(reason);
         let mut simulation = Simulation::new(scene);
-        if let Some(signals) = &self.signals {
+        // Indices of inputs follow from what bodies are.
+        let signals = self.signals.as_deref();
+        let signals = signals.map(|text| Signals::from_csv(text, simulation.variables()));
+        let signals = signals
+            .transpose()
+            .map_err(|error| failed(error.to_string()))?;
+        if let Some(signals) = &signals {
             let set = simulation.set_inputs(signals);
             set.map_err(|error| failed(error.to_string()))?;
         }
@@ -85,7 +92,7 @@ impl Experiment {
         for number in 0..=self.steps {
             let until = (number as f64 * self.step).min(self.stop);
             while simulation.time() < until {
-                match &self.signals {
+                match &signals {
                     Some(signals) => simulation.step_along(signals, until).map_err(failed)?,
                     None => simulation
                         .step(until)
@@ -109,18 +116,19 @@ impl Experiment {
     }
 }
 
-/// All that is computed; 0 of all else.
+/// All that is computed.
 fn read(simulation: &mut Simulation) -> Result<Vec<f64>, crate::simulation::Error> {
-    (0..simulation.variables().len())
-        .map(|index| match simulation.variables()[index].source {
-            Source::Parameter(_) | Source::Time | Source::Input(_) => Ok(0.0),
-            _ => simulation.real(index),
-        })
+    let variables = simulation.variables().iter().enumerate();
+    let computed = variables.filter(|(_, variable)| variable.is_computed());
+    let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
+    computed
+        .into_iter()
+        .map(|index| simulation.real(index))
         .collect()
 }
 
 /// What inputs do, as a table with a row at every communication point.
-fn signals(scene: &Scene, steps: u64) -> Result<Option<Signals>, Error> {
+fn signals(scene: &Scene, steps: u64) -> Result<Option<String>, Error> {
     let courses = &scene.accuracy.courses;
     if courses.is_empty() {
         return Ok(None);
@@ -159,9 +167,10 @@ fn signals(scene: &Scene, steps: u64) -> Result<Option<Signals>, Error> {
             row(time, jumps.map(|jump| number >= jump));
         }
     }
-    let read = Signals::from_csv(&text, &variables);
-    read.map(Some)
-        .map_err(|error| Error::new("accuracy.for", error.to_string()))
+    match Signals::from_csv(&text, &variables) {
+        Ok(_) => Ok(Some(text)),
+        Err(error) => Err(Error::new("accuracy.for", error.to_string())),
+    }
 }
 
 /// Columns of the table: inputs with a course, and the rates of driven motions that follow from it: name, course, order.

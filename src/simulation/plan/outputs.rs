@@ -24,7 +24,7 @@ pub(super) enum Measure {
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub name: String,
-    /// Indices of its components among the variables.
+    /// Indices of its components among the computed variables.
     pub members: Vec<usize>,
     pub measure: Measure,
     /// Whether it follows from accelerations: those of the first instant are of loads that begin at once.
@@ -58,7 +58,7 @@ impl Difference {
 pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>, Error> {
     let wanted = &scene.accuracy.of;
     let mut groups: Vec<Group> = Vec::new();
-    for (index, variable) in variables.iter().enumerate() {
+    for (index, variable) in variables.iter().filter(|v| v.is_computed()).enumerate() {
         let Some((measure, is_dynamic, counts)) = nature(variable.source) else {
             continue;
         };

@@ -5,7 +5,7 @@ use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
 use super::outputs::{Difference, Group, difference, groups};
 use super::report::Plan;
-use crate::scene::{Body, BodyReference, Error, Scene};
+use crate::scene::{Accuracy, BodyReference, CableBody, Error, Model, Scene};
 use crate::simulation::{Variable, check, variables};
 
 /// Parts of the error wanted that doubling, and a tenth of the tolerance, may change.
@@ -36,7 +36,15 @@ pub(super) struct Search<'a, 'p> {
     /// Runs so far, and the work of all of them.
     pub runs: Vec<(Choice, Result<Run, Unfinished>)>,
     pub work: f64,
+    /// As few elements of every cable as there can be while it bends.
+    fewest: Vec<u32>,
     progress: Progress<'p>,
+}
+
+/// Cables of a scene, with their places among the bodies.
+pub(super) fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &CableBody)> {
+    let bodies = scene.bodies.iter().enumerate();
+    bodies.filter_map(|(index, body)| Some((index, body.cable()?)))
 }
 
 impl<'a, 'p> Search<'a, 'p> {
@@ -54,6 +62,7 @@ impl<'a, 'p> Search<'a, 'p> {
             variables,
             runs: Vec::new(),
             work: 0.0,
+            fewest: Vec::new(),
             progress,
         })
     }
@@ -63,8 +72,9 @@ impl<'a, 'p> Search<'a, 'p> {
     /// # Errors
     /// An experiment that cannot be run with any mesh.
     pub fn find(mut self) -> Result<(Scene, Plan), Error> {
+        self.fewest = self.coarsest()?;
         let mut choice = Choice {
-            elements: self.coarsest()?,
+            elements: self.fewest.clone(),
             tolerance: self.first_tolerance(),
         };
         // What contradicts itself is told with its place.
@@ -78,27 +88,40 @@ impl<'a, 'p> Search<'a, 'p> {
         ))
     }
 
-    /// As many elements as are given, or as few as there can be.
+    /// As many elements as are given, or as few as there can be; none of a cable that is said to be rigid.
     fn coarsest(&self) -> Result<Vec<u32>, Error> {
         let resolved = self.scene.resolve()?;
         let cables = resolved.bodies.iter().filter_map(|body| match body {
             BodyReference::Cable(cable) => Some(*cable),
             BodyReference::Rigid(_) => None,
         });
+        let places = self::cables(self.scene).map(|(body, _)| body);
         cables
-            .map(|cable| match cable.body.elements {
-                Some(count) => Ok(count),
-                None => resolved.fewest_elements(cable),
-            })
+            .zip(places)
+            .map(
+                |(cable, body)| match (cable.body.model, cable.body.elements) {
+                    (Model::Rigid, _) => self.scene.with_rigid(body).map(|_| 0),
+                    (_, Some(count)) => Ok(count),
+                    (_, None) => resolved.fewest_elements(cable),
+                },
+            )
             .collect()
+    }
+
+    /// The same, with all that may be rigid.
+    fn stiffest(&self, coarsest: &[u32]) -> Vec<u32> {
+        let cables = cables(self.scene).zip(coarsest);
+        let least = cables.map(|((body, _), count)| match self.scene.may_be_rigid(body) {
+            true => 0,
+            false => *count,
+        });
+        least.collect()
     }
 
     /// Whether the number of elements of a cable is left to the planner.
     pub fn is_free(&self, cable: usize) -> bool {
-        let mut cables = self.scene.bodies.iter().filter_map(Body::cable);
-        cables
-            .nth(cable)
-            .is_some_and(|body| body.elements.is_none())
+        let body = cables(self.scene).nth(cable);
+        body.is_some_and(|(_, body)| body.elements.is_none() && body.model != Model::Rigid)
     }
 
     fn first_tolerance(&self) -> f64 {
@@ -108,13 +131,18 @@ impl<'a, 'p> Search<'a, 'p> {
 
     fn planned(&self, choice: &Choice) -> Scene {
         let mut scene = self.scene.clone();
-        let cables = scene.bodies.iter_mut().filter_map(Body::cable_mut);
-        for (cable, count) in cables.zip(&choice.elements) {
-            cable.elements = Some(*count);
+        let bodies: Vec<usize> = cables(self.scene).map(|(body, _)| body).collect();
+        for (body, count) in bodies.into_iter().zip(&choice.elements) {
+            if *count == 0 {
+                // What cannot be rigid is never chosen to be.
+                scene = scene.with_rigid(body).unwrap_or(scene);
+            } else if let Some(cable) = scene.bodies[body].cable_mut() {
+                cable.elements = Some(*count);
+            }
         }
-        scene.accuracy = crate::scene::Accuracy {
+        scene.accuracy = Accuracy {
             relative_tolerance: Some(choice.tolerance),
-            ..Default::default()
+            ..Accuracy::default()
         };
         scene
     }
@@ -219,12 +247,12 @@ impl<'a, 'p> Search<'a, 'p> {
         Ok(found)
     }
 
-    /// Doubles all numbers of elements that are free; false where there are none or too many.
-    fn refine(&self, choice: &mut Choice) -> bool {
+    /// Doubles all numbers of elements that are free, and lets rigid bodies bend; false where there are none or too many.
+    pub fn refine(&self, choice: &mut Choice) -> bool {
         let mut refined = false;
         for (cable, count) in choice.elements.iter_mut().enumerate() {
             if self.is_free(cable) && *count < MOST_ELEMENTS {
-                *count *= 2;
+                *count = (2 * *count).max(self.fewest[cable]);
                 refined = true;
             }
         }
@@ -234,7 +262,10 @@ impl<'a, 'p> Search<'a, 'p> {
     /// The coarsest mesh that doubling changes by no more than may be, and what it changes.
     fn find_elements(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Error> {
         let mut ladder = Ladder::new(OF_SPACE * self.error);
-        let mut tried = choice.clone();
+        let mut tried = Choice {
+            elements: self.stiffest(&choice.elements),
+            tolerance: choice.tolerance,
+        };
         loop {
             let mut closer = tried.clone();
             if !self.refine(&mut closer) {
@@ -274,7 +305,7 @@ impl<'a, 'p> Search<'a, 'p> {
 
     /// Halves the numbers of elements of single cables while that changes no more than may be.
     fn coarsen_one_by_one(&mut self, choice: &mut Choice, closer: &Choice, found: &[Difference]) {
-        let fewest = self.coarsest().unwrap_or_default();
+        let least = self.stiffest(&self.fewest);
         let cables: Vec<usize> = (0..choice.elements.len())
             .filter(|i| self.is_free(*i))
             .collect();
@@ -285,7 +316,10 @@ impl<'a, 'p> Search<'a, 'p> {
         for cable in cables {
             let mut tried = choice.clone();
             tried.elements[cable] /= 2;
-            if tried.elements[cable] < fewest[cable] {
+            if tried.elements[cable] < self.fewest[cable] {
+                tried.elements[cable] = 0;
+            }
+            if tried.elements[cable] < least[cable] || tried.elements == choice.elements {
                 continue;
             }
             let changed = self.compare(&tried, closer, self.error);
@@ -301,15 +335,16 @@ impl<'a, 'p> Search<'a, 'p> {
     /// Whether the tolerance found with the coarsest mesh is good enough for the one chosen, by one half as fine;
     /// else a tighter one. What a tenth of it changes.
     fn verify_tolerance(&mut self, choice: &mut Choice) -> Option<Vec<Difference>> {
-        let fewest = self.coarsest().ok()?;
-        let halves = choice.elements.iter().zip(&fewest);
+        let halves = choice.elements.iter().zip(&self.fewest);
+        let half = |(count, least): (&u32, &u32)| match count {
+            0 => 0,
+            count => (count / 2).max(*least),
+        };
         let mut half = Choice {
-            elements: halves
-                .map(|(count, least)| (count / 2).max(*least))
-                .collect(),
+            elements: halves.map(half).collect(),
             tolerance: choice.tolerance,
         };
-        if half.elements == fewest {
+        if half.elements == self.fewest {
             return None;
         }
         let found = self.loosest(&mut half).ok()?;
