@@ -32,6 +32,8 @@ impl Search<'_, '_> {
         };
         let worst = |found: Vec<Difference>| found.iter().map(|d| d.largest).fold(0.0, f64::max);
         let half_error = half_error.map(worst);
+        let outputs = self.outputs(in_space, in_time);
+        let largest = outputs.iter().map(|output| output.error).reduce(f64::max);
         let chosen = self.known(choice);
         let cost = chosen.map_or(0.0, |run| run.work);
         Plan {
@@ -40,8 +42,8 @@ impl Search<'_, '_> {
             tolerance: choice.tolerance,
             method: chosen.map_or("", |run| run.method).to_owned(),
             held: self.held(),
-            outputs: self.outputs(in_space, in_time),
-            chosen: self.price(choice, None),
+            chosen: self.price(choice, largest),
+            outputs,
             cheaper: half_error.and_then(|error| self.price(&half, Some(error))),
             dearer: match double == *choice {
                 true => None,
