@@ -2,7 +2,7 @@
 
 use super::experiment::{Run, columns};
 use super::ladder::Choice;
-use super::outputs::Difference;
+use super::outputs::{Difference, scale};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 use super::search::Search;
 use crate::simulation::Source;
@@ -39,7 +39,7 @@ impl Search<'_, '_> {
             tolerance: choice.tolerance,
             method: chosen.map_or("", |run| run.method).to_owned(),
             held: self.held(),
-            outputs: self.outputs(in_space, in_time),
+            outputs: self.outputs(chosen, in_space, in_time),
             chosen: self.price(choice, None),
             cheaper: half_error.and_then(|error| self.price(&half, Some(error))),
             dearer: match double == *choice {
@@ -78,7 +78,12 @@ impl Search<'_, '_> {
         held.map(|variable| variable.name.clone()).collect()
     }
 
-    fn outputs(&self, in_space: &[Difference], in_time: &[Difference]) -> Vec<PlannedOutput> {
+    fn outputs(
+        &self,
+        chosen: Option<&Run>,
+        in_space: &[Difference],
+        in_time: &[Difference],
+    ) -> Vec<PlannedOutput> {
         let outputs = self.groups.iter().enumerate().map(|(index, group)| {
             let parts = [in_space.get(index), in_time.get(index)];
             let error: f64 = parts.iter().flatten().map(|d| d.largest).sum();
@@ -86,6 +91,8 @@ impl Search<'_, '_> {
             PlannedOutput {
                 name: group.name.clone(),
                 error,
+                scale: chosen.map_or(0.0, |run| scale(group, run)),
+                skips_start: group.is_dynamic,
                 settles: match (error <= self.error, until.reduce(f64::min)) {
                     (true, _) => Settles::Yes,
                     (false, Some(time)) if time > 0.0 => Settles::Until(time),
@@ -100,12 +107,14 @@ impl Search<'_, '_> {
         let largest = in_space.iter().enumerate();
         let largest = largest.max_by(|a, b| a.1.largest.total_cmp(&b.1.largest));
         let mut counts = choice.elements.iter().enumerate();
+        let fewest = self.coarsest().unwrap_or_default();
         let bodies = self.scene.bodies.iter().map(|body| {
             let Some(_) = body.cable() else {
                 return PlannedBody {
                     name: body.name().to_owned(),
                     kind: "rigid".into(),
                     elements: None,
+                    fewest: None,
                     why: "as the scene says".into(),
                 };
             };
@@ -122,6 +131,7 @@ impl Search<'_, '_> {
                 name: body.name().to_owned(),
                 kind: "cable".into(),
                 elements: Some(*count),
+                fewest: fewest.get(cable).copied(),
                 why,
             }
         });

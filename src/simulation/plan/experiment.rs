@@ -50,15 +50,14 @@ impl Experiment {
     /// # Errors
     /// A course of what is no input.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
-        let (step, stop) = (scene.experiment.step, scene.experiment.stop_time);
-        // The last step is shorter where the stop time is no multiple, but not by rounding alone.
-        let steps = (stop / step - 1e-9).ceil().max(1.0) as u64;
-        let signals = signals(scene, steps)?;
+        let steps = communication_steps(scene);
+        let read = |text: String| Signals::from_csv(&text, &variables(scene));
+        let signals = courses(scene)?.map(read).transpose();
         Ok(Self {
-            signals,
+            signals: signals.map_err(|error| Error::new("accuracy.for", error.to_string()))?,
             steps,
-            step,
-            stop,
+            step: scene.experiment.step,
+            stop: scene.experiment.stop_time,
             every: steps / POINTS + 1,
         })
     }
@@ -119,9 +118,20 @@ fn read(simulation: &mut Simulation) -> Result<Vec<f64>, crate::simulation::Erro
         .collect()
 }
 
-/// What inputs do, as a table with a row at every communication point.
-fn signals(scene: &Scene, steps: u64) -> Result<Option<Signals>, Error> {
-    let courses = &scene.accuracy.courses;
+/// Communication steps of the default experiment.
+fn communication_steps(scene: &Scene) -> u64 {
+    let (step, stop) = (scene.experiment.step, scene.experiment.stop_time);
+    // The last step is shorter where the stop time is no multiple, but not by rounding alone.
+    (stop / step - 1e-9).ceil().max(1.0) as u64
+}
+
+/// What inputs do while a scene is planned, as a CSV table with a row at every communication point; nothing where
+/// all keep their start values.
+///
+/// # Errors
+/// A course of what is no input.
+pub fn courses(scene: &Scene) -> Result<Option<String>, Error> {
+    let (courses, steps) = (&scene.accuracy.courses, communication_steps(scene));
     if courses.is_empty() {
         return Ok(None);
     }
@@ -159,9 +169,7 @@ fn signals(scene: &Scene, steps: u64) -> Result<Option<Signals>, Error> {
             row(time, jumps.map(|jump| number >= jump));
         }
     }
-    let read = Signals::from_csv(&text, &variables);
-    read.map(Some)
-        .map_err(|error| Error::new("accuracy.for", error.to_string()))
+    Ok(Some(text))
 }
 
 /// Columns of the table: inputs with a course, and the rates of driven motions that follow from it: name, course, order.

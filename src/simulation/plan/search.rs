@@ -79,7 +79,7 @@ impl<'a, 'p> Search<'a, 'p> {
     }
 
     /// As many elements as are given, or as few as there can be.
-    fn coarsest(&self) -> Result<Vec<u32>, Error> {
+    pub fn coarsest(&self) -> Result<Vec<u32>, Error> {
         let resolved = self.scene.resolve()?;
         let cables = resolved.bodies.iter().filter_map(|body| match body {
             BodyReference::Cable(cable) => Some(*cable),
