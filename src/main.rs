@@ -38,17 +38,27 @@ enum Command {
         output: PathBuf,
     },
     /// Finds numbers of elements and a tolerance for the error that a scene asks for, and says why.
-    Plan {
-        /// Scene file.
-        scene: PathBuf,
-        /// Writes the scene with these numbers to a file.
-        #[arg(long)]
-        output: Option<PathBuf>,
-    },
+    Plan(Planning),
     /// Simulates a scene and writes its outputs at every communication point as CSV.
     Simulate(Simulate),
     /// Prints the JSON Schema of a scene.
     Schema,
+}
+
+#[derive(clap::Args)]
+struct Planning {
+    /// Scene file.
+    scene: PathBuf,
+    /// Writes the scene with these numbers to a file.
+    #[arg(long)]
+    output: Option<PathBuf>,
+    /// JSON file for the plan: elements and fewest elements of bodies, tolerance, errors of outputs, runs.
+    #[arg(long)]
+    report: Option<PathBuf>,
+    /// CSV file for what inputs do meanwhile (`accuracy.for`), which `simulate --input` reads; not written where
+    /// none moves.
+    #[arg(long)]
+    inputs: Option<PathBuf>,
 }
 
 #[derive(clap::Args)]
@@ -137,7 +147,7 @@ type Outcome<T> = Result<T, String>;
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Describe { scene, output } => describe(&scene, &output),
-        Command::Plan { scene, output } => plan(&scene, output.as_deref()),
+        Command::Plan(arguments) => plan(&arguments),
         Command::Simulate(arguments) => simulate(&arguments),
         Command::Schema => print_schema(),
     };

@@ -8,7 +8,7 @@ use flexbody::scene::Scene;
 use flexbody::simulation::{self, Plan, Price, Settles};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Outcome, at, read};
+use super::{Outcome, Planning, at, read};
 
 /// Reads a scene, and plans it where it leaves numbers to the planner.
 pub fn planned(path: &Path) -> Outcome<(Scene, Option<Plan>)> {
@@ -28,16 +28,59 @@ pub fn planned(path: &Path) -> Outcome<(Scene, Option<Plan>)> {
 }
 
 /// Plans a scene and prints the plan.
-pub fn plan(path: &Path, output: Option<&Path>) -> Outcome<()> {
+pub fn plan(arguments: &Planning) -> Outcome<()> {
+    let path = &arguments.scene;
     let (scene, plan) = planned(path)?;
+    if let (Some(file), Some(plan)) = (&arguments.report, &plan) {
+        fs::write(file, json(plan)).map_err(|error| at(file, error))?;
+    }
+    if let Some(file) = &arguments.inputs {
+        let courses = simulation::courses(&read(path)?).map_err(|error| at(path, error))?;
+        let written = courses.map_or(Ok(()), |text| fs::write(file, text));
+        written.map_err(|error| at(file, error))?;
+    }
     match &plan {
         Some(plan) => print!("{}", in_words(plan)),
         None => println!("nothing to plan: the scene gives numbers of elements and a tolerance"),
     }
-    let Some(output) = output else {
+    let Some(output) = &arguments.output else {
         return Ok(());
     };
     fs::write(output, scene.to_json()).map_err(|error| at(output, error))
+}
+
+/// The plan as a line of JSON. Names need no escapes.
+fn json(plan: &Plan) -> String {
+    let number = |value: Option<u32>| value.map_or("null".into(), |n| n.to_string());
+    let bodies = plan.bodies.iter().map(|body| {
+        let counts = [body.elements, body.fewest].map(number);
+        format!(
+            "{{\"name\": \"{}\", \"elements\": {}, \"fewest\": {}}}",
+            body.name, counts[0], counts[1]
+        )
+    });
+    let outputs = plan.outputs.iter().map(|output| {
+        let settles = match output.settles {
+            Settles::Yes => "true, \"until\": null".to_owned(),
+            Settles::Until(time) => format!("false, \"until\": {time:?}"),
+            Settles::No => "false, \"until\": 0.0".to_owned(),
+        };
+        format!(
+            "{{\"name\": \"{}\", \"error\": {:?}, \"scale\": {:?}, \"skips_start\": {}, \"settles\": {settles}}}",
+            output.name, output.error, output.scale, output.skips_start
+        )
+    });
+    format!(
+        "{{\"error\": {:?}, \"tolerance\": {:?}, \"method\": \"{}\", \"runs\": {}, \"runs_cost\": {:?}, \
+         \"bodies\": [{}], \"outputs\": [{}]}}\n",
+        plan.error,
+        plan.tolerance,
+        plan.method,
+        plan.runs,
+        plan.runs_cost,
+        bodies.collect::<Vec<_>>().join(", "),
+        outputs.collect::<Vec<_>>().join(", ")
+    )
 }
 
 /// The plan as tables of a terminal.

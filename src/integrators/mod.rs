@@ -169,6 +169,8 @@ fn advance_choosing(
 ) -> (Counts, Result<(), Stop>) {
     let mut counts = Counts::default();
     let mut result = Ok(());
+    // Where one of two methods gave up last, s.
+    let mut given_up = f64::NEG_INFINITY;
     while result.is_ok() && state.time < until {
         let end = dynamics.begin_stretch(state.time, until);
         while result.is_ok() && state.time < end {
@@ -178,6 +180,12 @@ fn advance_choosing(
             let goal = (tolerance, rival, &mut counts);
             result = advance_smoothly(method, dynamics, state, end, goal);
             counts.newton_iterations += method.newton_iterations();
+            // What one method cannot do the other may.
+            if result == Err(Stop::StepTooSmall) && rival.is_some() && state.time > given_up {
+                given_up = state.time;
+                selection::give_up(state);
+                result = Ok(());
+            }
         }
         let crossed = outcome(dynamics.end_stretch(state));
         result = result.and(crossed.map(drop));

@@ -153,6 +153,14 @@ fn takes_back(state: &mut State, grows: bool) -> bool {
     true
 }
 
+/// The method in use cannot go on: the other does, and it is a long time to the next trial.
+pub(super) fn give_up(state: &mut State) {
+    state.pace.trial = 0.0;
+    state.pace.pause = 2.0 * state.pace.pause.max(PAUSE);
+    state.step = 0.0;
+    change(state, 0.0);
+}
+
 /// The other method goes on; the one in use advanced `reached` (s) with an operation.
 fn change(state: &mut State, reached: f64) {
     let pace = &mut state.pace;

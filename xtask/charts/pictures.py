@@ -74,7 +74,8 @@ def panel(axes, setting, lines):
         colour, mark = look(line)
         # Of a curve through many points a few marks are enough.
         every = 1 if "scattered" in line else math.ceil(len(points) / 25)
-        axes.plot(*zip(*points), color=colour, linestyle=dashes, label=line["name"], markevery=every, **MARKS[mark])
+        strong = {"linewidth": 3.2, "zorder": 3} if line.get("strong") else {}
+        axes.plot(*zip(*points), color=colour, linestyle=dashes, label=line["name"], markevery=every, **MARKS[mark], **strong)
     for guide in setting.get("guides", []):
         (x, y), end = guide["from"], guide["to"]
         axes.plot([x, end], [y, y * (end / x) ** guide["power"]], "--", color="#777777", linewidth=1, label=guide["name"])

@@ -70,6 +70,22 @@ def groups(rows, key):
     return list(found.items())
 
 
+def ranked(rows, name):
+    """Rows with a value in a column from small to large, each with its `share`: the part of them up to it, percent."""
+    known = sorted((row for row in rows if row[name] is not None), key=lambda row: row[name])
+    return [{**row, "share": 100 * (index + 1) / len(known)} for index, row in enumerate(known)]
+
+
+def share(values, most):
+    """The part of values that are at most that, percent."""
+    return f"{100 * sum(value <= most for value in values) / len(values):.3g}"
+
+
+def middle(values):
+    """The median."""
+    return statistics.median(values)
+
+
 def points(rows, x, y):
     """Pairs of finite numbers."""
     pairs = [(row[x], row[y]) for row in rows]
@@ -135,4 +151,4 @@ def slope(rows, x, y):
     return statistics.linear_regression(*zip(*logs)).slope
 
 
-FILTERS = [short, three, fixed, power, bold, over, where, pick, column, groups, peaks, frontier, needed, cheapest, reach, at, slope]
+FILTERS = [short, three, fixed, power, bold, over, where, pick, column, groups, peaks, frontier, needed, cheapest, reach, at, slope, ranked, share, middle]

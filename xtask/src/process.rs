@@ -1,7 +1,7 @@
 //! Running other programs, and telling the user what happens meanwhile.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
@@ -46,6 +46,24 @@ pub fn run_quietly(command: &mut Command) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// Runs a command and returns what it printed; nothing where it took longer than that and was stopped.
+pub fn output_within(command: &mut Command, most: Duration) -> Result<Option<Output>> {
+    let started = Instant::now();
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command
+        .spawn()
+        .with_context(|| format!("cannot start {}", name(command)))?;
+    while child.try_wait()?.is_none() {
+        if started.elapsed() > most {
+            child.kill()?;
+            child.wait()?;
+            return Ok(None);
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.wait_with_output().map(Some).map_err(Into::into)
 }
 
 /// Does something that prints nothing itself, with a spinner where there is a terminal, and says

@@ -2,7 +2,7 @@
 
 use super::experiment::{Run, Unfinished, columns};
 use super::ladder::Choice;
-use super::outputs::Difference;
+use super::outputs::{Difference, scale};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 use super::search::Search;
 use crate::simulation::Source;
@@ -32,7 +32,7 @@ impl Search<'_, '_> {
         };
         let worst = |found: Vec<Difference>| found.iter().map(|d| d.largest).fold(0.0, f64::max);
         let half_error = half_error.map(worst);
-        let outputs = self.outputs(in_space, in_time);
+        let outputs = self.outputs(self.known(choice), in_space, in_time);
         let largest = outputs.iter().map(|output| output.error).reduce(f64::max);
         let chosen = self.known(choice);
         let cost = chosen.map_or(0.0, |run| run.work);
@@ -81,7 +81,12 @@ impl Search<'_, '_> {
         held.map(|variable| variable.name.clone()).collect()
     }
 
-    fn outputs(&self, in_space: &[Difference], in_time: &[Difference]) -> Vec<PlannedOutput> {
+    fn outputs(
+        &self,
+        chosen: Option<&Run>,
+        in_space: &[Difference],
+        in_time: &[Difference],
+    ) -> Vec<PlannedOutput> {
         let outputs = self.groups.iter().enumerate().map(|(index, group)| {
             let parts = [in_space.get(index), in_time.get(index)];
             let error: f64 = parts.iter().flatten().map(|d| d.largest).sum();
@@ -89,6 +94,8 @@ impl Search<'_, '_> {
             PlannedOutput {
                 name: group.name.clone(),
                 error,
+                scale: chosen.map_or(0.0, |run| scale(group, run)),
+                skips_start: group.is_dynamic,
                 settles: match (error <= self.error, until.reduce(f64::min)) {
                     (true, _) => Settles::Yes,
                     (false, Some(time)) if time > 0.0 => Settles::Until(time),
@@ -109,6 +116,7 @@ impl Search<'_, '_> {
             )
         });
         let mut counts = choice.elements.iter().enumerate();
+        let fewest = self.coarsest().unwrap_or_default();
         let bodies = self.scene.bodies.iter().map(|body| {
             let (cable, count) = match body.cable() {
                 Some(_) => counts
@@ -131,6 +139,7 @@ impl Search<'_, '_> {
                 name: body.name().to_owned(),
                 kind: kind.into(),
                 elements,
+                fewest: cable.and_then(|cable| fewest.get(cable).copied()),
                 why,
             }
         });

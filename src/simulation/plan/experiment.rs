@@ -21,6 +21,8 @@ pub(super) struct Run {
     pub size: f64,
     /// Work: operations times parts.
     pub work: f64,
+    /// Sub-steps.
+    pub steps: u64,
     /// Integrator at the end.
     pub method: &'static str,
 }
@@ -51,21 +53,19 @@ impl Experiment {
     /// # Errors
     /// A course of what is no input.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
-        let (step, stop) = (scene.experiment.step, scene.experiment.stop_time);
-        // The last step is shorter where the stop time is no multiple, but not by rounding alone.
-        let steps = (stop / step - 1e-9).ceil().max(1.0) as u64;
-        let signals = signals(scene, steps)?;
+        let steps = communication_steps(scene);
         Ok(Self {
-            signals,
+            signals: courses(scene)?,
             steps,
-            step,
-            stop,
+            step: scene.experiment.step,
+            stop: scene.experiment.stop_time,
             every: steps / POINTS + 1,
         })
     }
 
-    /// Runs a scene with numbers of elements and a tolerance, with at most so much work.
-    pub fn run(&self, scene: Scene, most_work: f64) -> Result<Run, Unfinished> {
+    /// Runs a scene with numbers of elements and a tolerance, with at most so much work; where it is halved, in two steps
+    /// from one communication point to the next.
+    pub fn run(&self, scene: Scene, is_halved: bool, most_work: f64) -> Result<Run, Unfinished> {
         let failed = |reason: String| Unfinished::Failed(reason);
         let mut simulation = Simulation::new(scene);
         // Indices of inputs follow from what bodies are.
@@ -87,11 +87,17 @@ impl Experiment {
             natural,
             size,
             work: 0.0,
+            steps: 0,
             method: "",
         };
         for number in 0..=self.steps {
             let until = (number as f64 * self.step).min(self.stop);
+            let middle = (until - 0.5 * self.step).max(0.0);
             while simulation.time() < until {
+                let until = match is_halved && simulation.time() < middle {
+                    true => middle,
+                    false => until,
+                };
                 match &signals {
                     Some(signals) => simulation.step_along(signals, until).map_err(failed)?,
                     None => simulation
@@ -100,6 +106,7 @@ impl Experiment {
                 }
                 let report = simulation.report();
                 run.work += report.work;
+                run.steps += report.steps;
                 run.method = report.method;
                 if run.work > most_work {
                     return Err(Unfinished::TooMuchWork);
@@ -127,9 +134,20 @@ fn read(simulation: &mut Simulation) -> Result<Vec<f64>, crate::simulation::Erro
         .collect()
 }
 
-/// What inputs do, as a table with a row at every communication point.
-fn signals(scene: &Scene, steps: u64) -> Result<Option<String>, Error> {
-    let courses = &scene.accuracy.courses;
+/// Communication steps of the default experiment.
+fn communication_steps(scene: &Scene) -> u64 {
+    let (step, stop) = (scene.experiment.step, scene.experiment.stop_time);
+    // The last step is shorter where the stop time is no multiple, but not by rounding alone.
+    (stop / step - 1e-9).ceil().max(1.0) as u64
+}
+
+/// What inputs do while a scene is planned, as a CSV table with a row at every communication point; nothing where
+/// all keep their start values.
+///
+/// # Errors
+/// A course of what is no input.
+pub fn courses(scene: &Scene) -> Result<Option<String>, Error> {
+    let (courses, steps) = (&scene.accuracy.courses, communication_steps(scene));
     if courses.is_empty() {
         return Ok(None);
     }

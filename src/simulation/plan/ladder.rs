@@ -15,6 +15,8 @@ pub(super) struct Choice {
     /// Elements of every cable, in the order of the bodies.
     pub elements: Vec<u32>,
     pub tolerance: f64,
+    /// Whether communication steps are taken in two halves.
+    pub is_halved: bool,
 }
 
 /// Choices from cheap to dear, with what the next one changed.

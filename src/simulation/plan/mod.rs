@@ -10,6 +10,7 @@ mod outputs;
 mod report;
 mod search;
 
+pub use experiment::courses;
 pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 
 use crate::scene::{Error, Scene};

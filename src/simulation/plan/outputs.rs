@@ -120,34 +120,39 @@ fn nature(source: Source) -> Option<(Measure, bool, bool)> {
     Some((measure, is_dynamic, counts))
 }
 
-/// What an output changes from a run to one that is closer to the truth; `limit` is asked for.
-pub(super) fn difference(group: &Group, run: &Run, closer: &Run, limit: f64) -> Difference {
-    let at = |run: &Run, point: usize| -> Vec<f64> {
-        let row = &run.rows[point];
-        group.members.iter().map(|member| row[*member]).collect()
-    };
-    let first = usize::from(group.is_dynamic && closer.rows.len() > 1);
-    let points = first..closer.rows.len();
-    let size = match group.measure {
-        Measure::Size => closer.size,
+/// Components of an output at a point of a run.
+fn at(group: &Group, run: &Run, point: usize) -> Vec<f64> {
+    let row = &run.rows[point];
+    group.members.iter().map(|member| row[*member]).collect()
+}
+
+/// Points of a run at which an output is compared.
+fn points(group: &Group, run: &Run) -> std::ops::Range<usize> {
+    usize::from(group.is_dynamic && run.rows.len() > 1)..run.rows.len()
+}
+
+/// By what differences of an output are measured, in its unit.
+pub(super) fn scale(group: &Group, run: &Run) -> f64 {
+    match group.measure {
+        Measure::Size => run.size,
         Measure::Unit => 1.0,
         Measure::Largest => {
-            let sizes = points.clone().map(|point| norm(&at(closer, point)));
-            let least = SMALLEST
-                * group
-                    .members
-                    .iter()
-                    .map(|m| closer.natural[*m])
-                    .fold(0.0, f64::max);
-            sizes.fold(least, f64::max)
+            let sizes = points(group, run).map(|point| norm(&at(group, run, point)));
+            let natural = group.members.iter().map(|m| run.natural[*m]);
+            sizes.fold(SMALLEST * natural.fold(0.0, f64::max), f64::max)
         }
-    };
+    }
+}
+
+/// What an output changes from a run to one that is closer to the truth; `limit` is asked for.
+pub(super) fn difference(group: &Group, run: &Run, closer: &Run, limit: f64) -> Difference {
+    let size = scale(group, closer);
     let mut found = Difference {
         largest: 0.0,
         until: None,
     };
-    for point in points {
-        let (a, b) = (at(run, point), at(closer, point));
+    for point in points(group, closer) {
+        let (a, b) = (at(group, run, point), at(group, closer, point));
         let apart: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
         let relative = match size > 0.0 {
             true => norm(&apart) / size,

@@ -36,6 +36,8 @@ pub struct PlannedBody {
     pub kind: String,
     /// Number of elements of a cable.
     pub elements: Option<u32>,
+    /// The fewest that a cable can have, or is given.
+    pub fewest: Option<u32>,
     /// Why.
     pub why: String,
 }
@@ -47,6 +49,10 @@ pub struct PlannedOutput {
     pub name: String,
     /// Error estimated over the experiment, relative.
     pub error: f64,
+    /// What errors are relative to, in the unit of the output.
+    pub scale: f64,
+    /// Whether the first instant is left out.
+    pub skips_start: bool,
     /// Whether the error wanted is kept.
     pub settles: Settles,
 }

@@ -14,9 +14,11 @@ const OF_TIME: f64 = 1.0 / 3.0;
 /// Tolerance above which a tenth of it says less of the error: what it changes counts this many times.
 const LOOSE: f64 = 1e-4;
 const DOUBT: f64 = 3.0;
-/// The loosest tolerance that is tried, and the first and the last in errors wanted.
+/// Steps of one run over those of another below which both took the same ones.
+const ALIKE: f64 = 1.2;
+/// The loosest tolerance that is tried, and the last in errors wanted. None looser than the error wanted: with short
+/// communication steps it would do, and with longer ones not.
 const LOOSEST: f64 = 1e-2;
-const FIRST: f64 = 10.0;
 const LAST: f64 = 1e-3;
 /// Most cables of which single ones are tried with fewer elements.
 const MOST_SINGLE: usize = 4;
@@ -76,6 +78,7 @@ impl<'a, 'p> Search<'a, 'p> {
         let mut choice = Choice {
             elements: self.fewest.clone(),
             tolerance: self.first_tolerance(),
+            is_halved: false,
         };
         // What contradicts itself is told with its place.
         check(&self.planned(&choice))?;
@@ -89,7 +92,7 @@ impl<'a, 'p> Search<'a, 'p> {
     }
 
     /// As many elements as are given, or as few as there can be; none of a cable that is said to be rigid.
-    fn coarsest(&self) -> Result<Vec<u32>, Error> {
+    pub fn coarsest(&self) -> Result<Vec<u32>, Error> {
         let resolved = self.scene.resolve()?;
         let cables = resolved.bodies.iter().filter_map(|body| match body {
             BodyReference::Cable(cable) => Some(*cable),
@@ -125,7 +128,7 @@ impl<'a, 'p> Search<'a, 'p> {
     }
 
     fn first_tolerance(&self) -> f64 {
-        let first = decade(FIRST * self.error).min(LOOSEST);
+        let first = decade(self.error).min(LOOSEST);
         self.scene.accuracy.relative_tolerance.unwrap_or(first)
     }
 
@@ -161,7 +164,7 @@ impl<'a, 'p> Search<'a, 'p> {
                 };
                 let scene = self.planned(choice);
                 let run = match left > 0.0 {
-                    true => self.experiment.run(scene, left),
+                    true => self.experiment.run(scene, choice.is_halved, left),
                     false => Err(Unfinished::TooMuchWork),
                 };
                 self.work += match &run {
@@ -213,16 +216,25 @@ impl<'a, 'p> Search<'a, 'p> {
         let is_given = self.scene.accuracy.relative_tolerance.is_some();
         let mut ladder = Ladder::new(OF_TIME * self.error);
         let mut tried = choice.clone();
+        let mut before = 0.0;
         loop {
             let found = self.in_time(&tried);
+            let steps = self.steps(&tried);
             match (found, ladder.rungs.is_empty()) {
-                (Ok(found), _) => ladder.add(&tried, found),
+                (Ok(found), _) => {
+                    // The same steps again: nothing was learnt of this tolerance.
+                    if steps < ALIKE * before {
+                        ladder.rungs.pop();
+                    }
+                    ladder.add(&tried, found);
+                }
                 (Err(reason), true) => return Err(reason),
                 (Err(_), false) => break,
             }
             if ladder.is_climbed() || is_given || tried.tolerance < 1.5 * LAST * self.error {
                 break;
             }
+            before = steps;
             tried.tolerance = tenth(tried.tolerance);
         }
         let (best, found) = ladder.best().unwrap_or_default();
@@ -230,12 +242,20 @@ impl<'a, 'p> Search<'a, 'p> {
         Ok(found)
     }
 
-    /// What a tenth of the tolerance changes.
+    /// Sub-steps of a run that was made.
+    fn steps(&mut self, choice: &Choice) -> f64 {
+        self.run(choice).map_or(0.0, |run| run.steps as f64)
+    }
+
+    /// What a tenth of the tolerance changes; where that takes the same steps, since communication points end them, what
+    /// halves of these change.
     fn in_time(&mut self, choice: &Choice) -> Result<Vec<Difference>, Unfinished> {
-        let closer = Choice {
+        let mut closer = Choice {
             tolerance: tenth(choice.tolerance),
             ..choice.clone()
         };
+        let steps = self.run(choice)?.steps as f64;
+        closer.is_halved = (self.run(&closer)?.steps as f64) < ALIKE * steps;
         let doubt = match choice.tolerance > LOOSE {
             true => DOUBT,
             false => 1.0,
@@ -264,7 +284,7 @@ impl<'a, 'p> Search<'a, 'p> {
         let mut ladder = Ladder::new(OF_SPACE * self.error);
         let mut tried = Choice {
             elements: self.stiffest(&choice.elements),
-            tolerance: choice.tolerance,
+            ..choice.clone()
         };
         loop {
             let mut closer = tried.clone();
@@ -342,14 +362,42 @@ impl<'a, 'p> Search<'a, 'p> {
         };
         let mut half = Choice {
             elements: halves.map(half).collect(),
-            tolerance: choice.tolerance,
+            ..choice.clone()
         };
-        if half.elements == self.fewest {
+        if half.elements == self.fewest && choice.elements == self.fewest {
             return None;
+        }
+        // Another integrator makes other errors.
+        let methods = [&half, choice].map(|made| self.run(made).map(|run| run.method).ok());
+        if methods[0] != methods[1] {
+            half.elements.clone_from(&choice.elements);
         }
         let found = self.loosest(&mut half).ok()?;
         choice.tolerance = half.tolerance;
-        Some(found)
+        Some(self.loosen(choice, found))
+    }
+
+    /// Ten times the tolerance while that is good enough for the mesh chosen: a coarser one may have asked for more.
+    fn loosen(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
+        let (mut found, limit) = (found, OF_TIME * self.error);
+        loop {
+            let mut looser = choice.clone();
+            looser.tolerance = decade(10.0 * choice.tolerance);
+            let is_given = self.scene.accuracy.relative_tolerance.is_some();
+            if is_given || looser.tolerance > self.first_tolerance() {
+                return found;
+            }
+            let Ok(now) = self.in_time(&looser) else {
+                return found;
+            };
+            let is_good = |(now, before): (&Difference, &Difference)| {
+                now.largest <= limit.max(before.largest)
+            };
+            if !now.iter().zip(&found).all(is_good) {
+                return found;
+            }
+            (*choice, found) = (looser, now);
+        }
     }
 }
 

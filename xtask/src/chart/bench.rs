@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -9,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::cargo::Workspace;
 use crate::package::PACKAGE;
-use crate::process::{prepared, shown, stdout};
+use crate::process::{output_within, prepared, run_quietly, shown, stdout};
 use crate::table::Table;
 
 use super::numbers::median;
@@ -31,6 +32,27 @@ pub struct Run {
     every: f64,
     options: Vec<String>,
     by: By,
+    most: Duration,
+}
+
+/// A run took longer than it may.
+#[derive(Debug)]
+pub struct TooLong(Duration);
+
+impl std::fmt::Display for TooLong {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a run took longer than {:?}", self.0)
+    }
+}
+
+impl std::error::Error for TooLong {}
+
+/// What became of a scene that was planned.
+pub struct Planned {
+    /// What `flexbody plan --report` says.
+    pub report: Value,
+    /// What inputs do, where they do anything.
+    pub inputs: Option<PathBuf>,
 }
 
 /// What takes the steps.
@@ -50,6 +72,7 @@ impl Run {
             every,
             options: vec!["--stop-time".to_owned(), stop_time.to_string()],
             by: By::Product,
+            most: Duration::MAX,
         }
     }
 
@@ -61,6 +84,19 @@ impl Run {
     /// With a start value.
     pub fn set(self, name: &str, value: f64) -> Self {
         self.option("--set", format!("{name}={value}"))
+    }
+
+    /// With inputs that vary in time.
+    pub fn inputs(self, file: Option<&Path>) -> Self {
+        match file {
+            Some(file) => self.option("--input", file.display().to_string()),
+            None => self,
+        }
+    }
+
+    /// A run that takes longer fails.
+    pub fn within(self, most: Duration) -> Self {
+        Self { most, ..self }
     }
 
     /// With a number of elements.
@@ -157,6 +193,24 @@ impl<'a> Bench<'a> {
         Ok(file)
     }
 
+    /// Plans a scene.
+    pub fn plan(&self, scene: &Value) -> Result<Planned> {
+        let [report, inputs] =
+            ["plan.json", "inputs.csv"].map(|name| self.workspace.target("chart").join(name));
+        let has_inputs = scene["accuracy"]["for"]
+            .as_array()
+            .is_some_and(|courses| !courses.is_empty());
+        let mut command = Command::new(&self.program);
+        command.arg("plan").arg(self.write(scene)?);
+        command.arg("--report").arg(&report);
+        command.arg("--inputs").arg(&inputs);
+        run_quietly(&mut command)?;
+        Ok(Planned {
+            report: read(&report)?,
+            inputs: has_inputs.then_some(inputs),
+        })
+    }
+
     /// Runs everything once.
     pub fn run(&self, title: &str, runs: &[Run]) -> Result<Vec<Result<Ran>>> {
         self.repeat(title, runs, 1, 0.0)
@@ -209,6 +263,13 @@ impl<'a> Bench<'a> {
         serde_json::from_str(&report).context("the report of the lab is no JSON")
     }
 
+    /// Runs a measurement of the lab that prints CSV, the file of the chart of the same name.
+    pub fn lab_table(&self, chart: &str) -> Result<()> {
+        let table = stdout(Command::new(&self.lab).arg(chart))?;
+        let path = prepared(&self.output(&format!("{chart}.csv")))?;
+        std::fs::write(&path, table).with_context(|| format!("cannot write {}", shown(&path)))
+    }
+
     fn execute(&self, run: &Run) -> Result<Result<Ran>> {
         let file = |name: &str| self.workspace.target("chart").join(name);
         let (scene, outputs, report) = (self.write(&run.scene)?, file("run.csv"), file("run.json"));
@@ -217,17 +278,18 @@ impl<'a> Bench<'a> {
             By::Lab => (&self.lab, Some("integrate"), "--every"),
             By::Other(program) => (program, None, "--every"),
         };
-        let finished = Command::new(program)
-            .args(command)
+        let mut call = Command::new(program);
+        call.args(command)
             .arg(scene)
             .args(&run.options)
             .args([every, &run.every.to_string()])
             .arg("--output")
             .arg(&outputs)
             .arg("--report")
-            .arg(&report)
-            .output()
-            .with_context(|| format!("cannot start {}", shown(program)))?;
+            .arg(&report);
+        let Some(finished) = output_within(&mut call, run.most)? else {
+            return Ok(Err(TooLong(run.most).into()));
+        };
         if !finished.status.success() {
             let failure = String::from_utf8_lossy(&finished.stderr);
             return Ok(Err(anyhow::anyhow!("a run failed: {}", failure.trim())));

@@ -15,6 +15,7 @@ mod constraints;
 mod cost;
 mod coupling;
 mod csv;
+mod economy;
 mod energies;
 mod exudyn;
 mod failures;
@@ -25,6 +26,7 @@ mod methods;
 mod numbers;
 mod overhead;
 mod peers;
+mod rivals;
 mod space;
 mod tolerances;
 
@@ -35,11 +37,12 @@ type Chart = (&'static str, &'static str, fn(&Bench) -> Result<()>);
 
 /// All charts, in the order of the page.
 #[rustfmt::skip]
-const CHARTS: [Chart; 15] = [
+const CHARTS: [Chart; 17] = [
     ("mesh", "Error against the number of elements", mesh::measure),
     ("space", "Shape functions, meshes, quadratures and masses", space::measure),
     ("methods", "Integrators: error in time against CPU time", methods::measure),
     ("tolerances", "Errors of all outputs over the tolerance", tolerances::measure),
+    ("economy", "What planned meshes and tolerances are worth", economy::measure),
     ("drift", "Energy drift over a hundred swings", energies::drift),
     ("cost", "CPU time of a step against the number of elements", cost::measure),
     ("bodies", "CPU time of a step against the number of bodies", bodies::measure),
@@ -50,6 +53,7 @@ const CHARTS: [Chart; 15] = [
     ("peers", "Exudyn and the product: error against CPU time", peers::measure),
     ("failures", "Where methods fail, and what the product does there", failures::measure),
     ("formulations", "Coordinates and how accelerations follow from forces", formulations::measure),
+    ("rivals", "Floating frames, incremental methods, rotation vectors and the product", rivals::measure),
     ("as_printed", "What the report's equations do as printed", as_printed::measure),
 ];
 
