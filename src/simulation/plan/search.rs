@@ -216,26 +216,28 @@ impl<'a, 'p> Search<'a, 'p> {
         let is_given = self.scene.accuracy.relative_tolerance.is_some();
         let mut ladder = Ladder::new(OF_TIME * self.error);
         let mut tried = choice.clone();
-        let mut before = 0.0;
         loop {
-            let found = self.in_time(&tried);
-            let steps = self.steps(&tried);
-            match (found, ladder.rungs.is_empty()) {
-                (Ok(found), _) => {
-                    // The same steps again: nothing was learnt of this tolerance.
-                    if steps < ALIKE * before {
-                        ladder.rungs.pop();
-                    }
-                    ladder.add(&tried, found);
-                }
+            match (self.in_time(&tried), ladder.rungs.is_empty()) {
+                (Ok(found), _) => ladder.add(&tried, found),
                 (Err(reason), true) => return Err(reason),
                 (Err(_), false) => break,
             }
-            if ladder.is_climbed() || is_given || tried.tolerance < 1.5 * LAST * self.error {
+            if ladder.is_climbed() || is_given {
                 break;
             }
-            before = steps;
-            tried.tolerance = tenth(tried.tolerance);
+            // A tighter one that takes the same steps changes nothing.
+            let steps = self.steps(&tried);
+            let mut is_open = tried.tolerance >= 1.5 * LAST * self.error;
+            while is_open {
+                tried.tolerance = tenth(tried.tolerance);
+                if self.steps(&tried) >= ALIKE * steps {
+                    break;
+                }
+                is_open = tried.tolerance >= 1.5 * LAST * self.error;
+            }
+            if !is_open {
+                break;
+            }
         }
         let (best, found) = ladder.best().unwrap_or_default();
         choice.tolerance = best.tolerance;
