@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{self, Plan, Price, Settles};
+use flexbody::simulation::{self, Plan, Price, Settles, estimate};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Outcome, Planning, at, read};
@@ -65,9 +65,13 @@ fn json(plan: &Plan) -> String {
             Settles::Until(time) => format!("false, \"until\": {time:?}"),
             Settles::No => "false, \"until\": 0.0".to_owned(),
         };
+        let error = match output.error.is_finite() {
+            true => format!("{:?}", output.error),
+            false => "null".into(),
+        };
         format!(
-            "{{\"name\": \"{}\", \"error\": {:?}, \"scale\": {:?}, \"skips_start\": {}, \"settles\": {settles}}}",
-            output.name, output.error, output.scale, output.skips_start
+            "{{\"name\": \"{}\", \"error\": {error}, \"scale\": {:?}, \"skips_start\": {}, \"settles\": {settles}}}",
+            output.name, output.scale, output.skips_start
         )
     });
     format!(
@@ -113,11 +117,7 @@ fn in_words(plan: &Plan) -> String {
             Settles::Until(time) => format!("kept until {time:.3} s"),
             Settles::No => "does not settle".into(),
         };
-        [
-            output.name.clone(),
-            format!("{:.1e}", output.error),
-            settles,
-        ]
+        [output.name.clone(), estimate(output.error), settles]
     });
     text += &table(&["output", "error", ""], rows.collect());
     text += "\ncost\n";
@@ -133,10 +133,7 @@ fn in_words(plan: &Plan) -> String {
             (*name).to_owned(),
             elements.join(", "),
             format!("about {:.2} ms a second", price.milliseconds()),
-            price
-                .error
-                .map(|error| format!("{error:.1e}"))
-                .unwrap_or_default(),
+            price.error.map(estimate).unwrap_or_default(),
         ])
     });
     text += &table(

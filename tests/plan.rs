@@ -309,3 +309,18 @@ fn what_a_rigid_body_has_not_keeps_a_cable_flexible_or_is_refused() {
     let (rigid, _) = planned(&swinging("rigid", seen()).expect("a scene")).expect("a plan");
     assert!(rigid.bodies[0].rigid().is_some());
 }
+
+#[test]
+fn an_experiment_too_long_to_be_planned_promises_nothing() {
+    let scene = swinging("flexible", seen()).expect("a scene");
+    let long = edited(&scene.to_json(), |scene| {
+        scene["experiment"]["stop_time"] = json!(1e7)
+    });
+    let (chosen, plan) = planned(&long.expect("a scene")).expect("a plan");
+    assert!(elements(&chosen) > 0);
+    let outputs = plan.expect("a plan").outputs;
+    assert!(
+        outputs.iter().all(|output| output.settles == Settles::No),
+        "{outputs:?}"
+    );
+}

@@ -3,7 +3,7 @@
 use super::canvas::escape;
 use super::number::number;
 use super::table::{code, row, table};
-use crate::simulation::{Plan, Price, Settles};
+use crate::simulation::{Plan, Price, Settles, estimate};
 
 /// The section; nothing of a scene that was not planned.
 pub fn plan(plan: Option<&Plan>) -> String {
@@ -58,11 +58,7 @@ fn outputs(plan: &Plan) -> String {
             Settles::Until(time) => format!("kept until {} s", number(time)),
             Settles::No => "does not settle".into(),
         };
-        row(&[
-            &code(&output.name),
-            &format!("{:.1e}", output.error),
-            &settles,
-        ])
+        row(&[&code(&output.name), &estimate(output.error), &settles])
     });
     let heads = ["Output", "Error estimated", "Error wanted"];
     table("Errors estimated", "", &heads, rows.collect())
@@ -77,7 +73,7 @@ fn costs(plan: &Plan) -> String {
     let rows = rows.iter().filter_map(|(name, price)| {
         let price: &Price = price.as_ref()?;
         let elements: Vec<String> = price.elements.iter().map(u32::to_string).collect();
-        let error = price.error.map(|error| format!("{error:.1e}"));
+        let error = price.error.map(estimate);
         Some(row(&[
             name,
             &elements.join(", "),

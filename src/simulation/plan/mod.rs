@@ -11,7 +11,7 @@ mod report;
 mod search;
 
 pub use experiment::courses;
-pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
+pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settles, estimate};
 
 use crate::scene::{Error, Scene};
 use search::Search;

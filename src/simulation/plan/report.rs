@@ -90,3 +90,11 @@ impl Price {
         1e3 * OPERATION * self.work
     }
 }
+
+/// An estimated error in words.
+pub fn estimate(error: f64) -> String {
+    match error.is_finite() {
+        true => format!("{error:.1e}"),
+        false => "not known".into(),
+    }
+}

@@ -206,7 +206,7 @@ impl<'a, 'p> Search<'a, 'p> {
                         return Err(Error::new("experiment", reason));
                     }
                 }
-                Err(Unfinished::TooMuchWork) => return Ok(Vec::new()),
+                Err(Unfinished::TooMuchWork) => return Ok(self.unknown()),
             }
         }
     }
@@ -242,6 +242,15 @@ impl<'a, 'p> Search<'a, 'p> {
         let (best, found) = ladder.best().unwrap_or_default();
         choice.tolerance = best.tolerance;
         Ok(found)
+    }
+
+    /// What is said of outputs that could not be compared.
+    fn unknown(&self) -> Vec<Difference> {
+        let unknown = Difference {
+            largest: f64::INFINITY,
+            until: Some(0.0),
+        };
+        vec![unknown; self.groups.len()]
     }
 
     /// Sub-steps of a run that was made.
@@ -309,7 +318,8 @@ impl<'a, 'p> Search<'a, 'p> {
             tried = closer;
         }
         let Some((best, found)) = ladder.best() else {
-            return Ok(Vec::new());
+            let is_free = (0..choice.elements.len()).any(|cable| self.is_free(cable));
+            return Ok(if is_free { self.unknown() } else { Vec::new() });
         };
         *choice = best;
         let mut closer = choice.clone();
