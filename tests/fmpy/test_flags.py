@@ -28,7 +28,7 @@ FLAGS = {
     "providesDirectionalDerivative": "true",
 }
 # Tight, so that what the integrator leaves out stays below what is looked for.
-TOLERANCE = 1e-9
+TOLERANCE = 1e-11
 # Communication steps to a state in motion.
 STEPS = 5
 ERROR = 3

@@ -131,6 +131,9 @@ def test_a_loop_that_cannot_close_names_its_joints(edited):
     def part(scene):
         (far,) = [joint for joint in scene["joints"] if joint["name"] == "rocker_pivot"]
         far["point"] = [5.0, 0.0]
+        # A scene that is planned is refused while packaging.
+        scene["bodies"][1]["elements"] = 4
+        scene["accuracy"] = {}
 
     status, message = refusal(edited(ROOT / "scenes" / "four_bar.json", part))
     assert status == ERROR
