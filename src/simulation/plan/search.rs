@@ -22,9 +22,9 @@ const LOOSEST: f64 = 1e-2;
 const LAST: f64 = 1e-3;
 /// Most cables of which single ones are tried with fewer elements.
 const MOST_SINGLE: usize = 4;
-/// Most elements of a cable, runs, and work of all of them (some seconds).
-const MOST_ELEMENTS: u32 = 1024;
-const MOST_RUNS: usize = 30;
+/// Most elements of a cable, runs, and work of all of them (some seconds); of a fuzzer little, so that it gets on.
+const MOST_ELEMENTS: u32 = if cfg!(fuzzing) { 8 } else { 1024 };
+const MOST_RUNS: usize = if cfg!(fuzzing) { 4 } else { 30 };
 const MOST_WORK: f64 = if cfg!(fuzzing) { 1e5 } else { 1e8 };
 
 /// A search under way.
