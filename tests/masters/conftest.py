@@ -12,6 +12,9 @@ sys.path.insert(0, str(HERE.parent / "fmpy"))
 
 from project import package, xtask  # noqa: E402
 
+# Of cables that leave their number of elements to the planner.
+ELEMENTS = 8
+
 
 class Systems:
     """Coupled systems by name, with their FMUs and what they must do."""
@@ -30,6 +33,10 @@ class Systems:
         """The scene of a unit, with some keys replaced, or left out where null replaces them."""
         scene = json.loads((HERE / "systems" / unit["scene"]).read_text(encoding="utf-8"))
         scene = {**scene, **unit.get("change", {}), **(change or {})}
+        for body in scene["bodies"]:
+            if body["element"] == "cable":
+                # A unit and its reference have one mesh, whatever either would be planned with.
+                body.setdefault("elements", ELEMENTS)
         return {key: value for key, value in scene.items() if value is not None}
 
     def write(self, name, scene):
