@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::scenes::Rod;
-use super::{Marker, Vector};
+use super::{Marker, Vector, shape_functions};
 use crate::elements::rule::Rule;
 
 /// How the ends of a rod are held in its floating frame.
@@ -197,27 +197,7 @@ impl Mesh {
 
     /// Shape functions of an element at a place in it, differentiated so many times.
     fn shapes(&self, at: f64, times: usize) -> [f64; 4] {
-        let (x, l) = (at, self.length);
-        match times {
-            0 => [
-                1.0 - x * x * (3.0 - 2.0 * x),
-                l * x * (1.0 - x).powi(2),
-                x * x * (3.0 - 2.0 * x),
-                l * x * x * (x - 1.0),
-            ],
-            1 => [
-                6.0 * x * (x - 1.0) / l,
-                1.0 - 4.0 * x + 3.0 * x * x,
-                6.0 * x * (1.0 - x) / l,
-                3.0 * x * x - 2.0 * x,
-            ],
-            _ => [
-                (12.0 * x - 6.0) / (l * l),
-                (6.0 * x - 4.0) / l,
-                (6.0 - 12.0 * x) / (l * l),
-                (6.0 * x - 2.0) / l,
-            ],
-        }
+        shape_functions(at, self.length, times)
     }
 
     /// Axial modes. Where both ends are interfaces, forces along the axis act there: the stretch between them comes first,

@@ -10,7 +10,7 @@
 //! 153-161.
 
 use super::scenes::Rod;
-use super::{Block, Body, Columns, Marker, Motion, Placement, Vector, dot, plus, quarter};
+use super::{Block, Body, Columns, Marker, Motion, Node, Placement, Vector, dot, plus, quarter};
 use crate::elements::rule::Rule;
 
 /// Mass of an element.
@@ -91,12 +91,13 @@ impl Corotational {
         }
     }
 
-    fn node(&self, marker: Marker) -> usize {
-        match marker {
+    fn node(&self, marker: Marker) -> Node {
+        let node = match marker {
             Marker::Start => 0,
             Marker::Middle => self.elements / 2,
             Marker::End => self.elements,
-        }
+        };
+        Node(3 * node)
     }
 
     #[inline(always)]
@@ -282,17 +283,15 @@ impl Body for Corotational {
     }
 
     fn position(&self, marker: Marker, q: &[f64]) -> Vector {
-        let i = 3 * self.node(marker);
-        [q[i], q[i + 1]]
+        self.node(marker).position(q)
     }
 
     fn columns(&self, marker: Marker, _: &[f64], out: &mut Columns) {
-        let i = 3 * self.node(marker);
-        out.extend([(i, [1.0, 0.0]), (i + 1, [0.0, 1.0])]);
+        self.node(marker).columns(out);
     }
 
     fn angle(&self, marker: Marker) -> Vec<(usize, f64)> {
-        vec![(3 * self.node(marker) + 2, 1.0)]
+        self.node(marker).angle()
     }
 }
 

@@ -14,7 +14,7 @@ use proptest::prelude::*;
 
 use super::basis::{Basis, Lump, Shape};
 use super::frame::FloatingFrame;
-use super::{Body, Marker, Motion, Vector, plus, quarter, turned};
+use super::{Body, Marker, Motion, Vector, plus, quarter, shape_functions, turned};
 use crate::elements::rule::Rule;
 use crate::formulations::{Node, Rod, uniform};
 
@@ -37,30 +37,6 @@ fn rod(elements: usize, gravity: Vector) -> Rod {
     Rod::new(uniform(parameters, elements), true, gravity)
 }
 
-/// Hermite functions (report Eq. 9), differentiated so many times.
-fn hermite(x: f64, l: f64, times: usize) -> [f64; 4] {
-    match times {
-        0 => [
-            1.0 - 3.0 * x * x + 2.0 * x * x * x,
-            l * (x - 2.0 * x * x + x * x * x),
-            3.0 * x * x - 2.0 * x * x * x,
-            l * (x * x * x - x * x),
-        ],
-        1 => [
-            6.0 * (x * x - x) / l,
-            1.0 - 4.0 * x + 3.0 * x * x,
-            6.0 * (x - x * x) / l,
-            3.0 * x * x - 2.0 * x,
-        ],
-        _ => [
-            (12.0 * x - 6.0) / (l * l),
-            (6.0 * x - 4.0) / l,
-            (6.0 - 12.0 * x) / (l * l),
-            (6.0 * x - 2.0) / l,
-        ],
-    }
-}
-
 /// Node, position or slope, and component of every local coordinate: all but the start and the direction there.
 fn locals(elements: usize) -> Vec<(usize, usize, usize)> {
     let all = (0..4 * (elements + 1)).map(|i| (i / 4, i / 2 % 2, i % 2));
@@ -72,7 +48,7 @@ fn locals(elements: usize) -> Vec<(usize, usize, usize)> {
 fn shape(elements: usize, x: f64, times: usize) -> Shape {
     let l = LENGTH / elements as f64;
     let j = ((x / l) as usize).min(elements - 1);
-    let values = hermite(x / l - j as f64, l, times);
+    let values = shape_functions(x / l - j as f64, l, times);
     let places = locals(elements);
     let of = |d: usize| {
         let value = |&(node, kind, component): &(usize, usize, usize)| match node.checked_sub(j) {
@@ -241,7 +217,7 @@ fn apart(elements: usize, q: &[f64], v: &[f64], linear: bool) -> [f64; 3] {
     let place = |(marker, at): (Marker, f64)| {
         let l = LENGTH / elements as f64;
         let j = ((at / l) as usize).min(elements - 1);
-        let values = hermite(at / l - j as f64, l, 0);
+        let values = shape_functions(at / l - j as f64, l, 0);
         let sum = |d: usize| {
             (0..4)
                 .map(|k| values[k] * x[j + k / 2][k % 2][d])

@@ -96,21 +96,11 @@ pub fn run(
 
 /// The largest frequency at the start, rad/s: power iteration.
 pub fn fastest(system: &mut System) -> f64 {
-    let [q, v] = system.start.clone();
-    let n = q.len();
-    let rest = vec![0.0; n];
-    let motion = Motion {
-        q: &q,
-        v: &rest,
-        a: &rest,
-    };
-    let (mut stiffness, mut mass) = (system.band(), system.band());
-    system.tangent(0.0, motion, &rest, [1.0, 0.0, 0.0], &mut stiffness);
-    system.tangent(0.0, motion, &rest, [0.0, 0.0, 1.0], &mut mass);
+    let [stiffness, mut mass] = system.matrices_at_rest();
     if mass.factor().is_none() {
         return f64::INFINITY;
     }
-    let mut z: Vec<f64> = (0..v.len()).map(|i| (1.7 * i as f64).sin()).collect();
+    let mut z: Vec<f64> = (0..system.size()).map(|i| (1.7 * i as f64).sin()).collect();
     let mut square = 0.0_f64;
     for _ in 0..400 {
         for (z, multiplier) in z.iter_mut().zip(&system.multiplier) {

@@ -26,6 +26,7 @@ mod table;
 mod tests;
 
 use band::Band;
+use flexbody::elements::shape;
 
 pub use increments::stretch_of_a_turn;
 pub use march::{Kind, run};
@@ -130,6 +131,36 @@ pub trait Body {
 
     /// Direction of a marker, rad: a linear function of coordinates, its terms.
     fn angle(&self, marker: Marker) -> Vec<(usize, f64)>;
+}
+
+/// Shape functions of an element of cubic polynomials of length `l` (m) at `x` in [0, 1], differentiated so many times by
+/// the length.
+fn shape_functions(x: f64, l: f64, times: usize) -> [f64; 4] {
+    match times {
+        0 => shape::values(x, l),
+        1 => shape::slopes(x, l),
+        _ => shape::curvatures(x, l),
+    }
+    .into()
+}
+
+/// A node of position and angle: the first of its three coordinates.
+#[derive(Clone, Copy)]
+struct Node(usize);
+
+impl Node {
+    fn position(self, q: &[f64]) -> Vector {
+        [q[self.0], q[self.0 + 1]]
+    }
+
+    /// Derivatives of the position.
+    fn columns(self, out: &mut Columns) {
+        out.extend([(self.0, [1.0, 0.0]), (self.0 + 1, [0.0, 1.0])]);
+    }
+
+    fn angle(self) -> Vec<(usize, f64)> {
+        vec![(self.0 + 2, 1.0)]
+    }
 }
 
 /// Sum of products.

@@ -7,7 +7,7 @@
 //! section 5.
 
 use super::scenes::Rod;
-use super::{Block, Body, Columns, Marker, Motion, Placement, Vector, dot, plus};
+use super::{Block, Body, Columns, Marker, Motion, Node, Placement, Vector, dot, plus};
 use crate::elements::rule::Rule;
 
 /// Degree of the interpolation and points of the strain.
@@ -74,12 +74,13 @@ impl Rotations {
         self.elements * self.degree + 1
     }
 
-    fn node(&self, marker: Marker) -> usize {
-        match marker {
+    fn node(&self, marker: Marker) -> Node {
+        let node = match marker {
             Marker::Start => 0,
             Marker::Middle => (self.nodes() - 1) / 2,
             Marker::End => self.nodes() - 1,
-        }
+        };
+        Node(3 * node)
     }
 
     /// Strains at a point of an element.
@@ -224,17 +225,15 @@ impl Body for Rotations {
     }
 
     fn position(&self, marker: Marker, q: &[f64]) -> Vector {
-        let i = 3 * self.node(marker);
-        [q[i], q[i + 1]]
+        self.node(marker).position(q)
     }
 
     fn columns(&self, marker: Marker, _: &[f64], out: &mut Columns) {
-        let i = 3 * self.node(marker);
-        out.extend([(i, [1.0, 0.0]), (i + 1, [0.0, 1.0])]);
+        self.node(marker).columns(out);
     }
 
     fn angle(&self, marker: Marker) -> Vec<(usize, f64)> {
-        vec![(3 * self.node(marker) + 2, 1.0)]
+        self.node(marker).angle()
     }
 }
 

@@ -140,6 +140,22 @@ impl System {
         Band::zeros(self.size(), self.half)
     }
 
+    /// Tangents of stiffness and of mass at the start, without motion.
+    pub fn matrices_at_rest(&mut self) -> [Band; 2] {
+        let [q, v] = self.start.clone();
+        let rest = vec![0.0; v.len()];
+        let motion = Motion {
+            q: &q,
+            v: &rest,
+            a: &rest,
+        };
+        [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]].map(|weights| {
+            let mut matrix = self.band();
+            self.tangent(0.0, motion, &rest, weights, &mut matrix);
+            matrix
+        })
+    }
+
     /// Whether mass and joints never change.
     pub fn has_constant_mass(&self) -> bool {
         self.bodies.iter().all(|(_, body)| body.has_constant_mass())

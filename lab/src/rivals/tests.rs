@@ -302,22 +302,13 @@ fn lowest_frequency(choice: Choice) -> f64 {
         }),
     ];
     let mut system = System::new(items, Vec::new(), [0.0; 2]);
-    let q = system.start[0].clone();
-    let rest = vec![0.0; q.len()];
-    let motion = Motion {
-        q: &q,
-        v: &rest,
-        a: &rest,
-    };
-    let (mut stiffness, mut mass) = (system.band(), system.band());
-    system.tangent(0.0, motion, &rest, [1.0, 0.0, 0.0], &mut stiffness);
-    system.tangent(0.0, motion, &rest, [0.0, 0.0, 1.0], &mut mass);
+    let [mut stiffness, mass] = system.matrices_at_rest();
     stiffness.factor().expect("a regular stiffness");
     let free = |z: &mut Vec<f64>| {
         let entries = z.iter_mut().zip(&system.multiplier);
         entries.for_each(|(z, held)| *z = if *held { 0.0 } else { *z });
     };
-    let mut z: Vec<f64> = (0..q.len()).map(|i| 1.0 + number(i, 0.9)).collect();
+    let mut z: Vec<f64> = (0..system.size()).map(|i| 1.0 + number(i, 0.9)).collect();
     let mut square = 0.0;
     for _ in 0..60 {
         free(&mut z);
