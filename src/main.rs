@@ -10,7 +10,7 @@ use std::time::Duration;
 use clap::{Parser, Subcommand};
 use cpu_time::ThreadTime;
 use flexbody::fmi2;
-use flexbody::scene::Scene;
+use flexbody::scene::{Experiment, Scene};
 use flexbody::simulation::{Causality, Report, SignalError, Signals, Simulation, check};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -302,8 +302,7 @@ fn communication_points(stop_time: f64, step: f64) -> Outcome<u64> {
             return Err(format!("{name}: expected a positive number, found {value}"));
         }
     }
-    // The last step is shorter where the stop time is no multiple, but not by rounding alone.
-    let count = (stop_time / step - 1e-9).ceil().max(1.0);
+    let count = Experiment { stop_time, step }.steps();
     if count > 1e9 {
         return Err(format!("--step: expected at most 1e9 steps, found {count}"));
     }

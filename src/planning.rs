@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{self, Plan, Price, Settles, estimate};
+use flexbody::simulation::{self, Plan, Settles};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Outcome, Planning, at, read};
@@ -94,7 +94,7 @@ fn in_words(plan: &Plan) -> String {
         let elements = body.elements.map(|n| n.to_string()).unwrap_or_default();
         [
             body.name.clone(),
-            body.kind.clone(),
+            body.kind.to_owned(),
             elements,
             body.why.clone(),
         ]
@@ -117,24 +117,17 @@ fn in_words(plan: &Plan) -> String {
             Settles::Until(time) => format!("kept until {time:.3} s"),
             Settles::No => "does not settle".into(),
         };
-        [output.name.clone(), estimate(output.error), settles]
+        [output.name.clone(), output.error_in_words(), settles]
     });
     text += &table(&["output", "error", ""], rows.collect());
     text += "\ncost\n";
-    let rows = [
-        ("cheaper", &plan.cheaper),
-        ("chosen", &plan.chosen),
-        ("dearer", &plan.dearer),
-    ];
-    let rows = rows.iter().filter_map(|(name, price)| {
-        let price: &Price = price.as_ref()?;
-        let elements: Vec<String> = price.elements.iter().map(u32::to_string).collect();
-        Some([
-            (*name).to_owned(),
-            elements.join(", "),
+    let rows = plan.prices().map(|(name, price)| {
+        [
+            name.to_owned(),
+            price.elements_in_words(),
             format!("about {:.2} ms a second", price.milliseconds()),
-            price.error.map(estimate).unwrap_or_default(),
-        ])
+            price.error_in_words(),
+        ]
     });
     text += &table(
         &["choice", "elements", "cost", "largest error"],

@@ -7,6 +7,7 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use flexbody::integrators::{Attempt, Counts, Method, Stop, Tolerance, advance};
 use flexbody::math::switches::grain;
+use flexbody::scene::Experiment;
 use flexbody::system::{Accepted, Dynamics, Evaluation, Model, State, natural_frequencies};
 
 use crate::integrators::{self, Build, Probe, Tally};
@@ -93,10 +94,11 @@ pub fn integrate(arguments: &Integrate) -> Outcome<()> {
     let (mut state, mut work) = (start.state.clone(), start.work.clone());
     let mut cost = Cost::default();
     table.add(&start, &state, &mut work);
-    // As many as fit, but for rounding.
-    let points = (arguments.stop_time / arguments.every - 1e-9)
-        .ceil()
-        .max(1.0) as u64;
+    let experiment = Experiment {
+        stop_time: arguments.stop_time,
+        step: arguments.every,
+    };
+    let points = experiment.steps() as u64;
     for point in 1..=points {
         let until = (point as f64 * arguments.every).min(arguments.stop_time);
         let model = Model::new(system, inputs, &mut work, &state);

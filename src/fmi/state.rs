@@ -1,8 +1,8 @@
 //! A saved FMU state, and its bytes: versioned, tied to one model, checksummed, without pointers.
 //!
 //! Layout, little-endian: magic, format version, GUID, lifecycle state, flags, start time, stop
-//! time, time, sub-step, work of both kinds, what integrators go by, nine lengths and that of the scene, the numbers, the scene
-//! (JSON), SHA-256 of all before. With the scene inside, a state brings an instance without resources to life.
+//! time, time, sub-step, work of both kinds, what integrators go by, nine lengths and that of the scene,
+//! the numbers, the scene (JSON), SHA-256 of all before. With the scene inside, a state brings an instance without resources to life.
 
 use std::mem::MaybeUninit;
 use std::sync::Arc;

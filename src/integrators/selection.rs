@@ -68,16 +68,11 @@ impl Methods {
         until: f64,
         tolerance: &Tolerance,
     ) -> (Counts, Result<(), Stop>) {
-        match &mut self.0[..] {
-            [one, two] => {
-                let both: [&mut dyn Method; 2] = [&mut **one, &mut **two];
-                advance_choosing(&mut { both }, dynamics, state, until, tolerance)
-            }
-            methods => {
-                let only = &mut *methods[0];
-                advance_choosing(&mut [only], dynamics, state, until, tolerance)
-            }
-        }
+        let methods: &mut [&mut dyn Method] = match &mut self.0[..] {
+            [one, two] => &mut [&mut **one, &mut **two],
+            methods => &mut [&mut *methods[0]],
+        };
+        advance_choosing(methods, dynamics, state, until, tolerance)
     }
 }
 

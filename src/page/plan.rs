@@ -3,7 +3,7 @@
 use super::canvas::escape;
 use super::number::number;
 use super::table::{code, row, table};
-use crate::simulation::{Plan, Price, Settles, estimate};
+use crate::simulation::{Plan, Settles};
 
 /// The section; nothing of a scene that was not planned.
 pub fn plan(plan: Option<&Plan>) -> String {
@@ -22,7 +22,7 @@ pub fn plan(plan: Option<&Plan>) -> String {
     );
     let rows = plan.bodies.iter().map(|body| {
         let elements = body.elements.map(|n| n.to_string()).unwrap_or_default();
-        row(&[&code(&body.name), &body.kind, &elements, &escape(&body.why)])
+        row(&[&code(&body.name), body.kind, &elements, &escape(&body.why)])
     });
     let bodies = table(
         "Numbers that were planned",
@@ -33,7 +33,7 @@ pub fn plan(plan: Option<&Plan>) -> String {
     let time = format!(
         "<p>Relative tolerance {}, integrator {} at the end of the experiment.</p>\n",
         number(plan.tolerance),
-        code(&plan.method)
+        code(plan.method)
     );
     bodies + &time + &outputs(plan) + &costs(plan)
 }
@@ -58,28 +58,20 @@ fn outputs(plan: &Plan) -> String {
             Settles::Until(time) => format!("kept until {} s", number(time)),
             Settles::No => "does not settle".into(),
         };
-        row(&[&code(&output.name), &estimate(output.error), &settles])
+        row(&[&code(&output.name), &output.error_in_words(), &settles])
     });
     let heads = ["Output", "Error estimated", "Error wanted"];
     table("Errors estimated", "", &heads, rows.collect())
 }
 
 fn costs(plan: &Plan) -> String {
-    let rows = [
-        ("cheaper", &plan.cheaper),
-        ("chosen", &plan.chosen),
-        ("dearer", &plan.dearer),
-    ];
-    let rows = rows.iter().filter_map(|(name, price)| {
-        let price: &Price = price.as_ref()?;
-        let elements: Vec<String> = price.elements.iter().map(u32::to_string).collect();
-        let error = price.error.map(estimate);
-        Some(row(&[
+    let rows = plan.prices().map(|(name, price)| {
+        row(&[
             name,
-            &elements.join(", "),
+            &price.elements_in_words(),
             &format!("{:.2}", price.milliseconds()),
-            &error.unwrap_or_default(),
-        ]))
+            &price.error_in_words(),
+        ])
     });
     let heads = [
         "Choice",

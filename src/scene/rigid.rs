@@ -1,7 +1,5 @@
 //! A cable that need not bend, as a rigid body of the same name with the same markers.
 
-use std::f64::consts::TAU;
-
 use super::description::{Body, CableBody, InitialMotion, Model, RigidBody, Vector};
 use super::{Error, Scene};
 
@@ -30,7 +28,7 @@ impl CableBody {
             mass,
             inertia: mass * length * length / 12.0,
             position: Vector::from([middle[0], middle[1]]),
-            angle: along[1].atan2(along[0]) % TAU,
+            angle: along[1].atan2(along[0]),
             motion: InitialMotion {
                 velocity: Vector::from(velocity),
                 ..motion.clone()

@@ -17,9 +17,7 @@ mod variables;
 mod watch;
 
 pub use dimension::check;
-pub use plan::{
-    Plan, PlannedBody, PlannedOutput, Price, Progress, Settles, courses, estimate, plan,
-};
+pub use plan::{Plan, PlannedBody, PlannedOutput, Price, Progress, Settles, courses, plan};
 pub use quantities::Quantity;
 pub use signals::{SignalError, Signals};
 pub use snapshot::{Snapshot, Spectra};

@@ -1,7 +1,7 @@
 //! Error control: tolerances are followed, communication points met, the impossible refused.
 
-use flexbody::integrators::{Method, Radau, Rk4, Stop, Tolerance, advance};
-use flexbody::system::State;
+use flexbody::integrators::{Attempt, Method, Methods, Radau, Rk4, Stop, Tolerance, advance};
+use flexbody::system::{Dynamics, State};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::problem::Problem;
@@ -200,4 +200,64 @@ fn a_sudden_push_is_not_overlooked() {
         assert!(error < 1e-5, "{}: {error:e}", row.name);
         assert!(rejected > 0);
     }
+}
+
+/// A method that takes no step from a time on.
+struct Weary(Box<dyn Method>, f64);
+
+impl Method for Weary {
+    fn name(&self) -> &'static str {
+        "weary"
+    }
+
+    fn longest_step(&self) -> f64 {
+        self.0.longest_step()
+    }
+
+    fn attempt(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        state: (f64, &[f64], &[f64]),
+        h: f64,
+        tolerance: &Tolerance,
+    ) -> Attempt {
+        match state.0 < self.1 {
+            true => self.0.attempt(dynamics, state, h, tolerance),
+            false => Attempt::Failed(0.1),
+        }
+    }
+
+    fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {
+        self.0.accept(q, v);
+    }
+
+    fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
+        self.0.refresh(dynamics, time, q, v);
+    }
+
+    fn acceleration(&self) -> &[f64] {
+        self.0.acceleration()
+    }
+}
+
+#[test]
+fn what_one_of_two_methods_cannot_do_the_other_does() {
+    let tolerance = Tolerance {
+        relative: 1e-6,
+        ..TIGHT
+    };
+    let row = &ROWS[0];
+    let weary = |until| -> Box<dyn Method> { Box::new(Weary((row.make)(), until)) };
+    let (mut problem, mut state) = (row.problem(), started());
+    let mut methods = Methods::two(weary(2.0), Box::new(Radau::new(2)));
+    let (_, result) = methods.advance(&mut problem, &mut state, 5.0, &tolerance);
+    assert_eq!((result, state.time), (Ok(()), 5.0));
+    assert_eq!(methods.name(&state.pace), "radau");
+    assert!((state.coordinates[0] - exact(5.0)[0]).abs() < 2e-6);
+    // Where neither goes on, that is the answer.
+    let (mut problem, mut state) = (row.problem(), started());
+    let mut methods = Methods::two(weary(2.0), weary(3.0));
+    let (_, result) = methods.advance(&mut problem, &mut state, 5.0, &tolerance);
+    assert_eq!(result, Err(Stop::StepTooSmall));
+    assert!((3.0..3.5).contains(&state.time), "{}", state.time);
 }

@@ -64,7 +64,6 @@ pub(super) mod elements {
     /// What stands in JSON.
     #[derive(Serialize, JsonSchema)]
     #[serde(untagged)]
-    #[allow(dead_code, reason = "for the schema")]
     pub enum InJson {
         /// As many as the accuracy asks for: found while packaging.
         Auto(Word),

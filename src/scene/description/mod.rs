@@ -188,6 +188,13 @@ pub struct Experiment {
     pub step: f64,
 }
 
+impl Experiment {
+    /// Number of communication steps. The last is shorter where the stop time is no multiple, but not by rounding alone.
+    pub fn steps(&self) -> f64 {
+        (self.stop_time / self.step - 1e-9).ceil().max(1.0)
+    }
+}
+
 impl Default for Experiment {
     fn default() -> Self {
         Self {

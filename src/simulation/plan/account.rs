@@ -1,11 +1,11 @@
 //! The account of a search: what was chosen, and why.
 
-use super::experiment::{Run, Unfinished, columns};
+use super::experiment::{Run, columns};
 use super::ladder::Choice;
 use super::outputs::{Difference, scale};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 use super::search::Search;
-use crate::simulation::Source;
+use crate::simulation::Causality;
 
 impl Search<'_, '_> {
     /// The plan of a choice, from what doubling and a tenth of the tolerance change.
@@ -15,36 +15,24 @@ impl Search<'_, '_> {
         in_space: &[Difference],
         in_time: &[Difference],
     ) -> Plan {
+        // A tolerance that was changed last has not been run with this mesh.
         let _ = self.run(choice);
         let mut double = choice.clone();
         self.refine(&mut double);
-        // The rung below, if there was one.
-        let below = |made: &&(Choice, Result<Run, Unfinished>)| {
-            let mut refined = made.0.clone();
-            self.refine(&mut refined);
-            refined == *choice && made.0 != *choice
-        };
-        let half = self.runs.iter().find(below).map(|(made, _)| made.clone());
-        let half = half.unwrap_or_else(|| choice.clone());
-        let half_error = match half != *choice && self.known(&half).is_some() {
-            true => self.compare(&half, choice, self.error).ok(),
-            false => None,
-        };
-        let worst = |found: Vec<Difference>| found.iter().map(|d| d.largest).fold(0.0, f64::max);
-        let half_error = half_error.map(worst);
-        let outputs = self.outputs(self.known(choice), in_space, in_time);
-        let largest = outputs.iter().map(|output| output.error).reduce(f64::max);
+        let cheaper = self.cheaper(choice);
         let chosen = self.known(choice);
+        let outputs = self.outputs(chosen, in_space, in_time);
+        let largest = outputs.iter().map(|output| output.error).reduce(f64::max);
         let cost = chosen.map_or(0.0, |run| run.work);
         Plan {
             error: self.error,
             bodies: self.bodies(choice, in_space),
             tolerance: choice.tolerance,
-            method: chosen.map_or("", |run| run.method).to_owned(),
+            method: chosen.map_or("", |run| run.method),
             held: self.held(),
             chosen: self.price(choice, largest),
             outputs,
-            cheaper: half_error.and_then(|error| self.price(&half, Some(error))),
+            cheaper,
             dearer: match double == *choice {
                 true => None,
                 false => self.price(&double, None),
@@ -54,10 +42,21 @@ impl Search<'_, '_> {
         }
     }
 
-    /// The run with a choice, if it was made and finished.
-    fn known(&self, choice: &Choice) -> Option<&Run> {
-        let run = self.runs.iter().find(|(made, _)| made == choice)?;
-        run.1.as_ref().ok()
+    /// The choice of half the mesh, if it was run.
+    fn cheaper(&mut self, choice: &Choice) -> Option<Price> {
+        let is_half = |made: &Choice| {
+            let mut refined = made.clone();
+            self.refine(&mut refined);
+            refined == *choice && made != choice
+        };
+        let mut made = self.runs.iter().map(|(made, _)| made);
+        let half = made.find(|made| is_half(made))?.clone();
+        let changes = self.compare(&half, choice, self.error).ok()?;
+        let worst = changes
+            .iter()
+            .map(|change| change.largest)
+            .fold(0.0, f64::max);
+        self.price(&half, Some(worst))
     }
 
     fn price(&self, choice: &Choice, error: Option<f64>) -> Option<Price> {
@@ -74,7 +73,7 @@ impl Search<'_, '_> {
     /// Inputs that keep their start values.
     fn held(&self) -> Vec<String> {
         let inputs = self.variables.iter();
-        let inputs = inputs.filter(|variable| matches!(variable.source, Source::Input(_)));
+        let inputs = inputs.filter(|variable| Causality::of(variable) == Causality::Input);
         let courses = columns(&self.scene.accuracy.courses, &self.variables);
         let moves = |name: &str| courses.iter().any(|(moved, ..)| moved == name);
         let held = inputs.filter(|variable| !moves(&variable.name));
@@ -116,7 +115,6 @@ impl Search<'_, '_> {
             )
         });
         let mut counts = choice.elements.iter().enumerate();
-        let fewest = self.coarsest().unwrap_or_default();
         let bodies = self.scene.bodies.iter().map(|body| {
             let (cable, count) = match body.cable() {
                 Some(_) => counts
@@ -137,9 +135,9 @@ impl Search<'_, '_> {
             };
             PlannedBody {
                 name: body.name().to_owned(),
-                kind: kind.into(),
+                kind,
                 elements,
-                fewest: cable.and_then(|cable| fewest.get(cable).copied()),
+                fewest: cable.map(|cable| self.fewest[cable]),
                 why,
             }
         });

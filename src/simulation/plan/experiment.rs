@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::scene::{Course, Error, InputCourse, Scene};
-use crate::simulation::{Signals, Simulation, Source, Variable, variables};
+use crate::simulation::{Causality, Signals, Simulation, Variable, variables};
 
 /// Communication points that are compared, about, where there are more.
 const POINTS: u64 = 10_000;
@@ -53,7 +53,7 @@ impl Experiment {
     /// # Errors
     /// A course of what is no input.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
-        let steps = communication_steps(scene);
+        let steps = scene.experiment.steps() as u64;
         Ok(Self {
             signals: courses(scene)?,
             steps,
@@ -81,6 +81,9 @@ impl Experiment {
         let started = simulation.initialize(0.0).and_then(|()| simulation.start());
         started.map_err(|error| failed(error.to_string()))?;
         let (size, natural) = simulation.natural();
+        let variables = simulation.variables().iter().enumerate();
+        let computed = variables.filter(|(_, variable)| variable.is_computed());
+        let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
         let mut run = Run {
             times: Vec::new(),
             rows: Vec::new(),
@@ -115,30 +118,14 @@ impl Experiment {
             if number % self.every != 0 && number != self.steps {
                 continue;
             }
-            let row = read(&mut simulation).map_err(|error| failed(error.to_string()))?;
+            let values = computed.iter().map(|index| simulation.real(*index));
+            let row: Result<Vec<f64>, _> = values.collect();
+            run.rows
+                .push(row.map_err(|error| failed(error.to_string()))?);
             run.times.push(simulation.time());
-            run.rows.push(row);
         }
         Ok(run)
     }
-}
-
-/// All that is computed.
-fn read(simulation: &mut Simulation) -> Result<Vec<f64>, crate::simulation::Error> {
-    let variables = simulation.variables().iter().enumerate();
-    let computed = variables.filter(|(_, variable)| variable.is_computed());
-    let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
-    computed
-        .into_iter()
-        .map(|index| simulation.real(index))
-        .collect()
-}
-
-/// Communication steps of the default experiment.
-fn communication_steps(scene: &Scene) -> u64 {
-    let (step, stop) = (scene.experiment.step, scene.experiment.stop_time);
-    // The last step is shorter where the stop time is no multiple, but not by rounding alone.
-    (stop / step - 1e-9).ceil().max(1.0) as u64
 }
 
 /// What inputs do while a scene is planned, as a CSV table with a row at every communication point; nothing where
@@ -147,7 +134,7 @@ fn communication_steps(scene: &Scene) -> u64 {
 /// # Errors
 /// A course of what is no input.
 pub fn courses(scene: &Scene) -> Result<Option<String>, Error> {
-    let (courses, steps) = (&scene.accuracy.courses, communication_steps(scene));
+    let (courses, steps) = (&scene.accuracy.courses, scene.experiment.steps() as u64);
     if courses.is_empty() {
         return Ok(None);
     }
@@ -155,7 +142,7 @@ pub fn courses(scene: &Scene) -> Result<Option<String>, Error> {
     for (place, course) in courses.iter().enumerate() {
         let is_input = variables
             .iter()
-            .any(|v| v.name == course.input && matches!(v.source, Source::Input(_)));
+            .any(|v| v.name == course.input && Causality::of(v) == Causality::Input);
         if !is_input {
             let message = format!("expected the name of an input, found \"{}\"", course.input);
             return Err(Error::new(format!("accuracy.for[{place}].input"), message));

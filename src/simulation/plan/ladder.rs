@@ -61,8 +61,8 @@ impl Ladder {
     }
 
     /// The cheapest choice on which all outputs are within the limit, and those that never are, nearly as close as they
-    /// come, for nearly as long; where there is none, the one that comes nearest to it. With it what all dearer ones change at most: an
-    /// output that changes more on a dearer rung was not as close as it seemed.
+    /// come, for nearly as long; where there is none, the one that comes nearest to it. With it what all dearer ones
+    /// change at most: an output that changes more on a dearer rung was not as close as it seemed.
     pub fn best(&self) -> Option<(Choice, Vec<Difference>)> {
         let mut rungs = self.rungs.clone();
         for index in (1..rungs.len()).rev() {

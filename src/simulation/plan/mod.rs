@@ -11,7 +11,7 @@ mod report;
 mod search;
 
 pub use experiment::courses;
-pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settles, estimate};
+pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 
 use crate::scene::{Error, Scene};
 use search::Search;

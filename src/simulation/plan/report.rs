@@ -10,7 +10,7 @@ pub struct Plan {
     /// Tolerance chosen.
     pub tolerance: f64,
     /// Integrator at the end of the experiment.
-    pub method: String,
+    pub method: &'static str,
     /// Inputs that kept their start values.
     pub held: Vec<String>,
     /// Outputs that count.
@@ -33,7 +33,7 @@ pub struct PlannedBody {
     /// Its name.
     pub name: String,
     /// `cable` or `rigid`.
-    pub kind: String,
+    pub kind: &'static str,
     /// Number of elements of a cable.
     pub elements: Option<u32>,
     /// The fewest that a cable can have, or is given.
@@ -84,15 +84,45 @@ pub struct Price {
 /// Time of an operation on a part, s: an explicit evaluation of an element on a processor of 2024.
 const OPERATION: f64 = 36e-9;
 
+impl Plan {
+    /// The choices by name, from cheap to dear, those that were run.
+    pub fn prices(&self) -> impl Iterator<Item = (&'static str, &Price)> {
+        let all = [
+            ("cheaper", &self.cheaper),
+            ("chosen", &self.chosen),
+            ("dearer", &self.dearer),
+        ];
+        all.into_iter()
+            .filter_map(|(name, price)| Some((name, price.as_ref()?)))
+    }
+}
+
+impl PlannedOutput {
+    /// The error in words.
+    pub fn error_in_words(&self) -> String {
+        in_words(self.error)
+    }
+}
+
 impl Price {
+    /// Elements of all cables in words.
+    pub fn elements_in_words(&self) -> String {
+        let elements: Vec<String> = self.elements.iter().map(u32::to_string).collect();
+        elements.join(", ")
+    }
+
+    /// The error in words; none where it is not known.
+    pub fn error_in_words(&self) -> String {
+        self.error.map(in_words).unwrap_or_default()
+    }
+
     /// What a second of simulated time costs, about, ms: counted, not measured.
     pub fn milliseconds(&self) -> f64 {
         1e3 * OPERATION * self.work
     }
 }
 
-/// An estimated error in words.
-pub fn estimate(error: f64) -> String {
+fn in_words(error: f64) -> String {
     match error.is_finite() {
         true => format!("{error:.1e}"),
         false => "not known".into(),

@@ -38,22 +38,40 @@ pub(super) struct Search<'a, 'p> {
     /// Runs so far, and the work of all of them.
     pub runs: Vec<(Choice, Result<Run, Unfinished>)>,
     pub work: f64,
-    /// As few elements of every cable as there can be while it bends.
-    fewest: Vec<u32>,
+    /// As few elements of every cable as there can be while it bends, or as many as are given; none of one that is said
+    /// to be rigid.
+    pub fewest: Vec<u32>,
     progress: Progress<'p>,
 }
 
 /// Cables of a scene, with their places among the bodies.
-pub(super) fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &CableBody)> {
+fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &CableBody)> {
     let bodies = scene.bodies.iter().enumerate();
     bodies.filter_map(|(index, body)| Some((index, body.cable()?)))
+}
+
+/// See [`Search::fewest`].
+fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
+    let resolved = scene.resolve()?;
+    let bodies = resolved.bodies.iter().enumerate();
+    let counts = bodies.filter_map(|(place, body)| {
+        let BodyReference::Cable(cable) = body else {
+            return None;
+        };
+        Some(match (cable.body.model, cable.body.elements) {
+            (Model::Rigid, _) => scene.with_rigid(place).map(|_| 0),
+            (_, Some(count)) => Ok(count),
+            (_, None) => resolved.fewest_elements(*cable),
+        })
+    });
+    counts.collect()
 }
 
 impl<'a, 'p> Search<'a, 'p> {
     /// For a scene that leaves something to the planner.
     ///
     /// # Errors
-    /// A name in `accuracy` that the scene does not have.
+    /// A name in `accuracy` that the scene does not have; a cable that cannot be rigid and is to be.
     pub fn new(scene: &'a Scene, progress: Progress<'p>) -> Result<Self, Error> {
         let variables = variables(scene);
         Ok(Self {
@@ -64,7 +82,7 @@ impl<'a, 'p> Search<'a, 'p> {
             variables,
             runs: Vec::new(),
             work: 0.0,
-            fewest: Vec::new(),
+            fewest: fewest(scene)?,
             progress,
         })
     }
@@ -74,7 +92,6 @@ impl<'a, 'p> Search<'a, 'p> {
     /// # Errors
     /// An experiment that cannot be run with any mesh.
     pub fn find(mut self) -> Result<(Scene, Plan), Error> {
-        self.fewest = self.coarsest()?;
         let mut choice = Choice {
             elements: self.fewest.clone(),
             tolerance: self.first_tolerance(),
@@ -91,29 +108,9 @@ impl<'a, 'p> Search<'a, 'p> {
         ))
     }
 
-    /// As many elements as are given, or as few as there can be; none of a cable that is said to be rigid.
-    pub fn coarsest(&self) -> Result<Vec<u32>, Error> {
-        let resolved = self.scene.resolve()?;
-        let cables = resolved.bodies.iter().filter_map(|body| match body {
-            BodyReference::Cable(cable) => Some(*cable),
-            BodyReference::Rigid(_) => None,
-        });
-        let places = self::cables(self.scene).map(|(body, _)| body);
-        cables
-            .zip(places)
-            .map(
-                |(cable, body)| match (cable.body.model, cable.body.elements) {
-                    (Model::Rigid, _) => self.scene.with_rigid(body).map(|_| 0),
-                    (_, Some(count)) => Ok(count),
-                    (_, None) => resolved.fewest_elements(cable),
-                },
-            )
-            .collect()
-    }
-
-    /// The same, with all that may be rigid.
-    fn stiffest(&self, coarsest: &[u32]) -> Vec<u32> {
-        let cables = cables(self.scene).zip(coarsest);
+    /// A mesh with all cables rigid that may be.
+    fn stiffest(&self, elements: &[u32]) -> Vec<u32> {
+        let cables = cables(self.scene).zip(elements);
         let least = cables.map(|((body, _), count)| match self.scene.may_be_rigid(body) {
             true => 0,
             false => *count,
@@ -150,33 +147,49 @@ impl<'a, 'p> Search<'a, 'p> {
         scene
     }
 
+    /// The place of the run with a choice among those made, if it was.
+    fn place(&self, choice: &Choice) -> Option<usize> {
+        self.runs.iter().position(|(made, _)| made == choice)
+    }
+
+    /// The run with a choice, if it was made and finished.
+    pub fn known(&self, choice: &Choice) -> Option<&Run> {
+        self.finished(self.place(choice)?).ok()
+    }
+
+    fn finished(&self, place: usize) -> Result<&Run, Unfinished> {
+        self.runs[place].1.as_ref().map_err(Clone::clone)
+    }
+
     /// The run with a choice; one that was made before is not made again.
     pub fn run(&mut self, choice: &Choice) -> Result<&Run, Unfinished> {
-        let known = self.runs.iter().position(|(made, _)| made == choice);
-        let index = match known {
-            Some(index) => index,
+        let place = match self.place(choice) {
+            Some(place) => place,
             None => {
-                let elements = choice.elements.iter().sum();
-                (self.progress)(self.runs.len() + 1, elements, choice.tolerance);
-                let left = match self.runs.len() < MOST_RUNS {
-                    true => MOST_WORK - self.work,
-                    false => 0.0,
-                };
-                let scene = self.planned(choice);
-                let run = match left > 0.0 {
-                    true => self.experiment.run(scene, choice.is_halved, left),
-                    false => Err(Unfinished::TooMuchWork),
-                };
-                self.work += match &run {
-                    Ok(run) => run.work,
-                    Err(Unfinished::TooMuchWork) => left.max(0.0),
-                    Err(Unfinished::Failed(_)) => 0.0,
-                };
+                let run = self.make(choice);
                 self.runs.push((choice.clone(), run));
                 self.runs.len() - 1
             }
         };
-        self.runs[index].1.as_ref().map_err(Clone::clone)
+        self.finished(place)
+    }
+
+    fn make(&mut self, choice: &Choice) -> Result<Run, Unfinished> {
+        let elements = choice.elements.iter().sum();
+        (self.progress)(self.runs.len() + 1, elements, choice.tolerance);
+        let left = MOST_WORK - self.work;
+        if self.runs.len() >= MOST_RUNS || left <= 0.0 {
+            return Err(Unfinished::TooMuchWork);
+        }
+        let run = self
+            .experiment
+            .run(self.planned(choice), choice.is_halved, left);
+        self.work += match &run {
+            Ok(run) => run.work,
+            Err(Unfinished::TooMuchWork) => left,
+            Err(Unfinished::Failed(_)) => 0.0,
+        };
+        run
     }
 
     /// What all outputs change from one choice to another that is closer to the truth.
@@ -186,12 +199,13 @@ impl<'a, 'p> Search<'a, 'p> {
         closer: &Choice,
         limit: f64,
     ) -> Result<Vec<Difference>, Unfinished> {
-        let run = self.run(choice)?.clone();
-        let groups = self.groups.clone();
-        let closer = self.run(closer)?;
-        let found = groups
-            .iter()
-            .map(|group| difference(group, &run, closer, limit));
+        self.run(choice)?;
+        self.run(closer)?;
+        let Some((run, closer)) = self.known(choice).zip(self.known(closer)) else {
+            return Err(Unfinished::TooMuchWork);
+        };
+        let groups = self.groups.iter();
+        let found = groups.map(|group| difference(group, run, closer, limit));
         Ok(found.collect())
     }
 

@@ -32,6 +32,14 @@ impl Causality {
 }
 
 impl Variable {
+    /// Whether it is computed: an output or a calculated parameter.
+    pub fn is_computed(&self) -> bool {
+        matches!(
+            Causality::of(self),
+            Causality::Output | Causality::CalculatedParameter
+        )
+    }
+
     /// Least and greatest value of a parameter, as far as bounds can say it: where zero itself is
     /// refused, setting the parameter says so.
     pub fn limits(&self) -> (Option<f64>, Option<f64>) {

@@ -105,14 +105,6 @@ pub enum Parameter {
 }
 
 impl Variable {
-    /// Whether it is computed: an output or a calculated parameter.
-    pub fn is_computed(&self) -> bool {
-        !matches!(
-            self.source,
-            Source::Parameter(_) | Source::Time | Source::Input(_)
-        )
-    }
-
     /// Whether the value is an integer; all others are real numbers.
     pub fn is_integer(&self) -> bool {
         matches!(self.source, Source::Parameter(Parameter::Elements(_)))
