@@ -25,6 +25,9 @@ const SMALLEST: f64 = 1.0 / 256.0;
 const STEPS: usize = 2000;
 /// Largest turn of a slope in one step, where smaller ones are left to try, rad.
 const BRANCH: f64 = 1.5;
+/// Such turns where smaller steps do not help, at most: what hangs falls into place, an arch snaps through. More of them
+/// go from one equilibrium to others with turns more.
+const LEAPS: usize = 2;
 /// First step of a way that closes joints.
 const CLOSING: f64 = 1.0 / 8.0;
 /// Bending stiffness, relative to `EA L^2`, of ropes while joints are closed: they bend rather than fold.
@@ -167,6 +170,7 @@ impl Path<'_> {
         let (mut reached, mut step, mut correction) = (0.0, self.first, f64::INFINITY);
         let (mut from, mut before) = (state.clone(), way(0.0, work));
         let mut found = Found { is_stable: true };
+        let mut leaps = 0;
         for _ in 0..STEPS {
             if reached >= 1.0 {
                 return Ok(found);
@@ -190,11 +194,13 @@ impl Path<'_> {
             // Far from the last equilibrium there may be another one, with a turn more.
             let mut model = Model::new(&next, self.inputs, work, &from);
             let turn = model.largest_turn(&from.coordinates, &state.coordinates);
-            if turn > BRANCH && step > SMALLEST.sqrt() {
+            let leaps_on = turn > BRANCH;
+            if leaps_on && (step > SMALLEST.sqrt() || leaps == LEAPS) {
                 outcome = Err(correction);
             }
             match outcome {
                 Ok(now) => {
+                    leaps += usize::from(leaps_on);
                     (reached, found) = (target, now);
                     step *= 2.0;
                     from.copy_from(state);
