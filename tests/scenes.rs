@@ -318,7 +318,8 @@ fn shipped_scenes_run_without_a_struggle() {
         let (accepted, rejected) = experiment(&path);
         let place = path.display();
         assert!(
-            2 * rejected < accepted,
+            // A scene at rest takes a step or two in all.
+            2 * rejected < accepted.max(10),
             "{place}: {rejected} rejected, {accepted} accepted"
         );
         assert!(accepted < 100_000, "{place}: {accepted} steps");

@@ -1,7 +1,7 @@
 //! A saved FMU state, and its bytes: versioned, tied to one model, checksummed, without pointers.
 //!
 //! Layout, little-endian: magic, format version, GUID, lifecycle state, flags, start time, stop
-//! time, time, sub-step, work of both kinds, what integrators go by, nine lengths and that of the scene,
+//! time, time, sub-step, work of both kinds, what integrators go by, the step within which it stands, eleven lengths and that of the scene,
 //! the numbers, the scene (JSON), SHA-256 of all before. With the scene inside, a state brings an instance without resources to life.
 
 use std::mem::MaybeUninit;
@@ -12,17 +12,19 @@ use sha2::{Digest, Sha256};
 use super::lifecycle;
 use super::status::Fault;
 use crate::simulation::{Snapshot, Spectra};
-use crate::system::{Pace, State};
+use crate::system::{DenseStep, Pace, State};
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const GUID_BYTES: usize = 38;
 const HASH_BYTES: usize = 32;
-const ARRAYS: usize = 9;
+const ARRAYS: usize = 11;
 /// Numbers of every motion that inputs drive.
 const DRIVEN: usize = 5;
-/// Magic, version, GUID, two bytes, six numbers and those of the pace, lengths of the arrays and the scene.
-const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + (6 + Pace::NUMBERS) * 8 + (ARRAYS + 1) * 8;
+/// Numbers that every state has.
+const NUMBERS: usize = 6 + Pace::NUMBERS + DenseStep::NUMBERS;
+/// Magic, version, GUID, two bytes, numbers, lengths of the arrays and the scene.
+const HEADER_BYTES: usize = 8 + 4 + GUID_BYTES + 2 + NUMBERS * 8 + (ARRAYS + 1) * 8;
 const INITIALIZED: u8 = 1;
 const STARTED: u8 = 2;
 const STOP_DEFINED: u8 = 4;
@@ -75,7 +77,8 @@ impl SavedState {
         let stop = self.stop_time.unwrap_or(0.0);
         let [input, lost] = state.work;
         let times = [self.start_time, stop, state.time, state.step, input, lost];
-        for number in times.into_iter().chain(state.pace.numbers()) {
+        let step = state.dense.numbers();
+        for number in times.into_iter().chain(state.pace.numbers()).chain(step) {
             bytes.extend(number.to_le_bytes());
         }
         for array in self.arrays() {
@@ -119,18 +122,8 @@ impl SavedState {
         let (lifecycle, initialized, started) = stage(mode, flags)?;
         let [start_time, stop, time, step, input, lost] = reader.numbers()?;
         let pace = Pace::from_numbers(reader.numbers()?);
-        let mut lengths = [0; ARRAYS];
-        for length in &mut lengths {
-            *length = u64::from_le_bytes(reader.take()?);
-        }
-        let scene_length = u64::from_le_bytes(reader.take()?);
-        let mut arrays = [const { Vec::new() }; ARRAYS];
-        for (array, length) in arrays.iter_mut().zip(lengths) {
-            *array = reader.array(length)?;
-        }
-        if reader.0.len() as u64 != scene_length {
-            return Err(refused("is not as long as it says"));
-        }
+        let step_numbers = reader.numbers()?;
+        let arrays = reader.arrays()?;
         let scene = std::str::from_utf8(reader.0).map_err(|_| refused("holds no scene"))?;
         let [
             values,
@@ -142,7 +135,12 @@ impl SavedState {
             travel,
             driven,
             slopes,
+            held,
+            mut vectors,
         ] = arrays;
+        if vectors.is_empty() {
+            vectors = DenseStep::blank(coordinates.len()).vectors;
+        }
         let (driven, rest) = driven.as_chunks::<DRIVEN>();
         let (slopes, none) = slopes.as_chunks();
         let (eigenvalues, half) = eigenvalues.as_chunks();
@@ -160,6 +158,7 @@ impl SavedState {
             travel,
             driven: driven.to_vec(),
             work: [input, lost],
+            dense: DenseStep::from_numbers(step_numbers, vectors),
         };
         Ok(Self {
             guid: guid.into(),
@@ -173,6 +172,7 @@ impl SavedState {
                 started,
                 moving: flags & MOVING != 0,
                 slopes: slopes.to_vec(),
+                held,
                 spectra: Spectra {
                     frequencies,
                     eigenvalues: eigenvalues.to_vec(),
@@ -186,6 +186,7 @@ impl SavedState {
         let Snapshot {
             values,
             slopes,
+            held,
             spectra,
             state,
             ..
@@ -200,6 +201,11 @@ impl SavedState {
             &state.travel,
             state.driven.as_flattened(),
             slopes.as_flattened(),
+            held,
+            match state.dense.length > 0.0 {
+                true => &state.dense.vectors,
+                false => &[],
+            },
         ]
     }
 }
@@ -288,6 +294,23 @@ impl Reader<'_> {
         Ok(numbers)
     }
 
+    /// The lengths of the arrays and of the scene, then the arrays; the scene is left.
+    fn arrays(&mut self) -> Result<[Vec<f64>; ARRAYS], Fault> {
+        let mut lengths = [0; ARRAYS];
+        for length in &mut lengths {
+            *length = u64::from_le_bytes(self.take()?);
+        }
+        let scene_length = u64::from_le_bytes(self.take()?);
+        let mut arrays = [const { Vec::new() }; ARRAYS];
+        for (array, length) in arrays.iter_mut().zip(lengths) {
+            *array = self.array(length)?;
+        }
+        match self.0.len() as u64 == scene_length {
+            true => Ok(arrays),
+            false => Err(refused("is not as long as it says")),
+        }
+    }
+
     fn array(&mut self, length: u64) -> Result<Vec<f64>, Fault> {
         // Compared before anything is allocated: a hostile length must not exhaust the memory.
         if length > self.0.len() as u64 / 8 {
@@ -316,6 +339,7 @@ mod tests {
                 started: true,
                 moving: true,
                 slopes: vec![[0.1, -0.2]],
+                held: vec![0.7],
                 spectra: Spectra {
                     frequencies: vec![2.0],
                     eigenvalues: vec![[0.1, 3.0]],
@@ -330,6 +354,13 @@ mod tests {
                     travel: vec![0.5],
                     driven: vec![[1.0, 2.0, 3.0, 4.0, 5.0]],
                     work: [8.0, -9.0],
+                    dense: DenseStep {
+                        start: 0.2,
+                        length: 0.1,
+                        under_way: 1.0,
+                        vectors: vec![0.5; 10],
+                        ..DenseStep::default()
+                    },
                 },
             },
         }
@@ -387,7 +418,7 @@ mod tests {
         assert!(reason(other.to_bytes()).contains("expected one of the model"));
         let mut version = bytes.clone();
         version[8] = 1;
-        assert!(reason(version).contains("format version 4, found 1"));
+        assert!(reason(version).contains("format version 5, found 1"));
         let mut mode = bytes.clone();
         mode[50] = 64;
         assert!(reason(mode).contains("lifecycle"));
@@ -399,8 +430,8 @@ mod tests {
         assert!(reason(length).contains("cut off"));
         let mut driven = bytes.clone();
         // One number more in the list of driven motions, one less in the one before.
-        driven[HEADER_BYTES - 24] = 6;
-        driven[HEADER_BYTES - 32] = 0;
+        driven[HEADER_BYTES - 40] = 6;
+        driven[HEADER_BYTES - 48] = 0;
         assert!(reason(driven).contains("driven motion"));
         let mut state = example();
         state.snapshot.state.rates[1] = f64::NAN;

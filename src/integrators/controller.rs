@@ -38,11 +38,17 @@ pub(super) struct Controller {
 }
 
 impl Controller {
-    pub fn new() -> Self {
+    /// With the steps for which stage equations could be solved before (s), where they follow on these.
+    pub fn new(ceiling: Option<f64>) -> Self {
         Self {
             grow: GROW,
-            ceiling: f64::INFINITY,
+            ceiling: ceiling.unwrap_or(f64::MAX),
         }
+    }
+
+    /// Steps for which stage equations could be solved, s.
+    pub fn ceiling(&self) -> f64 {
+        self.ceiling
     }
 
     /// The step to try where `wanted` (s) is proposed and allowed. Whole steps to the end: a sliver left over
@@ -62,7 +68,7 @@ impl Controller {
 
     /// The length to propose after a step with this error, in tolerances; `before` was proposed last.
     pub fn accept(&mut self, trial: Trial, error: f64, before: f64) -> f64 {
-        self.ceiling *= RELAX;
+        self.ceiling = (self.ceiling * RELAX).min(f64::MAX);
         let factor = SAFETY * error.max(1e-10).powf(-0.25);
         let next = trial.h * factor.clamp(SHRINK, self.grow);
         let next = next.min(self.ceiling);
@@ -101,7 +107,7 @@ mod tests {
 
     #[test]
     fn finds_the_step_whose_error_is_just_tolerated() {
-        let mut controller = Controller::new();
+        let mut controller = Controller::new(None);
         let (mut step, mut rejected) = (1.0, 0);
         for _ in 0..20 {
             let trial = Controller::trial(step, 1e9);
@@ -129,7 +135,7 @@ mod tests {
 
     #[test]
     fn a_step_that_ends_at_the_communication_point_leaves_the_longer_one_proposed() {
-        let mut controller = Controller::new();
+        let mut controller = Controller::new(None);
         let cut = Controller::trial(1.0, 1e-3);
         assert_eq!(controller.accept(cut, 1.0, 1.0), 1.0);
         let whole = Controller::trial(1.0, 100.0);
@@ -138,7 +144,7 @@ mod tests {
 
     #[test]
     fn grows_slowly_from_where_stage_equations_were_not_solved() {
-        let mut controller = Controller::new();
+        let mut controller = Controller::new(None);
         let failed = Controller::trial(1.0, 100.0);
         let step = controller.reject(failed, Attempt::Failed(0.5));
         assert_eq!(step, 0.5);

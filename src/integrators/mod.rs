@@ -1,10 +1,12 @@
 //! Floor 4. Time integration of `q'' = a(q, q')` with identity inertia: one file a method, one trait,
 //! one error-controlled driver. An integrator knows no joints, loads or elements.
 //!
-//! Methods are one-step: nothing of the past survives a communication point but the proposed step, so
-//! that inputs may jump there and a restored state continues bit for bit.
+//! Methods are one-step: nothing of the past survives a communication point but the proposed step and, where nothing
+//! jumps, a step that leads beyond it, both in the state; so inputs may jump there and a restored state
+//! continues bit for bit.
 
 mod controller;
+mod dense;
 mod nystrom;
 mod radau;
 mod rk4;
@@ -17,8 +19,8 @@ pub use rk4::Rk4;
 pub use selection::Methods;
 
 use crate::math::vector::norm as size;
-use crate::system::{Accepted, Dynamics, State};
-use controller::Controller;
+use crate::system::{Accepted, DenseStep, Dynamics, State};
+use controller::{Controller, Trial};
 use selection::Rival;
 
 /// Error that a step may make, in the mass norm.
@@ -88,6 +90,25 @@ pub trait Method: Send {
     ) -> bool {
         false
     }
+    /// Whether its steps can be read in between ([`Method::keep`]).
+    fn is_dense(&self) -> bool {
+        false
+    }
+    /// Keeps stages and powers of the last attempt, which has succeeded, so that it is read in between.
+    fn keep(&mut self, _step: &mut DenseStep) {}
+    /// As [`Method::relax`] for a state within a step that is kept, whoever took it. What was left unsolved, in units of
+    /// what may be; beyond 1 the state has been corrected.
+    fn relax_within(
+        &mut self,
+        _dynamics: &mut dyn Dynamics,
+        _step: &DenseStep,
+        _state: (f64, &mut [f64], &mut [f64]),
+        _tolerance: &Tolerance,
+    ) -> f64 {
+        0.0
+    }
+    /// Begins a step with the polynomial of the one before, which was kept.
+    fn recall(&mut self, _before: &DenseStep) {}
     /// Errors of position and velocity that the last step to a state is estimated to have left in it, as far
     /// as the method can tell.
     fn error(
@@ -172,20 +193,23 @@ fn advance_choosing(
     // Where one of two methods gave up last, s.
     let mut given_up = f64::NEG_INFINITY;
     while result.is_ok() && state.time < until {
-        let end = dynamics.begin_stretch(state.time, until);
-        while result.is_ok() && state.time < end {
-            let index = state.pace.index(methods.len());
-            let rival = methods.get(1 - index).map(|method| Rival::of(&**method));
-            let method = &mut *methods[index];
+        let index = state.pace.index(methods.len());
+        let rival = methods.get(1 - index).map(|method| Rival::of(&**method));
+        let method = &mut *methods[index];
+        if state.dense.is_under_way() {
+            dynamics.begin_stretch(state.dense.start, until);
+            result = dense::follow(method, dynamics, state, until, (tolerance, rival));
+        } else {
+            let end = dynamics.begin_stretch(state.time, until);
             let goal = (tolerance, rival, &mut counts);
             result = advance_smoothly(method, dynamics, state, end, goal);
             counts.newton_iterations += method.newton_iterations();
-            // What one method cannot do the other may.
-            if result == Err(Stop::StepTooSmall) && rival.is_some() && state.time > given_up {
-                given_up = state.time;
-                selection::give_up(state);
-                result = Ok(());
-            }
+        }
+        // What one method cannot do the other may.
+        if result == Err(Stop::StepTooSmall) && rival.is_some() && state.time > given_up {
+            given_up = state.time;
+            selection::give_up(state);
+            result = Ok(());
         }
         let crossed = outcome(dynamics.end_stretch(state));
         result = result.and(crossed.map(drop));
@@ -193,7 +217,7 @@ fn advance_choosing(
     (counts, result)
 }
 
-/// Advances over a stretch without jumps, or until its rival is to go on.
+/// Advances over a stretch without jumps, until its rival is to go on, or until a step is to lead beyond the stretch.
 fn advance_smoothly(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
@@ -201,13 +225,18 @@ fn advance_smoothly(
     until: f64,
     (tolerance, rival, counts): (&Tolerance, Option<Rival>, &mut Counts),
 ) -> Result<(), Stop> {
-    let mut controller = Controller::new();
+    let follows = state.dense.has_ended_at(state.time);
+    let mut controller = Controller::new(follows.then_some(state.dense.ceiling));
     let mut counted = dynamics.operations();
     method.begin(dynamics, state.time, &state.coordinates, &state.rates);
+    if follows {
+        method.recall(&state.dense);
+    }
     if state.step <= 0.0 {
         state.step = first_step(method.acceleration(), &state.rates, tolerance);
     }
-    let shortest = 16.0 * f64::EPSILON * until.abs().max(state.time.abs());
+    let shortest = shortest(until, state.time);
+    let mut is_fresh = true;
     loop {
         let remaining = until - state.time;
         if remaining <= 0.0 {
@@ -217,20 +246,24 @@ fn advance_smoothly(
             return Err(Stop::TooMuchWork);
         }
         let wanted = state.step.min(method.longest_step());
-        let trial = Controller::trial(wanted, remaining);
+        let beyond = dense::trial(method, dynamics, state, (until, wanted));
+        if beyond.is_some() && !is_fresh {
+            // A step that is kept follows from nothing but its start.
+            return Ok(());
+        }
+        let trial = beyond.unwrap_or_else(|| Controller::trial(wanted, remaining));
         let from = (state.time, &state.coordinates[..], &state.rates[..]);
         match method.attempt(dynamics, from, trial.h, tolerance) {
             Attempt::Done(error) if error <= 1.0 => {
-                method.accept(&mut state.coordinates, &mut state.rates);
-                state.time = match trial.is_last {
-                    true => until,
-                    false => state.time + trial.h,
-                };
                 state.step = controller.accept(trial, error, state.step);
                 counts.steps += 1;
-                for (sum, part) in state.work.iter_mut().zip(method.work()) {
-                    *sum += part;
+                if beyond.is_some() {
+                    let operations = dynamics.operations() - counted;
+                    dense::begin(method, state, [trial.h, operations, controller.ceiling()]);
+                    return dense::follow(method, dynamics, state, until, (tolerance, rival));
                 }
+                is_fresh = false;
+                take(method, state, (trial, until));
                 settle(method, dynamics, state)?;
                 relax(method, dynamics, state, (until, tolerance))?;
                 let operations = dynamics.operations();
@@ -250,6 +283,23 @@ fn advance_smoothly(
             }
         }
     }
+}
+
+/// The state is that at the end of the step attempted last.
+fn take(method: &mut dyn Method, state: &mut State, (trial, until): (Trial, f64)) {
+    method.accept(&mut state.coordinates, &mut state.rates);
+    state.time = match trial.is_last {
+        true => until,
+        false => state.time + trial.h,
+    };
+    for (sum, part) in state.work.iter_mut().zip(method.work()) {
+        *sum += part;
+    }
+}
+
+/// The shortest step between two times, s.
+fn shortest(one: f64, other: f64) -> f64 {
+    16.0 * f64::EPSILON * one.abs().max(other.abs())
 }
 
 /// Lets the system do with an accepted state what it must.

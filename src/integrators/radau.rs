@@ -8,12 +8,14 @@
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8
 //! (method, transformation, stopping, error estimate Eqs. 8.19-8.20).
 
+mod rest;
+
 use nalgebra::Complex;
 
-use super::{Attempt, Method, Tolerance, size};
+use super::{Attempt, Method, Tolerance, dense, size};
 use crate::math::radau::{A_INVERSE, ALPHA, B, BETA, C, ERROR, GAMMA, INVERSE, T};
 use crate::math::sums::{Term, add, sum};
-use crate::system::Dynamics;
+use crate::system::{DenseStep, Dynamics};
 
 /// Size of the error that Newton's method leaves, in units of the tolerance.
 const NEWTON: f64 = 0.03;
@@ -28,8 +30,6 @@ const END: usize = 2;
 const ITERATIONS: i32 = 10;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
 const LARGEST_TURN: f64 = 1.5;
-/// Part of the acceleration, in tolerances, that may be left unsolved in a state that is read.
-const UNSOLVED: f64 = 5.0;
 /// Rate of convergence below which the tangent is kept for the next step.
 const FAST: f64 = 1e-3;
 
@@ -61,6 +61,16 @@ pub struct Radau {
     iterations: u64,
     /// Power at the stages, W.
     powers: [[f64; 2]; 3],
+    kept: Kept,
+}
+
+/// The start and the length of the step that the real factors are for, both in s, and the state there; a length of 0 where
+/// they are for another.
+#[derive(Clone, Debug)]
+struct Kept {
+    at: [f64; 2],
+    q: Vec<f64>,
+    v: Vec<f64>,
 }
 
 impl Radau {
@@ -85,6 +95,11 @@ impl Radau {
             rejected: false,
             iterations: 0,
             powers: [[0.0; 2]; 3],
+            kept: Kept {
+                at: [0.0; 2],
+                q: zero.clone(),
+                v: zero,
+            },
         }
     }
 
@@ -92,7 +107,7 @@ impl Radau {
     fn start(&mut self, v: &[f64], h: f64) {
         match self.last {
             Some(last) => {
-                let weights = C.map(|c| extrapolation(1.0 + c * h / last));
+                let weights = C.map(|c| dense::values(1.0 + c * h / last));
                 for i in 0..v.len() {
                     let z = [self.zq[0][i], self.zq[1][i], self.zq[2][i]];
                     for (stage, weights) in self.zq.iter_mut().zip(&weights) {
@@ -251,22 +266,6 @@ impl Radau {
         }
     }
 
-    /// Acceleration at the end of the step less that of the stage equations' solution there, but for what
-    /// constraints hold, into `f[0]`: what Newton's iteration and the way back to the constraints left in stiff
-    /// directions. Its size, and that of the solution.
-    fn left(&mut self, dynamics: &mut dyn Dynamics) -> (f64, f64) {
-        let [_, _, last] = A_INVERSE;
-        let mut solved = 0.0;
-        for i in 0..self.a.len() {
-            let z = [self.zv[0][i], self.zv[1][i], self.zv[2][i]];
-            let acceleration = product(&last, &z) / self.attempted;
-            self.f[0][i] = self.a[i] - acceleration;
-            solved += acceleration * acceleration;
-        }
-        dynamics.take_out_normal(&mut self.f[0]);
-        (size(&self.f[0]), solved.sqrt())
-    }
-
     fn factor(
         &mut self,
         dynamics: &mut dyn Dynamics,
@@ -280,6 +279,7 @@ impl Radau {
         }
         if self.factored != h {
             self.factored = 0.0;
+            self.kept.at = [0.0; 2];
             let (real, complex) = (GAMMA / h, Complex::new(ALPHA / h, BETA / h));
             if !dynamics.factor([real * real, real])
                 || !dynamics.factor_complex([complex * complex, complex])
@@ -308,59 +308,53 @@ impl Method for Radau {
     fn relax(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &mut [f64], &mut [f64]),
+        state: (f64, &mut [f64], &mut [f64]),
         tolerance: &Tolerance,
     ) -> bool {
-        let (left, solved) = self.left(dynamics);
-        let natural = tolerance.position / (tolerance.time * tolerance.time);
-        let goal = UNSOLVED * tolerance.relative * (solved + natural);
-        if left.is_nan() || left <= goal {
-            return false;
-        }
-        let s = GAMMA / self.attempted;
-        dynamics.linearize(time, q, v);
-        self.tangent = false;
-        if !dynamics.factor([s * s, s]) {
-            return false;
-        }
-        dynamics.solve(&mut self.f[0]);
-        for (i, d) in self.f[0].iter().enumerate() {
-            q[i] += d;
-            v[i] += s * d;
-        }
-        dynamics.acceleration(time, q, v, &mut self.a);
+        self.relax_at_end(dynamics, state, tolerance)
+    }
+
+    fn is_dense(&self) -> bool {
         true
+    }
+
+    fn keep(&mut self, step: &mut DenseStep) {
+        step.powers = self.powers;
+        for (k, stage) in self.zq.iter().enumerate() {
+            step.part_mut(2 + k).copy_from_slice(stage);
+        }
+        // The factors are those of its start: it was the first step from there.
+        let [q, v, ..] = step.parts();
+        self.kept.q.copy_from_slice(q);
+        self.kept.v.copy_from_slice(v);
+        self.kept.at = [step.start, step.length];
+    }
+
+    fn relax_within(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        step: &DenseStep,
+        state: (f64, &mut [f64], &mut [f64]),
+        tolerance: &Tolerance,
+    ) -> f64 {
+        self.relax_in_between(dynamics, step, state, tolerance)
+    }
+
+    fn recall(&mut self, before: &DenseStep) {
+        let [_, _, stages @ ..] = before.parts();
+        for (z, stage) in self.zq.iter_mut().zip(stages) {
+            z.copy_from_slice(stage);
+        }
+        self.last = Some(before.length);
     }
 
     fn error(
         &mut self,
         dynamics: &mut dyn Dynamics,
-        (time, q, v): (f64, &[f64], &[f64]),
-        [position, velocity]: [&mut [f64]; 2],
+        state: (f64, &[f64], &[f64]),
+        error: [&mut [f64]; 2],
     ) {
-        let s = GAMMA / self.attempted;
-        dynamics.linearize(time, q, v);
-        if !dynamics.factor([s * s, s]) {
-            position.fill(0.0);
-            velocity.fill(0.0);
-            return;
-        }
-        dynamics.acceleration(time, q, v, &mut self.a);
-        self.left(dynamics);
-        dynamics.solve(&mut self.f[0]);
-        // Filtered twice more: stiff directions follow the others, whatever was started with.
-        position.copy_from_slice(&self.error_q);
-        velocity.copy_from_slice(&self.error_v);
-        for error in [&mut *position, &mut *velocity] {
-            for _ in 0..2 {
-                dynamics.solve(error);
-                error.iter_mut().for_each(|e| *e *= s * s);
-            }
-        }
-        for (i, d) in self.f[0].iter().enumerate() {
-            position[i] += d;
-            velocity[i] += s * d;
-        }
+        self.error_at_end(dynamics, state, error);
     }
 
     fn work(&self) -> [f64; 2] {
@@ -455,13 +449,4 @@ fn mixed<'a>(row: &[f64; 3], factor: f64, stages: &'a Stages) -> [Term<'a>; 3] {
 
 fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Weights of the stages in the value at `s` of the polynomial through zero at 0 and the stages at
-/// `C`.
-fn extrapolation(s: f64) -> [f64; 3] {
-    std::array::from_fn(|i| {
-        let others = (0..3).filter(|j| *j != i);
-        others.fold(s / C[i], |value, j| value * (s - C[j]) / (C[i] - C[j]))
-    })
 }

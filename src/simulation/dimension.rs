@@ -1,6 +1,7 @@
 //! The one choice between the plane and space: everything below it is compiled for both.
 
-use super::engine::{Engine, Inputs, Remarks};
+use super::engine::{Engine, Remarks};
+use super::inputs::Inputs;
 use super::{Error, Quantity, Report, Spectra, StepFailure, Variable};
 use crate::scene::{Error as SceneError, Resolved, Scene};
 use crate::system::State;

@@ -1,5 +1,6 @@
 //! A system with its scratch, integrator and evaluated outputs.
 
+use super::inputs::Inputs;
 use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
@@ -10,7 +11,7 @@ use crate::math::jet::{Jet, part};
 use crate::scene::{Assembled, Holder, InitialState, Resolved, Timed};
 use crate::system::{
     Derivatives, Dynamics, Evaluation, Gap, Model, NotAssembled, SpectrumError, State, System,
-    Work, eigenvalues, equilibrium, moved, natural_frequencies,
+    Work, eigenvalues, equilibrium, natural_frequencies,
 };
 
 /// What the derivatives at hand are by.
@@ -20,15 +21,6 @@ enum Derived {
     /// Time, up to this order.
     Time(usize),
     Inputs,
-}
-
-/// Inputs in the order of the system ([`Resolved::numbers`]).
-pub(super) struct Inputs {
-    pub values: Vec<f64>,
-    /// First and second derivatives.
-    pub slopes: Vec<[f64; 2]>,
-    /// Whether the derivatives are of the next step; else they are of the one before.
-    pub moving: bool,
 }
 
 pub(super) struct Engine<const D: usize> {
@@ -62,28 +54,6 @@ pub(super) struct Engine<const D: usize> {
 /// Most work of one communication step; of a fuzzer little, so that it hears of it at once.
 fn most_work(limit: f64) -> f64 {
     if cfg!(fuzzing) { limit.min(1e5) } else { limit }
-}
-
-impl Inputs {
-    /// Moves on by a time, s.
-    fn advance(&mut self, t: f64) {
-        for (value, [first, second]) in self.values.iter_mut().zip(&mut self.slopes) {
-            [*value, *first] = moved([*value, *first, *second], t);
-        }
-    }
-
-    /// Forgets derivatives of the step before, which has passed.
-    pub(super) fn drop_slopes(&mut self) {
-        if !self.moving {
-            self.slopes.fill([0.0; 2]);
-        }
-    }
-
-    /// A step begins; whether inputs move in it.
-    pub(super) fn begin_step(&mut self) -> bool {
-        self.drop_slopes();
-        std::mem::take(&mut self.moving)
-    }
 }
 
 fn names(names: &mut dyn Iterator<Item = &str>) -> Vec<String> {
@@ -286,6 +256,7 @@ impl<const D: usize> Engine<D> {
     ) -> (Report, Result<(), StepFailure>) {
         self.forget();
         state.work[0] += self.set_energy(state, &inputs.values);
+        state.dense.held += 1.0;
         let (system, start) = (&self.assembled.system, state.time);
         let model = Model::new(system, &inputs.values, &mut self.work, state);
         let model = model.limited(self.most_work);

@@ -4,6 +4,7 @@
 mod derivatives;
 mod dimension;
 mod engine;
+mod inputs;
 mod method;
 mod plan;
 mod quantities;
@@ -26,7 +27,7 @@ pub use variables::{Causality, Parameter, Source, Unit, Variable, variables};
 use crate::scene::{Accuracy, Error as SceneError, Scene, finite_at};
 use crate::system::State;
 use dimension::AnyEngine;
-use engine::Inputs;
+use inputs::Inputs;
 use variables::start_inputs;
 
 /// Why a simulation cannot go on.
@@ -128,6 +129,7 @@ impl Simulation {
             direction: vec![0.0; inputs.len()],
             inputs: Inputs {
                 slopes: vec![[0.0; 2]; inputs.len()],
+                held: inputs.clone(),
                 values: inputs,
                 moving: false,
             },
@@ -341,7 +343,10 @@ impl Simulation {
                 reason: error.to_string(),
             })?;
         }
-        let moves = self.inputs.begin_step();
+        let (moves, is_held) = self.inputs.begin_step();
+        if !is_held {
+            self.state.dense.forget(0.0);
+        }
         let time = self.state.time;
         let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
             time,

@@ -18,6 +18,8 @@ pub struct Snapshot {
     pub moving: bool,
     /// First and second derivatives of the inputs, in the order of the system.
     pub slopes: Vec<[f64; 2]>,
+    /// Values of the inputs at the beginning of the last step, in the same order.
+    pub held: Vec<f64>,
     /// Natural frequencies and eigenvalues about the initial state.
     pub spectra: Spectra,
     /// State of the system.
@@ -57,6 +59,7 @@ impl Simulation {
             started: self.started,
             moving: self.inputs.moving,
             slopes: self.inputs.slopes.clone(),
+            held: self.inputs.held.clone(),
             spectra: self.spectra.clone(),
             state: self.state.clone(),
         }
@@ -79,12 +82,22 @@ impl Simulation {
             &state.travel,
             state.driven.as_flattened(),
             snapshot.slopes.as_flattened(),
+            &snapshot.held,
             &[state.time, state.step],
             &state.pace.numbers(),
             &state.work,
+            &state.dense.numbers(),
+            &state.dense.vectors,
         ];
         if !numbers.into_iter().flatten().all(|x| x.is_finite()) {
             return Err(Error::Snapshot("expected finite numbers".into()));
+        }
+        let step = &state.dense;
+        if step.is_under_way() && !(step.start..step.end()).contains(&state.time) {
+            let (from, to, time) = (step.start, step.end(), state.time);
+            let message =
+                format!("expected a time within its step from {from} to {to} s, found {time} s");
+            return Err(Error::Snapshot(message));
         }
         if snapshot.started && !snapshot.initialized {
             return Err(Error::Snapshot(
@@ -94,7 +107,7 @@ impl Simulation {
         let sizes = |values: usize, inputs: usize| format!("{values} variables, {inputs} inputs");
         let expected = sizes(self.variables.len(), self.inputs.values.len());
         let found = sizes(snapshot.values.len(), snapshot.slopes.len());
-        if found != expected {
+        if found != expected || snapshot.held.len() != snapshot.slopes.len() {
             let message = format!("expected {expected}, found {found}");
             return Err(Error::Snapshot(message));
         }
@@ -120,6 +133,7 @@ impl Simulation {
         }
         self.collect_inputs();
         self.inputs.slopes.clone_from(&snapshot.slopes);
+        self.inputs.held.clone_from(&snapshot.held);
         self.inputs.moving = snapshot.moving;
         self.state.clone_from(&snapshot.state);
         self.spectra.clone_from(&snapshot.spectra);

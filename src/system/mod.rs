@@ -30,7 +30,7 @@ pub use spectra::spectrum::{
 pub use start::equilibrium;
 pub use start::placement::{Gap, NotAssembled};
 pub use start::steady::{NotSteady, Steady};
-pub use state::{Pace, State};
+pub use state::{DenseStep, Pace, State};
 pub use work::Work;
 
 use std::ops::Range;
@@ -202,6 +202,7 @@ impl<const D: usize> System<D> {
             travel: vec![0.0; self.slides.len()],
             driven: vec![[0.0; 5]; self.trajectories().count()],
             work: [0.0; 2],
+            dense: DenseStep::blank(n),
         }
     }
 

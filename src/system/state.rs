@@ -61,6 +61,140 @@ impl Pace {
     }
 }
 
+/// A step that leads beyond the time at which the state stands, to be read in between: where it began, and the stages
+/// of its collocation polynomial. Plain numbers: inputs that change take it back.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DenseStep {
+    /// Where it began, s.
+    pub start: f64,
+    /// Its length, s; 0 where there is none.
+    pub length: f64,
+    /// Whether it is under way (1) or over (0): then it is what the next one begins with.
+    pub under_way: f64,
+    /// Operations that it has taken.
+    pub operations: f64,
+    /// The longest step for which equations could be solved when it was taken, s.
+    pub ceiling: f64,
+    /// Communication points in a row at which inputs stayed as they were.
+    pub held: f64,
+    /// Work at its start that came in from outside and that was dissipated, J.
+    pub work: [f64; 2],
+    /// Power of both kinds at its stages, W.
+    pub powers: [[f64; 2]; Self::STAGES],
+    /// Coordinates and rates at its start, and what coordinates change by to each of its stages, one after another.
+    pub vectors: Vec<f64>,
+}
+
+impl DenseStep {
+    /// How many stages it has.
+    pub const STAGES: usize = 3;
+    /// How many vectors of coordinates it holds.
+    const VECTORS: usize = 2 + Self::STAGES;
+    /// How many numbers it is beside the vectors.
+    pub const NUMBERS: usize = 14;
+
+    /// None under way, for so many coordinates.
+    pub fn blank(coordinates: usize) -> Self {
+        Self {
+            vectors: vec![0.0; Self::VECTORS * coordinates],
+            ..Self::default()
+        }
+    }
+
+    /// Its numbers.
+    pub fn numbers(&self) -> [f64; Self::NUMBERS] {
+        let [[a, b], [c, d], [e, f]] = self.powers;
+        let [input, lost] = self.work;
+        [
+            self.start,
+            self.length,
+            self.under_way,
+            self.operations,
+            self.ceiling,
+            self.held,
+            input,
+            lost,
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+        ]
+    }
+
+    /// From its numbers.
+    pub fn from_numbers(numbers: [f64; Self::NUMBERS], vectors: Vec<f64>) -> Self {
+        let [
+            start,
+            length,
+            under_way,
+            operations,
+            ceiling,
+            held,
+            input,
+            lost,
+            powers @ ..,
+        ] = numbers;
+        let [a, b, c, d, e, f] = powers;
+        Self {
+            start,
+            length,
+            under_way,
+            operations,
+            ceiling,
+            held,
+            work: [input, lost],
+            powers: [[a, b], [c, d], [e, f]],
+            vectors,
+        }
+    }
+
+    /// Whether a step is under way.
+    pub fn is_under_way(&self) -> bool {
+        self.under_way > 0.0
+    }
+
+    /// Whether it is over, and ended at a time (s).
+    pub fn has_ended_at(&self, time: f64) -> bool {
+        self.length > 0.0 && !self.is_under_way() && self.end() == time
+    }
+
+    /// It is forgotten, as where inputs have changed; the next may be kept after so many communication points more.
+    pub fn forget(&mut self, points: f64) {
+        (self.length, self.under_way, self.held) = (0.0, 0.0, 0.0 - points);
+    }
+
+    /// Where it ends, s.
+    pub fn end(&self) -> f64 {
+        self.start + self.length
+    }
+
+    /// Coordinates and rates at its start, then the stages.
+    pub fn parts(&self) -> [&[f64]; Self::VECTORS] {
+        let n = self.vectors.len() / Self::VECTORS;
+        std::array::from_fn(|k| &self.vectors[k * n..(k + 1) * n])
+    }
+
+    /// One of [`Self::parts`], to be written.
+    pub fn part_mut(&mut self, k: usize) -> &mut [f64] {
+        let n = self.vectors.len() / Self::VECTORS;
+        &mut self.vectors[k * n..(k + 1) * n]
+    }
+
+    fn copy_from(&mut self, other: &Self) {
+        self.start = other.start;
+        self.length = other.length;
+        self.under_way = other.under_way;
+        self.operations = other.operations;
+        self.ceiling = other.ceiling;
+        self.held = other.held;
+        self.work = other.work;
+        self.powers = other.powers;
+        self.vectors.copy_from_slice(&other.vectors);
+    }
+}
+
 /// State at a point in time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
@@ -82,6 +216,8 @@ pub struct State {
     pub driven: Vec<[f64; 5]>,
     /// Work that came in from outside and that was dissipated since the start, J.
     pub work: [f64; 2],
+    /// The step within which it stands.
+    pub dense: DenseStep,
 }
 
 impl State {
@@ -96,16 +232,18 @@ impl State {
         self.travel.copy_from_slice(&other.travel);
         self.driven.copy_from_slice(&other.driven);
         self.work = other.work;
+        self.dense.copy_from(&other.dense);
     }
 
-    /// Numbers of coordinates, rates, angles, slides and driven motions.
-    pub fn sizes(&self) -> [usize; 5] {
+    /// Numbers of coordinates, rates, angles, slides, driven motions, and of what a step within which it stands holds.
+    pub fn sizes(&self) -> [usize; 6] {
         [
             self.coordinates.len(),
             self.rates.len(),
             self.angles.len(),
             self.travel.len(),
             self.driven.len(),
+            self.dense.vectors.len(),
         ]
     }
 }

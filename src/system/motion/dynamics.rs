@@ -56,6 +56,11 @@ pub trait Dynamics {
     /// Begins a stretch in which nothing has a kink or jumps: from a time to the one returned, `until` at the
     /// latest. Accelerations at both ends are those inside it.
     fn begin_stretch(&mut self, from: f64, until: f64) -> f64;
+    /// Until when, no later than `to` (s), what drives the system goes on as it does at `from` without a kink or a jump if
+    /// inputs stay as they are; `from` where a step may not lead beyond the communication point.
+    fn unchanged_until(&self, from: f64, _to: f64) -> f64 {
+        from
+    }
     /// Whether it has done as much work as it may.
     fn is_exhausted(&self) -> bool;
     /// What it has done so far: accelerations, and other operations by what they cost beside one. By counting it two
@@ -103,7 +108,7 @@ pub struct Model<'a, const D: usize = 2> {
     /// Its inputs at the beginning.
     pub inputs: &'a [f64],
     /// Their first and second derivatives; empty where they are held.
-    slopes: &'a [[f64; 2]],
+    pub(in crate::system) slopes: &'a [[f64; 2]],
     start: f64,
     /// Scratch of the system.
     pub work: &'a mut Work<D>,
@@ -428,6 +433,10 @@ impl<const D: usize> Dynamics for Model<'_, D> {
             Accepted::AsIs => Accepted::Moved,
             other => other,
         }
+    }
+
+    fn unchanged_until(&self, from: f64, to: f64) -> f64 {
+        self.goes_on_until(from, to)
     }
 
     fn is_exhausted(&self) -> bool {

@@ -1,0 +1,153 @@
+//! States that are read: what Newton's iteration, the way back to the constraints and the polynomial between stages leave
+//! unsolved in stiff directions comes to rest, since forces are read from it.
+//!
+//! Source: as for the method; a correction is one of Newton's for the acceleration that the polynomial has there.
+
+use super::{A_INVERSE, GAMMA, Kept, Radau, add, dense, mixed, size, sum};
+use crate::integrators::Tolerance;
+use crate::system::{DenseStep, Dynamics};
+
+/// Part of the acceleration, in tolerances, that may be left unsolved in a state that is read.
+const UNSOLVED: f64 = 5.0;
+/// The same in one within a step, between whose stages nothing was solved.
+const UNSOLVED_WITHIN: f64 = 0.05;
+
+impl Radau {
+    /// As [`Method::relax`](crate::integrators::Method::relax).
+    pub(super) fn relax_at_end(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        (time, q, v): (f64, &mut [f64], &mut [f64]),
+        tolerance: &Tolerance,
+    ) -> bool {
+        self.solved_at_end();
+        self.leave(dynamics);
+        let left = self.unsolved(&self.f[0], tolerance);
+        if left.is_nan() || left <= UNSOLVED {
+            return false;
+        }
+        let s = GAMMA / self.attempted;
+        dynamics.linearize(time, q, v);
+        self.tangent = false;
+        self.kept.at = [0.0; 2];
+        if !dynamics.factor([s * s, s]) {
+            return false;
+        }
+        dynamics.solve(&mut self.f[0]);
+        self.correct(s, (q, v));
+        dynamics.acceleration(time, q, v, &mut self.a);
+        true
+    }
+
+    /// As [`Method::relax_within`](crate::integrators::Method::relax_within).
+    pub(super) fn relax_in_between(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        step: &DenseStep,
+        (time, q, v): (f64, &mut [f64], &mut [f64]),
+        tolerance: &Tolerance,
+    ) -> f64 {
+        if !self.factor_at_start(dynamics, step) {
+            return f64::NAN;
+        }
+        dynamics.acceleration(time, q, v, &mut self.a);
+        dynamics.set_stage(0);
+        dense::acceleration(step, time, &mut self.stage_v);
+        self.leave(dynamics);
+        let s = GAMMA / step.length;
+        self.error_v.copy_from_slice(&self.f[0]);
+        dynamics.solve_stages(&[1.0], &[1.0], std::slice::from_mut(&mut self.f[0]));
+        // Between stages slow directions are not solved either, and are not to be: of an acceleration `f` that leaves
+        // `K (s^2 I + K)^-1 f`.
+        add(&mut self.error_v, &[(-s * s, &self.f[0])]);
+        let left = self.unsolved(&self.error_v, tolerance) / UNSOLVED_WITHIN;
+        if left > 1.0 {
+            self.correct(s, (q, v));
+        }
+        left
+    }
+
+    /// As [`Method::error`](crate::integrators::Method::error).
+    pub(super) fn error_at_end(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        (time, q, v): (f64, &[f64], &[f64]),
+        [position, velocity]: [&mut [f64]; 2],
+    ) {
+        let s = GAMMA / self.attempted;
+        self.kept.at = [0.0; 2];
+        dynamics.linearize(time, q, v);
+        if !dynamics.factor([s * s, s]) {
+            position.fill(0.0);
+            velocity.fill(0.0);
+            return;
+        }
+        dynamics.acceleration(time, q, v, &mut self.a);
+        self.solved_at_end();
+        self.leave(dynamics);
+        dynamics.solve(&mut self.f[0]);
+        // Filtered twice more: stiff directions follow the others, whatever was started with.
+        position.copy_from_slice(&self.error_q);
+        velocity.copy_from_slice(&self.error_v);
+        for error in [&mut *position, &mut *velocity] {
+            for _ in 0..2 {
+                dynamics.solve(error);
+                error.iter_mut().for_each(|e| *e *= s * s);
+            }
+        }
+        for (i, d) in self.f[0].iter().enumerate() {
+            position[i] += d;
+            velocity[i] += s * d;
+        }
+    }
+
+    /// Acceleration of the stage equations' solution at the end of the step, into `stage_v`.
+    fn solved_at_end(&mut self) {
+        let [_, _, last] = A_INVERSE;
+        sum(
+            &mut self.stage_v,
+            &mixed(&last, 1.0 / self.attempted, &self.zv),
+        );
+    }
+
+    /// Acceleration less that of the stage equations' solution (in `stage_v`), but for what constraints hold, into
+    /// `f[0]`: what Newton's iteration, the way back to the constraints and the polynomial between stages left in
+    /// stiff directions.
+    fn leave(&mut self, dynamics: &mut dyn Dynamics) {
+        sum(&mut self.f[0], &[(1.0, &self.a), (-1.0, &self.stage_v)]);
+        dynamics.take_out_normal(&mut self.f[0]);
+    }
+
+    /// The size of an acceleration that is not solved, in tolerances.
+    fn unsolved(&self, acceleration: &[f64], tolerance: &Tolerance) -> f64 {
+        let natural = tolerance.position / (tolerance.time * tolerance.time);
+        size(acceleration) / (tolerance.relative * (size(&self.stage_v) + natural))
+    }
+
+    /// Moves a state by the correction in `f[0]`.
+    fn correct(&self, s: f64, (q, v): (&mut [f64], &mut [f64])) {
+        for (i, d) in self.f[0].iter().enumerate() {
+            q[i] += d;
+            v[i] += s * d;
+        }
+    }
+
+    /// Makes the real factors where a step began, unless they are.
+    fn factor_at_start(&mut self, dynamics: &mut dyn Dynamics, step: &DenseStep) -> bool {
+        let [q, v, ..] = step.parts();
+        let Kept {
+            at,
+            q: kept_q,
+            v: kept_v,
+        } = &mut self.kept;
+        if *at == [step.start, step.length] && kept_q == q && kept_v == v {
+            return true;
+        }
+        let s = GAMMA / step.length;
+        dynamics.linearize(step.start, q, v);
+        kept_q.copy_from_slice(q);
+        kept_v.copy_from_slice(v);
+        *at = [step.start, step.length];
+        dynamics.factor([s * s, s])
+    }
+}
