@@ -71,34 +71,7 @@ impl Simulation {
     /// A snapshot with other sizes, with parameters out of range or with numbers that are not finite;
     /// nothing has changed then.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
-        let state = &snapshot.state;
-        let numbers = [
-            &snapshot.values,
-            &snapshot.spectra.frequencies,
-            snapshot.spectra.eigenvalues.as_flattened(),
-            &state.coordinates,
-            &state.rates,
-            &state.angles,
-            &state.travel,
-            state.driven.as_flattened(),
-            snapshot.slopes.as_flattened(),
-            &snapshot.held,
-            &[state.time, state.step],
-            &state.pace.numbers(),
-            &state.work,
-            &state.dense.numbers(),
-            &state.dense.vectors,
-        ];
-        if !numbers.into_iter().flatten().all(|x| x.is_finite()) {
-            return Err(Error::Snapshot("expected finite numbers".into()));
-        }
-        let step = &state.dense;
-        if step.is_under_way() && !(step.start..step.end()).contains(&state.time) {
-            let (from, to, time) = (step.start, step.end(), state.time);
-            let message =
-                format!("expected a time within its step from {from} to {to} s, found {time} s");
-            return Err(Error::Snapshot(message));
-        }
+        check_numbers(snapshot)?;
         if snapshot.started && !snapshot.initialized {
             return Err(Error::Snapshot(
                 "expected an initial state before the start".into(),
@@ -171,4 +144,37 @@ impl Simulation {
         }
         Ok(rebuilt)
     }
+}
+
+/// Numbers that are finite, and a time within the step under way.
+fn check_numbers(snapshot: &Snapshot) -> Result<(), Error> {
+    let state = &snapshot.state;
+    let numbers = [
+        &snapshot.values,
+        &snapshot.spectra.frequencies,
+        snapshot.spectra.eigenvalues.as_flattened(),
+        &state.coordinates,
+        &state.rates,
+        &state.angles,
+        &state.travel,
+        state.driven.as_flattened(),
+        snapshot.slopes.as_flattened(),
+        &snapshot.held,
+        &[state.time, state.step],
+        &state.pace.numbers(),
+        &state.work,
+        &state.dense.numbers(),
+        &state.dense.vectors,
+    ];
+    if !numbers.into_iter().flatten().all(|x| x.is_finite()) {
+        return Err(Error::Snapshot("expected finite numbers".into()));
+    }
+    let step = &state.dense;
+    if step.is_under_way() && !(step.start..step.end()).contains(&state.time) {
+        let (from, to, time) = (step.start, step.end(), state.time);
+        let message =
+            format!("expected a time within its step from {from} to {to} s, found {time} s");
+        return Err(Error::Snapshot(message));
+    }
+    Ok(())
 }
