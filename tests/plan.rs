@@ -301,6 +301,33 @@ fn a_cable_that_need_not_bend_is_rigid_and_keeps_its_names() {
     }
 }
 
+/// Forces of a rigid rod as it swings are those of a stiff one whose ringing is damped.
+#[test]
+fn sections_of_a_rigid_cable_carry_what_those_of_a_stiff_one_do() {
+    let outputs = json!([{"kind": "axial_force", "marker": "rod.middle"},
+                         {"kind": "bending_moment", "marker": "rod.middle"},
+                         {"kind": "connectivity_force", "marker": "rod.middle"}]);
+    let swung = |model: &str| {
+        let scene = swinging(model, outputs.clone()).expect("a scene").to_json();
+        let scene = edited(&scene, |scene| {
+            scene["bodies"][0]["elements"] = json!(4);
+            scene["bodies"][0]["material"]["damping_time"] = json!(1e-3);
+            scene["accuracy"] = json!({"relative_tolerance": 1e-6});
+        });
+        let names = [
+            "rod.middle.axial_force",
+            "rod.middle.bending_moment",
+            "rod.middle.connectivity_force[1]",
+            "rod.middle.connectivity_force[2]",
+        ];
+        at_the_end(scene.expect("a scene"), &names)
+    };
+    let (rigid, stiff) = (swung("rigid"), swung("flexible"));
+    for (a, b) in rigid.iter().zip(&stiff) {
+        assert!((a - b).abs() < 1e-3 * b.abs(), "{rigid:?} {stiff:?}");
+    }
+}
+
 #[test]
 fn what_a_rigid_cable_has_not_keeps_it_flexible_or_is_refused() {
     let with = |kind: &str| {

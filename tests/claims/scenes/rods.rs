@@ -1,0 +1,308 @@
+//! Cables that do not bend: their motion is that of a rigid rod, the forces in their sections are those of d'Alembert.
+
+use serde_json::{Value, json};
+
+use super::{clamp, cross, dot, left, sum, times, turned};
+use crate::specimen::Specimen;
+
+pub fn all() -> Vec<Specimen> {
+    vec![
+        falling(),
+        carrying("carrying", "rigid"),
+        carrying("stiff_carrying", "flexible"),
+        linked(),
+        whirling(),
+    ]
+}
+
+/// Length, m, and mass per length, kg/m, of all of them.
+const LENGTH: f64 = 1.5;
+const LINE: f64 = 0.3;
+/// Markers along them.
+const PLACES: [(&str, f64); 5] = [("a", 0.0), ("b", 0.25), ("c", 0.5), ("d", 0.8), ("e", 1.0)];
+
+/// A rigid cable with a marker at every place.
+pub fn rod(name: &str, from: [f64; 2], along: [f64; 2]) -> Value {
+    let markers: serde_json::Map<String, Value> = PLACES
+        .iter()
+        .map(|(name, s)| ((*name).into(), json!(s)))
+        .collect();
+    json!({"element": "cable", "name": name, "model": "rigid",
+           "material": {"youngs_modulus": 1e9, "density": 30.0},
+           "section": {"area": 1e-2, "second_moment": 1e-5},
+           "shape": {"line": {"from": from, "to": sum(from, times(LENGTH, along))}}, "markers": markers})
+}
+
+/// All that is read of the sections of a rod.
+pub fn sections(name: &str) -> Vec<Value> {
+    let kinds = ["axial_force", "bending_moment", "connectivity_force"];
+    let read = |(place, _): &(&str, f64)| {
+        kinds.map(|kind| json!({"kind": kind, "marker": format!("{name}.{place}")}))
+    };
+    PLACES.iter().flat_map(read).collect()
+}
+
+/// What the outer part of a pendulum exerts in a section: along the rod, across it, and its moment there.
+struct Pendulum {
+    /// Gravity along the rod from the pin outwards, and across it to the left.
+    gravity: [f64; 2],
+    spin: f64,
+    /// Moment of a hinge at the pin.
+    hinge: f64,
+    /// Mass and inertia at the outer end.
+    bob: [f64; 2],
+}
+
+impl Pendulum {
+    fn spin_rate(&self) -> f64 {
+        let ([_, g], [m, j], l) = (self.gravity, self.bob, LENGTH);
+        let inertia = LINE * l * l * l / 3.0 + m * l * l + j;
+        (LINE * l * g * 0.5 * l + m * g * l + self.hinge) / inertia
+    }
+
+    /// Force along and across, and moment, at a distance from the pin: weight less inertia of what is beyond.
+    fn outer(&self, y: f64) -> [f64; 3] {
+        let ([along, across], [m, j], l) = (self.gravity, self.bob, LENGTH);
+        let (square, rate, h) = (self.spin * self.spin, self.spin_rate(), l - y);
+        let ring = 0.5 * (l * l - y * y);
+        let turned = LINE * (across * h * h / 2.0 - rate * (y * h * h / 2.0 + h * h * h / 3.0));
+        [
+            LINE * (along * h + square * ring) + m * (along + square * l),
+            LINE * (across * h - rate * ring) + m * (across - rate * l),
+            turned + m * h * (across - rate * l) - j * rate,
+        ]
+    }
+}
+
+/// Two compound pendulums as they move off, one described from its pin, one towards it, with a hinge there and a bob. Of
+/// the first, from the horizontal, M = m g x (L - x)^2 / (4 L^2).
+fn falling() -> Specimen {
+    let g = 9.81;
+    let (angle, spin, bob) = (0.7, 1.3, [0.2, 0.03]);
+    let (k, d, rest) = (2.0, 0.4, -2.0);
+    let out = turned(angle, [1.0, 0.0]);
+    // The second runs from its outer end to its pin.
+    let tip = sum([3.0, 1.0], times(LENGTH, out));
+    let mut second = rod("second", tip, times(-1.0, out));
+    let speed = times(spin * LENGTH, left(out));
+    second["motion"] = json!({"velocity": speed, "spin": spin});
+    let mut first = rod("first", [0.0, 0.0], [1.0, 0.0]);
+    first["motion"] = json!({"velocity": [0.0, 0.0], "spin": -spin});
+    let mut outputs = [sections("first"), sections("second")].concat();
+    outputs.extend([
+        json!({"kind": "energy"}),
+        json!({"kind": "momentum"}),
+        json!({"kind": "center_of_mass"}),
+        json!({"kind": "velocity", "marker": "second.b"}),
+        json!({"kind": "angular_acceleration", "marker": "second.c"}),
+    ]);
+    let scene = json!({
+        "name": "falling", "dimension": 2, "gravity": [0.0, -g],
+        "bodies": [first, second],
+        "masses": [{"marker": "second.a", "mass": bob[0], "inertia": bob[1]}],
+        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "first.a"]},
+                   {"name": "hinge", "kind": "hinge", "markers": ["ground", "second.e"], "stiffness": k, "damping": d,
+                    "angle": rest}],
+        "outputs": outputs});
+    let mut specimen = Specimen::new("falling", scene);
+    let plain = Pendulum {
+        gravity: [0.0, -g],
+        spin,
+        hinge: 0.0,
+        bob: [0.0; 2],
+    };
+    // The direction of the second is opposite to the way out.
+    let turn = angle - std::f64::consts::PI - rest;
+    let hinged = Pendulum {
+        gravity: [dot([0.0, -g], out), dot([0.0, -g], left(out))],
+        spin,
+        hinge: -k * turn - d * spin,
+        bob,
+    };
+    for (place, s) in PLACES {
+        let at = |rod: &str, of: &str| format!("{rod}.{place}.{of}");
+        let x = s * LENGTH;
+        let [axial, across, _] = plain.outer(x);
+        let moment = LINE * g * x * (LENGTH - x).powi(2) / (4.0 * LENGTH);
+        let before = if s == 0.0 {
+            [0.0; 2]
+        } else {
+            [-axial, -across]
+        };
+        specimen = specimen
+            .claim(&at("first", "axial_force"), "N", axial)
+            .claim(&at("first", "bending_moment"), "N.m", moment)
+            .vector(&at("first", "connectivity_force"), "N", before);
+        let [axial, across, moment] = hinged.outer(LENGTH - x);
+        // The bob acts at the first end: before it there is nothing.
+        let before = match s {
+            0.0 => [0.0; 2],
+            _ => sum(times(axial, out), times(across, left(out))),
+        };
+        specimen = specimen
+            .claim(&at("second", "axial_force"), "N", axial)
+            .claim(&at("second", "bending_moment"), "N.m", -moment)
+            .vector(&at("second", "connectivity_force"), "N", before);
+    }
+    let mass = LINE * LENGTH;
+    let inertia = mass * LENGTH * LENGTH / 3.0;
+    let kinetic = inertia + 0.5 * bob[0] * (spin * LENGTH).powi(2) / (spin * spin) + 0.5 * bob[1];
+    let middle = sum([3.0, 1.0], times(0.5 * LENGTH, out));
+    let total = 2.0 * mass + bob[0];
+    let moments = sum(
+        times(mass, sum([0.5 * LENGTH, 0.0], middle)),
+        times(bob[0], tip),
+    );
+    let moved = sum(
+        times(0.5 * mass * LENGTH, left(out)),
+        times(bob[0] * LENGTH, left(out)),
+    );
+    specimen
+        .claim("energy.kinetic", "J", kinetic * spin * spin)
+        .claim("energy.gravity", "J", g * moments[1])
+        .vector("center_of_mass", "m", times(1.0 / total, moments))
+        .vector(
+            "momentum",
+            "N.s",
+            times(spin, sum(moved, [0.0, -0.5 * mass * LENGTH])),
+        )
+        .vector(
+            "second.b.velocity",
+            "m/s",
+            times(0.75 * spin * LENGTH, left(out)),
+        )
+        .claim(
+            "second.c.angular_acceleration",
+            "rad/s2",
+            hinged.spin_rate(),
+        )
+}
+
+/// A clamped rod at rest that carries one load of every kind: every section carries what acts beyond it. A flexible one so
+/// stiff that it stays straight carries the same.
+fn carrying(title: &'static str, model: &str) -> Specimen {
+    let (g, out) = (9.81, turned(-0.4, [1.0, 0.0]));
+    let (mass, line) = (0.6, [0.5, -2.0]);
+    let (dead, follower, moment, twist) = ([3.0, 1.0], [-2.0, 4.0], 0.7, -1.1);
+    let (k, reach, length) = (20.0, [0.4, 1.1], 0.3);
+    let (port, held) = (8.0, [1.2, -0.9]);
+    let at = |s: f64| times(s * LENGTH, out);
+    let (mut beam, mut initial, mut within) = (rod("beam", [0.0, 0.0], out), "as_shaped", 1e-9);
+    if model == "flexible" {
+        beam["model"] = json!(model);
+        beam["elements"] = json!(4);
+        beam["material"]["youngs_modulus"] = json!(1e11);
+        (initial, within) = ("static_equilibrium", 1e-4);
+    }
+    let scene = json!({
+        "name": title, "dimension": 2, "gravity": [0.0, -g], "initial": initial,
+        "bodies": [beam],
+        "masses": [{"marker": "beam.c", "mass": mass, "inertia": 0.1}],
+        "joints": [clamp("clamp", "beam.a")],
+        "loads": [{"name": "dead", "kind": "force", "marker": "beam.e", "value": dead},
+                  {"name": "turning", "kind": "force", "marker": "beam.d", "follower": true, "value": follower},
+                  {"name": "twist", "kind": "moment", "marker": "beam.d", "value": moment},
+                  {"name": "wind", "kind": "distributed", "body": "beam", "value": line},
+                  {"name": "spring", "kind": "spring_damper", "markers": ["ground", "beam.c"], "point": reach,
+                   "stiffness": k, "length": length}],
+        "inputs": [{"kind": "moment", "marker": "beam.b", "start": [twist]}],
+        "ports": [{"name": "port", "marker": "beam.d", "kind": "motion", "stiffness": port}],
+        "outputs": sections("beam")});
+    let mut specimen = Specimen::new(title, scene)
+        .set("port.position[1]", held[0])
+        .set("port.position[2]", held[1]);
+    let way = sum(reach, times(-1.0, at(0.5)));
+    let distance = dot(way, way).sqrt();
+    let pull = times(k * (distance - length) / distance, way);
+    let across = |of: [f64; 2]| sum(times(of[0], out), times(of[1], left(out)));
+    let drag = times(port, sum(held, times(-1.0, at(0.8))));
+    // Place, force and moment of all that acts at points.
+    let acting = [
+        (1.0, dead, 0.0),
+        (0.8, across(follower), moment),
+        (0.8, drag, 0.0),
+        (0.5, sum(pull, [0.0, -mass * g]), 0.0),
+        (0.25, [0.0; 2], twist),
+    ];
+    let spread = sum(line, [0.0, -LINE * g]);
+    for (place, s) in PLACES {
+        let name = |of: &str| format!("beam.{place}.{of}");
+        let carried = |counts: &dyn Fn(f64) -> bool| {
+            let h = (1.0 - s) * LENGTH;
+            let (mut force, mut moment) = (times(h, spread), cross(out, spread) * h * h / 2.0);
+            for (place, point, twist) in acting.into_iter().filter(|(place, ..)| counts(*place)) {
+                force = sum(force, point);
+                moment += cross(times((place - s) * LENGTH, out), point) + twist;
+            }
+            (force, moment)
+        };
+        // At the last end what acts there is carried.
+        let (force, moment) = carried(&|place| place > s || s == 1.0 && place == s);
+        let (held, _) = carried(&|place| place >= s);
+        let held = if s == 0.0 {
+            [0.0; 2]
+        } else {
+            times(-1.0, held)
+        };
+        specimen = specimen
+            .claim_within(&name("axial_force"), "N", dot(force, out), within)
+            .claim_within(&name("bending_moment"), "N.m", moment, within)
+            .vector_within(&name("connectivity_force"), "N", held, within);
+    }
+    specimen
+}
+
+/// A rod between a pin and a link that holds it level: a beam between supports, M = q x (L - x) / 2, and the link pulls
+/// along it.
+fn linked() -> Specimen {
+    let (g, link) = (9.81, [-0.9, 1.2]);
+    let scene = json!({
+        "name": "linked", "dimension": 2, "gravity": [0.0, -g],
+        "bodies": [rod("beam", [0.0, 0.0], [1.0, 0.0])],
+        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "beam.a"]},
+                   {"name": "link", "kind": "distance", "markers": ["ground", "beam.e"],
+                    "point": sum([LENGTH, 0.0], link)}],
+        "outputs": sections("beam")});
+    let mut specimen = Specimen::new("linked", scene);
+    let weight = LINE * g;
+    let axial = 0.5 * weight * LENGTH * link[0] / link[1];
+    for (place, s) in PLACES {
+        let name = |of: &str| format!("beam.{place}.{of}");
+        let (x, shear) = (s * LENGTH, weight * (s - 0.5) * LENGTH);
+        let before = if s == 0.0 { [0.0; 2] } else { [-axial, -shear] };
+        let moment = 0.5 * weight * x * (LENGTH - x);
+        specimen = specimen
+            .claim(&name("axial_force"), "N", axial)
+            .claim(&name("bending_moment"), "N.m", moment)
+            .vector(&name("connectivity_force"), "N", before);
+    }
+    specimen
+}
+
+/// In a frame that turns, a rod at rest is stretched by centrifugal force, N = rho A w^2 (L^2 - x^2) / 2. One that rests
+/// outside goes round in there, and no section carries anything, whatever sits on it.
+fn whirling() -> Specimen {
+    let (rate, out) = (2.3, turned(0.3, [1.0, 0.0]));
+    let mut free = rod("free", [0.2, -0.7], [0.0, 1.0]);
+    let outputs = [sections("beam"), sections("free")].concat();
+    free["motion"] = json!({"velocity": times(-rate, left([0.2, -0.7])), "spin": -rate});
+    let scene = json!({
+        "name": "whirling", "dimension": 2, "rotation": rate,
+        "bodies": [rod("beam", [0.0, 0.0], out), free],
+        "masses": [{"marker": "free.c", "mass": 0.4, "inertia": 0.1}],
+        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "beam.a"]}],
+        "outputs": outputs});
+    let mut specimen = Specimen::new("whirling", scene);
+    for (place, s) in PLACES {
+        let name = |of: &str| format!("beam.{place}.{of}");
+        let axial = 0.5 * LINE * (rate * LENGTH).powi(2) * (1.0 - s * s);
+        let before = if s == 0.0 { 0.0 } else { -axial };
+        specimen = specimen
+            .claim(&name("axial_force"), "N", axial)
+            .claim(&name("bending_moment"), "N.m", 0.0)
+            .vector(&name("connectivity_force"), "N", times(before, out))
+            .claim(&format!("free.{place}.axial_force"), "N", 0.0)
+            .claim(&format!("free.{place}.bending_moment"), "N.m", 0.0);
+    }
+    specimen
+}
