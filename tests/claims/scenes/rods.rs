@@ -8,6 +8,7 @@ use crate::specimen::Specimen;
 pub fn all() -> Vec<Specimen> {
     vec![
         falling(),
+        hinged(),
         carrying("carrying", "rigid"),
         carrying("stiff_carrying", "flexible"),
         linked(),
@@ -74,36 +75,15 @@ impl Pendulum {
     }
 }
 
-/// Two compound pendulums as they move off, one described from its pin, one towards it, with a hinge there and a bob. Of
-/// the first, from the horizontal, M = m g x (L - x)^2 / (4 L^2).
+/// A compound pendulum as it moves off from the horizontal, M = m g x (L - x)^2 / (4 L^2).
 fn falling() -> Specimen {
-    let g = 9.81;
-    let (angle, spin, bob) = (0.7, 1.3, [0.2, 0.03]);
-    let (k, d, rest) = (2.0, 0.4, -2.0);
-    let out = turned(angle, [1.0, 0.0]);
-    // The second runs from its outer end to its pin.
-    let tip = sum([3.0, 1.0], times(LENGTH, out));
-    let mut second = rod("second", tip, times(-1.0, out));
-    let speed = times(spin * LENGTH, left(out));
-    second["motion"] = json!({"velocity": speed, "spin": spin});
-    let mut first = rod("first", [0.0, 0.0], [1.0, 0.0]);
-    first["motion"] = json!({"velocity": [0.0, 0.0], "spin": -spin});
-    let mut outputs = [sections("first"), sections("second")].concat();
-    outputs.extend([
-        json!({"kind": "energy"}),
-        json!({"kind": "momentum"}),
-        json!({"kind": "center_of_mass"}),
-        json!({"kind": "velocity", "marker": "second.b"}),
-        json!({"kind": "angular_acceleration", "marker": "second.c"}),
-    ]);
+    let (g, spin) = (9.81, -1.3);
+    let mut body = rod("rod", [0.0, 0.0], [1.0, 0.0]);
+    body["motion"] = json!({"velocity": [0.0, 0.0], "spin": spin});
     let scene = json!({
-        "name": "falling", "dimension": 2, "gravity": [0.0, -g],
-        "bodies": [first, second],
-        "masses": [{"marker": "second.a", "mass": bob[0], "inertia": bob[1]}],
-        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "first.a"]},
-                   {"name": "hinge", "kind": "hinge", "markers": ["ground", "second.e"], "stiffness": k, "damping": d,
-                    "angle": rest}],
-        "outputs": outputs});
+        "name": "falling", "dimension": 2, "gravity": [0.0, -g], "bodies": [body],
+        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]}],
+        "outputs": sections("rod")});
     let mut specimen = Specimen::new("falling", scene);
     let plain = Pendulum {
         gravity: [0.0, -g],
@@ -111,16 +91,8 @@ fn falling() -> Specimen {
         hinge: 0.0,
         bob: [0.0; 2],
     };
-    // The direction of the second is opposite to the way out.
-    let turn = angle - std::f64::consts::PI - rest;
-    let hinged = Pendulum {
-        gravity: [dot([0.0, -g], out), dot([0.0, -g], left(out))],
-        spin,
-        hinge: -k * turn - d * spin,
-        bob,
-    };
     for (place, s) in PLACES {
-        let at = |rod: &str, of: &str| format!("{rod}.{place}.{of}");
+        let name = |of: &str| format!("rod.{place}.{of}");
         let x = s * LENGTH;
         let [axial, across, _] = plain.outer(x);
         let moment = LINE * g * x * (LENGTH - x).powi(2) / (4.0 * LENGTH);
@@ -130,52 +102,83 @@ fn falling() -> Specimen {
             [-axial, -across]
         };
         specimen = specimen
-            .claim(&at("first", "axial_force"), "N", axial)
-            .claim(&at("first", "bending_moment"), "N.m", moment)
-            .vector(&at("first", "connectivity_force"), "N", before);
-        let [axial, across, moment] = hinged.outer(LENGTH - x);
+            .claim(&name("axial_force"), "N", axial)
+            .claim(&name("bending_moment"), "N.m", moment)
+            .vector(&name("connectivity_force"), "N", before);
+    }
+    specimen
+}
+
+const PIN: [f64; 2] = [3.0, 1.0];
+
+/// A pendulum that is described towards its pin, on a hinge and with a bob, as it moves off.
+fn hinged() -> Specimen {
+    let (g, angle, spin, bob) = (9.81, 0.7, 1.3, [0.2, 0.03]);
+    let (k, d, rest) = (2.0, 0.4, -2.0);
+    let out = turned(angle, [1.0, 0.0]);
+    let tip = sum(PIN, times(LENGTH, out));
+    let mut body = rod("rod", tip, times(-1.0, out));
+    body["motion"] = json!({"velocity": times(spin * LENGTH, left(out)), "spin": spin});
+    let mut outputs = sections("rod");
+    outputs.extend(["energy", "momentum", "center_of_mass"].map(|kind| json!({"kind": kind})));
+    outputs.extend([
+        json!({"kind": "velocity", "marker": "rod.b"}),
+        json!({"kind": "angular_acceleration", "marker": "rod.c"}),
+    ]);
+    let scene = json!({
+        "name": "hinged", "dimension": 2, "gravity": [0.0, -g], "bodies": [body],
+        "masses": [{"marker": "rod.a", "mass": bob[0], "inertia": bob[1]}],
+        "joints": [{"name": "hinge", "kind": "hinge", "markers": ["ground", "rod.e"], "stiffness": k, "damping": d,
+                    "angle": rest}],
+        "outputs": outputs});
+    // The direction of the rod is opposite to the way out.
+    let turn = angle - std::f64::consts::PI - rest;
+    let pendulum = Pendulum {
+        gravity: [dot([0.0, -g], out), dot([0.0, -g], left(out))],
+        spin,
+        hinge: -k * turn - d * spin,
+        bob,
+    };
+    let specimen = Specimen::new("hinged", scene)
+        .vector(
+            "rod.b.velocity",
+            "m/s",
+            times(0.75 * spin * LENGTH, left(out)),
+        )
+        .claim("rod.c.angular_acceleration", "rad/s2", pendulum.spin_rate());
+    let mut specimen = swung(specimen, (spin, g), bob, out);
+    for (place, s) in PLACES {
+        let name = |of: &str| format!("rod.{place}.{of}");
+        let [axial, across, moment] = pendulum.outer((1.0 - s) * LENGTH);
         // The bob acts at the first end: before it there is nothing.
         let before = match s {
             0.0 => [0.0; 2],
             _ => sum(times(axial, out), times(across, left(out))),
         };
         specimen = specimen
-            .claim(&at("second", "axial_force"), "N", axial)
-            .claim(&at("second", "bending_moment"), "N.m", -moment)
-            .vector(&at("second", "connectivity_force"), "N", before);
+            .claim(&name("axial_force"), "N", axial)
+            .claim(&name("bending_moment"), "N.m", -moment)
+            .vector(&name("connectivity_force"), "N", before);
     }
-    let mass = LINE * LENGTH;
-    let inertia = mass * LENGTH * LENGTH / 3.0;
-    let kinetic = inertia + 0.5 * bob[0] * (spin * LENGTH).powi(2) / (spin * spin) + 0.5 * bob[1];
-    let middle = sum([3.0, 1.0], times(0.5 * LENGTH, out));
-    let total = 2.0 * mass + bob[0];
-    let moments = sum(
-        times(mass, sum([0.5 * LENGTH, 0.0], middle)),
-        times(bob[0], tip),
-    );
-    let moved = sum(
-        times(0.5 * mass * LENGTH, left(out)),
-        times(bob[0] * LENGTH, left(out)),
-    );
     specimen
-        .claim("energy.kinetic", "J", kinetic * spin * spin)
-        .claim("energy.gravity", "J", g * moments[1])
-        .vector("center_of_mass", "m", times(1.0 / total, moments))
-        .vector(
-            "momentum",
-            "N.s",
-            times(spin, sum(moved, [0.0, -0.5 * mass * LENGTH])),
-        )
-        .vector(
-            "second.b.velocity",
-            "m/s",
-            times(0.75 * spin * LENGTH, left(out)),
-        )
-        .claim(
-            "second.c.angular_acceleration",
-            "rad/s2",
-            hinged.spin_rate(),
-        )
+}
+
+/// Energies, momentum and centre of mass of a rod that turns about the pin, with mass and inertia at its outer end.
+fn swung(
+    specimen: Specimen,
+    (spin, g): (f64, f64),
+    [bob, inertia]: [f64; 2],
+    out: [f64; 2],
+) -> Specimen {
+    let (mass, l) = (LINE * LENGTH, LENGTH);
+    let (total, first) = (mass + bob, mass * 0.5 * l + bob * l);
+    let centre = sum(PIN, times(first / total, out));
+    let about = mass * l * l / 3.0 + bob * l * l + inertia;
+    specimen
+        .claim("energy.kinetic", "J", 0.5 * about * spin * spin)
+        .claim("energy.gravity", "J", g * total * centre[1])
+        .vector("center_of_mass", "m", centre)
+        .vector("momentum", "N.s", times(spin * first, left(out)))
 }
 
 /// A clamped rod at rest that carries one load of every kind: every section carries what acts beyond it. A flexible one so
@@ -227,18 +230,9 @@ fn carrying(title: &'static str, model: &str) -> Specimen {
     let spread = sum(line, [0.0, -LINE * g]);
     for (place, s) in PLACES {
         let name = |of: &str| format!("beam.{place}.{of}");
-        let carried = |counts: &dyn Fn(f64) -> bool| {
-            let h = (1.0 - s) * LENGTH;
-            let (mut force, mut moment) = (times(h, spread), cross(out, spread) * h * h / 2.0);
-            for (place, point, twist) in acting.into_iter().filter(|(place, ..)| counts(*place)) {
-                force = sum(force, point);
-                moment += cross(times((place - s) * LENGTH, out), point) + twist;
-            }
-            (force, moment)
-        };
         // At the last end what acts there is carried.
-        let (force, moment) = carried(&|place| place > s || s == 1.0 && place == s);
-        let (held, _) = carried(&|place| place >= s);
+        let (force, moment) = carried((s, out), spread, &acting, s == 1.0);
+        let (held, _) = carried((s, out), spread, &acting, true);
         let held = if s == 0.0 {
             [0.0; 2]
         } else {
@@ -250,6 +244,25 @@ fn carrying(title: &'static str, model: &str) -> Specimen {
             .vector_within(&name("connectivity_force"), "N", held, within);
     }
     specimen
+}
+
+/// Force and moment about a section, by its place and the direction of the rod, of what acts beyond: what is spread, and
+/// points with their forces and moments, those in the section too or not.
+fn carried(
+    (s, out): (f64, [f64; 2]),
+    spread: [f64; 2],
+    acting: &[(f64, [f64; 2], f64)],
+    with_own: bool,
+) -> ([f64; 2], f64) {
+    let h = (1.0 - s) * LENGTH;
+    let (mut force, mut moment) = (times(h, spread), cross(out, spread) * h * h / 2.0);
+    for (place, point, twist) in acting {
+        if *place > s || with_own && *place == s {
+            force = sum(force, *point);
+            moment += cross(times((place - s) * LENGTH, out), *point) + twist;
+        }
+    }
+    (force, moment)
 }
 
 /// A rod between a pin and a link that holds it level: a beam between supports, M = q x (L - x) / 2, and the link pulls
