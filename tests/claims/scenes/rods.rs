@@ -7,7 +7,8 @@ use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![
-        falling(),
+        falling("falling", None),
+        falling("falling_with_bob", Some([0.2, 0.03])),
         hinged(),
         carrying("carrying", "rigid"),
         carrying("stiff_carrying", "flexible"),
@@ -75,27 +76,34 @@ impl Pendulum {
     }
 }
 
-/// A compound pendulum as it moves off from the horizontal, M = m g x (L - x)^2 / (4 L^2).
-fn falling() -> Specimen {
+/// A compound pendulum as it moves off from the horizontal, by itself, M = m g x (L - x)^2 / (4 L^2), or with mass and
+/// inertia at its end.
+fn falling(title: &'static str, bob: Option<[f64; 2]>) -> Specimen {
     let (g, spin) = (9.81, -1.3);
+    let [mass, inertia] = bob.unwrap_or_default();
+    let masses = bob.map(|_| json!({"marker": "rod.e", "mass": mass, "inertia": inertia}));
     let mut body = rod("rod", [0.0, 0.0], [1.0, 0.0]);
     body["motion"] = json!({"velocity": [0.0, 0.0], "spin": spin});
     let scene = json!({
-        "name": "falling", "dimension": 2, "gravity": [0.0, -g], "bodies": [body],
+        "name": title, "dimension": 2, "gravity": [0.0, -g], "bodies": [body],
+        "masses": Vec::from_iter(masses),
         "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]}],
         "outputs": sections("rod")});
-    let mut specimen = Specimen::new("falling", scene);
-    let plain = Pendulum {
+    let mut specimen = Specimen::new(title, scene);
+    let pendulum = Pendulum {
         gravity: [0.0, -g],
         spin,
         hinge: 0.0,
-        bob: [0.0; 2],
+        bob: [mass, inertia],
     };
     for (place, s) in PLACES {
         let name = |of: &str| format!("rod.{place}.{of}");
         let x = s * LENGTH;
-        let [axial, across, _] = plain.outer(x);
-        let moment = LINE * g * x * (LENGTH - x).powi(2) / (4.0 * LENGTH);
+        let [axial, across, moment] = pendulum.outer(x);
+        let moment = match bob {
+            None => LINE * g * x * (LENGTH - x).powi(2) / (4.0 * LENGTH),
+            Some(_) => moment,
+        };
         let before = if s == 0.0 {
             [0.0; 2]
         } else {
