@@ -367,5 +367,29 @@ mod tests {
         }
         assert!(page.contains("<svg") && page.contains("&quot;name&quot;: &quot;example&quot;"));
         assert_eq!(page, documentation(&scene, None, &INTERFACE));
+        assert!(!page.contains("Rigid cables"));
+    }
+
+    #[test]
+    fn the_page_says_which_cables_are_rigid_and_draws_them() {
+        let text = r#"{ "name": "one", "dimension": 2,
+          "bodies": [ { "name": "rod", "element": "cable", "model": "rigid",
+            "material": { "youngs_modulus": 7.0e5, "density": 5540.0 },
+            "section": { "area": 1.8e-3, "second_moment": 1.215e-8 },
+            "shape": { "line": { "from": [0.0, 0.0], "to": [1.2, 0.0] } },
+            "markers": { "middle": 0.5 } } ],
+          "outputs": [ { "kind": "bending_moment", "marker": "rod.middle" } ] }"#;
+        let scene = Scene::from_json(text).expect("a valid scene");
+        let page = documentation(&scene, None, &INTERFACE);
+        for told in [
+            "the rigid rod <em>rod</em>, 1.2 m long",
+            "Rigid cables",
+            ">rod</text>",
+            "rod.density",
+            "rod.middle.bending_moment",
+        ] {
+            assert!(page.contains(told), "{told}");
+        }
+        assert!(!page.contains("Strain measure") && !page.contains("rod.youngs_modulus"));
     }
 }
