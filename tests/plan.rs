@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use flexbody::scene::Scene;
+use flexbody::scene::{Body, Model, Scene};
 use flexbody::simulation::{Plan, Settles, Signals, Simulation, courses, plan};
 use serde_json::{Value, json};
 
@@ -250,6 +250,13 @@ fn seen() -> Value {
            {"kind": "energy"}, {"kind": "momentum"}])
 }
 
+/// The first body of a scene with another model.
+fn rod(scene: &Scene, model: Model) -> Body {
+    let mut body = scene.bodies[0].clone();
+    body.cable_mut().expect("a cable").model = model;
+    body
+}
+
 fn at_the_end(scene: Scene, names: &[&str]) -> Vec<f64> {
     let stop = scene.experiment.stop_time;
     let mut simulation = Simulation::new(scene);
@@ -265,11 +272,15 @@ fn at_the_end(scene: Scene, names: &[&str]) -> Vec<f64> {
 
 #[test]
 fn a_cable_that_need_not_bend_is_rigid_and_keeps_its_names() {
-    let (rigid, plan) = planned(&swinging("auto", seen()).expect("a scene")).expect("a plan");
-    assert!(rigid.bodies[0].rigid().is_some(), "{plan:?}");
+    let open = swinging("auto", seen()).expect("a scene");
+    let (rigid, plan) = planned(&open).expect("a plan");
+    assert_eq!(rigid.bodies[0], rod(&open, Model::Rigid), "{plan:?}");
     assert_eq!(plan.expect("a plan").bodies[0].kind, "rigid");
     let (bends, _) = planned(&swinging("flexible", seen()).expect("a scene")).expect("a plan");
-    assert!(bends.bodies[0].cable().is_some(), "a named model is kept");
+    assert!(
+        bends.bodies[0].flexible().is_some(),
+        "a named model is kept"
+    );
     // Mass, inertia, motion and markers are those of the rod.
     let names = [
         "rod.b.position[1]",
@@ -290,24 +301,122 @@ fn a_cable_that_need_not_bend_is_rigid_and_keeps_its_names() {
     }
 }
 
+/// Forces of a rigid rod as it swings are those of a stiff one whose ringing is damped.
 #[test]
-fn what_a_rigid_body_has_not_keeps_a_cable_flexible_or_is_refused() {
-    let mut outputs = seen();
-    outputs
-        .as_array_mut()
-        .expect("a list")
-        .push(json!({"kind": "curvature", "marker": "rod.middle"}));
-    let (bends, _) = planned(&swinging("auto", outputs.clone()).expect("a scene")).expect("a plan");
-    assert!(bends.bodies[0].cable().is_some());
-    let told = planned(&swinging("rigid", outputs).expect("a scene")).expect_err("no curvature");
-    assert!(
-        told.starts_with(
-            "bodies[0].model: expected a cable that can be rigid, found outputs[4].marker: "
-        ),
-        "{told}"
+fn sections_of_a_rigid_cable_carry_what_those_of_a_stiff_one_do() {
+    let outputs = json!([{"kind": "axial_force", "marker": "rod.middle"},
+                         {"kind": "bending_moment", "marker": "rod.middle"},
+                         {"kind": "connectivity_force", "marker": "rod.middle"}]);
+    let swung = |model: &str| {
+        let scene = swinging(model, outputs.clone()).expect("a scene").to_json();
+        let scene = edited(&scene, |scene| {
+            scene["bodies"][0]["elements"] = json!(4);
+            scene["bodies"][0]["material"]["damping_time"] = json!(1e-3);
+            scene["accuracy"] = json!({"relative_tolerance": 1e-6});
+        });
+        let names = [
+            "rod.middle.axial_force",
+            "rod.middle.bending_moment",
+            "rod.middle.connectivity_force[1]",
+            "rod.middle.connectivity_force[2]",
+        ];
+        at_the_end(scene.expect("a scene"), &names)
+    };
+    let (rigid, stiff) = (swung("rigid"), swung("flexible"));
+    for (a, b) in rigid.iter().zip(&stiff) {
+        assert!((a - b).abs() < 1e-3 * b.abs(), "{rigid:?} {stiff:?}");
+    }
+}
+
+#[test]
+fn what_a_rigid_cable_has_not_keeps_it_flexible_or_is_refused() {
+    let with = |kind: &str| {
+        let mut outputs = seen();
+        let list = outputs.as_array_mut().expect("a list");
+        list.push(json!({"kind": kind, "marker": "rod.middle"}));
+        outputs
+    };
+    for kind in ["strain", "curvature"] {
+        let (bends, _) = planned(&swinging("auto", with(kind)).expect("a scene")).expect("a plan");
+        assert!(bends.bodies[0].flexible().is_some(), "{kind}");
+        let told = swinging("rigid", with(kind)).expect_err(kind);
+        let expected = "outputs[4].marker: expected a marker of a cable that bends, found \"rod\", which is rigid \
+                        (bodies[0].model)";
+        assert_eq!(told, expected);
+    }
+    // Forces in sections follow from its balance.
+    for kind in ["axial_force", "bending_moment", "connectivity_force"] {
+        let (rigid, _) = planned(&swinging("auto", with(kind)).expect("a scene")).expect("a plan");
+        assert!(rigid.bodies[0].flexible().is_none(), "{kind}");
+    }
+    // Nothing is left to a planner.
+    let scene = swinging("rigid", seen()).expect("a scene");
+    let plain = edited(&scene.to_json(), |scene| scene["accuracy"] = json!({})).expect("a scene");
+    assert_eq!(planned(&plain), Ok((plain.clone(), None)));
+}
+
+#[test]
+fn a_rigid_cable_is_straight_in_the_plane_and_nothing_slides_along_it() {
+    let refused = |edit: &dyn Fn(&mut Value)| {
+        let scene = swinging("rigid", seen()).expect("a scene").to_json();
+        edited(&scene, edit).expect_err("refused")
+    };
+    let arc = refused(&|scene| {
+        scene["bodies"][0]["shape"] = json!({"arc": {"from": [0, 0], "to": [1, 0], "length": 1.1}});
+    });
+    let deforming = refused(&|scene| {
+        scene["bodies"][0]["motion"]["deformation"] = json!(["0", "sin(PI*s)"]);
+    });
+    let model = "bodies[0].model: expected \"auto\" or \"flexible\" of a cable that";
+    assert_eq!(
+        arc,
+        format!("{model} is curved without stress, found \"rigid\"")
     );
-    let (rigid, _) = planned(&swinging("rigid", seen()).expect("a scene")).expect("a plan");
-    assert!(rigid.bodies[0].rigid().is_some());
+    assert_eq!(
+        deforming,
+        format!("{model} deforms at the start, found \"rigid\"")
+    );
+    let slide = refused(&|scene| {
+        let ring = json!({"name": "ring", "element": "rigid", "mass": 1.0, "position": [0.5, 0.0],
+                          "markers": {"c": [0.0, 0.0]}});
+        scene["bodies"].as_array_mut().expect("bodies").push(ring);
+        let along = json!({"name": "along", "kind": "along", "markers": ["rod", "ring.c"]});
+        scene["joints"].as_array_mut().expect("joints").push(along);
+    });
+    let expected = "joints[1].markers[0]: expected the name of a cable that bends, found \"rod\", which is rigid \
+                    (bodies[0].model)";
+    assert_eq!(slide, expected);
+}
+
+/// What the unit of a rigid cable may set is what it still has: its mass follows.
+#[test]
+fn parameters_of_a_rigid_cable_are_those_with_an_effect() {
+    let scene = swinging("rigid", seen()).expect("a scene");
+    let mut simulation = Simulation::new(planned(&scene).expect("a plan").0);
+    let place = |simulation: &Simulation, name: &str| {
+        let mut variables = simulation.variables().iter();
+        variables.position(|variable| variable.name == name)
+    };
+    for name in [
+        "youngs_modulus",
+        "second_moment",
+        "damping_time",
+        "elements",
+        "mass",
+        "inertia",
+    ] {
+        assert_eq!(place(&simulation, &format!("rod.{name}")), None, "{name}");
+    }
+    let [density, area, kinetic] = ["rod.density", "rod.area", "energy.kinetic"]
+        .map(|name| place(&simulation, name).expect(name));
+    simulation
+        .set_real(density, 2.0 * 7800.0)
+        .expect("a density");
+    simulation.set_real(area, 3.0 * 1e-4).expect("an area");
+    simulation.initialize(0.0).expect("a start");
+    // A rod of 0.78 kg, six times as heavy, that turns about its end at 1 rad/s.
+    let found = simulation.real(kinetic).expect("an energy");
+    assert!((found - 6.0 * 0.78 / 6.0).abs() < 1e-12, "{found}");
 }
 
 #[test]

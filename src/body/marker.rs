@@ -139,6 +139,11 @@ impl<N: Number> Marker<N> {
         self.nodes[0] == self.nodes[1]
     }
 
+    /// How far along its direction a point of a rigid body is from the centre of mass, m.
+    pub fn offset(&self) -> N {
+        self.values[1]
+    }
+
     /// The point of a cable inside an element, which may move along it: `xi` has derivatives then.
     pub fn within<E: Element<D>, const D: usize>(
         body: usize,

@@ -6,7 +6,7 @@ use super::number::number;
 use super::parts::parts;
 use super::plan::plan as planned;
 use super::table::{code, row, table};
-use crate::scene::{Body, InitialState, Integrator, Scene, Strain};
+use crate::scene::{Body, InitialState, Integrator, Model, Scene, Strain};
 use crate::simulation::{Causality, Plan, Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
@@ -104,16 +104,17 @@ fn body_in_words(body: &Body) -> String {
     let name = escape(body.name());
     match body {
         Body::Cable(cable) => {
-            let elements = match cable.elements {
-                None => "elements still to be counted".into(),
-                Some(1) => "1 cable element".into(),
-                Some(count) => format!("{count} cable elements"),
+            // A length along an arc need not be a short number; four digits are enough to read.
+            let length = number((cable.shape.length() * 1e4).round() / 1e4);
+            let elements = match (cable.model, cable.elements) {
+                (Model::Rigid, _) => {
+                    return format!("the rigid rod <em>{name}</em>, {length} m long");
+                }
+                (_, None) => "elements still to be counted".into(),
+                (_, Some(1)) => "1 cable element".into(),
+                (_, Some(count)) => format!("{count} cable elements"),
             };
-            format!(
-                "the flexible body <em>{name}</em>, {} m long, of {elements}",
-                // A length along an arc need not be a short number; four digits are enough to read.
-                number((cable.shape.length() * 1e4).round() / 1e4),
-            )
+            format!("the flexible body <em>{name}</em>, {length} m long, of {elements}")
         }
         Body::Rigid(rigid) => {
             let kind = if rigid.inertia > 0.0 {
@@ -150,7 +151,7 @@ fn model(scene: &Scene) -> String {
     let constraints = "multipliers for those that are not linear; positions and velocities are projected \
                        after every step";
     let mut strains: Vec<&str> = Vec::new();
-    for cable in scene.bodies.iter().filter_map(Body::cable) {
+    for cable in scene.bodies.iter().filter_map(Body::flexible) {
         let strain = strain_in_words(cable.strain);
         if !strains.contains(&strain) {
             strains.push(strain);
@@ -167,6 +168,7 @@ fn model(scene: &Scene) -> String {
         row(&["Integrator", integrator]),
         row(&["Start", initial]),
     ];
+    rows.extend(rigid_in_words(scene).map(|cables| row(&["Rigid cables", &cables])));
     rows.extend(
         strains
             .iter()
@@ -176,6 +178,19 @@ fn model(scene: &Scene) -> String {
         "<h2>Model</h2>\n<table class=\"facts\">\n{}</table>\n",
         rows.concat()
     )
+}
+
+/// Cables that do not bend, if there are any.
+fn rigid_in_words(scene: &Scene) -> Option<String> {
+    let cables = scene.bodies.iter().filter_map(Body::cable);
+    let names: Vec<String> = cables
+        .filter(|cable| cable.model == Model::Rigid)
+        .map(|cable| code(&cable.name))
+        .collect();
+    (!names.is_empty()).then(|| {
+        let names = names.join(", ");
+        format!("{names}: uniform rods; axial forces and bending moments balance what acts on them with their inertia")
+    })
 }
 
 fn strain_in_words(strain: Strain) -> &'static str {
@@ -352,5 +367,29 @@ mod tests {
         }
         assert!(page.contains("<svg") && page.contains("&quot;name&quot;: &quot;example&quot;"));
         assert_eq!(page, documentation(&scene, None, &INTERFACE));
+        assert!(!page.contains("Rigid cables"));
+    }
+
+    #[test]
+    fn the_page_says_which_cables_are_rigid_and_draws_them() {
+        let text = r#"{ "name": "one", "dimension": 2,
+          "bodies": [ { "name": "rod", "element": "cable", "model": "rigid",
+            "material": { "youngs_modulus": 7.0e5, "density": 5540.0 },
+            "section": { "area": 1.8e-3, "second_moment": 1.215e-8 },
+            "shape": { "line": { "from": [0.0, 0.0], "to": [1.2, 0.0] } },
+            "markers": { "middle": 0.5 } } ],
+          "outputs": [ { "kind": "bending_moment", "marker": "rod.middle" } ] }"#;
+        let scene = Scene::from_json(text).expect("a valid scene");
+        let page = documentation(&scene, None, &INTERFACE);
+        for told in [
+            "the rigid rod <em>rod</em>, 1.2 m long",
+            "Rigid cables",
+            ">rod</text>",
+            "rod.density",
+            "rod.middle.bending_moment",
+        ] {
+            assert!(page.contains(told), "{told}");
+        }
+        assert!(!page.contains("Strain measure") && !page.contains("rod.youngs_modulus"));
     }
 }

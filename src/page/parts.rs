@@ -130,7 +130,7 @@ fn given(before: &str, value: Option<f64>, unit: &str) -> String {
 }
 
 /// What a joint holds.
-fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold<'_>) -> String {
+fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold) -> String {
     let point = at_point(dimension, &joint.ends);
     match hold {
         Hold::Position => format!("the position{point}"),

@@ -2,10 +2,10 @@
 
 use super::description::Declaration;
 use super::resolved::{
-    Action, BodyReference, Cable, CableId, Ends, First, Hold, Joint, Marker, MarkerId, MotionKind,
-    On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
+    Action, BodyReference, Cable, CableId, Ends, First, Form, Hold, Joint, Marker, MarkerId,
+    MotionKind, On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
 };
-use super::{Body, CableBody, RigidBody, Scene};
+use super::{Body, CableBody, Model, RigidBody, Scene};
 use crate::math::vector::{dot, norm};
 use crate::system::Drive;
 
@@ -44,17 +44,20 @@ impl<'a> Resolved<'a> {
             bodies_by_name: Default::default(),
             markers_by_name: Default::default(),
         };
-        let mut chains = 0;
+        let (mut chains, mut rods) = (0, 0);
+        let next = |count: &mut usize| {
+            *count += 1;
+            *count - 1
+        };
         for (body, described) in scene.bodies.iter().enumerate() {
             let reference = match described {
                 Body::Cable(described) => {
-                    let id = CableId {
-                        body,
-                        chain: chains,
+                    let form = match described.model {
+                        Model::Rigid => Form::Rod(next(&mut rods)),
+                        Model::Auto | Model::Flexible => Form::Chain(next(&mut chains)),
                     };
-                    chains += 1;
                     BodyReference::Cable(Cable {
-                        id,
+                        id: CableId { body, form },
                         body: described,
                     })
                 }
@@ -104,6 +107,13 @@ impl Scene {
             Body::Rigid(body) => body,
             Body::Cable(_) => unreachable!("a number of a rigid body is that of a rigid body"),
         }
+    }
+}
+
+impl Cable<'_> {
+    /// Whether it neither bends nor stretches.
+    pub fn is_rigid(&self) -> bool {
+        matches!(self.id.form, Form::Rod(_))
     }
 }
 
@@ -267,7 +277,7 @@ impl<'a> Joint<'a> {
 
     /// Whether it holds a position or a distance.
     pub(super) fn holds_position(&self) -> bool {
-        let turns = |hold: &Hold<'_>| matches!(hold, Hold::Direction(_) | Hold::Spring { .. });
+        let turns = |hold: &Hold| matches!(hold, Hold::Direction(_) | Hold::Spring { .. });
         !self.holds.iter().all(turns)
     }
 

@@ -11,7 +11,6 @@ mod marker;
 mod mesh;
 mod ports;
 mod resolved;
-mod rigid;
 mod shape;
 mod timed;
 mod validate;

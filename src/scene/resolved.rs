@@ -44,11 +44,20 @@ numbers! {
 pub struct CableId {
     /// Its place among all bodies.
     pub(super) body: usize,
-    /// Its place among the cables.
-    pub(super) chain: usize,
+    /// What it is in the system.
+    pub(super) form: Form,
 }
 
-/// A flexible body.
+/// What a cable is in the system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// Flexible: its place among the chains.
+    Chain(usize),
+    /// Rigid: its place among the rods.
+    Rod(usize),
+}
+
+/// A cable.
 #[derive(Clone, Copy, Debug)]
 pub struct Cable<'a> {
     /// Which one.
@@ -69,9 +78,9 @@ pub struct Rigid<'a> {
 /// A body of either kind.
 #[derive(Clone, Copy, Debug)]
 pub enum BodyReference<'a> {
-    /// Flexible.
+    /// A cable, flexible or rigid.
     Cable(Cable<'a>),
-    /// Rigid.
+    /// Of kind `rigid`.
     Rigid(Rigid<'a>),
 }
 
@@ -173,12 +182,12 @@ pub struct Joint<'a> {
     /// What it joins.
     pub ends: Ends<'a>,
     /// What it holds.
-    pub holds: Vec<Hold<'a>>,
+    pub holds: Vec<Hold>,
 }
 
 /// What a joint holds. Angles (rad) and lengths (m) that are not given are those at the start.
 #[derive(Clone, Copy, Debug)]
-pub enum Hold<'a> {
+pub enum Hold {
     /// The position.
     Position,
     /// The position on a line through the first end: its direction in the axes of that end, of any length.
@@ -187,8 +196,8 @@ pub enum Hold<'a> {
     Direction(Option<f64>),
     /// The distance.
     Distance(Option<f64>),
-    /// The position on the curve of a cable, and which slide that is.
-    Curve(Cable<'a>, SlideId),
+    /// The position on the curve of a cable that bends, by its place among the chains, and which slide that is.
+    Curve(usize, SlideId),
     /// The direction, by a spring and a damper.
     Spring {
         /// Angle at rest.

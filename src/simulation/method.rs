@@ -107,9 +107,9 @@ fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kin
     found.unwrap_or(1.0)
 }
 
-/// Slowest bending (or stretching) of the first cable between supports; 0 without one.
+/// Slowest bending (or stretching) of the first cable that bends, between supports; 0 without one.
 fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
-    let mut cables = resolved.scene.bodies.iter().filter_map(|body| body.cable());
+    let mut cables = (resolved.scene.bodies.iter()).filter_map(|body| body.flexible());
     let Some(cable) = cables.next() else {
         return 0.0;
     };

@@ -73,5 +73,12 @@ fn outlines<const D: usize>(
             found[body] = (0..=parts).map(|part| components(&place(part))).collect();
         }
     }
+    for rod in system.rods() {
+        if let Some(body) = (0..found.len()).find(|body| first(*body) == rod.node) {
+            let ends = [-0.5, 0.5].map(|part| [part * rod.length, 0.0]);
+            let ends = ends.map(|end| Marker::rigid(body, rod.node, end).position(x));
+            found[body] = ends.iter().map(components).collect();
+        }
+    }
     found
 }

@@ -11,7 +11,7 @@ use super::joints::{
 };
 use super::loads::Load;
 use super::signal::Drive;
-use super::{CableChain, DrivenRow, System};
+use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
     Assembly, Dependent, Elimination, Links, Marker, Node, Row, add_node, no_node, product,
     tied_with,
@@ -48,6 +48,8 @@ pub struct Parts<const D: usize = 2> {
     pub chains: Vec<CableChain<D>>,
     /// Rigid bodies and point masses.
     pub lumped_masses: Vec<LumpedMass>,
+    /// Rigid bodies whose sections are read.
+    pub rods: Vec<Rod>,
     /// Nodes of rigid bodies, and whether they can turn.
     pub rigid: Vec<(usize, bool)>,
     /// Joints, then motions.
@@ -103,6 +105,7 @@ impl<const D: usize> System<D> {
             needs_rates: loads_damped || parts.rotation != 0.0 || parts.tracks_work,
             chains: parts.chains,
             lumped_masses: parts.lumped_masses,
+            rods: parts.rods,
             bodies: parts.bodies,
             elimination,
             joints: parts.joints,
@@ -292,7 +295,7 @@ fn constraints<const D: usize>(parts: &Parts<D>) -> (Vec<Linear<D>>, Vec<Constra
                     is_driven: false,
                 },
                 target: Target::Fixed(parts.nodes[*node][1][axis]),
-                on_second: [Vector::zeros(); 2],
+                on_ends: [[Vector::zeros(); 2]; 2],
             });
         }
     }

@@ -81,11 +81,12 @@ impl<const D: usize, N: Number> End<D, N> {
         }
     }
 
-    /// Adds a moment, counter-clockwise: `M d(angle)` with `d(angle) = (u x du) / u.u`.
-    pub fn add_moment(&self, moment: N, x: &[Node<D, N>], f: &mut [Node<D, N>]) {
+    /// Forces on position and direction of a moment, counter-clockwise: `M d(angle)` with
+    /// `d(angle) = (u x du) / u.u`.
+    pub fn turn(&self, moment: N, x: &[Node<D, N>]) -> [Vector<D, N>; 2] {
         let u = self.direction(x);
         let on_direction = perpendicular(u) * (moment / u.norm_squared());
-        self.add_force(Vector::zeros(), on_direction, f);
+        [Vector::zeros(), on_direction]
     }
 }
 

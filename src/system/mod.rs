@@ -8,6 +8,7 @@ pub mod joints;
 pub mod loads;
 mod motion;
 mod outputs;
+mod rod;
 mod signal;
 mod spectra;
 mod start;
@@ -22,6 +23,7 @@ pub use motion::dynamics::{Accepted, Dynamics, Model};
 pub use motion::multipliers::ConstraintRow;
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
+pub use rod::Rod;
 pub use signal::{Drive, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;
 pub use spectra::spectrum::{
@@ -52,6 +54,8 @@ pub struct System<const D: usize = 2> {
     reference: Vec<Node<D>>,
     chains: Vec<CableChain<D>>,
     lumped_masses: Vec<LumpedMass>,
+    /// Rigid bodies whose sections are read.
+    rods: Vec<Rod>,
     /// Nodes of every body.
     bodies: Vec<Range<usize>>,
     elimination: Elimination<D>,
@@ -111,14 +115,12 @@ impl<const D: usize> System<D> {
         self.mass().sqrt() * self.size()
     }
 
-    /// Size: the length of the longest cable, or the largest distance of two nodes if that is more, m.
+    /// Size: the length of the longest cable or rod, or the largest distance of two nodes if that is more, m.
     pub fn size(&self) -> f64 {
-        let longest = self
-            .chains
-            .iter()
-            .map(CableChain::length)
-            .fold(0.0, f64::max);
-        if self.chains.len() == 1 && self.bodies.len() == 1 {
+        let cables = self.chains.iter().map(CableChain::length);
+        let lengths = cables.chain(self.rods.iter().map(|rod| rod.length));
+        let longest = lengths.fold(0.0, f64::max);
+        if self.chains.len() + self.rods.len() == 1 && self.bodies.len() == 1 {
             return longest;
         }
         longest.max(start::placement::extent(&self.reference))
@@ -137,6 +139,11 @@ impl<const D: usize> System<D> {
     /// Flexible bodies.
     pub fn chains(&self) -> &[CableChain<D>] {
         &self.chains
+    }
+
+    /// Straight rigid bodies whose sections are read.
+    pub fn rods(&self) -> &[Rod] {
+        &self.rods
     }
 
     /// Coordinates of the nodes where `q` and what drives them are zero.

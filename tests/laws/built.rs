@@ -2,7 +2,7 @@
 
 use flexbody::body::{Marker, Node};
 use flexbody::system::joints::{Joint, Primitive};
-use flexbody::system::loads::{Distributed, Force, Load, Moment, RotationalSpring, Spring};
+use flexbody::system::loads::{Distributed, Force, Line, Load, Moment, RotationalSpring, Spring};
 use flexbody::system::{
     Accepted, Angle, BuildError, CableChain, Drive, End, Evaluation, LumpedMass, Model,
     NotAssembled, Parts, Signal, State, System, Work,
@@ -105,7 +105,7 @@ impl Mechanism {
                 size: signal(size),
             }),
             Acting::Distributed { body, size } => Load::Distributed(Distributed {
-                chain: self.chain(*body),
+                on: Line::Chain(self.chain(*body)),
                 components: size.each_ref().map(signal),
             }),
             Acting::Spring {
@@ -172,6 +172,7 @@ impl Mechanism {
             bodies,
             chains: self.chains(),
             lumped_masses,
+            rods: Vec::new(),
             rigid,
             joints,
             drives,

@@ -59,6 +59,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         nodes,
         chains: vec![chain],
         lumped_masses: Vec::new(),
+        rods: Vec::new(),
         rigid: Vec::new(),
         joints: vec![pin],
         drives: Vec::new(),

@@ -73,7 +73,7 @@ impl Bar {
     /// All elements of a system of cables.
     fn all(build: &Build<'_>) -> Vec<Self> {
         let start = build.start;
-        let cables = start.scene.bodies.iter().filter_map(|body| body.cable());
+        let cables = start.scene.bodies.iter().filter_map(|body| body.flexible());
         let mut bars = Vec::new();
         for (cable, chain) in cables.zip(start.assembled.system.chains()) {
             for (j, element) in chain.elements().iter().enumerate() {
@@ -212,7 +212,7 @@ impl EnergyMomentum {
             .scene
             .bodies
             .iter()
-            .any(|body| body.cable().is_none())
+            .any(|body| body.flexible().is_none())
         {
             return Err("energy_momentum: expected cables, found a rigid body".into());
         }

@@ -9,9 +9,12 @@ const PARTS: u32 = 96;
 /// With more elements than this, nodes would only blacken the line.
 const MOST_NODES: u32 = 64;
 
-/// Points along a cable; corners around a rigid body's markers and its centre, m.
+/// Points along a cable, of a rigid one its ends; corners around a rigid body's markers and its centre, m.
 pub(super) fn outline(body: BodyReference<'_>) -> Vec<[f64; 3]> {
     match body {
+        BodyReference::Cable(cable) if cable.is_rigid() => {
+            [0.0, 1.0].map(|s| cable.body.shape.point(s)).into()
+        }
         BodyReference::Cable(cable) => cable_outline(cable.body),
         BodyReference::Rigid(rigid) => rigid_outline(rigid.body),
     }
@@ -64,8 +67,11 @@ impl Picture<'_> {
     pub(super) fn body(&mut self, body: BodyReference<'_>) {
         let points: Vec<Point> = outline(body).iter().map(|point| self.at(*point)).collect();
         match body {
+            BodyReference::Cable(cable) if cable.is_rigid() => {
+                self.rigid(cable.body.shape.point(0.5), &points);
+            }
             BodyReference::Cable(cable) => self.cable(cable, &points),
-            BodyReference::Rigid(rigid) => self.rigid(rigid.body, &points),
+            BodyReference::Rigid(rigid) => self.rigid(rigid.body.position.full(), &points),
         }
     }
 
@@ -92,13 +98,13 @@ impl Picture<'_> {
         }
     }
 
-    fn rigid(&mut self, body: &RigidBody, points: &[Point]) {
+    fn rigid(&mut self, centre: [f64; 3], points: &[Point]) {
         let style = Style {
             stroke: BODY,
             width: 0.28 * self.unit,
             fill: INSIDE,
         };
-        let centre = self.at(body.position.full());
+        let centre = self.at(centre);
         if points.len() > 1 {
             self.canvas.polyline(points, true, style);
             self.canvas.circle(centre, 0.34 * self.unit, style);

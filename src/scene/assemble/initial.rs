@@ -7,20 +7,35 @@ use crate::math::expression::Expression;
 use crate::math::space::{Vector, spun, vector};
 use crate::scene::{Error, InitialMotion};
 
+/// Motion of a body at the start.
+#[derive(Clone, Debug)]
+struct Moving<const D: usize> {
+    nodes: Range<usize>,
+    /// Velocity, m/s, of the point that is so far from the first node along its direction, m.
+    velocity: Vector<D>,
+    arm: f64,
+    /// Angular velocity, rad/s.
+    spin: [f64; 3],
+}
+
 /// Motions of all bodies at the start.
 #[derive(Clone, Debug, Default)]
 pub struct Motions<const D: usize = 2> {
-    /// Nodes of every body, velocity of the first one, spin.
-    bodies: Vec<(Range<usize>, Vector<D>, [f64; 3])>,
+    bodies: Vec<Moving<D>>,
     /// Rates of deformation of all nodes.
     deformation: Vec<Node<D>>,
 }
 
 impl<const D: usize> Motions<D> {
-    pub(super) fn push(&mut self, nodes: Range<usize>, motion: &InitialMotion) {
+    /// Adds a body; the velocity is that of the point so far from its first node along the direction there, m.
+    pub(super) fn push(&mut self, nodes: Range<usize>, motion: &InitialMotion, arm: f64) {
         self.deformation.resize(nodes.end, no_node());
-        let velocity = vector(motion.velocity.full());
-        self.bodies.push((nodes, velocity, motion.spin.full()));
+        self.bodies.push(Moving {
+            nodes,
+            velocity: vector(motion.velocity.full()),
+            arm,
+            spin: motion.spin.full(),
+        });
     }
 
     /// Gives the cable added last, with nodes at these material coordinates and this length (m), a velocity of
@@ -33,7 +48,7 @@ impl<const D: usize> Motions<D> {
     ) -> Result<(), Error> {
         let read = |text: &String| Expression::of(text, "s").map_err(|e| Error::new("bodies", e));
         let field = field.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let Some((nodes, ..)) = self.bodies.last() else {
+        let Some(Moving { nodes, .. }) = self.bodies.last() else {
             return Ok(());
         };
         let twice = nodes.len() > mesh.len();
@@ -49,17 +64,23 @@ impl<const D: usize> Motions<D> {
 
     /// Whether any body moves.
     pub fn is_none(&self) -> bool {
-        let rests = |(_, velocity, spin): &(Range<usize>, Vector<D>, [f64; 3])| {
-            *velocity == Vector::<D>::zeros() && *spin == [0.0; 3]
-        };
+        let rests =
+            |body: &Moving<D>| body.velocity == Vector::<D>::zeros() && body.spin == [0.0; 3];
         self.bodies.iter().all(rests) && self.deformation.iter().all(|d| *d == no_node())
     }
 
     /// Rates of nodes at these coordinates.
     pub fn rates(&self, x: &[Node<D>]) -> Vec<Node<D>> {
         let mut rates = self.deformation.clone();
-        for (nodes, velocity, spin) in &self.bodies {
-            let [origin, _] = x[nodes.start];
+        for Moving {
+            nodes,
+            velocity,
+            arm,
+            spin,
+        } in &self.bodies
+        {
+            let [first, along] = x[nodes.start];
+            let origin: [f64; D] = std::array::from_fn(|k| first[k] + arm * along[k]);
             for (rate, x) in rates[nodes.clone()].iter_mut().zip(&x[nodes.clone()]) {
                 let way = std::array::from_fn(|k| x[0][k] - origin[k]);
                 let moved = velocity + Vector::from(spun(*spin, &way));

@@ -1,5 +1,6 @@
 //! From a validated scene to a system.
 
+mod bodies;
 mod initial;
 mod motions;
 mod ports;
@@ -7,18 +8,16 @@ mod ports;
 pub use initial::Motions;
 
 use super::resolved::{
-    self, Action, BodyReference, CouplingId, Ends, First, Hold, InputKind, LoadKind, MarkerId, On,
-    Place, Resolved, Spring, Turning,
+    self, Action, CouplingId, Ends, First, Form, Hold, InputKind, LoadKind, MarkerId, On, Place,
+    Resolved, Spring, Turning,
 };
-use super::{CableBody, Error, OutputKind, Scene, Strain};
+use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
-use crate::elements::cable::{self, Inertia};
-use crate::elements::{self, Nodal};
 use crate::math::function::Function;
-use crate::math::space::{Vector, axis, turned, vector};
+use crate::math::space::{Vector, vector};
 use crate::system::joints::{Joint, Primitive};
 use crate::system::loads::{self, Load};
-use crate::system::{Angle, BuildError, CableChain, End, LumpedMass, Parts, Signal, System};
+use crate::system::{Angle, BuildError, End, LumpedMass, Parts, Signal, System};
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
 const BYTES: usize = 5000;
@@ -113,6 +112,7 @@ impl Resolved<'_> {
             bodies: Vec::new(),
             chains: Vec::new(),
             lumped_masses: Vec::new(),
+            rods: Vec::new(),
             rigid: Vec::new(),
             joints: Vec::new(),
             drives: Vec::new(),
@@ -160,55 +160,11 @@ struct Builder<'a, const D: usize> {
 }
 
 impl<const D: usize> Builder<'_, D> {
-    fn body(&mut self, index: usize) -> Result<(), Error> {
-        let first = self.parts.nodes.len();
-        let motion = self.resolved.scene.bodies[index].motion();
-        match self.resolved.bodies[index] {
-            BodyReference::Cable(reference) => {
-                let cable = reference.body;
-                let mesh = self.resolved.nodes(reference)?;
-                let chain = CableChain::new(build_elements(cable, &mesh), first);
-                let node = |s: &f64| {
-                    let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
-                    ways.map(|way| vector::<D, f64>(way).into())
-                };
-                self.parts.nodes.extend(mesh.iter().map(node));
-                self.parts.chains.push(chain);
-            }
-            BodyReference::Rigid(rigid) => {
-                let rigid = rigid.body;
-                let direction: Vector<D> = turned(axis(0), rigid.angle.sin_cos());
-                let position: Vector<D> = vector(rigid.position.full());
-                (self.parts.nodes).push([position.into(), direction.into()]);
-                self.parts.rigid.push((first, rigid.inertia > 0.0));
-                self.parts.lumped_masses.push(LumpedMass {
-                    marker: Marker::rigid(index, first, [0.0; 2]),
-                    mass: rigid.mass,
-                    inertia: rigid.inertia,
-                });
-            }
-        }
-        let nodes = first..self.parts.nodes.len();
-        self.motions.push(nodes.clone(), motion);
-        if let (BodyReference::Cable(cable), Some(field)) =
-            (self.resolved.bodies[index], &motion.deformation)
-        {
-            let mesh = self.resolved.nodes(cable)?;
-            self.motions
-                .deform(field, &mesh, cable.body.shape.length())?;
-        }
-        self.parts.bodies.push(nodes);
-        Ok(())
-    }
-
     /// Markers as the scene numbers them.
     fn markers(&mut self) {
         for marker in &self.resolved.markers {
             self.markers.push(match marker.place {
-                Place::Along(cable, s) => {
-                    let chain = &self.parts.chains[cable.id.chain];
-                    Marker::along(cable.id.body, chain, s * chain.length())
-                }
+                Place::Along(cable, s) => self.along(cable, s),
                 Place::Point(rigid, point) => {
                     let body = rigid.id.index();
                     let [x, y, _] = point;
@@ -242,10 +198,7 @@ impl<const D: usize> Builder<'_, D> {
                 End::Ground(point.map_or(here, vector))
             }
             First::Marker(marker) => End::Body(self.marker(marker)),
-            First::Cable(cable) => {
-                let chain = &self.parts.chains[cable.id.chain];
-                End::Body(Marker::along(cable.id.body, chain, 0.5 * chain.length()))
-            }
+            First::Cable(cable) => End::Body(self.along(cable, 0.5)),
         };
         [first, End::Body(second)]
     }
@@ -312,7 +265,7 @@ impl<const D: usize> Builder<'_, D> {
     /// The equations of what a joint holds; none of a spring.
     fn primitive(
         &self,
-        hold: &Hold<'_>,
+        hold: &Hold,
         joint: &resolved::Joint<'_>,
         ends: [End<D>; 2],
     ) -> Option<Primitive<D>> {
@@ -324,13 +277,13 @@ impl<const D: usize> Builder<'_, D> {
             Hold::Distance(given) => {
                 Primitive::Distance(given.unwrap_or_else(|| self.distance_at_start(&ends)))
             }
-            Hold::Curve(cable, _) => Primitive::Curve(cable.id.chain),
+            Hold::Curve(chain, _) => Primitive::Curve(chain),
             Hold::Spring { .. } => return None,
         })
     }
 
     /// Appends the spring of a hinge to the loads; its place there.
-    fn spring_of(&mut self, hold: &Hold<'_>, ends: [End<D>; 2]) -> Option<usize> {
+    fn spring_of(&mut self, hold: &Hold, ends: [End<D>; 2]) -> Option<usize> {
         let Hold::Spring {
             rest,
             stiffness,
@@ -394,7 +347,10 @@ impl<const D: usize> Builder<'_, D> {
             On::Marker(marker) => moment(self.on_marker(marker)),
             On::Joint(pivot) => moment(self.ends(pivot.ends)),
             On::Cable(cable) => Load::Distributed(loads::Distributed {
-                chain: cable.id.chain,
+                on: match cable.id.form {
+                    Form::Chain(chain) => loads::Line::Chain(chain),
+                    Form::Rod(rod) => loads::Line::Rod(self.parts.rods[rod]),
+                },
                 components: each(components),
             }),
         }
@@ -423,30 +379,4 @@ fn unit<const D: usize>(direction: [f64; 3]) -> Vector<D> {
 /// One number for every component of a vector.
 fn each<T: Clone, const D: usize>(components: &[T]) -> [T; D] {
     std::array::from_fn(|k| components[k].clone())
-}
-
-fn build_elements<const D: usize>(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<D>> {
-    let (material, section) = (&body.material, &body.section);
-    let strain = match body.strain {
-        Strain::ThetaPrime => elements::Strain::ThetaPrime,
-        Strain::GreenLagrangeFrenetKappa => elements::Strain::GreenLagrangeFrenetKappa,
-        Strain::EngStrainFrenetKappa => elements::Strain::EngStrainFrenetKappa,
-    };
-    let end = |s: f64| [body.shape.point(s), body.shape.tangent(s)].map(vector);
-    let build = |s: &[f64]| {
-        let parameters = cable::Parameters {
-            length: (s[1] - s[0]) * body.shape.length(),
-            axial_stiffness: material.youngs_modulus * section.area,
-            bending_stiffness: material.youngs_modulus * section.second_moment,
-            line_density: material.density * section.area,
-            damping_time: material.damping_time,
-            strain,
-            inertia: Inertia::Corrected,
-        };
-        let [a, b]: [[Vector<D>; 2]; 2] = [end(s[0]), end(s[1])];
-        let e = Nodal::from_columns(&[a[0], a[1], b[0], b[1]]);
-        let curved = (!body.shape.is_straight()).then_some(&e);
-        cable::Cable::new(parameters, curved)
-    };
-    nodes.windows(2).map(build).collect()
 }

@@ -15,13 +15,13 @@ use super::{Spin, Vector};
 #[serde(tag = "element", rename_all = "snake_case")]
 pub enum Body {
     /// Flexible, of ANCF cables: two nodes with position and slope; stretches and bends, does not
-    /// shear.
+    /// shear. Where `model` says so, a rigid rod.
     Cable(CableBody),
     /// Rigid.
     Rigid(RigidBody),
 }
 
-/// A flexible body of cable elements.
+/// A body of cable elements, or a rigid rod where they need not bend.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CableBody {
@@ -31,7 +31,7 @@ pub struct CableBody {
     #[serde(default, with = "elements")]
     #[schemars(with = "elements::InJson")]
     pub elements: Option<u32>,
-    /// Whether it bends.
+    /// Whether it bends and stretches.
     #[serde(default)]
     pub model: Model,
     /// Material.
@@ -51,18 +51,19 @@ pub struct CableBody {
     pub markers: BTreeMap<String, f64>,
 }
 
-/// Whether a cable bends.
+/// Whether a cable bends and stretches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Model {
     /// It does, unless its number of elements is left to the planner, which finds that this changes no output by more than
-    /// the error wanted: then it is a rigid body of the same name with the same markers.
+    /// the error wanted: then it says `rigid` here.
     #[default]
     Auto,
     /// It does.
     Flexible,
-    /// It is a rigid body of the same name with the same markers, made while packaging. In the plane, straight, where
-    /// nothing is read of it that takes a cable.
+    /// It does not: a rigid rod, uniform along its length. In the plane, straight, and not deforming at the start. Axial
+    /// force and bending moment follow from its balance with inertia; strain and curvature are refused, as is what slides
+    /// along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
     Rigid,
 }
 
@@ -246,7 +247,7 @@ impl Body {
         }
     }
 
-    /// The body if it is flexible.
+    /// The body if it is a cable, rigid or not.
     pub fn cable(&self) -> Option<&CableBody> {
         match self {
             Self::Cable(body) => Some(body),
@@ -254,7 +255,12 @@ impl Body {
         }
     }
 
-    /// The body, to be changed, if it is flexible.
+    /// The body if it is a cable that bends.
+    pub fn flexible(&self) -> Option<&CableBody> {
+        self.cable().filter(|cable| cable.model != Model::Rigid)
+    }
+
+    /// The body, to be changed, if it is a cable.
     pub fn cable_mut(&mut self) -> Option<&mut CableBody> {
         match self {
             Self::Cable(body) => Some(body),
@@ -262,7 +268,7 @@ impl Body {
         }
     }
 
-    /// The body if it is rigid.
+    /// The body if it is one of kind `rigid`.
     pub fn rigid(&self) -> Option<&RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
@@ -270,7 +276,7 @@ impl Body {
         }
     }
 
-    /// The body, to be changed, if it is rigid.
+    /// The body, to be changed, if it is one of kind `rigid`.
     pub fn rigid_mut(&mut self) -> Option<&mut RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),

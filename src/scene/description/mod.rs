@@ -113,9 +113,8 @@ impl Scene {
 
     /// Whether numbers of elements or the tolerance are left to the planner.
     pub fn is_to_be_planned(&self) -> bool {
-        let mut cables = self.bodies.iter().filter_map(Body::cable);
-        let is_open = |cable: &CableBody| cable.elements.is_none() || cable.model == Model::Rigid;
-        self.accuracy.error.is_some() || cables.any(is_open)
+        let mut cables = self.bodies.iter().filter_map(Body::flexible);
+        self.accuracy.error.is_some() || cables.any(|cable| cable.elements.is_none())
     }
 
     /// Error wanted of outputs where it is planned for: as given, or 1e-3.
@@ -125,7 +124,7 @@ impl Scene {
 
     /// Error in time that a step may make: as given, or by the kinds of bodies.
     pub fn relative_tolerance(&self) -> f64 {
-        let is_rigid = self.bodies.iter().all(|body| body.cable().is_none());
+        let is_rigid = self.bodies.iter().all(|body| body.flexible().is_none());
         let default = if is_rigid { 1e-7 } else { 1e-4 };
         self.accuracy.relative_tolerance.unwrap_or(default)
     }

@@ -50,9 +50,9 @@ pub enum OutputKind {
     AngularVelocity,
     /// Rate of the rate of the angle, rad/s^2.
     AngularAcceleration,
-    /// Axial strain at a marker of a cable, in the strain measure of the body. Where a load or joint acts, that after it.
+    /// Axial strain at a marker of a cable that bends, in the strain measure of the body. Where a load or joint acts, that after it.
     Strain,
-    /// Curvature at a marker of a cable, in the strain measure of the body, 1/m; in space its size.
+    /// Curvature at a marker of a cable that bends, in the strain measure of the body, 1/m; in space its size.
     Curvature,
     /// Axial force at a marker of a cable, N: the part of the section force along the tangent, tension
     /// positive, from the balance of forces with inertia. Where a load or joint acts, that after it.
@@ -100,7 +100,9 @@ pub enum ReadAt {
     Directed,
     /// A marker of a cable.
     Cable,
-    /// A marker of a cable, where its mesh has a node.
+    /// A marker of a cable that bends.
+    Flexible,
+    /// A marker of a cable, where its mesh, if it has one, has a node.
     Node,
     /// A marker or a joint that turns.
     Turning,
@@ -124,9 +126,8 @@ impl OutputKind {
         match self {
             Self::Position | Self::Velocity | Self::Acceleration => ReadAt::Marker,
             Self::Direction => ReadAt::Directed,
-            Self::Strain | Self::Curvature | Self::AxialForce | Self::BendingMoment => {
-                ReadAt::Cable
-            }
+            Self::Strain | Self::Curvature => ReadAt::Flexible,
+            Self::AxialForce | Self::BendingMoment => ReadAt::Cable,
             Self::ConnectivityForce => ReadAt::Node,
             Self::AngularVelocity | Self::AngularAcceleration => ReadAt::Turning,
             Self::Angle => ReadAt::Angle,
@@ -146,7 +147,7 @@ impl Kind for OutputKind {
 
     fn keys(&self) -> &'static [Keys] {
         match self.read_at() {
-            ReadAt::Marker | ReadAt::Directed | ReadAt::Cable | ReadAt::Node => {
+            ReadAt::Marker | ReadAt::Directed | ReadAt::Cable | ReadAt::Flexible | ReadAt::Node => {
                 &[(&["marker"], &[])]
             }
             ReadAt::Turning | ReadAt::Angle => &[(&["joint"], &[]), (&["marker"], &[])],

@@ -8,7 +8,7 @@ use super::checks::{
 };
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
-use crate::scene::{Body, CableBody, Error, InitialMotion, RigidBody, Shape, Spin};
+use crate::scene::{Body, CableBody, Error, InitialMotion, Model, RigidBody, Shape, Spin};
 
 impl Body {
     pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
@@ -79,6 +79,7 @@ impl CableBody {
         positive(&at("section.area"), "m^2", section.area)?;
         not_negative(&at("section.second_moment"), "m^4", section.second_moment)?;
         self.shape.validate(&at("shape"), dimension)?;
+        self.validate_model(&at("model"), dimension)?;
         if !self.shape.is_straight() && section.second_moment > 0.0 {
             let (place, found) = (at("section.second_moment"), section.second_moment);
             planar(
@@ -93,6 +94,26 @@ impl CableBody {
                 let place = at(&format!("markers.{marker}"));
                 return Err(expected(&place, "a number from 0 to 1", coordinate));
             }
+        }
+        Ok(())
+    }
+}
+
+impl CableBody {
+    /// A rigid rod is a body of the plane, straight and undeformed.
+    fn validate_model(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        if self.model != Model::Rigid {
+            return Ok(());
+        }
+        let (wanted, rigid) = ("\"auto\" or \"flexible\"", "\"rigid\"");
+        planar(path, dimension, wanted, rigid)?;
+        if !self.shape.is_straight() {
+            let wanted = format!("{wanted} of a cable that is curved without stress");
+            return Err(expected(path, &wanted, rigid));
+        }
+        if self.motion.deformation.is_some() {
+            let wanted = format!("{wanted} of a cable that deforms at the start");
+            return Err(expected(path, &wanted, rigid));
         }
         Ok(())
     }

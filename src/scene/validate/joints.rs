@@ -88,7 +88,7 @@ impl<'a> Resolved<'a> {
         let [first, second] = [0, 1].map(|side| format!("{path}.markers[{side}]"));
         let [a, b] = &joint.markers;
         if holds.contains(&Condition::Curve) {
-            let cable = self.require_cable(&first, a)?;
+            let (cable, _) = self.require_flexible(&first, a)?;
             let marker = self.require_marker(&second, b)?;
             self.require_two(path, [cable.id.body, marker.place.body_index()])?;
             let first = First::Cable(cable);
@@ -119,7 +119,7 @@ impl<'a> Resolved<'a> {
         joint: &Joint,
         condition: Condition,
         ends: &Ends<'a>,
-    ) -> Result<Hold<'a>, Error> {
+    ) -> Result<Hold, Error> {
         Ok(match condition {
             Condition::Position => Hold::Position,
             Condition::Line => {
@@ -133,11 +133,10 @@ impl<'a> Resolved<'a> {
             }
             Condition::Distance => Hold::Distance(joint.length),
             Condition::Curve => {
-                let First::Cable(cable) = ends.first else {
-                    unreachable!("the first end of a curve is a cable");
-                };
+                let first = format!("{path}.markers[0]");
+                let (_, chain) = self.require_flexible(&first, &joint.markers[0])?;
                 let slides = self.joints.iter().filter_map(|joint| joint.slide());
-                Hold::Curve(cable, SlideId(slides.count()))
+                Hold::Curve(chain, SlideId(slides.count()))
             }
             Condition::Spring => {
                 let stiffness = (joint.stiffness, "N m/rad");

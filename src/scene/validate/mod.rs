@@ -124,7 +124,7 @@ impl Scene {
 
     /// Elements of all bodies together.
     pub(super) fn elements(&self) -> u64 {
-        let cables = self.bodies.iter().filter_map(|body| body.cable());
+        let cables = self.bodies.iter().filter_map(|body| body.flexible());
         let counts = cables.map(|cable| cable.elements.unwrap_or(1));
         counts.map(u64::from).sum()
     }

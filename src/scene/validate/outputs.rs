@@ -73,6 +73,7 @@ impl<'a> Resolved<'a> {
             ReadAt::Marker => Of::Marker(marker(Self::require_marker)?),
             ReadAt::Directed => Of::Marker(marker(Self::require_directed)?),
             ReadAt::Cable | ReadAt::Node => Of::Marker(marker(Self::require_cable_marker)?),
+            ReadAt::Flexible => Of::Marker(marker(Self::require_flexible_marker)?),
             ReadAt::Turning => Of::Turning(turning()?),
             ReadAt::Angle => {
                 let turning = turning()?;

@@ -3,7 +3,7 @@
 use super::checks::{expected, planar, quoted, vector};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
-    BodyReference, Cable, Ends, First, Joint, Marker, Pivot, Place, Resolved,
+    BodyReference, Cable, Ends, First, Form, Joint, Marker, Pivot, Place, Resolved,
 };
 use crate::scene::{Error, Vector};
 
@@ -51,6 +51,19 @@ impl<'a> Resolved<'a> {
         Err(expected(path, "a marker of a cable", quoted(name)))
     }
 
+    /// A marker of a cable that bends; what is asked for is what a rigid one does not have.
+    pub(super) fn require_flexible_marker(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<Marker<'a>, Error> {
+        let marker = self.require_cable_marker(path, name)?;
+        if let Place::Along(cable, _) = marker.place {
+            chain(path, "a marker of a cable that bends", cable)?;
+        }
+        Ok(marker)
+    }
+
     pub(super) fn require_cable(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) => Ok(*cable),
@@ -60,6 +73,16 @@ impl<'a> Resolved<'a> {
                 quoted(name),
             )),
         }
+    }
+
+    /// A cable that bends, and its place among the chains.
+    pub(super) fn require_flexible(
+        &self,
+        path: &str,
+        name: &str,
+    ) -> Result<(Cable<'a>, usize), Error> {
+        let cable = self.require_cable(path, name)?;
+        Ok((cable, chain(path, "the name of a cable that bends", cable)?))
     }
 
     /// Two markers of different bodies, the first of which may be the ground, and a point that is
@@ -128,5 +151,17 @@ impl<'a> Resolved<'a> {
             }
         }
         Ok(pivot)
+    }
+}
+
+/// Place of a cable among the chains.
+fn chain(path: &str, wanted: &str, cable: Cable<'_>) -> Result<usize, Error> {
+    match cable.id.form {
+        Form::Chain(chain) => Ok(chain),
+        Form::Rod(_) => {
+            let name = quoted(&cable.body.name);
+            let found = format!("{name}, which is rigid (bodies[{}].model)", cable.id.body);
+            Err(expected(path, wanted, found))
+        }
     }
 }

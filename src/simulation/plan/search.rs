@@ -50,16 +50,24 @@ fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &CableBody)> {
     bodies.filter_map(|(index, body)| Some((index, body.cable()?)))
 }
 
+/// The scene with a cable rigid, by its place among the bodies: not valid where it is curved or what is read of it, or
+/// slides along it, takes one that bends.
+fn with_rigid(mut scene: Scene, body: usize) -> Scene {
+    if let Some(cable) = scene.bodies[body].cable_mut() {
+        cable.model = Model::Rigid;
+    }
+    scene
+}
+
 /// See [`Search::fewest`].
 fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
     let resolved = scene.resolve()?;
-    let bodies = resolved.bodies.iter().enumerate();
-    let counts = bodies.filter_map(|(place, body)| {
+    let counts = resolved.bodies.iter().filter_map(|body| {
         let BodyReference::Cable(cable) = body else {
             return None;
         };
         Some(match (cable.body.model, cable.body.elements) {
-            (Model::Rigid, _) => scene.with_rigid(place).map(|_| 0),
+            (Model::Rigid, _) => Ok(0),
             (_, Some(count)) => Ok(count),
             (_, None) => resolved.fewest_elements(*cable),
         })
@@ -71,7 +79,7 @@ impl<'a, 'p> Search<'a, 'p> {
     /// For a scene that leaves something to the planner.
     ///
     /// # Errors
-    /// A name in `accuracy` that the scene does not have; a cable that cannot be rigid and is to be.
+    /// A name in `accuracy` that the scene does not have; what is not valid.
     pub fn new(scene: &'a Scene, progress: Progress<'p>) -> Result<Self, Error> {
         let variables = variables(scene);
         Ok(Self {
@@ -111,9 +119,12 @@ impl<'a, 'p> Search<'a, 'p> {
     /// A mesh with all cables rigid that may be.
     fn stiffest(&self, elements: &[u32]) -> Vec<u32> {
         let cables = cables(self.scene).zip(elements);
-        let least = cables.map(|((body, _), count)| match self.scene.may_be_rigid(body) {
-            true => 0,
-            false => *count,
+        let least = cables.map(|((body, cable), count)| {
+            let is_open = cable.elements.is_none() && cable.model == Model::Auto;
+            match is_open && with_rigid(self.scene.clone(), body).resolve().is_ok() {
+                true => 0,
+                false => *count,
+            }
         });
         least.collect()
     }
@@ -134,8 +145,7 @@ impl<'a, 'p> Search<'a, 'p> {
         let bodies: Vec<usize> = cables(self.scene).map(|(body, _)| body).collect();
         for (body, count) in bodies.into_iter().zip(&choice.elements) {
             if *count == 0 {
-                // What cannot be rigid is never chosen to be.
-                scene = scene.with_rigid(body).unwrap_or(scene);
+                scene = with_rigid(scene, body);
             } else if let Some(cable) = scene.bodies[body].cable_mut() {
                 cable.elements = Some(*count);
             }

@@ -49,7 +49,7 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
     let (material, section) = (&body.material, &body.section);
     let elements = f64::from(body.elements.unwrap_or(1));
     #[rustfmt::skip] // a table
-    let rows: [Row<'_>; 6] = [
+    let mut rows: Vec<Row<'_>> = vec![
         ("youngs_modulus", "Young's modulus", Some(PASCAL), YoungsModulus(i), material.youngs_modulus),
         ("density", "Density", Some(DENSITY), Density(i), material.density),
         ("damping_time", "Kelvin-Voigt damping time", Some(SECOND), DampingTime(i), material.damping_time),
@@ -57,6 +57,10 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
         ("second_moment", "Second moment of area", Some(METRE_4), SecondMoment(i), section.second_moment),
         ("elements", "Number of elements", None, Elements(i), elements),
     ];
+    if cable.is_rigid() {
+        // What is left without effect is none: a study of it would find nothing.
+        rows.retain(|(.., parameter, _)| matches!(parameter, Density(_) | Area(_)));
+    }
     list.parameters(&body.name, "of", &rows);
 }
 

@@ -106,8 +106,8 @@ pub struct Linear<const D: usize = 2> {
     pub row: Row<D>,
     /// What it equals.
     pub target: Target,
-    /// Its coefficients on position and direction of the second end.
-    pub on_second: [Vector<D>; 2],
+    /// Its coefficients on position and direction of both ends.
+    pub on_ends: [[Vector<D>; 2]; 2],
 }
 
 /// State of a system as constraints see it.
@@ -383,13 +383,15 @@ impl<const D: usize> Rows<'_, D> {
             terms: Vec::new(),
             is_driven: target.is_driven(),
         };
-        self.ends[0].add_terms(-first[0], -first[1], &mut row);
-        self.ends[1].add_terms(second[0], second[1], &mut row);
+        let on_ends = [first.map(|part| -part), second];
+        for (end, [position, direction]) in self.ends.iter().zip(on_ends) {
+            end.add_terms(position, direction, &mut row);
+        }
         self.linear.push(Linear {
             joint: Some(self.joint),
             row,
             target,
-            on_second: second,
+            on_ends,
         });
     }
 

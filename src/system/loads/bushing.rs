@@ -4,7 +4,7 @@
 use nalgebra::SMatrix;
 
 use super::{Add, Instant};
-use crate::body::{Marker, Node};
+use crate::body::Marker;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular};
 use crate::system::end::{End, coupling, isotropic};
@@ -46,9 +46,13 @@ impl<const D: usize> Bushing<D> {
         stretch * N::of(self.stiffness) + rate * N::of(self.damping)
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        let marker = self.marker.lift();
-        marker.add_force(-self.force(at), Vector::zeros(), f);
+    pub(super) fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
+        let end = End::Body(self.marker.lift());
+        call(&end, [-self.force(at), Vector::zeros()]);
     }
 
     pub(super) fn add_tangent(&self, stiffness: Add<'_, D>, damping: Add<'_, D>) {
@@ -119,12 +123,13 @@ impl RotationalBushing {
         N::of(self.stiffness) * turn + N::of(self.damping) * rate
     }
 
-    pub(super) fn add_force<const D: usize, N: Number>(
+    pub(super) fn act<const D: usize, N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        f: &mut [Node<D, N>],
+        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
     ) {
-        self.end::<D, N>().add_moment(-self.moment(at), at.x, f);
+        let end = self.end();
+        call(&end, end.turn(-self.moment(at), at.x));
     }
 
     pub(super) fn add_tangent<const D: usize>(

@@ -1,18 +1,27 @@
-//! A dead force per reference length of a cable.
+//! A dead force per reference length of a cable or a rod.
 
 use super::Instant;
 use crate::body::Node;
 use crate::elements::Element;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::CableChain;
 use crate::system::signal::Signal;
+use crate::system::{CableChain, Rod};
+
+/// What a force is distributed along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Line {
+    /// A chain.
+    Chain(usize),
+    /// A rod.
+    Rod(Rod),
+}
 
 /// A distributed force.
 #[derive(Clone, Debug)]
 pub struct Distributed<const D: usize = 2> {
-    /// The chain.
-    pub chain: usize,
+    /// What it is distributed along.
+    pub on: Line,
     /// Components, N/m.
     pub components: [Signal; D],
 }
@@ -23,24 +32,36 @@ impl<const D: usize> Distributed<D> {
         components.map(|c| c.value(at)).into()
     }
 
-    /// Sum over elements of what the load does per unit: as weight does, but for the density.
-    fn each(&self, chain: &CableChain<D>, mut add: impl FnMut(usize, [f64; 4])) {
+    /// First node of the body that it acts on.
+    pub(in crate::system) fn first_node(&self, chains: &[CableChain<D>]) -> usize {
+        match self.on {
+            Line::Chain(chain) => chains[chain].nodes(0)[0],
+            Line::Rod(rod) => rod.node,
+        }
+    }
+
+    /// Forces on the nodes of a load of one N/m along every axis, on position and direction: on a chain as weight does,
+    /// but for the density; on a rod in the middle.
+    fn each(&self, chains: &[CableChain<D>], mut add: impl FnMut(usize, [f64; 2])) {
+        let chain = match self.on {
+            Line::Chain(chain) => &chains[chain],
+            Line::Rod(rod) => return add(rod.node, [rod.length, 0.0]),
+        };
         for (j, element) in chain.elements().iter().enumerate() {
             let weight = element.weight();
-            let scale = element.length() / (weight[0] + weight[2]);
-            add(j, (weight * scale).into());
+            let weights = weight * (element.length() / (weight[0] + weight[2]));
+            let [a, b] = chain.nodes(j);
+            add(a, [weights[0], weights[1]]);
+            add(b, [weights[2], weights[3]]);
         }
     }
 
     pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        let (load, chain) = (self.value(at), &at.chains[self.chain]);
-        self.each(chain, |j, weights| {
-            let [a, b] = chain.nodes(j);
-            for (node, pair) in [(a, [weights[0], weights[1]]), (b, [weights[2], weights[3]])] {
-                for (k, weight) in pair.iter().enumerate() {
-                    for d in 0..D {
-                        f[node][k][d] += load[d] * N::of(*weight);
-                    }
+        let load = self.value(at);
+        self.each(at.chains, |node, weights| {
+            for (k, weight) in weights.into_iter().enumerate() {
+                for d in 0..D {
+                    f[node][k][d] += load[d] * N::of(weight);
                 }
             }
         });
@@ -48,12 +69,11 @@ impl<const D: usize> Distributed<D> {
 
     /// The integral of the load times a nodal field.
     fn along<N: Number>(&self, at: Instant<'_, D, N>, field: &[Node<D, N>]) -> N {
-        let (load, chain) = (self.value(at), &at.chains[self.chain]);
+        let load = self.value(at);
         let mut sum = N::of(0.0);
-        self.each(chain, |j, weights| {
-            let e = chain.element(j, field);
-            for (k, weight) in weights.iter().enumerate() {
-                sum += load.dot(&e.column(k)) * N::of(*weight);
+        self.each(at.chains, |node, weights| {
+            for (k, weight) in weights.into_iter().enumerate() {
+                sum += load.dot(&Vector::from(field[node][k])) * N::of(weight);
             }
         });
         sum

@@ -4,9 +4,10 @@
 use nalgebra::SMatrix;
 
 use super::{Add, Instant};
-use crate::body::{Marker, Node, no_block};
+use crate::body::{Marker, no_block};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular};
+use crate::system::end::End;
 use crate::system::signal::Signal;
 
 /// A force.
@@ -30,9 +31,13 @@ impl<const D: usize> Force<D> {
         u * components[0] + perpendicular(u) * components[1]
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        let force = self.value(at);
-        self.marker.lift().add_force(force, Vector::zeros(), f);
+    pub(super) fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
+        let end = End::Body(self.marker.lift());
+        call(&end, [self.value(at), Vector::zeros()]);
     }
 
     /// The force follows the direction: `d force = perpendicular(force) (u x du) / u.u`; the symmetric part.

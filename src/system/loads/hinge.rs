@@ -1,9 +1,8 @@
 //! The rotational spring with a damper of a hinge: between two directions.
 
 use super::{Add, Instant};
-use crate::body::Node;
 use crate::math::jet::Number;
-use crate::math::space::perpendicular;
+use crate::math::space::{Vector, perpendicular};
 use crate::system::end::{End, coupling};
 
 /// A rotational spring and a damper in parallel between two directions.
@@ -36,10 +35,15 @@ impl<const D: usize> RotationalSpring<D> {
         -N::of(self.stiffness) * self.turn(at) - N::of(self.damping) * self.rate(at)
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+    pub(super) fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
         let moment = self.moment(at);
-        self.ends[1].lift().add_moment(moment, at.x, f);
-        self.ends[0].lift().add_moment(-moment, at.x, f);
+        let [first, second] = self.ends.map(|end| end.lift());
+        call(&second, second.turn(moment, at.x));
+        call(&first, first.turn(-moment, at.x));
     }
 
     pub(super) fn add_tangent(

@@ -9,7 +9,7 @@ mod moment;
 mod spring;
 
 pub use bushing::{Bushing, RotationalBushing};
-pub use distributed::Distributed;
+pub use distributed::{Distributed, Line};
 pub use force::Force;
 pub use hinge::RotationalSpring;
 pub use moment::Moment;
@@ -20,6 +20,7 @@ use super::instant::Instant;
 use super::signal::Signal;
 use crate::body::Node;
 use crate::math::jet::Number;
+use crate::math::space::Vector;
 
 /// What acts.
 #[derive(Clone, Debug)]
@@ -28,7 +29,7 @@ pub enum Load<const D: usize = 2> {
     Force(Force<D>),
     /// A moment on one end, and its opposite on another.
     Moment(Moment<D>),
-    /// A dead force per reference length of a cable.
+    /// A dead force per reference length of a cable or a rod.
     Distributed(Distributed<D>),
     /// A spring with a damper between two ends.
     Spring(Spring<D>),
@@ -44,13 +45,28 @@ impl<const D: usize> Load<D> {
     /// Adds its forces.
     pub fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         match self {
-            Self::Force(load) => load.add_force(at, f),
-            Self::Moment(load) => load.add_force(at, f),
             Self::Distributed(load) => load.add_force(at, f),
-            Self::Spring(load) => load.add_force(at, f),
-            Self::RotationalSpring(load) => load.add_force(at, f),
-            Self::Bushing(load) => load.add_force(at, f),
-            Self::RotationalBushing(load) => load.add_force(at, f),
+            _ => self.act(at, |end, [position, direction]| {
+                end.add_force(position, direction, f);
+            }),
+        }
+    }
+
+    /// Calls with every end that it acts on, and its forces on position and direction there; not where it is spread
+    /// along a body.
+    pub fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
+        match self {
+            Self::Force(load) => load.act(at, call),
+            Self::Moment(load) => load.act(at, call),
+            Self::Distributed(_) => {}
+            Self::Spring(load) => load.act(at, call),
+            Self::RotationalSpring(load) => load.act(at, call),
+            Self::Bushing(load) => load.act(at, call),
+            Self::RotationalBushing(load) => load.act(at, call),
         }
     }
 

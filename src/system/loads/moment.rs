@@ -20,10 +20,15 @@ pub struct Moment<const D: usize = 2> {
 }
 
 impl<const D: usize> Moment<D> {
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+    pub(super) fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
         let size = self.size.value(at);
-        self.ends[1].lift().add_moment(size, at.x, f);
-        self.ends[0].lift().add_moment(-size, at.x, f);
+        let [first, second] = self.ends.map(|end| end.lift());
+        call(&second, second.turn(size, at.x));
+        call(&first, first.turn(-size, at.x));
     }
 
     pub(super) fn add_stiffness(&self, at: Instant<'_, D>, add: Add<'_, D>) {

@@ -3,7 +3,6 @@
 use nalgebra::SMatrix;
 
 use super::{Add, Instant};
-use crate::body::Node;
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::{End, between};
@@ -49,15 +48,20 @@ impl<const D: usize> Spring<D> {
         N::of(self.stiffness) * (length - self.rest(at)) + N::of(self.damping) * speed
     }
 
-    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+    pub(super) fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
         let ((unit, _, speed), none) = (self.stretch(at), Vector::zeros());
         // Without a rest length it pulls to the other end however near that is: the part has no kink there.
-        let [a, b] = self.ends.map(|end| end.lift().position(at.x));
+        let [first, second] = self.ends.map(|end| end.lift());
+        let [a, b] = [&first, &second].map(|end| end.position(at.x));
         let stiffness = N::of(self.stiffness);
         let pull =
             (b - a) * stiffness + unit * (N::of(self.damping) * speed - stiffness * self.rest(at));
-        self.ends[0].lift().add_force(pull, none, f);
-        self.ends[1].lift().add_force(-pull, none, f);
+        call(&first, [pull, none]);
+        call(&second, [-pull, none]);
     }
 
     pub(super) fn add_tangent(

@@ -121,7 +121,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         for (row, linear) in system.linear.iter().enumerate() {
             if linear.joint == Some(joint) {
                 let lambda = system.row_multiplier(row, &self.supply);
-                let [position, direction] = linear.on_second.map(|on| on.map(N::of) * lambda);
+                let [position, direction] = linear.on_ends[1].map(|on| on.map(N::of) * lambda);
                 force += position;
                 turning += Vector3::from(moment(&u, &direction));
             }
@@ -296,7 +296,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Multiplier of a linear row from the forces that rows supply; zero for one that repeats others.
-    fn row_multiplier<N: Number>(&self, row: usize, supply: &[Node<D, N>]) -> N {
+    pub(super) fn row_multiplier<N: Number>(&self, row: usize, supply: &[Node<D, N>]) -> N {
         match self.holds[row] {
             Some((cluster, k)) => {
                 let cluster = &self.elimination.assembly.clusters()[cluster];

@@ -2,4 +2,5 @@
 
 pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
+pub(in crate::system) mod rod;
 pub(in crate::system) mod section;

@@ -27,6 +27,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// what the one before lacks for equilibrium. Joints and point loads at the node count with what
     /// comes after. Zero at the first end.
     pub fn connectivity_force(&self, system: &System<D>, marker: &Marker) -> Vector<D, N> {
+        if let Some(rod) = system.rod(marker) {
+            return self.rod_force(system, rod, marker);
+        }
         let Some((chain, j, xi)) = system.element(marker) else {
             return Vector::zeros();
         };
@@ -41,6 +44,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// marker of a cable; zero elsewhere. At a node they are those just after what acts there, but at
     /// the last end.
     pub fn section(&self, system: &System<D>, marker: &Marker) -> (N, [N; 3]) {
+        if let Some(rod) = system.rod(marker) {
+            return self.rod_section(system, rod, marker);
+        }
         let Some((chain, j, xi)) = system.element_after(marker) else {
             return (N::of(0.0), [N::of(0.0); 3]);
         };
@@ -78,7 +84,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let part = &chain.elements()[j];
         let (l, density) = (part.length(), N::of(line_density(part)));
         let (e, inertia) = (chain.element(j, &self.x), self.inertia(system, (chain, j)));
-        let load = self.distributed(system, chain) + system.gravity.map(N::of) * density;
+        let load =
+            self.distributed(system, chain.nodes(0)[0]) + system.gravity.map(N::of) * density;
         let force = |xi: f64| {
             let inertia = inertia * shape::integrals(N::of(xi), l) * density;
             first - load * N::of(xi * l) + inertia
@@ -102,7 +109,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         lack += (system.gravity * part.weight().transpose()).map(N::of);
         lack -= self.inertia(system, (chain, j)) * part.mass().map(N::of);
         let weights = part.weight() / line_density(part);
-        lack + self.distributed(system, chain) * weights.map(N::of).transpose()
+        lack + self.distributed(system, chain.nodes(0)[0]) * weights.map(N::of).transpose()
     }
 
     /// Absolute accelerations of the coordinates of an element, in the axes of the frame, m/s^2.
@@ -113,13 +120,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         chain.element(j, &self.acceleration) + turned * N::of(2.0 * rate) - e * N::of(rate * rate)
     }
 
-    /// Sum of the distributed loads on a cable, N/m.
-    fn distributed(&self, system: &System<D>, chain: &CableChain<D>) -> Vector<D, N> {
+    /// Sum of the distributed loads on the body with this first node, N/m.
+    pub(super) fn distributed(&self, system: &System<D>, first: usize) -> Vector<D, N> {
         let at = self.instant(system);
         let mut sum = Vector::zeros();
         for load in &system.loads {
             if let Load::Distributed(load) = load
-                && std::ptr::eq(&system.chains[load.chain], chain)
+                && load.first_node(&system.chains) == first
             {
                 sum += load.value(at);
             }

@@ -358,7 +358,7 @@ impl<const D: usize> System<D> {
     /// Joints of the entries of [`System::gaps`], and whether those are of angles.
     fn owners(&self) -> Vec<(Option<usize>, bool)> {
         let linear = self.linear.iter();
-        let linear = linear.map(|linear| (linear.joint, linear.on_second[0].norm() == 0.0));
+        let linear = linear.map(|linear| (linear.joint, linear.on_ends[1][0].norm() == 0.0));
         let constraints = self.all_constraints();
         let constraints = constraints.map(|c| (c.joint, constraint_size(c, 2.0) == 1.0));
         linear.chain(constraints).collect()
@@ -438,7 +438,7 @@ fn missing<const D: usize>(linear: &Linear<D>, x: &[Node<D>], work: &Work<D>) ->
 }
 
 fn linear_size<const D: usize>(linear: &Linear<D>, size: f64) -> f64 {
-    let positions = linear.on_second[0].norm() > 0.0;
+    let positions = linear.on_ends[1][0].norm() > 0.0;
     if positions { size } else { 1.0 }
 }
 

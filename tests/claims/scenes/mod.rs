@@ -11,6 +11,7 @@ mod methods;
 mod motions;
 mod ports;
 mod rigid;
+mod rods;
 mod sections;
 mod slides;
 mod space;
@@ -24,6 +25,7 @@ use crate::specimen::Specimen;
 pub fn all() -> Vec<Specimen> {
     let parts = [
         rigid::all(),
+        rods::all(),
         frames::all(),
         cables::all(),
         sections::all(),

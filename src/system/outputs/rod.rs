@@ -1,0 +1,187 @@
+//! Forces and moments in a section of a rod, from the balance of a part of it: what acts there less its inertia
+//! (d'Alembert), exact for a rigid body. What is spread along it and its inertia are linear in the place.
+//!
+//! Source: S. S. Antman, Nonlinear Problems of Elasticity, 2nd ed. (2005), section 4.1 (balance of a rod).
+
+use nalgebra::Vector3;
+
+use super::evaluation::Evaluation;
+use crate::body::Marker;
+use crate::math::jet::Number;
+use crate::math::space::{Vector, moment, perpendicular};
+use crate::system::end::End;
+use crate::system::{Rod, System};
+
+/// Part of the length of a rod within which what acts is at one place.
+const ROUNDOFF: f64 = 1e-9;
+
+/// A part of a rod; places are counted from its middle, m.
+#[derive(Clone, Copy)]
+struct Part {
+    /// Where it begins and ends.
+    ends: [f64; 2],
+    /// Between which places what acts at a point acts on it.
+    acts: [f64; 2],
+}
+
+/// A marker of a rod.
+struct Section {
+    /// Its place, m from the middle.
+    at: f64,
+    /// Half the length, m.
+    half: f64,
+    /// What roundoff keeps apart, m.
+    near: f64,
+}
+
+impl Section {
+    fn new(rod: &Rod, marker: &Marker) -> Self {
+        Self {
+            at: marker.offset(),
+            half: 0.5 * rod.length,
+            near: ROUNDOFF * rod.length,
+        }
+    }
+}
+
+/// Forces on position and direction of an end.
+type Forces<const D: usize, N> = [Vector<D, N>; 2];
+
+impl<const D: usize, N: Number> Evaluation<D, N> {
+    /// Force that the part of a rod before a marker exerts on the part after it, N. What acts at the marker counts with
+    /// what comes after.
+    pub(super) fn rod_force(&self, system: &System<D>, rod: &Rod, marker: &Marker) -> Vector<D, N> {
+        let Section { at, half, near } = Section::new(rod, marker);
+        let before = Part {
+            ends: [-half, at],
+            acts: [f64::NEG_INFINITY, at - near],
+        };
+        self.on_part(system, rod, before).0
+    }
+
+    /// Axial force (N) and bending moment (N m) at a marker of a rod, just after what acts there, but at the last end.
+    pub(super) fn rod_section(
+        &self,
+        system: &System<D>,
+        rod: &Rod,
+        marker: &Marker,
+    ) -> (N, [N; 3]) {
+        let Section { at, half, near } = Section::new(rod, marker);
+        let is_last = at > half - near;
+        let after = Part {
+            ends: [at, half],
+            acts: [if is_last { at - near } else { at + near }, f64::INFINITY],
+        };
+        let (force, moment) = self.on_part(system, rod, after);
+        (force.dot(&self.along(rod)), moment.into())
+    }
+
+    /// Force, N, and moment about where it begins, N m, on a part of a rod, less its inertia.
+    fn on_part(&self, system: &System<D>, rod: &Rod, part: Part) -> (Vector<D, N>, Vector3<N>) {
+        let along = self.along(rod);
+        let (mut force, mut turning) = self.spread(system, rod, part.ends);
+        let [first, last] = part.acts;
+        self.each_force(system, rod, |end, [position, direction]| {
+            if let End::Body(marker) = end
+                && marker.nodes[0] == rod.node
+                && (first..last).contains(&marker.offset().plain())
+            {
+                let arm = along * (marker.offset() - N::of(part.ends[0]));
+                force += position;
+                turning += Vector3::from(moment(&arm, &position));
+                turning += Vector3::from(moment(&along, &direction));
+            }
+        });
+        (force, turning)
+    }
+
+    /// Direction of a rod.
+    fn along(&self, rod: &Rod) -> Vector<D, N> {
+        self.x[rod.node][1].into()
+    }
+
+    /// What is spread over a rod between two places: weight and distributed loads less inertia; force, and moment about
+    /// the first place.
+    fn spread(
+        &self,
+        system: &System<D>,
+        rod: &Rod,
+        [from, to]: [f64; 2],
+    ) -> (Vector<D, N>, Vector3<N>) {
+        let density = N::of(system.lumped_masses[rod.mass].mass / rod.length);
+        let at = Marker::rigid(0, rod.node, [from, 0.0]).lift();
+        let [start, slope] = self
+            .inertia_at(system, &at)
+            .map(|inertia| -inertia * density);
+        let load = system.gravity.map(N::of) * density + self.distributed(system, rod.node) + start;
+        // Integrals of 1, s and s^2 over the part.
+        let length = to - from;
+        let [zero, first, second] = [1, 2, 3].map(|n| N::of(length.powi(n) / f64::from(n)));
+        let force = load * zero + slope * first;
+        let turning = moment(&self.along(rod), &(load * first + slope * second));
+        (force, turning.into())
+    }
+
+    /// Absolute accelerations of position and direction of a marker, in the axes of the frame.
+    fn inertia_at(&self, system: &System<D>, marker: &Marker<N>) -> Forces<D, N> {
+        let (rate, turn) = (N::of(system.rotation), N::of(2.0 * system.rotation));
+        let absolute =
+            |[x, v, a]: [Vector<D, N>; 3]| a + perpendicular(v) * turn - x * (rate * rate);
+        let orders = [&self.x, &self.v, &self.acceleration];
+        [
+            absolute(orders.map(|order| marker.position(order))),
+            absolute(orders.map(|order| marker.direction(order))),
+        ]
+    }
+
+    /// Calls with everything that acts on a rod at points, among others: loads, joints, and masses with their weight less
+    /// their inertia.
+    fn each_force(
+        &self,
+        system: &System<D>,
+        rod: &Rod,
+        mut call: impl FnMut(&End<D, N>, Forces<D, N>),
+    ) {
+        let is_on = |marker: &Marker| marker.nodes[0] == rod.node;
+        for (index, lump) in system.lumped_masses.iter().enumerate() {
+            if index != rod.mass && is_on(&lump.marker) {
+                let marker = lump.marker.lift();
+                let [position, direction] = self.inertia_at(system, &marker);
+                let force = (system.gravity.map(N::of) - position) * N::of(lump.mass);
+                call(
+                    &End::Body(marker),
+                    [force, -direction * N::of(lump.inertia)],
+                );
+            }
+        }
+        let at = self.instant(system);
+        for load in &system.loads {
+            load.act(at, &mut call);
+        }
+        for (row, linear) in system.linear.iter().enumerate() {
+            let Some(joint) = linear.joint.map(|joint| &system.joints[joint]) else {
+                continue;
+            };
+            if !joint.ends.iter().filter_map(End::marker).any(is_on) {
+                continue;
+            }
+            let lambda = system.row_multiplier(row, &self.supply);
+            for (end, on) in joint.ends.iter().zip(&linear.on_ends) {
+                call(&end.lift(), on.map(|on| on.map(N::of) * lambda));
+            }
+        }
+        let view = self.view(system);
+        for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
+            for (end, on) in constraint.gradient(&view).ends {
+                call(&end, on.map(|on| -on * *lambda));
+            }
+        }
+    }
+}
+
+impl<const D: usize> System<D> {
+    /// The rod that a marker is on.
+    pub(super) fn rod(&self, marker: &Marker) -> Option<&Rod> {
+        self.rods.iter().find(|rod| rod.node == marker.nodes[0])
+    }
+}
