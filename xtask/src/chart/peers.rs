@@ -136,7 +136,9 @@ impl Peers {
     }
 
     fn write_point(&self, point: &Value, timed: &Timed, csv: &mut Csv) -> Result<()> {
-        let model = point.get("heavy").map_or("cables", |_| "heavy nodes");
+        let models = [("heavy", "heavy nodes"), ("rigid", "rigid")];
+        let apart = models.iter().find(|(key, _)| point.get(key).is_some());
+        let model = apart.map_or("cables", |(_, model)| model);
         let mesh = mesh(&self.counts(number(&point["elements"])?)?);
         let (words, time, none) = (described(point)?, median(&timed.cpu_times), &"");
         csv.row(&[
@@ -198,7 +200,7 @@ fn mesh(counts: &[u32]) -> String {
 
 /// Settings of Exudyn in words; what is not said is its default.
 fn described(options: &Value) -> Result<String> {
-    const APART: &str = "elements error cpu_time heavy step solver";
+    const APART: &str = "elements error cpu_time heavy rigid step solver";
     let mut words = format!(
         "{}; step {:.2e}",
         text(&options["solver"])?,
