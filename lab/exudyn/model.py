@@ -51,9 +51,11 @@ class Model:
         for body in scene["bodies"]:
             if body["element"] == "rigid":
                 self.rigid(body)
+            elif options.get("rigid"):
+                self.rigid(stiff(body, scene.get("masses", [])))
             else:
                 self.cable(body)
-        for mass in scene.get("masses", []):
+        for mass in [] if options.get("rigid") else scene.get("masses", []):
             self.mass(mass)
         for joint in scene.get("joints", []):
             self.joint(joint)
@@ -100,6 +102,16 @@ class Model:
         else:
             other, _ = self.points[first]
         self.mbs.AddObject(ObjectJointRevolute2D(markerNumbers=[other, marker]))
+
+    def slide(self, marker):
+        """A slide of a point of a rigid body along the x axis."""
+        number, place = self.points[marker]
+        ground = self.mbs.AddObject(ObjectGround())
+        base = self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=[*place, 0.0]))
+        body = self.mbs.GetMarker(number)
+        here = MarkerBodyRigid(bodyNumber=body["bodyNumber"], localPosition=body["localPosition"])
+        here = self.mbs.AddMarker(here)
+        self.mbs.AddObject(GenericJoint(markerNumbers=[base, here], constrainedAxes=[0, 1, 0, 0, 0, 0]))
 
     def cable(self, body):
         """Nodes, elements and weight of a cable."""
@@ -164,9 +176,13 @@ class Model:
         if joint["kind"] == "revolute" and second in self.points:
             self.pin(first, second)
             return
+        slides = joint["kind"] == "slider" and joint["direction"] == [1.0, 0.0]
+        if slides and first == "ground" and second in self.points:
+            self.slide(second)
+            return
         if joint["kind"] == "revolute":
             axes = [0, 1]
-        elif joint["kind"] == "slider" and joint["direction"] == [1.0, 0.0]:
+        elif slides:
             axes = [1]
         else:
             raise ValueError(f"joint {joint['name']}: expected a pin or a slide along x")
@@ -244,6 +260,32 @@ def straight(body, count):
         turning = spin * np.array([-slope[1], slope[0]])
         states.append(([*(start + arm), *slope], [*velocity, *turning]))
     return length, states
+
+
+def stiff(body, masses):
+    """A straight cable with the masses at its markers as a rigid body."""
+    start, end = (np.array(body["shape"]["line"][key]) for key in ("from", "to"))
+    length = np.linalg.norm(end - start)
+    axis = (end - start) / length
+    own = body["material"]["density"] * body["section"]["area"] * length
+    parts = [(own, 0.5 * length)]
+    for mass in masses:
+        name, marker = mass["marker"].split(".")
+        if name == body["name"]:
+            parts.append((mass["mass"], body["markers"][marker] * length))
+    whole = sum(part for part, _ in parts)
+    centre = sum(part * at for part, at in parts) / whole
+    motion = body.get("motion", {"velocity": [0.0, 0.0], "spin": 0.0})
+    velocity = np.array(motion["velocity"]) + motion["spin"] * centre * np.array([-axis[1], axis[0]])
+    return {
+        "name": body["name"],
+        "mass": whole,
+        "inertia": own * length**2 / 12 + sum(part * (at - centre) ** 2 for part, at in parts),
+        "position": (start + centre * axis).tolist(),
+        "angle": np.arctan2(axis[1], axis[0]),
+        "motion": {"velocity": velocity.tolist(), "spin": motion["spin"]},
+        "markers": {name: [where * length - centre, 0.0] for name, where in body["markers"].items()},
+    }
 
 
 def hanging(scene, body, count, stiffness, weight):

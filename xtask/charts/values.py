@@ -111,6 +111,11 @@ def frontier(rows, cost="cpu_time_s", error="error"):
     return best
 
 
+def best(rows, goal, cost="cpu_time_s", error="error"):
+    """The cheapest row with an error of at most that; nothing where there is none."""
+    return min((row for row in rows if row[error] <= goal), key=lambda row: row[cost], default=None)
+
+
 def needed(rows, goal, cost="cpu_time_s", error="error", scale=1.0):
     """The least cost of an error, over the rows that are at least as good and the straight lines between neighbours
     on logarithmic axes; nothing where no row is as good."""
@@ -151,4 +156,4 @@ def slope(rows, x, y):
     return statistics.linear_regression(*zip(*logs)).slope
 
 
-FILTERS = [short, three, fixed, power, bold, over, where, pick, column, groups, peaks, frontier, needed, cheapest, reach, at, slope, ranked, share, middle]
+FILTERS = [short, three, fixed, power, bold, over, where, pick, column, groups, peaks, frontier, best, needed, cheapest, reach, at, slope, ranked, share, middle]

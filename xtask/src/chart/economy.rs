@@ -5,18 +5,14 @@ use std::collections::HashMap;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
-use serde_json::{Value, json};
 
 use super::bench::{Bench, Planned, REPEATS, Ran, Run, TooLong};
 use super::csv::Csv;
 use super::numbers::{largest, number, text};
+use super::planned::{self, Case, Choice, ERRORS, chosen, counts};
 
-const ERRORS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 const READY: &str = "boom cable_net cantilever crane double_pendulum flying_spaghetti four_bar hanging_cable \
                      kite_tether pendulum robot_arm slider_crank spin_up_beam travelling_load";
-/// Scenes of the chart `peers`, with what is measured there.
-const SETTINGS: &str = "lab/exudyn/settings.json";
-const PEERS: &str = "soft_pendulum steel_pendulum flying_spaghetti spin_up slider_crank catenary";
 /// The grid: meshes as multiples of the coarsest, and tolerances.
 const MESHES: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
@@ -44,17 +40,6 @@ const TIMED: usize = 3;
 /// Runs that take longer are timed once, s.
 const LONG: f64 = 0.5;
 
-/// A scene to plan.
-struct Case {
-    name: String,
-    /// `ready` or `peers`.
-    of: &'static str,
-    scene: Value,
-}
-
-/// What a run is made with: elements of every cable, and a tolerance.
-type Choice = (Vec<u32>, f64);
-
 /// Measures.
 pub fn measure(bench: &Bench) -> Result<()> {
     let header = "scene,of,error,elements,tolerance,method,plan_runs,plan_cost,outputs,unsettled,worst,worst_output,\
@@ -81,54 +66,8 @@ fn cases(bench: &Bench) -> Result<Vec<Case>> {
         let (name, of) = (name.to_owned(), "ready");
         cases.push(Case { name, of, scene });
     }
-    let settings = bench.json(SETTINGS)?;
-    for name in PEERS.split(' ') {
-        let (setting, of) = (&settings[name], "peers");
-        let mut scene = bench.json(text(&setting["scene"])?)?;
-        let marker = text(&setting["marker"])?;
-        scene["accuracy"] = json!({ "of": [format!("{marker}.position")] });
-        scene["experiment"] =
-            json!({ "stop_time": setting["stop_time"], "step": setting["every"] });
-        for body in cables(&mut scene) {
-            body["elements"] = json!("auto");
-            let name = text(&body["name"])?.to_owned();
-            for (key, value) in setting["product"]["set"].as_object().into_iter().flatten() {
-                if let Some(key) = key.strip_prefix(&format!("{name}.")) {
-                    body["material"][key] = value.clone();
-                }
-            }
-        }
-        if let Some(scene) = scene.as_object_mut() {
-            scene.remove("method");
-        }
-        let name = name.to_owned();
-        cases.push(Case { name, of, scene });
-    }
+    cases.extend(planned::peers(bench)?.into_iter().map(|(case, _)| case));
     Ok(cases)
-}
-
-/// The cables of a scene.
-fn cables(scene: &mut Value) -> impl Iterator<Item = &mut Value> {
-    let bodies = scene["bodies"].as_array_mut().into_iter().flatten();
-    bodies.filter(|body| body["element"] == "cable")
-}
-
-/// Numbers of elements of cables that a plan names; none of one that became rigid.
-fn counts(report: &Value, key: &str) -> Vec<u32> {
-    let bodies = report["bodies"].as_array().into_iter().flatten();
-    let cables = bodies.filter(|body| !body["fewest"].is_null());
-    let counts = cables.map(|body| body[key].as_u64().unwrap_or(0));
-    counts
-        .map(|count| u32::try_from(count).unwrap_or(u32::MAX))
-        .collect()
-}
-
-/// What a plan chose.
-fn chosen(plan: &Planned) -> Result<Choice> {
-    Ok((
-        counts(&plan.report, "elements"),
-        number(&plan.report["tolerance"])?,
-    ))
 }
 
 impl Case {
@@ -136,12 +75,10 @@ impl Case {
         let title = format!("economy, {} of {}", self.name, self.of);
         let (mut plans, mut choices) = (Vec::new(), Vec::new());
         for error in ERRORS {
-            let mut scene = self.scene.clone();
-            scene["accuracy"]["error"] = json!(error);
-            plans.push(bench.plan(&scene)?);
+            plans.push(self.plan(bench, error)?);
             choices.push(chosen(&plans[plans.len() - 1])?);
         }
-        let run = |choice: &Choice, most: f64| self.run(&plans[0], choice, most);
+        let run = |choice: &Choice, most: f64| self.limited(&plans[0], choice, most);
         let runs: Result<Vec<Run>> = choices.iter().map(|c| run(c, MOST_PLANNED)).collect();
         let planned = bench.run(&title, &runs?)?;
         let planned = planned.into_iter().collect::<Result<Vec<Ran>>>()?;
@@ -200,18 +137,9 @@ impl Case {
         Ok(())
     }
 
-    /// A run with a choice, with the inputs of a plan.
-    fn run(&self, plan: &Planned, choice: &Choice, most: f64) -> Result<Run> {
-        let mut scene = self.scene.clone();
-        for (body, count) in cables(&mut scene).zip(&choice.0) {
-            match count {
-                0 => body["model"] = json!("rigid"),
-                count => body["elements"] = json!(count),
-            }
-        }
-        scene["accuracy"] = json!({ "relative_tolerance": choice.1 });
-        let [stop, step] = ["stop_time", "step"].map(|key| number(&scene["experiment"][key]));
-        let run = Run::new(&scene, stop?, step?).inputs(plan.inputs.as_deref());
+    /// A run with a choice, with the inputs of a plan; one that takes longer than that, s, fails.
+    fn limited(&self, plan: &Planned, choice: &Choice, most: f64) -> Result<Run> {
+        let run = self.run(choice)?.inputs(plan.inputs.as_deref());
         Ok(run.within(Duration::from_secs_f64(most)))
     }
 
@@ -222,12 +150,12 @@ impl Case {
         let tolerance = planned.iter().map(|choice| choice.1).fold(LOOSE, f64::min);
         let mut failure = anyhow::anyhow!("no reference");
         for (times, part, method) in FINE {
-            let bending = counts.iter().zip(self::counts(&plan.report, "fewest"));
+            let bending = counts.iter().zip(planned::counts(&plan.report, "fewest"));
             let bending = bending.map(|(n, least)| (*n).max(least));
             let finer = bending.map(|n| (times * n).min(MOST_ELEMENTS).max(n));
             let choice = (finer.collect(), (tolerance / part).max(LEAST_TOLERANCE));
             let title = format!("economy, {} of {}, reference", self.name, self.of);
-            let run = self.run(plan, &choice, MOST_FINE)?.integrator(method);
+            let run = self.limited(plan, &choice, MOST_FINE)?.integrator(method);
             let ran = bench.run(&title, &[run])?;
             match ran.into_iter().next().context("expected a run")? {
                 Ok(ran) => return Ok((ran, choice)),
@@ -245,7 +173,7 @@ impl Case {
             for times in MESHES {
                 let choice = (fewest.iter().map(|n| times * n).collect(), tolerance);
                 let title = format!("economy, {} of {}, grid", self.name, self.of);
-                let ran = bench.run(&title, &[self.run(plan, &choice, most)?])?;
+                let ran = bench.run(&title, &[self.limited(plan, &choice, most)?])?;
                 let ran = ran.into_iter().next().context("expected a run")?;
                 let is_late = ran.as_ref().is_err_and(|reason| reason.is::<TooLong>());
                 found.extend(ran.ok().map(|ran| (choice, ran)));
@@ -267,7 +195,7 @@ impl Case {
         rivals: &[&'c Choice],
     ) -> Result<(f64, Option<(&'c Choice, f64)>)> {
         let all = [choice].into_iter().chain(rivals.iter().copied());
-        let runs: Result<Vec<Run>> = all.map(|c| self.run(plan, c, MOST_PLANNED)).collect();
+        let runs: Result<Vec<Run>> = all.map(|c| self.limited(plan, c, MOST_PLANNED)).collect();
         let title = format!("economy, {} of {}, timed", self.name, self.of);
         let mut times = Vec::new();
         for outcome in bench.repeat(&title, &runs?, REPEATS, LONG)? {

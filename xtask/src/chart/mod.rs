@@ -26,6 +26,7 @@ mod methods;
 mod numbers;
 mod overhead;
 mod peers;
+mod planned;
 mod rivals;
 mod space;
 mod tolerances;
@@ -50,7 +51,7 @@ const CHARTS: [Chart; 17] = [
     ("coupling", "Coupled units: error against communication step, largest stable steps", coupling::measure),
     ("constraints", "Projection and partitioning: error against CPU time", constraints::measure),
     ("energies", "Energy and residuals of mechanisms over a minute", energies::energies),
-    ("peers", "Exudyn and the product: error against CPU time", peers::measure),
+    ("peers", "Exudyn at its best and the product as it plans: error against CPU time", peers::measure),
     ("failures", "Where methods fail, and what the product does there", failures::measure),
     ("formulations", "Coordinates and how accelerations follow from forces", formulations::measure),
     ("rivals", "Floating frames, incremental methods, rotation vectors and the product", rivals::measure),

@@ -1,82 +1,71 @@
-//! Exudyn and the product: error against CPU time, each with its best settings.
+//! Exudyn at its best settings and the product as it plans: error against CPU time.
 
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 
-use super::bench::{Bench, Ran, Run};
+use super::bench::{Bench, Ran};
 use super::csv::Csv;
 use super::exudyn::Exudyn;
 use super::numbers::{Path, largest_distance, median, number, numbers, text};
+use super::planned::{self, Case, Choice, ERRORS, SETTINGS, chosen};
 use crate::table::Table;
 
-const SETTINGS: &str = "lab/exudyn/settings.json";
-/// Scenes of the settings, in the order of the page.
-const SCENES: &str = "soft_pendulum steel_pendulum flying_spaghetti spin_up slider_crank catenary";
 /// Rounds of timed runs.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 7;
 
 /// A scene with its settings, for both programs.
-struct Peers<'a> {
-    name: &'a str,
-    setting: &'a Value,
-    scene: Value,
+struct Peers {
+    case: Case,
+    setting: Value,
     reference: Path,
+}
+
+/// A run that is timed: its error and CPU times, and its integrator.
+#[derive(Clone, Default)]
+struct Timed {
+    error: f64,
+    cpu_times: Vec<f64>,
+    method: String,
 }
 
 /// Measures.
 pub fn measure(bench: &Bench) -> Result<()> {
-    let settings = bench.json(SETTINGS)?;
     let mut exudyn = Exudyn::start(bench.workspace())?;
-    let header = "scene,program,pins,settings,elements,error,cpu_time_s";
+    let header = "scene,program,model,elements,settings,wanted,tolerance,method,error,cpu_time_s";
     let mut csv = Csv::new(bench, "peers", header);
     let header = "scene,file,marker,stop_time_s,every_s,length_m,reference,confirmed,sweep_runs";
     let mut scenes = Csv::new(bench, "peers_scenes", header);
-    for name in SCENES.split(' ') {
-        let peers = Peers::new(bench, name, &settings[name]);
-        let measured = peers.and_then(|peers| {
+    for (case, setting) in planned::peers(bench)? {
+        let place = format!("{SETTINGS}, {}", case.name);
+        let measured = Peers::new(bench, case, setting).and_then(|peers| {
             peers.confirm(bench, &mut scenes)?;
             peers.measure(bench, &mut exudyn, &mut csv)
         });
-        measured.with_context(|| format!("{SETTINGS}, {name}"))?;
+        measured.context(place)?;
     }
     csv.save()?;
     scenes.save()
 }
 
-impl<'a> Peers<'a> {
-    fn new(bench: &Bench, name: &'a str, setting: &'a Value) -> Result<Self> {
+impl Peers {
+    fn new(bench: &Bench, case: Case, setting: Value) -> Result<Self> {
         let reference = bench.workspace().path(text(&setting["reference"])?);
         let reference = Table::read(&reference)?;
         let every = number(&setting["every"])?;
         let on_grid = |t: f64| ((t / every).round() * every - t).abs() < 1e-9;
         let places = reference.points("x_tip", "y_tip")?;
         let rows = reference.column("t")?.into_iter().zip(places);
+        let reference = rows.filter_map(|(t, place)| on_grid(t).then_some(place));
         Ok(Self {
-            name,
+            case,
+            reference: reference.collect(),
             setting,
-            scene: bench.json(text(&setting["scene"])?)?,
-            reference: rows
-                .filter_map(|(t, place)| on_grid(t).then_some(place))
-                .collect(),
         })
     }
 
     /// Largest distance of a path from the reference, divided by the length.
     fn error(&self, path: &[[f64; 2]]) -> Result<f64> {
         Ok(largest_distance(path, &self.reference) / number(&self.setting["length"])?)
-    }
-
-    /// A run of the product. What `auto` picks is what a user gets.
-    fn run(&self, elements: f64, tolerance: f64) -> Result<Run> {
-        let [stop, every] = ["stop_time", "every"].map(|key| number(&self.setting[key]));
-        let mut run = Run::new(&self.scene, stop?, every?).tolerance(tolerance);
-        let product = &self.setting["product"];
-        for (key, unit) in [("set", 1.0), ("elements", elements)] {
-            for (name, value) in product[key].as_object().into_iter().flatten() {
-                run = run.set(name, unit * number(value)?);
-            }
-        }
-        Ok(run.integrator("auto"))
     }
 
     /// What the marker did, against the reference.
@@ -86,65 +75,101 @@ impl<'a> Peers<'a> {
 
     /// Holds the product's finest run against the reference.
     fn confirm(&self, bench: &Bench, scenes: &mut Csv) -> Result<()> {
-        let setting = self.setting;
-        let [elements, tolerance] = numbers(&setting["product"]["finest"])?[..] else {
+        let (name, setting) = (&self.case.name, &self.setting);
+        let [elements, tolerance] = numbers(&setting["finest"])?[..] else {
             anyhow::bail!("expected elements and tolerance of the finest run");
         };
-        let finest = self.run(elements, tolerance)?;
-        let ran = bench.run(&format!("peers, {}, finest", self.name), &[finest])?;
+        let finest = self.case.run(&(self.counts(elements)?, tolerance))?;
+        let ran = bench.run(&format!("peers, {name}, finest"), &[finest])?;
         let confirmed = self.error_of(&ran.into_iter().next().context("expected a run")??)?;
         let [file, marker, source] = ["scene", "marker", "source"].map(|key| text(&setting[key]));
         let (file, marker, source) = (file?, marker?, source?);
         let keys = ["stop_time", "every", "length", "runs"];
         let [stop, every, length, runs] = keys.map(|key| &setting[key]);
         scenes.row(&[
-            &self.name, &file, &marker, &stop, &every, &length, &source, &confirmed, &runs,
+            name, &file, &marker, stop, every, length, &source, &confirmed, runs,
         ]);
         Ok(())
     }
 
-    /// Runs all points of both programs in rounds.
-    fn measure(&self, bench: &Bench, exudyn: &mut Exudyn, csv: &mut Csv) -> Result<()> {
-        let (product, points) = (&self.setting["product"], self.setting["points"].as_array());
-        let points = points.context("expected points")?;
-        let tolerances = numbers(&product["tolerances"])?;
-        let mut plan = Vec::new();
-        for mesh in numbers(&product["meshes"])? {
-            plan.extend(tolerances.iter().map(|tolerance| (mesh, *tolerance)));
-        }
-        let runs = plan
+    /// Elements of every cable: as many times more as it is longer.
+    fn counts(&self, elements: f64) -> Result<Vec<u32>> {
+        let shares = numbers(&self.setting["shares"])?;
+        let shares = if shares.is_empty() { vec![1.0] } else { shares };
+        Ok(shares
             .iter()
-            .map(|(elements, tolerance)| self.run(*elements, *tolerance));
+            .map(|share| (share * elements) as u32)
+            .collect())
+    }
+
+    /// Runs all points of Exudyn and all plans in rounds. Of a plan, the error wanted is all that is given.
+    fn measure(&self, bench: &Bench, exudyn: &mut Exudyn, csv: &mut Csv) -> Result<()> {
+        let points = self.setting["points"].as_array();
+        let points = points.context("expected points")?;
+        let choices = ERRORS.map(|wanted| chosen(&self.case.plan(bench, wanted)?));
+        let choices = choices.into_iter().collect::<Result<Vec<Choice>>>()?;
+        let runs = choices.iter().map(|choice| self.case.run(choice));
         let runs = runs.collect::<Result<Vec<_>>>()?;
-        let mut others = vec![(0.0, Vec::new()); points.len()];
-        let mut own = vec![(0.0, Vec::new()); plan.len()];
+        let mut others = vec![Timed::default(); points.len()];
+        let mut owns = vec![Timed::default(); runs.len()];
         for round in 1..=ROUNDS {
-            for (point, (error, times)) in points.iter().zip(&mut others) {
+            for (point, timed) in points.iter().zip(&mut others) {
                 let answer = exudyn.run(&self.options(bench, point)?)?;
-                *error = self.error(&answer.path)?;
-                times.push(answer.cpu_time);
+                timed.error = self.error(&answer.path)?;
+                timed.cpu_times.push(answer.cpu_time);
             }
-            let title = format!("peers, {}, round {round} of {ROUNDS}", self.name);
-            for (outcome, (error, times)) in bench.run(&title, &runs)?.iter().zip(&mut own) {
-                // A mesh too coarse for its scene may fail: no point then.
-                let Ok(ran) = outcome else { continue };
-                *error = self.error_of(ran)?;
-                times.push(ran.cpu_time);
+            let title = format!("peers, {}, round {round} of {ROUNDS}", self.case.name);
+            for (outcome, timed) in bench.run(&title, &runs)?.into_iter().zip(&mut owns) {
+                let ran = outcome?;
+                timed.error = self.error_of(&ran)?;
+                timed.cpu_times.push(ran.cpu_time);
+                timed.method = ran.method().to_owned();
             }
         }
-        let scene = self.name;
-        for (point, (error, times)) in points.iter().zip(others) {
-            let pins = point.get("heavy").map_or("own", |_| "heavy nodes");
-            let (words, count, time) = (described(point)?, &point["elements"], median(&times));
-            csv.row(&[&scene, &"Exudyn", &pins, &words, count, &error, &time]);
+        for (point, timed) in points.iter().zip(&others) {
+            self.write_point(point, timed, csv)?;
         }
-        for ((count, tolerance), (error, times)) in plan.iter().zip(own) {
-            let (words, time) = (format!("tolerance {tolerance:e}"), median(&times));
-            if !times.is_empty() {
-                csv.row(&[&scene, &"Flexbody", &"", &words, count, &error, &time]);
-            }
+        for ((wanted, choice), timed) in ERRORS.iter().zip(&choices).zip(&owns) {
+            self.write_plan(*wanted, choice, timed, csv);
         }
         Ok(())
+    }
+
+    fn write_point(&self, point: &Value, timed: &Timed, csv: &mut Csv) -> Result<()> {
+        let models = [("heavy", "heavy nodes"), ("rigid", "rigid")];
+        let apart = models.iter().find(|(key, _)| point.get(key).is_some());
+        let model = apart.map_or("cables", |(_, model)| model);
+        let mesh = mesh(&self.counts(number(&point["elements"])?)?);
+        let (words, time, none) = (described(point)?, median(&timed.cpu_times), &"");
+        csv.row(&[
+            &self.case.name,
+            &"Exudyn",
+            &model,
+            &mesh,
+            &words,
+            none,
+            none,
+            none,
+            &timed.error,
+            &time,
+        ]);
+        Ok(())
+    }
+
+    fn write_plan(&self, wanted: f64, choice: &Choice, timed: &Timed, csv: &mut Csv) {
+        let (mesh, time, none) = (mesh(&choice.0), median(&timed.cpu_times), &"");
+        csv.row(&[
+            &self.case.name,
+            &"Flexbody",
+            none,
+            &mesh,
+            none,
+            &wanted,
+            &choice.1,
+            &timed.method,
+            &timed.error,
+            &time,
+        ]);
     }
 
     /// Options of a run of Exudyn: those of all runs, and its own.
@@ -164,16 +189,25 @@ impl<'a> Peers<'a> {
     }
 }
 
+/// Elements of cables in words.
+fn mesh(counts: &[u32]) -> String {
+    let words = counts.iter().map(|count| match count {
+        0 => "rigid".to_owned(),
+        count => count.to_string(),
+    });
+    words.collect::<Vec<_>>().join(" + ")
+}
+
 /// Settings of Exudyn in words; what is not said is its default.
 fn described(options: &Value) -> Result<String> {
-    const APART: [&str; 6] = ["elements", "error", "cpu_time", "heavy", "step", "solver"];
+    const APART: &str = "elements error cpu_time heavy rigid step solver";
     let mut words = format!(
         "{}; step {:.2e}",
         text(&options["solver"])?,
         number(&options["step"])?
     );
     for (key, value) in options.as_object().into_iter().flatten() {
-        if !APART.contains(&key.as_str()) {
+        if !APART.split(' ').any(|apart| apart == key) {
             words += &format!("; {key} {}", value.to_string().trim_matches('"'));
         }
     }
