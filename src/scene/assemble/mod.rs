@@ -439,7 +439,8 @@ fn build_elements<const D: usize>(body: &CableBody, nodes: &[f64]) -> Vec<cable:
             axial_stiffness: material.youngs_modulus * section.area,
             bending_stiffness: material.youngs_modulus * section.second_moment,
             line_density: material.density * section.area,
-            damping_time: material.damping_time,
+            axial_damping_time: material.damping_time,
+            bending_damping_time: material.damping_time,
             strain,
             inertia: Inertia::Corrected,
         };
