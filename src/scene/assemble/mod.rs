@@ -1,5 +1,6 @@
 //! From a validated scene to a system.
 
+mod axial;
 mod initial;
 mod motions;
 mod ports;
@@ -32,6 +33,8 @@ pub struct Assembled<const D: usize = 2> {
     pub nodes: Vec<Node<D>>,
     /// Their rates as described.
     pub rates: Vec<Node<D>>,
+    /// Error wanted of what is read, relative.
+    pub error: f64,
     /// Motions of the bodies at the start.
     pub motions: Motions<D>,
     /// For every marker, itself in the system.
@@ -97,6 +100,7 @@ impl Resolved<'_> {
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
         Ok(Assembled {
             system,
+            error: self.scene.error_wanted(),
             rates: builder.motions.rates(&nodes),
             motions: builder.motions,
             nodes,
@@ -167,7 +171,10 @@ impl<const D: usize> Builder<'_, D> {
             BodyReference::Cable(reference) => {
                 let cable = reference.body;
                 let mesh = self.resolved.nodes(reference)?;
-                let chain = CableChain::new(build_elements(cable, &mesh), first);
+                let chain = CableChain::new(
+                    build_elements(cable, self.resolved.axial_damping_time(reference), &mesh),
+                    first,
+                );
                 let node = |s: &f64| {
                     let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
                     ways.map(|way| vector::<D, f64>(way).into())
@@ -425,7 +432,11 @@ fn each<T: Clone, const D: usize>(components: &[T]) -> [T; D] {
     std::array::from_fn(|k| components[k].clone())
 }
 
-fn build_elements<const D: usize>(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<D>> {
+fn build_elements<const D: usize>(
+    body: &CableBody,
+    axial_damping_time: f64,
+    nodes: &[f64],
+) -> Vec<cable::Cable<D>> {
     let (material, section) = (&body.material, &body.section);
     let strain = match body.strain {
         Strain::ThetaPrime => elements::Strain::ThetaPrime,
@@ -439,7 +450,7 @@ fn build_elements<const D: usize>(body: &CableBody, nodes: &[f64]) -> Vec<cable:
             axial_stiffness: material.youngs_modulus * section.area,
             bending_stiffness: material.youngs_modulus * section.second_moment,
             line_density: material.density * section.area,
-            axial_damping_time: material.damping_time,
+            axial_damping_time,
             bending_damping_time: material.damping_time,
             strain,
             inertia: Inertia::Corrected,

@@ -2,4 +2,5 @@
 
 pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
+mod resolution;
 pub(in crate::system) mod section;
