@@ -78,8 +78,8 @@ pub enum OutputKind {
     CenterOfMass,
     /// How well meshes carry the shapes that cables have: the error in position that they make now, estimated from jumps of
     /// curvature at nodes, over the error wanted (`accuracy.error`, or ten times the tolerance). Above 1 more elements are
-    /// needed, which is said once in the log. Within a factor of five on most scenes; what a mesh did before, and errors
-    /// of time, do not count.
+    /// needed, which is said once in the log. Within a factor of five on most scenes; what a mesh did before, errors of time,
+    /// and a cable of one element that is clamped at both ends do not count.
     Resolution,
     /// Largest residual of the constraints, relative: of positions and of velocities.
     Residual,
