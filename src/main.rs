@@ -109,6 +109,8 @@ struct Cost {
     cpu_time: Duration,
     /// Outputs that the tolerance does not reach.
     doubtful: Vec<String>,
+    /// A mesh that is too coarse, in words.
+    unresolved: Option<String>,
 }
 
 impl Cost {
@@ -376,6 +378,9 @@ impl Run {
                 "flexbody: {name}: errors of the steps may have left more than 10 times the relative tolerance"
             );
         }
+        if let Some(unresolved) = &self.cost.unresolved {
+            eprintln!("flexbody: {unresolved}");
+        }
         Ok(())
     }
 
@@ -394,6 +399,9 @@ impl Run {
             self.cost.add(simulation.report(), cpu_time);
             while let Some(name) = simulation.next_doubtful() {
                 self.cost.doubtful.push(name.to_owned());
+            }
+            if let Some(unresolved) = simulation.next_unresolved() {
+                self.cost.unresolved = Some(unresolved.to_string());
             }
         }
         Ok(())

@@ -120,6 +120,9 @@ fn in_words(plan: &Plan) -> String {
         [output.name.clone(), output.error_in_words(), settles]
     });
     text += &table(&["output", "error", ""], rows.collect());
+    if let Some(settled) = &plan.settled {
+        text += &format!("\nproposed\n  {}\n", settled.in_words());
+    }
     text += "\ncost\n";
     let rows = plan.prices().map(|(name, price)| {
         [

@@ -45,7 +45,14 @@ struct Moving {
 impl Moving {
     fn new(path: &Path) -> Self {
         let text = std::fs::read_to_string(path).expect("a readable scene");
-        let scene = Scene::from_json(&text).expect("a valid scene");
+        let mut scene: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        // No ready scene asks for it.
+        let resolution = serde_json::json!({"kind": "resolution"});
+        match scene["outputs"].as_array_mut() {
+            Some(outputs) => outputs.push(resolution),
+            None => scene["outputs"] = serde_json::json!([resolution]),
+        }
+        let scene = Scene::from_json(&scene.to_string()).expect("a valid scene");
         let (mut scene, _) = plan(&scene, &mut |_, _, _| ()).expect("a plan");
         scene.accuracy.relative_tolerance = Some(1e-10);
         // Soft enough for differences over a time that rounding does not notice.
@@ -166,6 +173,7 @@ fn courses(simulation: &Simulation) -> Vec<(usize, [f64; 3])> {
 
 #[test]
 fn derivatives_in_time_are_those_of_the_motion() {
+    let mut kinks = 0;
     for path in scenes() {
         let mut moving = Moving::new(&path);
         let outputs = moving.outputs();
@@ -190,7 +198,14 @@ fn derivatives_in_time_are_those_of_the_motion() {
             (1e-3, [1.0; 2])
         };
         for (i, index) in outputs.iter().enumerate() {
-            let place = format!("{} {}", path.display(), moving.name(*index));
+            let name = moving.name(*index);
+            let place = format!("{} {name}", path.display());
+            // It has a kink where the largest jump of curvature changes place.
+            let bend = rows[4][1][i] - rows[0][1][i] - 4.0 * NEAR * rows[2][2][i];
+            if name == "resolution" && bend.abs() > share * rows[2][1][i].abs() {
+                kinks += 1;
+                continue;
+            }
             for order in 1..=2 {
                 let y = |k: usize| rows[k][order - 1][i];
                 let difference = (y(0) - 8.0 * y(1) + 8.0 * y(3) - y(4)) / (12.0 * NEAR);
@@ -212,6 +227,7 @@ fn derivatives_in_time_are_those_of_the_motion() {
             assert_eq!(rows[2][3][i], 0.0);
         }
     }
+    assert!(kinks <= 3, "{kinks} kinks");
 }
 
 #[test]

@@ -85,7 +85,7 @@ fn scene(integrator: &str, damping_time: f64, (joints, holder): (&str, &str)) ->
             {{ "kind": "angular_velocity", "marker": "rod.tip" }},
             {{ "kind": "strain", "marker": "rod.middle" }}, {{ "kind": "curvature", "marker": "rod.middle" }},
             {{ "kind": "reaction", "joint": "joint" }}, {moment}
-            {{ "kind": "energy" }}, {{ "kind": "natural_frequency", "body": "rod", "count": 3 }} ],
+            {{ "kind": "energy" }}, {{ "kind": "resolution" }}, {{ "kind": "natural_frequency", "body": "rod", "count": 3 }} ],
           "accuracy": {{ "relative_tolerance": 1.0e-4 }},
           "method": {{ "integrator": "{integrator}" }} }}"#
     )
@@ -169,7 +169,7 @@ const MANY: &str = r#"{ "name": "many", "dimension": 2, "gravity": [0.0, -1.0],
             { "kind": "reaction", "motion": "carry" },
             { "kind": "reaction_moment", "motion": "drive" },
             { "kind": "momentum" }, { "kind": "center_of_mass" }, { "kind": "residual" },
-            { "kind": "work" }, { "kind": "energy" },
+            { "kind": "work" }, { "kind": "energy" }, { "kind": "resolution" },
             { "kind": "eigenvalue", "count": 2 } ],
           "accuracy": { "relative_tolerance": 1.0e-4 },
           "method": { METHOD } }"#;

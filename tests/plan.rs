@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use flexbody::scene::{Body, Model, Scene};
+use flexbody::scene::{Axial, Body, Model, Scene};
 use flexbody::simulation::{Plan, Settles, Signals, Simulation, courses, plan};
 use serde_json::{Value, json};
 
@@ -432,4 +432,36 @@ fn an_experiment_too_long_to_be_planned_promises_nothing() {
         outputs.iter().all(|output| output.settles == Settles::No),
         "{outputs:?}"
     );
+}
+
+/// A bar that is pulled at its end from the first instant on: its reaction rings between nothing and twice the force.
+fn pulled(axial: &str) -> Result<Scene, String> {
+    edited(BEAM, |scene| {
+        scene["joints"].as_array_mut().expect("joints").pop();
+        scene["bodies"][0]["axial"] = json!(axial);
+        scene["loads"] =
+            json!([{"name": "pull", "kind": "force", "marker": "rod.b", "value": [1000.0, 0.0]}]);
+        scene["outputs"] =
+            json!([{"kind": "position", "marker": "rod.b"}, {"kind": "reaction", "joint": "pin"}]);
+        scene["experiment"] = json!({"stop_time": 5e-3, "step": 5e-5});
+        scene["accuracy"] = json!({"error": 1e-3});
+    })
+}
+
+#[test]
+fn settled_waves_are_proposed_where_forces_ring_and_never_chosen() {
+    let (chosen, plan) = planned(&pulled("waves").expect("a scene")).expect("a plan");
+    let cable = chosen.bodies[0].cable().expect("a cable");
+    assert_eq!(cable.axial, Axial::Waves, "never chosen");
+    let plan = plan.expect("a plan");
+    let settled = plan.settled.as_ref().expect("a proposal");
+    assert_eq!(settled.bodies, ["rod"]);
+    let (name, change, error) = &settled.forces[0];
+    assert_eq!(name, "pin.reaction");
+    // It would come to rest at the force; the ringing is as large.
+    assert!(*change > 0.5, "{settled:?}");
+    assert!(error.is_some_and(|error| error < 1e-2), "{settled:?}");
+    assert!(settled.in_words().contains("rod"));
+    let (_, plan) = planned(&pulled("settled").expect("a scene")).expect("a plan");
+    assert_eq!(plan.expect("a plan").settled, None, "settled already");
 }

@@ -240,6 +240,10 @@ impl Instance {
             );
             self.logger.log(Status::Warning, Category::Warning, message);
         }
+        if let Some(unresolved) = self.simulation.next_unresolved() {
+            let message = format_args!("{unresolved}");
+            self.logger.log(Status::Warning, Category::Warning, message);
+        }
         outcome.map_err(|failure| {
             self.state = State::StepFailed;
             failure.into()

@@ -35,7 +35,9 @@ pub fn plan(plan: Option<&Plan>) -> String {
         number(plan.tolerance),
         code(plan.method)
     );
-    bodies + &time + &outputs(plan) + &costs(plan)
+    let settled = plan.settled.as_ref();
+    let settled = settled.map(|settled| format!("<p>{}.</p>\n", escape(&settled.in_words())));
+    bodies + &time + &outputs(plan) + &settled.unwrap_or_default() + &costs(plan)
 }
 
 fn held(plan: &Plan) -> String {

@@ -2,7 +2,7 @@
 
 use super::engine::{Engine, Remarks};
 use super::inputs::Inputs;
-use super::{Error, Quantity, Report, Spectra, StepFailure, Variable};
+use super::{Error, Quantity, Report, Spectra, StepFailure, Unresolved, Variable};
 use crate::scene::{Error as SceneError, Resolved, Scene};
 use crate::system::State;
 
@@ -39,6 +39,7 @@ handed_on! {
     fn size([&] self) -> f64;
     fn natural([&] self, quantity: Quantity) -> Option<f64>;
     fn next_doubtful([&mut] self) -> Option<&str>;
+    fn next_unresolved([&mut] self) -> Option<Unresolved<'_>>;
     fn fits([&] self, state: &State) -> bool;
     fn forget([&mut] self);
     fn inputs_changed([&mut] self, inputs: &[f64]);

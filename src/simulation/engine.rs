@@ -1,6 +1,7 @@
 //! A system with its scratch, integrator and evaluated outputs.
 
 use super::inputs::Inputs;
+use super::mesh::MeshWatch;
 use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
@@ -42,7 +43,8 @@ pub(super) struct Engine<const D: usize> {
     evaluated: Evaluated,
     derivatives: Option<Box<Derivatives<D>>>,
     derived: Derived,
-    watch: Watch,
+    pub(super) watch: Watch,
+    pub(super) mesh: MeshWatch,
     /// Numbers of natural frequencies and of eigenvalues wanted.
     wanted: [usize; 2],
     /// Whether inputs that jump do work on springs.
@@ -115,6 +117,7 @@ impl<const D: usize> Engine<D> {
             bodies: names(&mut resolved.bodies.iter().map(|body| body.name())),
             evaluated: Evaluated::Nothing,
             watch,
+            mesh: MeshWatch::new(variables),
             derivatives: None,
             derived: Derived::Nothing,
             wanted: Spectra::wanted(variables),
@@ -272,6 +275,7 @@ impl<const D: usize> Engine<D> {
         }
         state.work[0] -= self.set_energy(state, &inputs.values);
         self.forget();
+        self.watch_mesh(state, &inputs.values);
         let report = Report {
             method: self.methods.name(&state.pace),
             steps: counts.steps,
@@ -284,40 +288,6 @@ impl<const D: usize> Engine<D> {
             reason: self.explain(stop, state, (start, until), &counts),
         };
         (report, result.map_err(failure))
-    }
-
-    /// Samples what the errors of the last step do to outputs that magnify them.
-    fn watch(&mut self, state: &State, inputs: &[f64], steps: u64, time: f64) {
-        let mut watch = std::mem::take(&mut self.watch);
-        if watch.is_due(steps, time) {
-            watch.take(|quantity| self.output(quantity, state, inputs));
-            let shifted = &mut watch.shifted;
-            shifted.copy_from(state);
-            let system = &self.assembled.system;
-            let mut model = Model::new(system, inputs, &mut self.work, state);
-            let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
-            let at = (state.time, &state.coordinates[..], &state.rates[..]);
-            self.methods.at(&state.pace).error(&mut model, at, [q, v]);
-            let add = |(moved, now): (&mut f64, &f64)| *moved += now;
-            q.iter_mut().zip(&state.coordinates).for_each(add);
-            v.iter_mut().zip(&state.rates).for_each(add);
-            if model.project(shifted) {
-                let shifted = std::mem::take(&mut watch.shifted);
-                self.forget();
-                let tolerance = self.tolerance;
-                watch.compare(&tolerance, |quantity| {
-                    self.output(quantity, &shifted, inputs)
-                });
-                watch.shifted = shifted;
-            }
-            self.forget();
-        }
-        self.watch = watch;
-    }
-
-    /// The next output that the tolerance does not reach and that has not been told of.
-    pub(super) fn next_doubtful(&mut self) -> Option<&str> {
-        self.watch.next()
     }
 
     /// Energy in springs whose length or end inputs may set. Between steps the work in a state is short of it,

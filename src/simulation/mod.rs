@@ -5,6 +5,7 @@ mod derivatives;
 mod dimension;
 mod engine;
 mod inputs;
+mod mesh;
 mod method;
 mod plan;
 mod quantities;
@@ -18,13 +19,16 @@ mod variables;
 mod watch;
 
 pub use dimension::check;
-pub use plan::{Plan, PlannedBody, PlannedOutput, Price, Progress, Settles, courses, plan};
+pub use mesh::Unresolved;
+pub use plan::{
+    Plan, PlannedBody, PlannedOutput, Price, Progress, Settled, Settles, courses, plan,
+};
 pub use quantities::Quantity;
 pub use signals::{SignalError, Signals};
 pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Causality, Parameter, Source, Unit, Variable, variables};
 
-use crate::scene::{Accuracy, Error as SceneError, Scene, finite_at};
+use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;
 use dimension::AnyEngine;
 use inputs::Inputs;
@@ -212,6 +216,11 @@ impl Simulation {
     /// tolerance allows in the state.
     pub fn next_doubtful(&mut self) -> Option<&str> {
         self.engine.as_mut().and_then(AnyEngine::next_doubtful)
+    }
+
+    /// A mesh that has become too coarse for the error wanted, told once, where the output `resolution` is asked for.
+    pub fn next_unresolved(&mut self) -> Option<Unresolved<'_>> {
+        self.engine.as_mut().and_then(AnyEngine::next_unresolved)
     }
 
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
@@ -472,12 +481,7 @@ fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
         TurningDamping(i) => scene.ports[i].rotational_damping = Some(value),
         Gravity(axis) => scene.gravity[axis] = value,
         Rotation => scene.rotation = value,
-        RelativeTolerance => {
-            scene.accuracy = Accuracy {
-                relative_tolerance: Some(value),
-                ..Accuracy::default()
-            };
-        }
+        RelativeTolerance => scene.set_relative_tolerance(value),
         WorkLimit => scene.method.work_limit = value,
     }
 }

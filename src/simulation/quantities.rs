@@ -2,6 +2,7 @@
 //! they are computed from; how large they naturally are.
 
 use super::engine::Engine;
+use super::mesh::resolution;
 use crate::body::Marker;
 use crate::integrators::Tolerance;
 use crate::math::jet::Number;
@@ -71,6 +72,8 @@ pub enum Quantity {
     AngularMomentum(usize),
     /// Component of the centre of mass.
     CenterOfMass(usize),
+    /// Error in position that meshes make in the present shapes, over the error wanted.
+    Resolution,
     /// Largest residual of the constraints: 0 of positions, 1 of velocities.
     Residual(usize),
 }
@@ -136,6 +139,7 @@ pub(super) fn value<const D: usize, N: Number>(
         Momentum(axis) => values.momentum(system).0[axis],
         AngularMomentum(axis) => values.momentum(system).1[axis],
         CenterOfMass(axis) => values.center_of_mass(system)[axis],
+        Resolution => resolution(values, assembled),
         Residual(of) => N::of(values.residuals(system)[of]),
     }
 }
@@ -170,7 +174,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         CouplingMoment(_) | KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => {
             (Kinematics, |by| Some(by.force * by.size))
         }
-        Momentum(_) | AngularMomentum(_) | Residual(_) => (Kinematics, |_| None),
+        Momentum(_) | AngularMomentum(_) | Resolution | Residual(_) => (Kinematics, |_| None),
         Input | Dissipated => (Nothing, |_| None),
     }
 }

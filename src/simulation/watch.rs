@@ -6,10 +6,11 @@
 //! step is estimated to have made, and outputs are read there as well. Errors of steps add up as independent
 //! ones do, by their squares.
 
+use super::engine::Engine;
 use super::quantities::{Quantity, natural};
 use crate::integrators::Tolerance;
 use crate::math::vector::norm;
-use crate::system::{State, System};
+use crate::system::{Model, State, System};
 
 /// Errors beyond this many tolerances of an output's largest size are told of: the estimate is within a factor
 /// of three of the error on most scenes, and what is off by 30 tolerances must not stay unsaid.
@@ -125,5 +126,41 @@ impl Watch {
         let group = groups.find(|group| group.is_doubtful && !group.is_told)?;
         group.is_told = true;
         Some(&group.name)
+    }
+}
+
+impl<const D: usize> Engine<D> {
+    /// Samples what the errors of the last step do to outputs that magnify them.
+    pub(super) fn watch(&mut self, state: &State, inputs: &[f64], steps: u64, time: f64) {
+        let mut watch = std::mem::take(&mut self.watch);
+        if watch.is_due(steps, time) {
+            watch.take(|quantity| self.output(quantity, state, inputs));
+            let shifted = &mut watch.shifted;
+            shifted.copy_from(state);
+            let system = &self.assembled.system;
+            let mut model = Model::new(system, inputs, &mut self.work, state);
+            let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
+            let at = (state.time, &state.coordinates[..], &state.rates[..]);
+            self.methods.at(&state.pace).error(&mut model, at, [q, v]);
+            let add = |(moved, now): (&mut f64, &f64)| *moved += now;
+            q.iter_mut().zip(&state.coordinates).for_each(add);
+            v.iter_mut().zip(&state.rates).for_each(add);
+            if model.project(shifted) {
+                let shifted = std::mem::take(&mut watch.shifted);
+                self.forget();
+                let tolerance = self.tolerance;
+                watch.compare(&tolerance, |quantity| {
+                    self.output(quantity, &shifted, inputs)
+                });
+                watch.shifted = shifted;
+            }
+            self.forget();
+        }
+        self.watch = watch;
+    }
+
+    /// The next output that the tolerance does not reach and that has not been told of.
+    pub(super) fn next_doubtful(&mut self) -> Option<&str> {
+        self.watch.next()
     }
 }

@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 
 use super::end::{Angle, End, coupling};
 use super::joints::{
-    Coincident, Constraint, ConstraintKind, Joint, Linear, Target, UnitLength, View,
+    Coincident, Constraint, ConstraintKind, Joint, Linear, Primitive, Target, UnitLength, View,
 };
 use super::loads::Load;
 use super::signal::Drive;
@@ -96,11 +96,13 @@ impl<const D: usize> System<D> {
         let chains_damped = parts.chains.iter().any(CableChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let grounded = grounded(&parts, &nonlinear);
+        let takes_moments = takes_moments(&parts);
         let mut system = Self {
             reference: parts.nodes,
             is_driven_by_time: false,
             has_breaks: false,
             grounded,
+            takes_moments,
             is_damped: chains_damped || loads_damped,
             needs_rates: loads_damped || parts.rotation != 0.0 || parts.tracks_work,
             chains: parts.chains,
@@ -402,6 +404,33 @@ fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64>
         }
     }
     mass
+}
+
+/// For every node, whether a joint, motion, load or lumped inertia may exert a moment there.
+fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
+    let mut takes = vec![false; parts.nodes.len()];
+    let mut take = |end: &End<D>| end.nodes().for_each(|node| takes[node] = true);
+    for joint in &parts.joints {
+        for hold in &joint.holds {
+            match hold {
+                Primitive::Direction(_) | Primitive::Clamped(_) | Primitive::DrivenDirection(_) => {
+                    joint.ends.iter().for_each(&mut take);
+                }
+                // A line that turns with the first end is pushed at a distance from it.
+                Primitive::Line(_) => take(&joint.ends[0]),
+                _ => {}
+            }
+        }
+    }
+    for load in &parts.loads {
+        if load.is_moment() {
+            load.ends().iter().for_each(&mut take);
+        }
+    }
+    for lump in parts.lumped_masses.iter().filter(|lump| lump.inertia > 0.0) {
+        take(&End::Body(lump.marker));
+    }
+    takes
 }
 
 /// Nodes that something besides rows ties to the ground.

@@ -94,6 +94,8 @@ pub struct System<const D: usize = 2> {
     /// Whether a function of time may have a kink or a jump.
     has_breaks: bool,
     grounded: Vec<usize>,
+    /// For every node, whether something besides the cable may exert a moment there.
+    takes_moments: Vec<bool>,
 }
 
 /// How the nodes follow a row of `Phi` that changes in time.

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_char};
 use std::ptr;
 
-use crate::support::{Instance, Status, Unit, call};
+use crate::support::{Instance, SCENE, Status, Unit, call};
 
 fn enable(instance: &Instance<'_>, on: bool, categories: &[&CStr]) -> Status {
     let names: Vec<*const c_char> = categories.iter().map(|name| name.as_ptr()).collect();
@@ -116,4 +116,28 @@ fn a_step_that_fails_tells_the_work_it_took() {
     );
     assert_eq!(before("steps"), "0", "{message}");
     assert_ne!(before("rejected"), "0", "{message}");
+}
+
+/// The rod of rubber has 4 elements: too few for its shape once it swings.
+#[test]
+fn a_mesh_that_is_too_coarse_is_warned_of_once_where_that_is_read() {
+    let asked = SCENE.replace(
+        "\"outputs\": [",
+        "\"outputs\": [{ \"kind\": \"resolution\" },",
+    );
+    for (scene, count) in [(&asked[..], 1), (SCENE, 0)] {
+        let unit = Unit::of(scene);
+        let instance = Instance::started(&unit);
+        instance.record.take();
+        instance.run(0, 25);
+        let lines = instance.record.take().into_iter();
+        let told = lines.filter(|line| line.3.starts_with("resolution"));
+        let told: Vec<_> = told.collect();
+        assert_eq!(told.len(), count, "{told:?}");
+        assert!(
+            told.iter()
+                .all(|line| (line.1, &line.2[..]) == (Status::Warning, "logStatusWarning")),
+            "{told:?}"
+        );
+    }
 }

@@ -288,3 +288,36 @@ fn a_stretch_counts_as_a_turn() {
     let (sin, cos) = 0.3_f64.sin_cos();
     assert!((turn([cos, sin]) - 0.3).abs() < 1e-9);
 }
+
+/// `resolution`: where it is asked for, the first time that a mesh is too coarse is told, with the body, once; a mesh that
+/// is fine enough, and one that nobody asks of, pass in silence. A rubber rod that swings from the horizontal is folded
+/// after half a second: 4 elements are off by a tenth of its length, 64 by 2e-4 (decision 36).
+#[test]
+fn a_mesh_that_is_too_coarse_is_told_of_once() {
+    let told = |elements: u32, error: f64, outputs: Value| {
+        let scene = json!({
+            "name": "rubber", "dimension": 2, "gravity": [0.0, -9.81],
+            "accuracy": {"error": error, "relative_tolerance": 1e-3},
+            "bodies": [{"element": "rigid", "name": "block", "mass": 1.0, "position": [5.0, 0.0]},
+                       {"element": "cable", "name": "rod", "elements": elements,
+                        "material": {"youngs_modulus": 7e5, "density": 5540.0},
+                        "section": {"area": 1.8e-3, "second_moment": 1.215e-8},
+                        "shape": {"line": {"from": [0.0, 0.0], "to": [1.2, 0.0]}}, "markers": {"root": 0.0}}],
+            "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "rod.root"]}],
+            "outputs": outputs});
+        let mut simulation = started(&scene);
+        let mut told = Vec::new();
+        for step in 1..=70 {
+            simulation.step(0.01 * f64::from(step)).expect("a step");
+            told.extend(simulation.next_unresolved().map(|found| found.to_string()));
+        }
+        told
+    };
+    let read = json!([{"kind": "resolution"}]);
+    let coarse = told(4, 0.01, read.clone());
+    assert_eq!(coarse.len(), 1, "{coarse:?}");
+    assert!(coarse[0].starts_with("resolution: 1."), "{coarse:?}");
+    assert!(coarse[0].contains("the mesh of rod"), "{coarse:?}");
+    assert!(told(64, 0.01, read).is_empty());
+    assert!(told(4, 0.01, json!([{"kind": "energy"}])).is_empty());
+}

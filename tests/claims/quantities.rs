@@ -43,7 +43,7 @@ named! { label, LABELS, Quantity:
     SpringEnergy => "spring energy", Input => "input", Dissipated => "dissipated",
     Momentum(0) => "momentum x", Momentum(_) => "momentum y", AngularMomentum(_) => "angular momentum",
     CenterOfMass(0) => "center of mass x", CenterOfMass(_) => "center of mass y",
-    Residual(0) => "residual of positions", Residual(_) => "residual of velocities",
+    Resolution => "resolution", Residual(0) => "residual of positions", Residual(_) => "residual of velocities",
 }
 
 /// Outputs that are zero where all is well: their claim is that they are, to roundoff.

@@ -101,7 +101,8 @@ fn build(
             axial_stiffness,
             bending_stiffness,
             line_density: *line_density,
-            damping_time,
+            axial_damping_time: damping_time,
+            bending_damping_time: damping_time,
             strain,
         };
         let [a, b] = [nodes[nodes.len() - 2], nodes[nodes.len() - 1]];

@@ -304,7 +304,8 @@ fn parts_without_connection_do_not_know_of_each_other() {
             axial_stiffness: 200.0,
             bending_stiffness: 0.5,
             line_density: 1.0,
-            damping_time: 0.001,
+            axial_damping_time: 0.001,
+            bending_damping_time: 0.001,
             strain: Strain::ThetaPrime,
         };
         let mut made = bodies(&[]);

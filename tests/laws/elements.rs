@@ -110,7 +110,7 @@ pub fn stiffness_is_derivative<const D: usize>(s: &Specimen<D>) -> Outcome {
     for blocks in [&stiffness, &moving] {
         let (x, y) = (&s.directions[0], &s.directions[1]);
         let off = (x.dot(&apply(blocks, y)) - y.dot(&apply(blocks, x))).abs();
-        let scale = s.energy_scale() * (1.0 + s.parameters.damping_time);
+        let scale = s.energy_scale() * (1.0 + s.parameters.longest_damping_time());
         within("symmetry of the stiffness", off, 1e-12 * scale)?;
     }
     Ok(())
@@ -122,7 +122,7 @@ pub fn objectivity<const D: usize>(s: &Specimen<D>, motion: &RigidMotion<D>) -> 
     let mut motion = motion.clone();
     motion.translation *= l;
     motion.velocity *= l;
-    let scale = s.energy_scale() * (1.0 + s.parameters.damping_time);
+    let scale = s.energy_scale() * (1.0 + s.parameters.longest_damping_time());
     let (e, rate) = (motion.place(&s.e), motion.rate(&s.e, &s.rate));
     let turned = motion.rotation * s.cable.force(&s.e, &s.rate);
     let off = scaled(&(s.cable.force(&e, &rate) - turned), l).abs().max();
@@ -147,7 +147,7 @@ pub fn objectivity<const D: usize>(s: &Specimen<D>, motion: &RigidMotion<D>) -> 
 pub fn momentum<const D: usize>(s: &Specimen<D>) -> Outcome {
     let l = s.parameters.length;
     let force = s.cable.force(&s.e, &s.rate);
-    let scale = s.energy_scale() * (1.0 + s.parameters.damping_time);
+    let scale = s.energy_scale() * (1.0 + s.parameters.longest_damping_time());
     let sum = (force.column(0) + force.column(2)) * l;
     within("sum of forces", sum.abs().max(), 1e-13 * scale)?;
     for i in 0..D {
@@ -168,20 +168,23 @@ pub fn power<const D: usize>(s: &Specimen<D>) -> Outcome {
     within("power", (rate + elastic).abs(), 2e-9 * s.energy_scale())?;
     let total = s.cable.force(&s.e, &s.rate).dot(&s.rate);
     let taken = s.rate.dot(&apply(&s.cable.damping(&s.e), &s.rate));
-    let scale = s.energy_scale() * (1.0 + s.parameters.damping_time);
+    let scale = s.energy_scale() * (1.0 + s.parameters.longest_damping_time());
     let off = (total + rate + taken).abs();
     within("power of damping", off, 2e-9 * scale)?;
     let dissipated = s.cable.dissipation(&s.e, &s.rate);
     let off = (dissipated - (elastic - total)).abs();
     within("dissipation", off, 1e-12 * scale)?;
     prop_assert!(taken >= -1e-13 * scale, "damping gives {taken:e} W");
-    prop_assert_eq!(s.cable.is_damped(), s.parameters.damping_time > 0.0);
+    prop_assert_eq!(
+        s.cable.is_damped(),
+        s.parameters.longest_damping_time() > 0.0
+    );
     Ok(())
 }
 
 /// The damping matrix is minus the derivative of the force by the rate, symmetric and not negative.
 pub fn damping<const D: usize>(s: &Specimen<D>) -> Outcome {
-    let (l, time) = (s.parameters.length, s.parameters.damping_time);
+    let (l, time) = (s.parameters.length, s.parameters.longest_damping_time());
     let damping = s.cable.damping(&s.e);
     let (scale, n) = (s.energy_scale() * time, 4 * D);
     let all = directions::<D>(l);

@@ -19,7 +19,8 @@ fn beam(unit: f64) -> Chain {
         axial_stiffness: 1260.0,
         bending_stiffness: 8.505e-3,
         line_density: 9.972 * unit,
-        damping_time: 0.0,
+        axial_damping_time: 0.0,
+        bending_damping_time: 0.0,
         strain: Strain::ThetaPrime,
     };
     let node = |i: u8| [Vector2::new(f64::from(i) * length, 0.0), Vector2::x()];

@@ -205,7 +205,8 @@ impl Builder {
                 axial_stiffness: 300.0,
                 bending_stiffness: 2.0,
                 line_density: self.dice.between(0.3, 2.0),
-                damping_time,
+                axial_damping_time: damping_time,
+                bending_damping_time: damping_time,
                 strain: Strain::ThetaPrime,
             };
             let shape = Nodal::from_columns(&[p, d, at, direction(heading)]);

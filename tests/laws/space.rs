@@ -45,7 +45,8 @@ fn case((elements, joints, noise): Numbers) -> Case {
             axial_stiffness: 200.0,
             bending_stiffness: 1.0,
             line_density: *line_density,
-            damping_time: 0.0,
+            axial_damping_time: 0.0,
+            bending_damping_time: 0.0,
             strain: Strain::ThetaPrime,
         };
         Cable::new(parameters, None)

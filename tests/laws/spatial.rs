@@ -74,11 +74,21 @@ fn a_planar_state_in_space_agrees_with_the_planar_cable() {
             motion.rotation * lifted
         };
         let (e, rest) = (lift(&s.e), Nodal::zeros());
-        let scale = s.energy_scale() * (1.0 + p.damping_time);
+        let scale = s.energy_scale() * (1.0 + p.longest_damping_time());
         let off = (full.energy(&e) - flat.energy(&s.e)).abs();
         within("energy", off, 1e-13 * scale)?;
         let flat_force = flat.force(&s.e, &Nodal::zeros());
         let off = full.force(&e, &rest) - lift(&flat_force);
+        let bent = |change: [f64; 3]| nalgebra::SVector::from(change).norm();
+        for xi in [0.0, 1.0] {
+            let found = bent(full.curvature_change(&e, xi));
+            let off = found - bent(flat.curvature_change(&s.e, xi));
+            within(
+                "curvature",
+                off.abs() * p.length,
+                1e-11 * (1.0 + found * p.length),
+            )?;
+        }
         within("force", scaled(&off, p.length).abs().max(), 1e-12 * scale)?;
         let off = full.force(&e, &lift(&s.rate)) - lift(&flat.force(&s.e, &s.rate));
         within("damping", scaled(&off, p.length).abs().max(), 1e-12 * scale)?;

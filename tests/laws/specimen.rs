@@ -65,21 +65,21 @@ fn disturbed<const D: usize>(length: f64, noise: &Nodal<D>) -> Nodal<D> {
     e
 }
 
-/// Random material on a random length, slender or short.
+/// Random material on a random length, slender or short; damped alike or not in both strains, or in one alone.
 fn parameters() -> impl Strategy<Value = Parameters> {
-    let damping = prop_oneof![Just(0.0), decades(-3.0, 0.0)];
+    let time = || prop_oneof![Just(0.0), decades(-3.0, 0.0)];
+    let damping = [time(), time()];
     let sizes = (decades(-2.0, 1.0), decades(-2.0, 5.0), decades(-2.0, 4.0));
     (sizes, decades(-3.0, 3.0), damping, strains()).prop_map(
-        |((length, slenderness, bending_stiffness), line_density, damping_time, strain)| {
-            Parameters {
-                inertia: Inertia::Corrected,
-                length,
-                axial_stiffness: slenderness * bending_stiffness / (length * length),
-                bending_stiffness,
-                line_density,
-                damping_time,
-                strain,
-            }
+        |((length, slenderness, bending_stiffness), line_density, damping, strain)| Parameters {
+            inertia: Inertia::Corrected,
+            length,
+            axial_stiffness: slenderness * bending_stiffness / (length * length),
+            bending_stiffness,
+            line_density,
+            axial_damping_time: damping[0],
+            bending_damping_time: damping[1],
+            strain,
         },
     )
 }

@@ -204,7 +204,8 @@ fn beam(elements: usize, axial_stiffness: f64, damping_time: f64, clamped: bool)
         axial_stiffness,
         bending_stiffness: 1.0,
         line_density: 1.0,
-        damping_time,
+        axial_damping_time: damping_time,
+        bending_damping_time: damping_time,
         strain: Strain::ThetaPrime,
         inertia: Inertia::Corrected,
     };

@@ -27,7 +27,8 @@ fn cables() -> Vec<Cable<2>> {
             axial_stiffness: 1e3,
             bending_stiffness: 1.0,
             line_density,
-            damping_time: 0.0,
+            axial_damping_time: 0.0,
+            bending_damping_time: 0.0,
             strain: Strain::ThetaPrime,
             inertia: Inertia::Consistent,
         };

@@ -25,7 +25,8 @@ fn soft(inertia: Inertia) -> Parameters {
         axial_stiffness: 0.7e6 * 0.0018,
         bending_stiffness: 0.7e6 * 1.215e-8,
         line_density: 5540.0 * 0.0018,
-        damping_time: 0.0,
+        axial_damping_time: 0.0,
+        bending_damping_time: 0.0,
         strain: Strain::ThetaPrime,
         inertia,
     }

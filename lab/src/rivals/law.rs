@@ -30,7 +30,8 @@ fn rod(elements: usize, gravity: Vector) -> Rod {
         axial_stiffness: STIFFNESS[0],
         bending_stiffness: STIFFNESS[1],
         line_density: DENSITY,
-        damping_time: 0.0,
+        axial_damping_time: 0.0,
+        bending_damping_time: 0.0,
         strain: Strain::ThetaPrime,
         inertia: Inertia::Consistent,
     };

@@ -67,7 +67,8 @@ impl Problem {
             axial_stiffness: self.material.axial,
             bending_stiffness: self.material.bending,
             line_density: self.material.density,
-            damping_time: 0.0,
+            axial_damping_time: 0.0,
+            bending_damping_time: 0.0,
             strain: Strain::ThetaPrime,
             inertia: Inertia::Corrected,
         }

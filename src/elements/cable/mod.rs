@@ -12,6 +12,8 @@
 //! Radau (docs/decisions/0021-stable-equilibria.md).
 
 mod kernel;
+#[cfg(test)]
+mod tests;
 
 use nalgebra::{SMatrix, SVector};
 
@@ -35,12 +37,21 @@ pub struct Parameters {
     pub bending_stiffness: f64,
     /// Mass per reference length, kg/m.
     pub line_density: f64,
-    /// Kelvin-Voigt damping time: stress is stiffness times (strain + time x strain rate), s.
-    pub damping_time: f64,
+    /// Kelvin-Voigt damping time of axial strain: force is stiffness times (strain + time x strain rate), s.
+    pub axial_damping_time: f64,
+    /// The same of bending, s.
+    pub bending_damping_time: f64,
     /// Strain measure.
     pub strain: Strain,
     /// Mass matrix.
     pub inertia: Inertia,
+}
+
+impl Parameters {
+    /// The longer of both damping times, s.
+    pub fn longest_damping_time(&self) -> f64 {
+        self.axial_damping_time.max(self.bending_damping_time)
+    }
 }
 
 /// Mass matrices; they differ in what the quadratic and cubic parts of the velocity in an element
@@ -127,12 +138,13 @@ impl<const D: usize> Cable<D> {
             inverse_length: 1.0 / p.length,
             axial_stiffness: p.axial_stiffness,
             bending_stiffness: p.bending_stiffness,
-            damping_time: p.damping_time,
+            axial_damping_time: p.axial_damping_time,
+            bending_damping_time: p.bending_damping_time,
             natural_strain: [0.0; 3],
             natural_curvature: [[0.0; TURNS]; 3],
             sampling,
             strain: p.strain,
-            is_damped: p.damping_time > 0.0,
+            is_damped: p.longest_damping_time() > 0.0,
             bends: p.bending_stiffness > 0.0,
         };
         if let Some(e) = shape {
@@ -150,6 +162,17 @@ impl<const D: usize> Cable<D> {
         let (xi, l) = (N::of(xi), self.parameters.length);
         let [u, w] = [shape::slopes(xi, l), shape::curvatures(xi, l)].map(|s| (e * s).into());
         Line { u, w }
+    }
+
+    /// Curvature of the position field at `xi` in [0, 1] less that of the unstressed shape, in the planes that vectors
+    /// span, 1/m.
+    pub fn curvature_change<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> [N; TURNS] {
+        let kernel = self.kernel.lift::<N>();
+        let mut change = kernel.curvature(&self.line(e, xi)).value;
+        for (change, natural) in change.iter_mut().zip(kernel.natural_curvature_at(xi)) {
+            *change -= natural;
+        }
+        change
     }
 }
 
@@ -258,7 +281,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     fn damping(&self, e: &Nodal<D>) -> Blocks<D> {
-        let factors = damped(0.0, self.parameters.damping_time);
+        let factors = damped(0.0, &self.kernel);
         let sum = self.kernel.tangent(&e.data.0, None, factors);
         whole(&self.kernel.ends(&sum))
     }
@@ -302,7 +325,8 @@ impl<const D: usize> Element<D> for Cable<D> {
             inverse_length: lanes(&|k| k.inverse_length),
             axial_stiffness: lanes(&|k| k.axial_stiffness),
             bending_stiffness: lanes(&|k| k.bending_stiffness),
-            damping_time: lanes(&|k| k.damping_time),
+            axial_damping_time: lanes(&|k| k.axial_damping_time),
+            bending_damping_time: lanes(&|k| k.bending_damping_time),
             natural_strain: std::array::from_fn(|i| lanes(&|k| k.natural_strain[i])),
             natural_curvature: std::array::from_fn(|i| {
                 std::array::from_fn(|c| lanes(&|k| k.natural_curvature[i][c]))
@@ -373,7 +397,7 @@ impl<const D: usize> Element<D> for Cable<D> {
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
             let e = read(simd, e, group);
-            let factors = damped(kernel.length.constant(0.0), kernel.damping_time);
+            let factors = damped(kernel.length.constant(0.0), &kernel);
             write(&kernel.ends(&kernel.tangent(&e, None, factors)), out, group);
         }
     }
@@ -384,17 +408,19 @@ impl<const D: usize> Element<D> for Cable<D> {
 fn elastic<N: Copy>(one: N) -> Factors<N> {
     Factors {
         stress: one,
-        material: one,
+        axial: one,
+        bending: one,
         of_size: false,
     }
 }
 
 /// What the damping matrix is made of.
 #[inline(always)]
-fn damped<N>(zero: N, time: N) -> Factors<N> {
+fn damped<N: Copy>(zero: N, kernel: &Kernel<N>) -> Factors<N> {
     Factors {
         stress: zero,
-        material: time,
+        axial: kernel.axial_damping_time,
+        bending: kernel.bending_damping_time,
         of_size: true,
     }
 }
@@ -410,74 +436,4 @@ fn whole<const D: usize>([aa, ba, bb]: &EndBlocks<f64, D>) -> Blocks<D> {
             _ => block(&transposed(&ba[j - 2][i])),
         })
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const ROPE: Parameters = Parameters {
-        length: 0.7,
-        axial_stiffness: 50.0,
-        bending_stiffness: 0.0,
-        line_density: 1.3,
-        damping_time: 0.0,
-        strain: Strain::ThetaPrime,
-        inertia: Inertia::Corrected,
-    };
-
-    #[test]
-    fn forces_at_free_ends_are_derivatives_of_the_energy() {
-        let (rest, h) = (Nodal::<2>::zeros(), 1e-6);
-        let e = Nodal::<2>::from_column_slice(&[0.1, 0.0, 1.1, 0.2, 0.8, 0.1, 0.9, -0.3]);
-        let rope = Cable::<2>::new(ROPE, None);
-        for free in [[false, false], [false, true], [true, false], [true, true]] {
-            let element = rope.with_free_ends(&e, free);
-            let (force, stiffness) = (element.force(&e, &rest), element.stiffness(&e, &rest));
-            for k in 0..8 {
-                let moved = |sign: f64| {
-                    let mut e = e;
-                    e[k] += sign * h;
-                    e
-                };
-                let [ahead, behind] = [moved(1.0), moved(-1.0)];
-                let slope = (element.energy(&ahead) - element.energy(&behind)) / (2.0 * h);
-                assert!((slope + force[k]).abs() < 1e-7, "{free:?} {k}");
-                let change =
-                    (element.force(&behind, &rest) - element.force(&ahead, &rest)) / (2.0 * h);
-                for i in 0..8 {
-                    let entry = stiffness[i / 2][k / 2][(i % 2, k % 2)];
-                    assert!((entry - change[i]).abs() < 1e-6, "{free:?} {i} {k}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn the_slope_at_a_free_end_is_held_by_tension_inside() {
-        // A hanging element under tension that falls to nothing at its end: stretched by a parabola.
-        let strain = |s: f64| 0.02 * (ROPE.length - s);
-        let end = 0.02 * (ROPE.length * ROPE.length / 2.0);
-        let columns = [
-            0.0,
-            0.0,
-            0.0,
-            -1.0 - strain(0.0),
-            0.0,
-            -ROPE.length - end,
-            0.0,
-            -1.0,
-        ];
-        let e = Nodal::<2>::from_column_slice(&columns);
-        // The slope turns and the chord by a sixth of it: the middle does not notice.
-        let mode = [0.0, 0.0, 0.0, 0.0, ROPE.length / 6.0, 0.0, 1.0, 0.0];
-        let rope = Cable::<2>::new(ROPE, None);
-        let held = |element: &Cable<2>| {
-            let k = element.stiffness(&e, &Nodal::zeros());
-            let entry = |i: usize, j: usize| mode[i] * k[i / 2][j / 2][(i % 2, j % 2)] * mode[j];
-            (0..64).map(|n| entry(n / 8, n % 8)).sum::<f64>()
-        };
-        assert!(held(&rope).abs() < 1e-12);
-        assert!(held(&rope.with_free_ends(&e, [false, true])) > 1e-3);
-    }
 }

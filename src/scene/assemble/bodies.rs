@@ -57,7 +57,8 @@ impl<const D: usize> Builder<'_, D> {
     fn chain(&mut self, reference: Cable<'_>, first: usize) -> Result<(), Error> {
         let cable = reference.body;
         let mesh = self.resolved.nodes(reference)?;
-        let chain = CableChain::new(build_elements(cable, &mesh), first);
+        let axial = self.resolved.axial_damping_time(reference);
+        let chain = CableChain::new(build_elements(cable, axial, &mesh), first);
         let node = |s: &f64| {
             let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
             ways.map(|way| vector::<D, f64>(way).into())
@@ -118,7 +119,11 @@ impl<const D: usize> Builder<'_, D> {
     }
 }
 
-fn build_elements<const D: usize>(body: &CableBody, nodes: &[f64]) -> Vec<cable::Cable<D>> {
+fn build_elements<const D: usize>(
+    body: &CableBody,
+    axial_damping_time: f64,
+    nodes: &[f64],
+) -> Vec<cable::Cable<D>> {
     let (material, section) = (&body.material, &body.section);
     let strain = match body.strain {
         Strain::ThetaPrime => elements::Strain::ThetaPrime,
@@ -132,7 +137,8 @@ fn build_elements<const D: usize>(body: &CableBody, nodes: &[f64]) -> Vec<cable:
             axial_stiffness: material.youngs_modulus * section.area,
             bending_stiffness: material.youngs_modulus * section.second_moment,
             line_density: material.density * section.area,
-            damping_time: material.damping_time,
+            axial_damping_time,
+            bending_damping_time: material.damping_time,
             strain,
             inertia: Inertia::Corrected,
         };

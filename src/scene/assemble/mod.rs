@@ -1,5 +1,6 @@
 //! From a validated scene to a system.
 
+mod axial;
 mod bodies;
 mod initial;
 mod motions;
@@ -31,6 +32,8 @@ pub struct Assembled<const D: usize = 2> {
     pub nodes: Vec<Node<D>>,
     /// Their rates as described.
     pub rates: Vec<Node<D>>,
+    /// Error wanted of what is read, relative.
+    pub error: f64,
     /// Motions of the bodies at the start.
     pub motions: Motions<D>,
     /// For every marker, itself in the system.
@@ -96,6 +99,7 @@ impl Resolved<'_> {
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
         Ok(Assembled {
             system,
+            error: self.scene.error_wanted(),
             rates: builder.motions.rates(&nodes),
             motions: builder.motions,
             nodes,

@@ -13,7 +13,8 @@ use super::strict::{Strict, typed};
 pub struct Accuracy {
     /// Error wanted of every output over the default experiment: of positions relative to the size of the scene, of
     /// angles and directions in rad, of all else relative to the largest value of its vector. By default 1e-3 where
-    /// numbers of elements are left to the planner.
+    /// numbers of elements are left to the planner. Where nothing is left to it, what the output `resolution` is measured
+    /// by: ten times the tolerance where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// Names of the outputs that count, without indices; by default all but energies, work and residuals.
@@ -24,7 +25,8 @@ pub struct Accuracy {
     pub courses: Vec<InputCourse>,
     /// Error in time that a step may make, relative to the length of the body (root mean square
     /// over its mass). By default 1e-4; 1e-7 in a scene without cables, which then keeps its energy to
-    /// 0.1 % over a thousand swings or turns. Not beside `error`, from which it follows.
+    /// 0.1 % over a thousand swings or turns. Beside `error`, from which it follows, only where numbers of elements are
+    /// given.
     #[serde(default)]
     pub relative_tolerance: Option<f64>,
 }

@@ -41,6 +41,9 @@ pub struct CableBody {
     /// Strain measure.
     #[serde(default)]
     pub strain: Strain,
+    /// What becomes of waves of stretching.
+    #[serde(default)]
+    pub axial: Axial,
     /// Unstressed shape, and the configuration at the start.
     pub shape: Shape,
     /// Rigid motion at the start; velocity of the first end.
@@ -135,6 +138,21 @@ pub enum Strain {
     /// Stretch `|r'| - 1` and the curvature of the deformed line.
     #[serde(rename = "engStrain_FrenetKappa")]
     EngStrainFrenetKappa,
+}
+
+/// What becomes of waves of stretching that run along a cable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Axial {
+    /// They ring as the material says: for ever where it has no damping.
+    #[default]
+    Waves,
+    /// They settle: Kelvin-Voigt damping of the rate of axial strain alone, with the time `2 / omega_1`
+    /// (`damping_time` where that is longer), so that the first axial mode is damped critically. `omega_1` is `pi c / L`,
+    /// or `pi c / (2 L)` where joints or motions hold one end only; `c` the speed of sound. Bending is not touched, nor
+    /// slow stretching; what is lost is counted in `energy.dissipated`. For forces that ring from loads or speeds that
+    /// begin at once, where no one asked for the ringing.
+    Settled,
 }
 
 /// Unstressed shape of a cable.

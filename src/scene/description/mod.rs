@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
 pub use body::{
-    Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Section, Shape, Strain,
+    Axial, Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Section, Shape, Strain,
 };
 pub use initial::{Initial, InitialState};
 pub use joint::{Condition, Declaration, Joint, JointKind, Motion, MotionKind, Symbol};
@@ -114,12 +114,33 @@ impl Scene {
     /// Whether numbers of elements or the tolerance are left to the planner.
     pub fn is_to_be_planned(&self) -> bool {
         let mut cables = self.bodies.iter().filter_map(Body::flexible);
-        self.accuracy.error.is_some() || cables.any(|cable| cable.elements.is_none())
+        let Accuracy {
+            error,
+            relative_tolerance,
+            ..
+        } = &self.accuracy;
+        let is_error_alone = error.is_some() && relative_tolerance.is_none();
+        is_error_alone || cables.any(|cable| cable.elements.is_none())
     }
 
     /// Error wanted of outputs where it is planned for: as given, or 1e-3.
     pub fn error(&self) -> f64 {
         self.accuracy.error.unwrap_or(1e-3)
+    }
+
+    /// Error wanted of what is read, relative, where nothing is left to the planner: as given, or ten times the tolerance, as
+    /// are those that are taken where neither is said.
+    pub fn error_wanted(&self) -> f64 {
+        let by_tolerance = 10.0 * self.relative_tolerance();
+        self.accuracy.error.unwrap_or(by_tolerance)
+    }
+
+    /// Gives a tolerance; nothing is left to the planner then.
+    pub fn set_relative_tolerance(&mut self, value: f64) {
+        if self.is_to_be_planned() {
+            self.accuracy = Accuracy::default();
+        }
+        self.accuracy.relative_tolerance = Some(value);
     }
 
     /// Error in time that a step may make: as given, or by the kinds of bodies.

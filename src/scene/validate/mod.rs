@@ -84,11 +84,11 @@ impl Scene {
         };
         within("error", &ERROR, error)?;
         match self.accuracy.relative_tolerance {
-            Some(_) => {
-                let wanted = "nothing beside `relative_tolerance`, which follows from it";
+            Some(_) if self.is_to_be_planned() => {
+                let wanted = "nothing beside `relative_tolerance`, which follows from it with the numbers of elements";
                 Err(expected("accuracy.error", wanted, error))
             }
-            None => Ok(()),
+            _ => Ok(()),
         }
     }
 

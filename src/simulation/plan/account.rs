@@ -24,14 +24,17 @@ impl Search<'_, '_> {
         let outputs = self.outputs(chosen, in_space, in_time);
         let largest = outputs.iter().map(|output| output.error).reduce(f64::max);
         let cost = chosen.map_or(0.0, |run| run.work);
+        let method = chosen.map_or("", |run| run.method);
+        let settled = self.settled(choice, &outputs);
         Plan {
             error: self.error,
             bodies: self.bodies(choice, in_space),
             tolerance: choice.tolerance,
-            method: chosen.map_or("", |run| run.method),
+            method,
             held: self.held(),
             chosen: self.price(choice, largest),
             outputs,
+            settled,
             cheaper,
             dearer: match double == *choice {
                 true => None,
@@ -59,7 +62,7 @@ impl Search<'_, '_> {
         self.price(&half, Some(worst))
     }
 
-    fn price(&self, choice: &Choice, error: Option<f64>) -> Option<Price> {
+    pub(super) fn price(&self, choice: &Choice, error: Option<f64>) -> Option<Price> {
         let run = self.known(choice)?;
         let time = run.times.last().copied().filter(|time| *time > 0.0)?;
         Some(Price {

@@ -17,6 +17,8 @@ pub(super) struct Choice {
     pub tolerance: f64,
     /// Whether communication steps are taken in two halves.
     pub is_halved: bool,
+    /// Whether axial waves of all cables settle.
+    pub is_settled: bool,
 }
 
 /// Choices from cheap to dear, with what the next one changed.

@@ -9,9 +9,10 @@ mod ladder;
 mod outputs;
 mod report;
 mod search;
+mod settled;
 
 pub use experiment::courses;
-pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
+pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settled, Settles};
 
 use crate::scene::{Error, Scene};
 use search::Search;

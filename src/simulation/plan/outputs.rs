@@ -29,6 +29,8 @@ pub(super) struct Group {
     pub measure: Measure,
     /// Whether it follows from accelerations: those of the first instant are of loads that begin at once.
     pub is_dynamic: bool,
+    /// Whether it is a force or a moment.
+    pub is_force: bool,
 }
 
 /// What an output changes from one run to another.
@@ -73,6 +75,7 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>
                 members: vec![index],
                 measure,
                 is_dynamic,
+                is_force: is_force(variable.source),
             }),
         }
     }
@@ -114,10 +117,31 @@ fn nature(source: Source) -> Option<(Measure, bool, bool)> {
             | SpringEnergy
             | Input
             | Dissipated
+            | Resolution
             | Residual(_)
     );
     let is_dynamic = quantities::needs(quantity) == Evaluated::Dynamics;
     Some((measure, is_dynamic, counts))
+}
+
+/// Whether an output is a force or a moment.
+fn is_force(source: Source) -> bool {
+    use Quantity::*;
+    let Source::Output(quantity) = source else {
+        return false;
+    };
+    matches!(
+        quantity,
+        AxialForce(_)
+            | BendingMoment(..)
+            | ConnectivityForce(..)
+            | Reaction(..)
+            | ReactionMoment(_)
+            | MotionForce(..)
+            | MotionMoment(_)
+            | CouplingForce(..)
+            | CouplingMoment(_)
+    )
 }
 
 /// Components of an output at a point of a run.

@@ -21,6 +21,8 @@ pub struct Plan {
     pub cheaper: Option<Price>,
     /// See `chosen`.
     pub dearer: Option<Price>,
+    /// What would settle where forces do not.
+    pub settled: Option<Settled>,
     /// Runs that were made, and what they cost together, in runs with the choice.
     pub runs: usize,
     /// See `runs`.
@@ -68,6 +70,18 @@ pub enum Settles {
     No,
 }
 
+/// What `"axial": "settled"` would do to forces that do not settle. It is proposed, never chosen: it changes the physics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settled {
+    /// Names of the cables.
+    pub bodies: Vec<String>,
+    /// Forces that it changes by more than the error wanted: name, what it changes, and what doubling changes then, relative;
+    /// nothing where that is not known.
+    pub forces: Vec<(String, f64, Option<f64>)>,
+    /// What the choice would cost.
+    pub price: Price,
+}
+
 /// What a choice costs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Price {
@@ -94,6 +108,24 @@ impl Plan {
         ];
         all.into_iter()
             .filter_map(|(name, price)| Some((name, price.as_ref()?)))
+    }
+}
+
+impl Settled {
+    /// The proposal in words.
+    pub fn in_words(&self) -> String {
+        let forces = self.forces.iter().map(|(name, change, error)| {
+            let error = error.map_or(String::new(), |error| {
+                format!(", which is then known to {}", in_words(error))
+            });
+            format!("{name} by {}{error}", in_words(*change))
+        });
+        format!(
+            "Forces ring with waves of stretching. \"axial\": \"settled\" of {} would change {}, at about {:.2} ms a second",
+            self.bodies.join(", "),
+            forces.collect::<Vec<_>>().join("; "),
+            self.price.milliseconds()
+        )
     }
 }
 

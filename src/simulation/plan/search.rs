@@ -5,7 +5,7 @@ use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
 use super::outputs::{Difference, Group, difference, groups};
 use super::report::Plan;
-use crate::scene::{Accuracy, BodyReference, CableBody, Error, Model, Scene};
+use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
 use crate::simulation::{Variable, check, variables};
 
 /// Parts of the error wanted that doubling, and a tenth of the tolerance, may change.
@@ -45,7 +45,7 @@ pub(super) struct Search<'a, 'p> {
 }
 
 /// Cables of a scene, with their places among the bodies.
-fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &CableBody)> {
+pub(super) fn cables(scene: &Scene) -> impl Iterator<Item = (usize, &CableBody)> {
     let bodies = scene.bodies.iter().enumerate();
     bodies.filter_map(|(index, body)| Some((index, body.cable()?)))
 }
@@ -103,7 +103,7 @@ impl<'a, 'p> Search<'a, 'p> {
         let mut choice = Choice {
             elements: self.fewest.clone(),
             tolerance: self.first_tolerance(),
-            is_halved: false,
+            ..Choice::default()
         };
         // What contradicts itself is told with its place.
         check(&self.planned(&choice))?;
@@ -148,9 +148,13 @@ impl<'a, 'p> Search<'a, 'p> {
                 scene = with_rigid(scene, body);
             } else if let Some(cable) = scene.bodies[body].cable_mut() {
                 cable.elements = Some(*count);
+                if choice.is_settled {
+                    cable.axial = Axial::Settled;
+                }
             }
         }
         scene.accuracy = Accuracy {
+            error: Some(self.error),
             relative_tolerance: Some(choice.tolerance),
             ..Accuracy::default()
         };

@@ -78,6 +78,10 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
             ("angular_momentum", "Angular momentum about the origin", Some(NEWTON_METRE_SECOND), Turn, Read::Scene(AngularMomentum)),
         ],
         Kind::CenterOfMass => vec![("center_of_mass", "Centre of mass", Some(METRE), Vector, Read::Scene(CenterOfMass))],
+        Kind::Resolution => vec![
+            ("resolution", "Error in position that the meshes make in the present shapes, estimated, over the error wanted: above 1 they are too coarse",
+                None, Scalar, Read::Scene(|_| Resolution)),
+        ],
         Kind::Residual => vec![
             ("residual.position", "Largest residual of the positions that constraints hold, relative", None, Scalar, Read::Scene(|_| Residual(0))),
             ("residual.velocity", "Largest residual of the velocities that constraints hold, relative", Some(PER_SECOND), Scalar,

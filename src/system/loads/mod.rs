@@ -153,6 +153,14 @@ impl<const D: usize> Load<D> {
         !matches!(self, Self::Force(load) if load.follower)
     }
 
+    /// Whether it turns what it acts on.
+    pub fn is_moment(&self) -> bool {
+        match self {
+            Self::Moment(_) | Self::RotationalSpring(_) | Self::RotationalBushing(_) => true,
+            Self::Force(_) | Self::Distributed(_) | Self::Spring(_) | Self::Bushing(_) => false,
+        }
+    }
+
     /// Whether it dissipates.
     pub fn is_damped(&self) -> bool {
         match self {

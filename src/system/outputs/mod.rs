@@ -2,5 +2,6 @@
 
 pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
+mod resolution;
 pub(in crate::system) mod rod;
 pub(in crate::system) mod section;

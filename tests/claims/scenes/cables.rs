@@ -16,6 +16,7 @@ pub fn all() -> Vec<Specimen> {
         cantilever(),
         loaded_at_the_tip(),
         pulled_apart(),
+        settled(),
     ]
 }
 
@@ -225,4 +226,57 @@ fn pulled_apart() -> Specimen {
         .claim_within("bar.middle.strain", "", speed, 1e-5)
         .claim_within("bar.middle.axial_force", "N", force(1.0), 1e-3)
         .claim_within("draw.reaction[1]", "N", force(1.0), 1e-3)
+}
+
+/// Bars without damping of their own that begin to stretch in their first axial modes, at the rate `v`: damped critically,
+/// what stretches goes as `v t exp(-omega t)`, and all that it began with is lost. One is held at one end, one is free. One that rings and
+/// a beam that begins to bend go on for ever.
+fn settled() -> Specimen {
+    use std::f64::consts::PI;
+    let (e, density, area, second_moment) = (1000.0, 250.0, 0.02, 1e-4);
+    let bar = |name: &str, y: f64, deformation: [&str; 2]| {
+        let of = [e, density, area, second_moment];
+        let mut bar = cable(name, 8, of, [0.0, y], [1.0, y]);
+        bar["axial"] = json!(if name == "rings" { "waves" } else { "settled" });
+        bar["motion"] = json!({"deformation": deformation});
+        bar
+    };
+    let pin =
+        |name: &str, at: &str| json!({"name": name, "kind": "revolute", "markers": ["ground", at]});
+    let guide = json!({"name": "guide", "kind": "slider", "markers": ["ground", "beam.tip"], "direction": [1.0, 0.0]});
+    let outputs = ["held.tip", "free.root", "beam.middle", "rings.root"];
+    let mut outputs = outputs
+        .map(|at| json!({"kind": "position", "marker": at}))
+        .to_vec();
+    outputs.push(json!({"kind": "work"}));
+    let scene = json!({
+        "name": "settled", "dimension": 2, "accuracy": {"relative_tolerance": 1e-8},
+        "bodies": [bar("held", 0.0, ["0.01*sin(PI*s/2)", "0"]), bar("free", 1.0, ["0.01*cos(PI*s)", "0"]),
+                   bar("beam", 2.0, ["0", "0.001*sin(PI*s)"]), bar("rings", 3.0, ["0.01*cos(PI*s)", "0"])],
+        "joints": [pin("pin", "held.root"), pin("other", "beam.root"), guide],
+        "outputs": outputs});
+    let (speed, sound, time) = (0.01, (e / density).sqrt(), 0.3);
+    let way = |omega: f64, t: f64| speed * t * (-omega * t).exp();
+    let bending = PI * PI * (e * second_moment / (density * area)).sqrt();
+    let across = |t: f64| 2.0 + 0.1 * speed / bending * (bending * t).sin();
+    // Of both bars: half their mass times the square of the speed, half of it in the mean.
+    let lost = 2.0 * 0.25 * density * area * speed * speed;
+    Specimen::new("settled", scene)
+        .at(time)
+        .claim_within(
+            "held.tip.position[1]",
+            "m",
+            1.0 + way(0.5 * PI * sound, time),
+            1e-6,
+        )
+        .claim_within(
+            "rings.root.position[1]",
+            "m",
+            speed / (PI * sound) * (PI * sound * time).sin(),
+            1e-6,
+        )
+        .claim_within("free.root.position[1]", "m", way(PI * sound, time), 1e-6)
+        .at(5.0)
+        .claim_within("beam.middle.position[2]", "m", across(5.0), 1e-6)
+        .claim_within("energy.dissipated", "J", lost, 1e-4 * lost)
 }

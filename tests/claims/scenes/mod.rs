@@ -7,6 +7,7 @@ mod initial;
 mod inputs;
 mod joints;
 mod loads;
+mod meshes;
 mod methods;
 mod motions;
 mod ports;
@@ -28,6 +29,7 @@ pub fn all() -> Vec<Specimen> {
         rods::all(),
         frames::all(),
         cables::all(),
+        meshes::all(),
         sections::all(),
         joints::all(),
         slides::all(),

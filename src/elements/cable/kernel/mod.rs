@@ -8,7 +8,7 @@
 use crate::elements::Strain;
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{BETWEEN_3, Point, RADAU_3, RADAU_3_LAST};
+use crate::math::quadrature::{BETWEEN_3, GAUSS_3, Point, RADAU_3, RADAU_3_LAST};
 
 type Vector<N, const D: usize> = [N; D];
 type Square<N, const D: usize> = [[N; D]; D];
@@ -116,7 +116,8 @@ pub(super) struct Kernel<N> {
     pub inverse_length: N,
     pub axial_stiffness: N,
     pub bending_stiffness: N,
-    pub damping_time: N,
+    pub axial_damping_time: N,
+    pub bending_damping_time: N,
     /// Axial strain of the unstressed shape at the axial points.
     pub natural_strain: [N; 3],
     /// Curvature of the unstressed shape at the bending points, 1/m.
@@ -136,7 +137,8 @@ impl Kernel<f64> {
             inverse_length: N::of(self.inverse_length),
             axial_stiffness: N::of(self.axial_stiffness),
             bending_stiffness: N::of(self.bending_stiffness),
-            damping_time: N::of(self.damping_time),
+            axial_damping_time: N::of(self.axial_damping_time),
+            bending_damping_time: N::of(self.bending_damping_time),
             natural_strain: self.natural_strain.map(N::of),
             natural_curvature: self.natural_curvature.map(|c| c.map(N::of)),
             sampling: self.sampling,
@@ -167,7 +169,8 @@ impl Kernel<[f64; PACK]> {
             inverse_length: read(&self.inverse_length),
             axial_stiffness: read(&self.axial_stiffness),
             bending_stiffness: read(&self.bending_stiffness),
-            damping_time: read(&self.damping_time),
+            axial_damping_time: read(&self.axial_damping_time),
+            bending_damping_time: read(&self.bending_damping_time),
             natural_strain,
             natural_curvature,
             sampling: self.sampling,
@@ -290,6 +293,13 @@ impl<N: Real> Kernel<N> {
             + second * self.number(weight * (1.5 * x * x - 0.5))
     }
 
+    /// Curvature of the unstressed shape at `xi` in [0, 1]: the parabola through its values at the bending points, 1/m.
+    #[inline(always)]
+    pub fn natural_curvature_at(&self, xi: f64) -> [N; TURNS] {
+        let [a, b, c] = &self.natural_curvature;
+        each!(*a, k => self.parabola([a[k], b[k], c[k]], &GAUSS_3, 2.0 * xi - 1.0))
+    }
+
     /// The parabola through three points of a rule that integrates its square, at `x` in [-1, 1], by its products
     /// with Legendre polynomials.
     #[inline(always)]
@@ -319,7 +329,7 @@ impl<N: Real> Kernel<N> {
             let (strain, f, _) = self.axial(dot(&u, &u));
             *sample = strain;
             if let Some(dv) = &dv {
-                *sample += self.damping_time * f * dot(&u, &combine(&point.slope, dv));
+                *sample += self.axial_damping_time * f * dot(&u, &combine(&point.slope, dv));
             }
         }
         samples
@@ -337,7 +347,7 @@ impl<N: Real> Kernel<N> {
         let mut total = strain - self.natural_strain[index];
         let change = of_rate!(rate, du => f * dot(u, &du));
         if let Some(change) = change {
-            total += self.damping_time * change;
+            total += self.axial_damping_time * change;
         }
         ((self.axial_stiffness * total, f, g), change)
     }
@@ -358,7 +368,7 @@ impl<N: Real> Kernel<N> {
         let square = of_rate!(&change, change => {
             let damped = self.damped::<D>(now, change);
             for k in 0..TURNS {
-                m[k] += self.damping_time * damped[k];
+                m[k] += self.bending_damping_time * damped[k];
             }
             inner::<N, D>(&damped, change)
         });
@@ -406,7 +416,7 @@ impl<N: Real> Kernel<N> {
     ) -> ([Vector<N, D>; 4], N) {
         let v = self.vectors(e);
         let dv = of_rate!(rate, rate => self.vectors(rate));
-        let mut sum = ([[self.number(0.0); D]; 3], self.number(0.0));
+        let mut sum = ([[self.number(0.0); D]; 3], [self.number(0.0); 2]);
         at_axial_points!(self, add_axial_force((&v, &dv), &mut sum));
         if self.bends {
             at_bending_points!(self, add_bending_force((&v, &dv), &mut sum));
@@ -418,7 +428,9 @@ impl<N: Real> Kernel<N> {
             times(&sum[0], self.number(-1.0)),
             times(&sum[2], -l),
         ];
-        (force, l * self.damping_time * power)
+        let [axial, bending] = power;
+        let power = self.axial_damping_time * axial + self.bending_damping_time * bending;
+        (force, l * power)
     }
 
     #[inline(always)]
@@ -427,14 +439,14 @@ impl<N: Real> Kernel<N> {
         index: usize,
         point: &Sample,
         (v, dv): Motion<N, D>,
-        (sum, power): &mut ([Vector<N, D>; 3], N),
+        (sum, power): &mut ([Vector<N, D>; 3], [N; 2]),
     ) {
         let u = combine(&point.slope, v);
         let du = of_rate!(dv, dv => combine(&point.slope, dv));
         let ((force, f, _), change) = self.axial_force(index, &u, du);
         let weight = self.number(point.weight);
         if let Some(change) = change {
-            *power += weight * self.axial_stiffness * change * change;
+            power[0] += weight * self.axial_stiffness * change * change;
         }
         let gradient = times(&u, weight * force * f);
         for i in 0..3 {
@@ -452,7 +464,7 @@ impl<N: Real> Kernel<N> {
         index: usize,
         point: &Sample,
         (v, dv): Motion<N, D>,
-        (sum, power): &mut ([Vector<N, D>; 3], N),
+        (sum, power): &mut ([Vector<N, D>; 3], [N; 2]),
     ) {
         let at = self.line(point, v);
         let rate = of_rate!(dv, dv => self.line(point, dv));
@@ -460,7 +472,7 @@ impl<N: Real> Kernel<N> {
         let (m, square) = self.moment(index, &at, rate, &now);
         let weight = self.number(point.weight);
         if let Some(square) = square {
-            *power += weight * self.bending_stiffness * square;
+            power[1] += weight * self.bending_stiffness * square;
         }
         let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);

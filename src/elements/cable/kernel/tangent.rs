@@ -14,8 +14,9 @@ use crate::math::lanes::Real;
 pub(in crate::elements::cable) struct Factors<N> {
     /// Weight of the geometric part, 0 or 1.
     pub stress: N,
-    /// Weight of the squares of the strain gradients.
-    pub material: N,
+    /// Weights of the squares of the gradients of axial strain and of curvature.
+    pub axial: N,
+    pub bending: N,
     /// Whether, in space, the size of the curvature counts alone.
     pub of_size: bool,
 }
@@ -116,7 +117,7 @@ impl<N: Real> Kernel<N> {
         let du = of_rate!(dv, dv => combine(&point.slope, dv));
         let ((force, f, g), _) = self.axial_force(index, &u, du);
         let force = factors.stress * force;
-        let along = factors.material * self.axial_stiffness * f * f + force * g;
+        let along = factors.axial * self.axial_stiffness * f * f + force * g;
         let (scaled, multiple) = (times(&u, along), force * f);
         for i in 0..3 {
             for j in 0..=i {
@@ -156,7 +157,7 @@ impl<N: Real> Kernel<N> {
         let c: [N; 3] = each!([weight; 3], i => {
             self.number(point.curvature[i]) * self.inverse_length
         });
-        let stiffness = factors.material * self.bending_stiffness * weight;
+        let stiffness = factors.bending * self.bending_stiffness * weight;
         self.add_material((&at, &now), (&s, &c), (stiffness, factors.of_size), sum);
         let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);

@@ -1,0 +1,74 @@
+//! Damping that lets axial waves of a cable settle.
+
+use std::f64::consts::PI;
+
+use crate::scene::resolved::{
+    Cable, Ends, First, Hold, Marker, MotionKind, Place, PortKind, Resolved,
+};
+use crate::scene::{Axial, CableBody};
+
+/// Part of the length from an end up to which a marker is at it.
+const AT_END: f64 = 1e-9;
+
+impl Resolved<'_> {
+    /// Kelvin-Voigt damping time of the axial strain of a cable, s: that of its material or, where axial waves are to
+    /// settle and that is longer, `2 / omega_1`, which damps the first axial mode critically.
+    pub(super) fn axial_damping_time(&self, cable: Cable<'_>) -> f64 {
+        let time = cable.body.material.damping_time;
+        match cable.body.axial {
+            Axial::Waves => time,
+            Axial::Settled => time.max(2.0 / self.first_axial_frequency(cable)),
+        }
+    }
+
+    /// Angular frequency of the first axial mode of a uniform bar with these ends, rad/s: `pi c / L` where both ends are
+    /// held or both are free, `pi c / (2 L)` where one is.
+    fn first_axial_frequency(&self, cable: Cable<'_>) -> f64 {
+        let CableBody {
+            material, shape, ..
+        } = cable.body;
+        let speed = (material.youngs_modulus / material.density).sqrt();
+        let halves = match self.held_ends(cable) {
+            [true, false] | [false, true] => 0.5,
+            [true, true] | [false, false] => 1.0,
+        };
+        PI * halves * speed / shape.length()
+    }
+
+    /// Whether joints or motions exert forces on the first and the last end of a cable.
+    fn held_ends(&self, cable: Cable<'_>) -> [bool; 2] {
+        let mut held = [false; 2];
+        let mut hold = |marker: Marker<'_>| {
+            if let Place::Along(of, s) = marker.place
+                && of.id == cable.id
+            {
+                held[0] |= s < AT_END;
+                held[1] |= s > 1.0 - AT_END;
+            }
+        };
+        let ends_of = |ends: Ends<'_>, hold: &mut dyn FnMut(Marker<'_>)| {
+            hold(ends.second);
+            if let First::Marker(first) = ends.first {
+                hold(first);
+            }
+        };
+        let exerts = |held: &Hold| !matches!(held, Hold::Direction(_) | Hold::Spring { .. });
+        for joint in &self.joints {
+            if joint.holds.iter().any(exerts) {
+                ends_of(joint.ends, &mut hold);
+            }
+        }
+        let of_ports = self.ports.iter().filter_map(|port| match &port.kind {
+            PortKind::Motion { position, .. } => Some(position),
+            PortKind::Force { .. } | PortKind::Coupling { .. } => None,
+        });
+        for motion in self.motions.iter().chain(of_ports) {
+            match &motion.kind {
+                MotionKind::Position(marker, _) => hold(*marker),
+                MotionKind::Displacement(slider, _) => ends_of(slider.ends, &mut hold),
+                MotionKind::Angle(..) => {}
+            }
+        }
+        held
+    }
+}

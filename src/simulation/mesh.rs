@@ -1,0 +1,103 @@
+//! Meshes that do not carry the shapes that cables have: what is read of it, and told once.
+
+use super::engine::Engine;
+use super::{Quantity, Source, Variable};
+use crate::math::jet::Number;
+use crate::scene::Assembled;
+use crate::system::{Evaluation, State};
+
+/// Part of [`crate::system::System::missed`] that positions are off by, about: mostly 0.03 to 0.6 on 22 scenes, for errors of
+/// 1e-6 to 1 of their sizes (docs/decisions/0036-resolution.md).
+const OFF: f64 = 0.2;
+
+/// Error in position that meshes make in the present shapes, over the error wanted.
+pub(super) fn resolution<const D: usize, N: Number>(
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+) -> N {
+    let system = &assembled.system;
+    let mut largest = N::of(0.0);
+    for chain in system.chains() {
+        let missed = system.missed(chain, &values.x);
+        if missed > largest {
+            largest = missed;
+        }
+    }
+    largest * N::of(OFF / (system.size() * assembled.error))
+}
+
+/// Whether meshes have been found too coarse.
+#[derive(Default)]
+pub(super) struct MeshWatch {
+    is_read: bool,
+    /// The body, and the resolution when it first passed 1.
+    found: Option<(usize, f64)>,
+    is_told: bool,
+}
+
+impl MeshWatch {
+    /// For these variables: where none is the resolution, nothing is watched.
+    pub(super) fn new(variables: &[Variable]) -> Self {
+        let resolution = Source::Output(Quantity::Resolution);
+        Self {
+            is_read: variables.iter().any(|v| v.source == resolution),
+            ..Self::default()
+        }
+    }
+}
+
+/// A mesh that is too coarse for the error wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unresolved<'a> {
+    /// The body.
+    pub body: &'a str,
+    /// The resolution.
+    pub resolution: f64,
+    /// The error wanted.
+    pub error: f64,
+}
+
+impl std::fmt::Display for Unresolved<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            body,
+            resolution,
+            error,
+        } = self;
+        write!(
+            f,
+            "resolution: {resolution:.1}, expected at most 1: the mesh of {body} does not carry its shape for an error of \
+             {error:e}; give it more elements"
+        )
+    }
+}
+
+impl<const D: usize> Engine<D> {
+    /// Looks at the meshes at a communication point until they are first too coarse.
+    pub(super) fn watch_mesh(&mut self, state: &State, inputs: &[f64]) {
+        if !self.mesh.is_read || self.mesh.found.is_some() {
+            return;
+        }
+        let resolution = self.output(Quantity::Resolution, state, inputs);
+        if resolution <= 1.0 {
+            return;
+        }
+        let (Assembled { system, .. }, x) = self.nodes(state, inputs);
+        let missed = system.chains().iter().map(|chain| system.missed(chain, x));
+        let worst = missed.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        let first = worst.map(|(chain, _)| system.chains()[chain].nodes(0)[0]);
+        let body = (system.bodies().iter()).position(|nodes| Some(nodes.start) == first);
+        self.mesh.found = body.map(|body| (body, resolution));
+    }
+
+    /// A mesh that has become too coarse for its shape and that has not been told of.
+    pub(super) fn next_unresolved(&mut self) -> Option<Unresolved<'_>> {
+        let (body, resolution) = self.mesh.found.filter(|_| !self.mesh.is_told)?;
+        self.mesh.is_told = true;
+        Some(Unresolved {
+            body: &self.bodies[body],
+            resolution,
+            error: self.assembled.error,
+        })
+    }
+}

@@ -1,0 +1,54 @@
+//! What becomes of forces that do not settle where axial waves do.
+
+use super::ladder::Choice;
+use super::report::{PlannedOutput, Settled, Settles};
+use super::search::{Search, cables};
+use crate::scene::Axial;
+
+impl Search<'_, '_> {
+    /// What axial damping would change, where a force that counts does not settle: by one run with it, and by one with
+    /// twice the mesh where that changes more than the error wanted. Nothing where it neither settles them nor is cheaper.
+    pub fn settled(&mut self, choice: &Choice, outputs: &[PlannedOutput]) -> Option<Settled> {
+        let rings = |(index, output): (usize, &PlannedOutput)| {
+            self.groups[index].is_force && output.settles != Settles::Yes
+        };
+        let bends = cables(self.scene).zip(&choice.elements);
+        let waves = bends.filter(|((_, cable), count)| cable.axial == Axial::Waves && **count > 0);
+        let bodies: Vec<String> = waves.map(|((_, cable), _)| cable.name.clone()).collect();
+        if bodies.is_empty() || !outputs.iter().enumerate().any(rings) {
+            return None;
+        }
+        let settled = Choice {
+            is_settled: true,
+            ..choice.clone()
+        };
+        let changes = self.compare(choice, &settled, self.error).ok()?;
+        let changed: Vec<usize> = (0..changes.len())
+            .filter(|index| self.groups[*index].is_force && changes[*index].largest > self.error)
+            .collect();
+        if changed.is_empty() {
+            return None;
+        }
+        let mut double = settled.clone();
+        self.refine(&mut double);
+        let errors = match double == settled {
+            true => None,
+            false => self.compare(&settled, &double, self.error).ok(),
+        };
+        let error = |index: usize| errors.as_ref().map(|errors| errors[index].largest);
+        let settles = |index: &usize| error(*index).is_some_and(|error| error <= self.error);
+        let [now, then] = [choice, &settled].map(|made| self.known(made).map(|run| run.work));
+        if !changed.iter().any(settles) && then >= now {
+            return None;
+        }
+        let forces = changed.iter().map(|index| {
+            let name = self.groups[*index].name.clone();
+            (name, changes[*index].largest, error(*index))
+        });
+        Some(Settled {
+            bodies,
+            forces: forces.collect(),
+            price: self.price(&settled, None)?,
+        })
+    }
+}
