@@ -10,6 +10,7 @@ mod outputs;
 mod report;
 mod search;
 mod settled;
+mod time;
 
 pub use experiment::courses;
 pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settled, Settles};

@@ -8,18 +8,8 @@ use super::report::Plan;
 use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
 use crate::simulation::{Variable, check, variables};
 
-/// Parts of the error wanted that doubling, and a tenth of the tolerance, may change.
+/// Part of the error wanted that doubling may change.
 const OF_SPACE: f64 = 2.0 / 3.0;
-const OF_TIME: f64 = 1.0 / 3.0;
-/// Tolerance above which a tenth of it says less of the error: what it changes counts this many times.
-const LOOSE: f64 = 1e-4;
-const DOUBT: f64 = 3.0;
-/// Steps of one run over those of another below which both took the same ones.
-const ALIKE: f64 = 1.2;
-/// The loosest tolerance that is tried, and the last in errors wanted. None looser than the error wanted: with short
-/// communication steps it would do, and with longer ones not.
-const LOOSEST: f64 = 1e-2;
-const LAST: f64 = 1e-3;
 /// Most cables of which single ones are tried with fewer elements.
 const MOST_SINGLE: usize = 4;
 /// Most elements of a cable, runs, and work of all of them (some seconds); of a fuzzer little, so that it gets on.
@@ -109,7 +99,12 @@ impl<'a, 'p> Search<'a, 'p> {
         check(&self.planned(&choice))?;
         let in_time = self.find_tolerance(&mut choice)?;
         let in_space = self.find_elements(&mut choice)?;
+        let found_with = choice.tolerance;
         let in_time = self.verify_tolerance(&mut choice).unwrap_or(in_time);
+        let in_space = match choice.tolerance < found_with {
+            true => self.coarsen(&mut choice, in_space),
+            false => in_space,
+        };
         Ok((
             self.planned(&choice),
             self.report(&choice, &in_space, &in_time),
@@ -133,11 +128,6 @@ impl<'a, 'p> Search<'a, 'p> {
     pub fn is_free(&self, cable: usize) -> bool {
         let body = cables(self.scene).nth(cable);
         body.is_some_and(|(_, body)| body.elements.is_none() && body.model != Model::Rigid)
-    }
-
-    fn first_tolerance(&self) -> f64 {
-        let first = decade(self.error).min(LOOSEST);
-        self.scene.accuracy.relative_tolerance.unwrap_or(first)
     }
 
     fn planned(&self, choice: &Choice) -> Scene {
@@ -223,87 +213,13 @@ impl<'a, 'p> Search<'a, 'p> {
         Ok(found.collect())
     }
 
-    /// The loosest tolerance that the coarsest mesh allows, and what a tenth of it changes.
-    fn find_tolerance(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Error> {
-        loop {
-            match self.loosest(choice) {
-                Ok(found) => return Ok(found),
-                // A mesh that is too coarse to be run says nothing of time.
-                Err(Unfinished::Failed(reason)) => {
-                    if !self.refine(choice) {
-                        return Err(Error::new("experiment", reason));
-                    }
-                }
-                Err(Unfinished::TooMuchWork) => return Ok(self.unknown()),
-            }
-        }
-    }
-
-    /// The loosest tolerance from that of a choice on, and what a tenth of it changes.
-    fn loosest(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Unfinished> {
-        let is_given = self.scene.accuracy.relative_tolerance.is_some();
-        let mut ladder = Ladder::new(OF_TIME * self.error);
-        let mut tried = choice.clone();
-        loop {
-            match (self.in_time(&tried), ladder.rungs.is_empty()) {
-                (Ok(found), _) => ladder.add(&tried, found),
-                (Err(reason), true) => return Err(reason),
-                (Err(_), false) => break,
-            }
-            if ladder.is_climbed() || is_given {
-                break;
-            }
-            // A tighter one that takes the same steps changes nothing.
-            let steps = self.steps(&tried);
-            let mut is_open = tried.tolerance >= 1.5 * LAST * self.error;
-            while is_open {
-                tried.tolerance = tenth(tried.tolerance);
-                if self.steps(&tried) >= ALIKE * steps {
-                    break;
-                }
-                is_open = tried.tolerance >= 1.5 * LAST * self.error;
-            }
-            if !is_open {
-                break;
-            }
-        }
-        let (best, found) = ladder.best().unwrap_or_default();
-        choice.tolerance = best.tolerance;
-        Ok(found)
-    }
-
     /// What is said of outputs that could not be compared.
-    fn unknown(&self) -> Vec<Difference> {
+    pub fn unknown(&self) -> Vec<Difference> {
         let unknown = Difference {
             largest: f64::INFINITY,
             until: Some(0.0),
         };
         vec![unknown; self.groups.len()]
-    }
-
-    /// Sub-steps of a run that was made.
-    fn steps(&mut self, choice: &Choice) -> f64 {
-        self.run(choice).map_or(0.0, |run| run.steps as f64)
-    }
-
-    /// What a tenth of the tolerance changes; where that takes the same steps, since communication points end them, what
-    /// halves of these change.
-    fn in_time(&mut self, choice: &Choice) -> Result<Vec<Difference>, Unfinished> {
-        let mut closer = Choice {
-            tolerance: tenth(choice.tolerance),
-            ..choice.clone()
-        };
-        let steps = self.run(choice)?.steps as f64;
-        closer.is_halved = (self.run(&closer)?.steps as f64) < ALIKE * steps;
-        let doubt = match choice.tolerance > LOOSE {
-            true => DOUBT,
-            false => 1.0,
-        };
-        let mut found = self.compare(choice, &closer, self.error)?;
-        found
-            .iter_mut()
-            .for_each(|difference| difference.largest *= doubt);
-        Ok(found)
     }
 
     /// Doubles all numbers of elements that are free, and lets rigid bodies bend; false where there are none or too many.
@@ -392,66 +308,38 @@ impl<'a, 'p> Search<'a, 'p> {
         }
     }
 
-    /// Whether the tolerance found with the coarsest mesh is good enough for the one chosen, by one half as fine;
-    /// else a tighter one. What a tenth of it changes.
-    fn verify_tolerance(&mut self, choice: &mut Choice) -> Option<Vec<Difference>> {
+    /// Halves all numbers of elements while that changes no more than may be: errors in time had a part in what doubling
+    /// changed before. What doubling changes.
+    fn coarsen(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
+        let (mut found, limit) = (found, OF_SPACE * self.error);
+        loop {
+            let half = self.half(choice);
+            if half.elements == choice.elements {
+                return found;
+            }
+            let Ok(now) = self.compare(&half, choice, self.error) else {
+                return found;
+            };
+            let keeps = |(now, before): (&Difference, &Difference)| {
+                now.largest <= limit || now.largest <= before.largest
+            };
+            if !now.iter().zip(&found).all(keeps) {
+                return found;
+            }
+            (*choice, found) = (half, now);
+        }
+    }
+
+    /// A choice with half as many elements where that can be.
+    pub fn half(&self, choice: &Choice) -> Choice {
         let halves = choice.elements.iter().zip(&self.fewest);
         let half = |(count, least): (&u32, &u32)| match count {
             0 => 0,
             count => (count / 2).max(*least),
         };
-        let mut half = Choice {
+        Choice {
             elements: halves.map(half).collect(),
             ..choice.clone()
-        };
-        if half.elements == self.fewest && choice.elements == self.fewest {
-            return None;
-        }
-        // Another integrator makes other errors.
-        let methods = [&half, choice].map(|made| self.run(made).map(|run| run.method).ok());
-        if methods[0] != methods[1] {
-            half.elements.clone_from(&choice.elements);
-        }
-        let found = self.loosest(&mut half).ok()?;
-        choice.tolerance = half.tolerance;
-        Some(self.loosen(choice, found))
-    }
-
-    /// Ten times the tolerance while that is good enough for the mesh chosen: a coarser one may have asked for more.
-    fn loosen(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
-        let (mut found, limit) = (found, OF_TIME * self.error);
-        loop {
-            let mut looser = choice.clone();
-            looser.tolerance = decade(10.0 * choice.tolerance);
-            let is_given = self.scene.accuracy.relative_tolerance.is_some();
-            if is_given || looser.tolerance > self.first_tolerance() {
-                return found;
-            }
-            let Ok(now) = self.in_time(&looser) else {
-                return found;
-            };
-            let is_good = |(now, before): (&Difference, &Difference)| {
-                now.largest <= limit.max(before.largest)
-            };
-            if !now.iter().zip(&found).all(is_good) {
-                return found;
-            }
-            (*choice, found) = (looser, now);
         }
     }
-}
-
-/// A tenth of a tolerance, as a power of ten where it is one.
-fn tenth(tolerance: f64) -> f64 {
-    match tolerance == decade(tolerance) {
-        true => decade(0.1 * tolerance),
-        false => 0.1 * tolerance,
-    }
-}
-
-/// The nearest power of ten, as it would be written.
-fn decade(value: f64) -> f64 {
-    format!("1e{}", value.log10().round())
-        .parse()
-        .unwrap_or(value)
 }
