@@ -110,11 +110,12 @@ pub trait Method: Send {
     /// Begins a step with the polynomial of the one before, which was kept.
     fn recall(&mut self, _before: &DenseStep) {}
     /// Errors of position and velocity that the last step to a state is estimated to have left in it, as far
-    /// as the method can tell.
+    /// as the method can tell; it is the end of the step, or stands within one that is kept.
     fn error(
         &mut self,
         _dynamics: &mut dyn Dynamics,
         _state: (f64, &[f64], &[f64]),
+        _within: Option<&DenseStep>,
         error: [&mut [f64]; 2],
     ) {
         error.into_iter().for_each(|error| error.fill(0.0));

@@ -8,7 +8,7 @@
 
 use super::{Attempt, Method, Tolerance, rescaled};
 use crate::math::sums::{TERMS, Term, add, sum};
-use crate::system::Dynamics;
+use crate::system::{DenseStep, Dynamics};
 
 /// Part of the stability limit that is used: the bound on the frequency is that of the reference
 /// configuration.
@@ -141,6 +141,7 @@ impl Method for Nystrom {
         &mut self,
         _: &mut dyn Dynamics,
         _: (f64, &[f64], &[f64]),
+        _: Option<&DenseStep>,
         [position, velocity]: [&mut [f64]; 2],
     ) {
         position.copy_from_slice(&self.error_q);

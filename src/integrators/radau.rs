@@ -352,9 +352,10 @@ impl Method for Radau {
         &mut self,
         dynamics: &mut dyn Dynamics,
         state: (f64, &[f64], &[f64]),
+        within: Option<&DenseStep>,
         error: [&mut [f64]; 2],
     ) {
-        self.error_at_end(dynamics, state, error);
+        self.error_at_end(dynamics, state, within, error);
     }
 
     fn work(&self) -> [f64; 2] {

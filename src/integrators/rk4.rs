@@ -8,7 +8,7 @@
 
 use super::{Attempt, Method, Tolerance};
 use crate::math::sums;
-use crate::system::Dynamics;
+use crate::system::{DenseStep, Dynamics};
 
 /// Part of the stability limit that is used: the bound on the frequency is that of the reference
 /// configuration.
@@ -84,6 +84,7 @@ impl Method for Rk4 {
         &mut self,
         _: &mut dyn Dynamics,
         _: (f64, &[f64], &[f64]),
+        _: Option<&DenseStep>,
         [position, velocity]: [&mut [f64]; 2],
     ) {
         position.copy_from_slice(&self.stage_v);

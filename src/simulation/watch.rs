@@ -141,7 +141,9 @@ impl<const D: usize> Engine<D> {
             let mut model = Model::new(system, inputs, &mut self.work, state);
             let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
             let at = (state.time, &state.coordinates[..], &state.rates[..]);
-            self.methods.at(&state.pace).error(&mut model, at, [q, v]);
+            let within = state.dense.is_under_way().then_some(&state.dense);
+            let method = self.methods.at(&state.pace);
+            method.error(&mut model, at, within, [q, v]);
             let add = |(moved, now): (&mut f64, &f64)| *moved += now;
             q.iter_mut().zip(&state.coordinates).for_each(add);
             v.iter_mut().zip(&state.rates).for_each(add);

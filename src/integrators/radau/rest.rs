@@ -55,12 +55,14 @@ impl Radau {
         dense::acceleration(step, time, &mut self.stage_v);
         self.leave(dynamics);
         let s = GAMMA / step.length;
-        self.error_v.copy_from_slice(&self.f[0]);
+        let [left, rest, _] = &mut self.f;
+        rest.copy_from_slice(left);
         dynamics.solve_stages(&[1.0], &[1.0], std::slice::from_mut(&mut self.f[0]));
         // Between stages slow directions are not solved either, and are not to be: of an acceleration `f` that leaves
         // `K (s^2 I + K)^-1 f`.
-        add(&mut self.error_v, &[(-s * s, &self.f[0])]);
-        let left = self.unsolved(&self.error_v, tolerance) / UNSOLVED_WITHIN;
+        let [correction, rest, _] = &mut self.f;
+        add(rest, &[(-s * s, correction)]);
+        let left = self.unsolved(&self.f[1], tolerance) / UNSOLVED_WITHIN;
         if left > 1.0 {
             self.correct(s, (q, v));
         }
@@ -72,6 +74,7 @@ impl Radau {
         &mut self,
         dynamics: &mut dyn Dynamics,
         (time, q, v): (f64, &[f64], &[f64]),
+        within: Option<&DenseStep>,
         [position, velocity]: [&mut [f64]; 2],
     ) {
         let s = GAMMA / self.attempted;
@@ -83,7 +86,10 @@ impl Radau {
             return;
         }
         dynamics.acceleration(time, q, v, &mut self.a);
-        self.solved_at_end();
+        match within {
+            Some(step) => dense::acceleration(step, time, &mut self.stage_v),
+            None => self.solved_at_end(),
+        }
         self.leave(dynamics);
         dynamics.solve(&mut self.f[0]);
         // Filtered twice more: stiff directions follow the others, whatever was started with.
