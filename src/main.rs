@@ -5,10 +5,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Duration;
 
 use clap::{Parser, Subcommand};
-use cpu_time::ThreadTime;
 use flexbody::fmi2;
 use flexbody::scene::{Experiment, Scene};
 use flexbody::simulation::{Causality, Report, SignalError, Signals, Simulation, check};
@@ -16,9 +14,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use files::{Shapes, Sink, Table};
 use planning::{plan, planned};
+use stopwatch::Stopwatch;
 
 mod files;
 mod planning;
+mod stopwatch;
 
 #[derive(Parser)]
 #[command(version, about = "Flexible bodies: describe, simulate, schema")]
@@ -100,13 +100,13 @@ const ALIKE: f64 = 0.75;
 const SNAPSHOTS: u64 = 11;
 
 /// What all communication steps of a run took together; set-up and output do not count.
-#[derive(Default)]
 struct Cost {
     method: &'static str,
     steps: u64,
     rejected: u64,
     newton_iterations: u64,
-    cpu_time: Duration,
+    /// CPU time of the steps alone.
+    stopwatch: Stopwatch,
     /// Outputs that the tolerance does not reach.
     doubtful: Vec<String>,
     /// A mesh that is too coarse, in words.
@@ -114,12 +114,22 @@ struct Cost {
 }
 
 impl Cost {
-    fn add(&mut self, report: Report, cpu_time: Duration) {
+    fn new() -> Self {
+        Self {
+            method: "",
+            steps: 0,
+            rejected: 0,
+            newton_iterations: 0,
+            stopwatch: Stopwatch::new(),
+            doubtful: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, report: Report) {
         self.method = report.method;
         self.steps += report.steps;
         self.rejected += report.rejected;
         self.newton_iterations += report.newton_iterations;
-        self.cpu_time += cpu_time;
     }
 
     /// One line of JSON; CPU time in seconds. Names of variables and joints need no escapes.
@@ -136,7 +146,7 @@ impl Cost {
             self.steps,
             self.rejected,
             self.newton_iterations,
-            self.cpu_time.as_secs_f64(),
+            self.stopwatch.seconds(),
             calculated.join(", "),
             redundant.join(", "),
             doubtful.join(", ")
@@ -214,7 +224,7 @@ fn simulate(arguments: &Simulate) -> Outcome<()> {
         signals,
         csv: Table::new(&simulation, outputs),
         shapes: shapes.map(|sink| Shapes::new(simulation.scene(), sink)),
-        cost: Cost::default(),
+        cost: Cost::new(),
     };
     run.all(&mut simulation)?;
     match &arguments.report {
@@ -387,16 +397,14 @@ impl Run {
     /// One communication step, in as many parts as inputs have rows in it.
     fn step(&mut self, simulation: &mut Simulation, until: f64) -> Outcome<()> {
         while simulation.time() < until {
-            let started = ThreadTime::now();
-            let outcome = match &self.signals {
+            let signals = self.signals.as_ref();
+            self.cost.stopwatch.time(|| match signals {
                 Some(signals) => simulation.step_along(signals, until),
                 None => simulation
                     .step(until)
                     .map_err(|failure| failure.to_string()),
-            };
-            let cpu_time = started.elapsed();
-            outcome?;
-            self.cost.add(simulation.report(), cpu_time);
+            })?;
+            self.cost.add(simulation.report());
             while let Some(name) = simulation.next_doubtful() {
                 self.cost.doubtful.push(name.to_owned());
             }

@@ -13,6 +13,7 @@ pub mod krylov;
 pub mod lanes;
 pub mod quadrature;
 pub mod radau;
+pub mod recent;
 pub mod row_space;
 pub mod space;
 pub mod sparse;

@@ -3,6 +3,7 @@
 use super::signal::Trajectory;
 use super::{State, System};
 use crate::body::{Jacobian, Node, Tangent, no_node};
+use crate::math::recent::Recent;
 
 /// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
 #[derive(Clone, Debug)]
@@ -23,6 +24,8 @@ pub struct Work<const D: usize = 2> {
     /// Driven coordinates with two derivatives, and the trajectories of those that inputs drive.
     pub(super) drives: Vec<[f64; 3]>,
     pub(super) trajectories: Vec<Trajectory>,
+    /// For every drive, what the function of time that it is gave last.
+    pub(super) recent: Vec<Recent>,
     /// What driven rows are to equal, with two derivatives.
     pub(super) targets: Vec<[f64; 3]>,
     /// First and last time at which functions of time are taken in the smooth stretch that is under way.
@@ -90,6 +93,7 @@ impl<const D: usize> Work<D> {
             drives: vec![[0.0; 3]; system.drives.len()],
             targets: vec![[0.0; 3]; system.driven.len()],
             trajectories: vec![Trajectory::default(); system.trajectories().count()],
+            recent: vec![Recent::new(); system.drives.len()],
             stretch: None,
             inputs: Vec::new(),
             input_rates: Vec::new(),

@@ -178,7 +178,7 @@ const OWNERS: [(&str, &[&str]); 14] = [
     ("libc", &["fmi2/abi.rs"]),
     ("quick_xml", &["page/canvas.rs", "fmi/xml.rs"]),
     ("sha2", &["fmi/guid.rs", "fmi/state.rs"]),
-    ("cpu_time", &["main.rs"]),
+    ("cpu_time", &["stopwatch.rs"]),
     ("clap", &["main.rs"]),
     ("strsim", &["main.rs"]),
     ("indicatif", &["main.rs", "planning.rs"]),

@@ -20,9 +20,10 @@ impl<const D: usize> System<D> {
     ) {
         let clock = self.clock(time, work);
         let mut trajectories = work.trajectories.iter();
-        for (value, drive) in work.drives.iter_mut().zip(&self.drives) {
+        let drives = self.drives.iter().zip(&mut work.recent);
+        for (value, (drive, recent)) in work.drives.iter_mut().zip(drives) {
             *value = match drive {
-                Drive::Function(function) => function.derivatives(clock),
+                Drive::Function(function) => recent.derivatives(function, clock),
                 Drive::Input { .. } => {
                     let course = trajectories.next();
                     course.map_or([0.0; 3], |course| course.derivatives(time))
