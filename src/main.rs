@@ -122,6 +122,7 @@ impl Cost {
             newton_iterations: 0,
             stopwatch: Stopwatch::new(),
             doubtful: Vec::new(),
+            unresolved: None,
         }
     }
 
