@@ -71,17 +71,6 @@ impl Search<'_, '_> {
         }
         let (best, found) = ladder.best().unwrap_or_default();
         choice.tolerance = best.tolerance;
-        let looser = ladder.rungs.iter().map(|(looser, _)| looser);
-        let looser: Vec<Choice> = looser
-            .filter(|looser| looser.tolerance > best.tolerance)
-            .cloned()
-            .collect();
-        for looser in looser {
-            if let Some(found) = self.by_tightest(&looser, &best, &found) {
-                choice.tolerance = looser.tolerance;
-                return Ok(found);
-            }
-        }
         Ok(found)
     }
 
@@ -143,30 +132,26 @@ impl Search<'_, '_> {
             half.elements.clone_from(&choice.elements);
         }
         let found = self.loosest(&mut half).ok()?;
-        choice.tolerance = half.tolerance;
-        Some(self.loosen(choice, found))
+        let (tolerance, found) = self.loosen(&half, found);
+        choice.tolerance = tolerance;
+        Some(found)
     }
 
-    /// Ten times the tolerance while that is good enough for the mesh chosen: a coarser one may have asked for more.
-    fn loosen(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
-        let (mut found, limit) = (found, OF_TIME * self.error);
+    /// Ten times the tolerance while that is good enough: a coarser mesh may have asked for more, and what a tenth changes
+    /// counts more than it says.
+    fn loosen(&mut self, best: &Choice, found: Vec<Difference>) -> (f64, Vec<Difference>) {
+        let is_given = self.scene.accuracy.relative_tolerance.is_some();
+        let (mut tolerance, mut found) = (best.tolerance, found);
         loop {
-            let mut looser = choice.clone();
-            looser.tolerance = decade(10.0 * choice.tolerance);
-            let is_given = self.scene.accuracy.relative_tolerance.is_some();
+            let mut looser = best.clone();
+            looser.tolerance = decade(10.0 * tolerance);
             if is_given || looser.tolerance > self.first_tolerance() {
-                return found;
+                return (tolerance, found);
             }
-            let Ok(now) = self.in_time(&looser) else {
-                return found;
+            let Some(now) = self.by_tightest(&looser, best, &found) else {
+                return (tolerance, found);
             };
-            let is_good = |(now, before): (&Difference, &Difference)| {
-                now.largest <= limit.max(before.largest)
-            };
-            if !now.iter().zip(&found).all(is_good) {
-                return found;
-            }
-            (*choice, found) = (looser, now);
+            (tolerance, found) = (looser.tolerance, now);
         }
     }
 }
