@@ -246,6 +246,7 @@ impl<'a, 'p> Search<'a, 'p> {
             if !self.refine(&mut closer) {
                 break;
             }
+            self.tighten(&tried, &mut closer);
             match self.compare(&tried, &closer, self.error) {
                 Ok(found) => ladder.add(&tried, found),
                 Err(Unfinished::TooMuchWork) => break,

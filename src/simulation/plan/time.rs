@@ -119,6 +119,16 @@ impl Search<'_, '_> {
         Ok(found)
     }
 
+    /// A mesh that `auto` takes with another integrator than a coarser one makes other errors in time: the tolerance that it
+    /// needs.
+    pub(super) fn tighten(&mut self, coarser: &Choice, choice: &mut Choice) {
+        let methods = [coarser, &*choice].map(|made| self.run(made).map(|run| run.method).ok());
+        let mut tried = choice.clone();
+        if methods[0] != methods[1] && self.loosest(&mut tried).is_ok() {
+            choice.tolerance = tried.tolerance;
+        }
+    }
+
     /// Whether the tolerance found with the coarsest mesh is good enough for the one chosen, by one half as fine;
     /// else a tighter one. What a tenth of it changes.
     pub(super) fn verify_tolerance(&mut self, choice: &mut Choice) -> Option<Vec<Difference>> {
