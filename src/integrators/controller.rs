@@ -33,7 +33,8 @@ pub(super) struct Trial {
 pub(super) struct Controller {
     /// Most growth after the next step: what just failed at a length will not succeed at a longer one.
     grow: f64,
-    /// Steps for which stage equations could be solved: nearly those it grows to from one that failed, s.
+    /// Steps for which stage equations could be solved: nearly those it grows to from one that failed, s. A finite
+    /// number, since a state may hold it.
     ceiling: f64,
 }
 

@@ -31,7 +31,7 @@ const POINT: f64 = 3.0;
 /// nothing where it is to end there, or before.
 pub(super) fn trial(
     method: &dyn Method,
-    dynamics: &mut dyn Dynamics,
+    dynamics: &dyn Dynamics,
     state: &State,
     (until, wanted): (f64, f64),
 ) -> Option<Trial> {
@@ -110,8 +110,11 @@ fn come_to_rest(
     (is_read, tolerance): (bool, &Tolerance),
 ) -> Result<bool, Stop> {
     outcome(dynamics.accepted(state))?;
+    if !is_read {
+        return Ok(true);
+    }
     let (mut first, mut before) = (f64::INFINITY, f64::INFINITY);
-    for _ in 0..if is_read { RELAXATIONS } else { 0 } {
+    for _ in 0..RELAXATIONS {
         let read = (state.time, &mut state.coordinates[..], &mut state.rates[..]);
         let left = method.relax_within(dynamics, &state.dense, read, tolerance);
         if left.is_nan() || left >= first {
@@ -144,8 +147,7 @@ fn place(state: &mut State) {
     let [q, v, stages @ ..] = dense.parts();
     let s = (state.time - dense.start) / dense.length;
     let weights = values(s);
-    let moved: [Term<'_>; STAGES] = std::array::from_fn(|i| (weights[i], stages[i]));
-    let [a, b, c] = moved;
+    let [a, b, c] = std::array::from_fn(|i| (weights[i], stages[i]));
     sum(coordinates, &[(1.0, q), a, b, c]);
     let [a, b, c] = by_stages(&weights, dense);
     sum(rates, &[(1.0 - weights.iter().sum::<f64>(), v), a, b, c]);

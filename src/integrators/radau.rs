@@ -355,7 +355,7 @@ impl Method for Radau {
         within: Option<&DenseStep>,
         error: [&mut [f64]; 2],
     ) {
-        self.error_at_end(dynamics, state, within, error);
+        self.error_left(dynamics, state, within, error);
     }
 
     fn work(&self) -> [f64; 2] {

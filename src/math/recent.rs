@@ -15,16 +15,18 @@ pub struct Recent {
     oldest: usize,
 }
 
-impl Recent {
+impl Default for Recent {
     /// None yet.
-    pub fn new() -> Self {
+    fn default() -> Self {
         Self {
             times: [f64::NAN; KEPT],
             derivatives: [[f64::NAN; 3]; KEPT],
             oldest: 0,
         }
     }
+}
 
+impl Recent {
     /// [`Function::derivatives`] of the function, always the same one, at a time.
     pub fn derivatives(&mut self, function: &Function, t: f64) -> [f64; 3] {
         if let Function::Constant(_) = function {
@@ -43,12 +45,6 @@ impl Recent {
     }
 }
 
-impl Default for Recent {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -58,7 +54,7 @@ mod tests {
     fn values_at_recent_times_are_those_of_the_function() {
         for text in ["sin(3*t)", "1/t", "step(t - 0.5)"] {
             let function = Function::expression(text).expect(text);
-            let mut recent = Recent::new();
+            let mut recent = Recent::default();
             let before = 0.5_f64.next_down();
             let times = [0.0, -0.0, before, 0.5, 0.0, 0.7, before, 0.5, f64::NAN, 0.7];
             for t in times.iter().chain(&times) {
@@ -75,7 +71,7 @@ mod tests {
     /// What is held as it is at another time keeps its value, though the same scratch serves it.
     #[test]
     fn constants_are_not_kept() {
-        let mut recent = Recent::new();
+        let mut recent = Recent::default();
         for value in [1.0, 2.0] {
             let found = recent.derivatives(&Function::constant(value), 0.0);
             assert_eq!(found, [value, 0.0, 0.0]);

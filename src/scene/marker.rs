@@ -276,7 +276,7 @@ impl<'a> Joint<'a> {
     }
 
     /// Whether it holds a position or a distance.
-    pub(super) fn holds_position(&self) -> bool {
+    pub(in crate::scene) fn holds_position(&self) -> bool {
         let turns = |hold: &Hold| matches!(hold, Hold::Direction(_) | Hold::Spring { .. });
         !self.holds.iter().all(turns)
     }

@@ -259,7 +259,6 @@ impl<const D: usize> Engine<D> {
     ) -> (Report, Result<(), StepFailure>) {
         self.forget();
         state.work[0] += self.set_energy(state, &inputs.values);
-        state.dense.held += 1.0;
         let (system, start) = (&self.assembled.system, state.time);
         let model = Model::new(system, &inputs.values, &mut self.work, state);
         let model = model.limited(self.most_work);

@@ -353,9 +353,7 @@ impl Simulation {
             })?;
         }
         let (moves, is_held) = self.inputs.begin_step();
-        if !is_held {
-            self.state.dense.forget(0.0);
-        }
+        self.state.dense.begin_point(is_held);
         let time = self.state.time;
         let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
             time,

@@ -77,10 +77,19 @@ impl Simulation {
                 "expected an initial state before the start".into(),
             ));
         }
-        let sizes = |values: usize, inputs: usize| format!("{values} variables, {inputs} inputs");
-        let expected = sizes(self.variables.len(), self.inputs.values.len());
-        let found = sizes(snapshot.values.len(), snapshot.slopes.len());
-        if found != expected || snapshot.held.len() != snapshot.slopes.len() {
+        let inputs = self.inputs.values.len();
+        let sizes = |[values, slopes, held]: [usize; 3]| {
+            format!("{values} variables, {slopes} derivatives of inputs, {held} inputs")
+        };
+        let expected = sizes([self.variables.len(), inputs, inputs]);
+        let Snapshot {
+            values,
+            slopes,
+            held,
+            ..
+        } = snapshot;
+        let found = sizes([values.len(), slopes.len(), held.len()]);
+        if found != expected {
             let message = format!("expected {expected}, found {found}");
             return Err(Error::Snapshot(message));
         }

@@ -160,7 +160,15 @@ impl DenseStep {
         self.length > 0.0 && !self.is_under_way() && self.end() == time
     }
 
-    /// It is forgotten, as where inputs have changed; the next may be kept after so many communication points more.
+    /// A communication step begins, under the inputs of the one before or under others, which take the step back.
+    pub fn begin_point(&mut self, is_held: bool) {
+        if !is_held {
+            self.forget(0.0);
+        }
+        self.held += 1.0;
+    }
+
+    /// It is forgotten; the next may be kept after so many communication points more.
     pub fn forget(&mut self, points: f64) {
         (self.length, self.under_way, self.held) = (0.0, 0.0, 0.0 - points);
     }
@@ -183,15 +191,9 @@ impl DenseStep {
     }
 
     fn copy_from(&mut self, other: &Self) {
-        self.start = other.start;
-        self.length = other.length;
-        self.under_way = other.under_way;
-        self.operations = other.operations;
-        self.ceiling = other.ceiling;
-        self.held = other.held;
-        self.work = other.work;
-        self.powers = other.powers;
-        self.vectors.copy_from_slice(&other.vectors);
+        let mut vectors = std::mem::take(&mut self.vectors);
+        vectors.copy_from_slice(&other.vectors);
+        *self = Self::from_numbers(other.numbers(), vectors);
     }
 }
 

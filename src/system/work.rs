@@ -93,7 +93,7 @@ impl<const D: usize> Work<D> {
             drives: vec![[0.0; 3]; system.drives.len()],
             targets: vec![[0.0; 3]; system.driven.len()],
             trajectories: vec![Trajectory::default(); system.trajectories().count()],
-            recent: vec![Recent::new(); system.drives.len()],
+            recent: vec![Recent::default(); system.drives.len()],
             stretch: None,
             inputs: Vec::new(),
             input_rates: Vec::new(),

@@ -70,7 +70,7 @@ impl Radau {
     }
 
     /// As [`Method::error`](crate::integrators::Method::error).
-    pub(super) fn error_at_end(
+    pub(super) fn error_left(
         &mut self,
         dynamics: &mut dyn Dynamics,
         (time, q, v): (f64, &[f64], &[f64]),
@@ -101,10 +101,7 @@ impl Radau {
                 error.iter_mut().for_each(|e| *e *= s * s);
             }
         }
-        for (i, d) in self.f[0].iter().enumerate() {
-            position[i] += d;
-            velocity[i] += s * d;
-        }
+        self.correct(s, (position, velocity));
     }
 
     /// Acceleration of the stage equations' solution at the end of the step, into `stage_v`.
@@ -151,9 +148,10 @@ impl Radau {
         }
         let s = GAMMA / step.length;
         dynamics.linearize(step.start, q, v);
+        let is_made = dynamics.factor([s * s, s]);
         kept_q.copy_from_slice(q);
         kept_v.copy_from_slice(v);
-        *at = [step.start, step.length];
-        dynamics.factor([s * s, s])
+        *at = [step.start, if is_made { step.length } else { 0.0 }];
+        is_made
     }
 }

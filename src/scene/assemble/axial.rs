@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scene::resolved::{
-    Cable, Ends, First, Hold, Marker, MotionKind, Place, PortKind, Resolved,
-};
+use crate::scene::resolved::{Cable, Ends, First, Marker, MotionKind, Place, PortKind, Resolved};
 use crate::scene::{Axial, CableBody};
 
 /// Part of the length from an end up to which a marker is at it.
@@ -52,11 +50,8 @@ impl Resolved<'_> {
                 hold(first);
             }
         };
-        let exerts = |held: &Hold| !matches!(held, Hold::Direction(_) | Hold::Spring { .. });
-        for joint in &self.joints {
-            if joint.holds.iter().any(exerts) {
-                ends_of(joint.ends, &mut hold);
-            }
+        for joint in self.joints.iter().filter(|joint| joint.holds_position()) {
+            ends_of(joint.ends, &mut hold);
         }
         let of_ports = self.ports.iter().filter_map(|port| match &port.kind {
             PortKind::Motion { position, .. } => Some(position),

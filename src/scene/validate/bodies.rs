@@ -97,9 +97,7 @@ impl CableBody {
         }
         Ok(())
     }
-}
 
-impl CableBody {
     /// A rigid rod is a body of the plane, straight and undeformed.
     fn validate_model(&self, path: &str, dimension: usize) -> Result<(), Error> {
         if self.model != Model::Rigid {

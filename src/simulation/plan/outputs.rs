@@ -53,6 +53,12 @@ impl Difference {
     }
 }
 
+/// Whether no output changes by more than a limit, or than it did before.
+pub(super) fn are_kept(now: &[Difference], before: &[Difference], limit: f64) -> bool {
+    let mut pairs = now.iter().zip(before);
+    pairs.all(|(now, before)| now.largest <= limit.max(before.largest))
+}
+
 /// The outputs of a scene that count.
 ///
 /// # Errors

@@ -3,7 +3,7 @@
 use super::Progress;
 use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
-use super::outputs::{Difference, Group, difference, groups};
+use super::outputs::{Difference, Group, are_kept, difference, groups};
 use super::report::Plan;
 use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
 use crate::simulation::{Variable, check, variables};
@@ -196,6 +196,12 @@ impl<'a, 'p> Search<'a, 'p> {
         run
     }
 
+    /// Whether the runs with two choices ended with one integrator, or neither was finished.
+    pub fn end_alike(&mut self, choices: [&Choice; 2]) -> bool {
+        let [one, other] = choices.map(|choice| self.run(choice).map(|run| run.method).ok());
+        one == other
+    }
+
     /// What all outputs change from one choice to another that is closer to the truth.
     pub fn compare(
         &mut self,
@@ -300,10 +306,7 @@ impl<'a, 'p> Search<'a, 'p> {
                 continue;
             }
             let changed = self.compare(&tried, closer, self.error);
-            let keeps = |(now, before): (&Difference, &Difference)| {
-                now.largest <= limit || now.largest <= before.largest
-            };
-            if changed.is_ok_and(|changed| changed.iter().zip(found).all(keeps)) {
+            if changed.is_ok_and(|changed| are_kept(&changed, found, limit)) {
                 *choice = tried;
             }
         }
@@ -321,10 +324,7 @@ impl<'a, 'p> Search<'a, 'p> {
             let Ok(now) = self.compare(&half, choice, self.error) else {
                 return found;
             };
-            let keeps = |(now, before): (&Difference, &Difference)| {
-                now.largest <= limit || now.largest <= before.largest
-            };
-            if !now.iter().zip(&found).all(keeps) {
+            if !are_kept(&now, &found, limit) {
                 return found;
             }
             (*choice, found) = (half, now);

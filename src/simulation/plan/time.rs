@@ -2,7 +2,7 @@
 
 use super::experiment::Unfinished;
 use super::ladder::{Choice, Ladder};
-use super::outputs::Difference;
+use super::outputs::{Difference, are_kept};
 use super::search::Search;
 use crate::scene::Error;
 
@@ -88,10 +88,7 @@ impl Search<'_, '_> {
         };
         self.known(&tightest)?;
         let now = self.compare(looser, &tightest, self.error).ok()?;
-        let limit = OF_TIME * self.error;
-        let is_good =
-            |(now, best): (&Difference, &Difference)| now.largest <= limit.max(best.largest);
-        now.iter().zip(found).all(is_good).then_some(now)
+        are_kept(&now, found, OF_TIME * self.error).then_some(now)
     }
 
     /// Sub-steps of a run that was made.
@@ -122,9 +119,8 @@ impl Search<'_, '_> {
     /// A mesh that `auto` takes with another integrator than a coarser one makes other errors in time: the tolerance that it
     /// needs.
     pub(super) fn tighten(&mut self, coarser: &Choice, choice: &mut Choice) {
-        let methods = [coarser, &*choice].map(|made| self.run(made).map(|run| run.method).ok());
         let mut tried = choice.clone();
-        if methods[0] != methods[1] && self.loosest(&mut tried).is_ok() {
+        if !self.end_alike([coarser, choice]) && self.loosest(&mut tried).is_ok() {
             choice.tolerance = tried.tolerance;
         }
     }
@@ -137,8 +133,7 @@ impl Search<'_, '_> {
             return None;
         }
         // Another integrator makes other errors.
-        let methods = [&half, choice].map(|made| self.run(made).map(|run| run.method).ok());
-        if methods[0] != methods[1] {
+        if !self.end_alike([&half, choice]) {
             half.elements.clone_from(&choice.elements);
         }
         let found = self.loosest(&mut half).ok()?;

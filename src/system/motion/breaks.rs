@@ -100,12 +100,11 @@ impl<const D: usize> Model<'_, D> {
         found.map_or(until, |time| time.min(until))
     }
 
-    /// Until when, `to` at the latest, functions of time have no kink or jump and inputs are held; `from` where they move, or
-    /// drive a motion, and where slides are followed from one communication point to the next.
+    /// Until when, `to` at the latest, functions of time have no kink or jump; `from` where inputs drive a motion, and where
+    /// slides are followed from one communication point to the next.
     pub(in crate::system) fn goes_on_until(&self, from: f64, to: f64) -> f64 {
         let system = self.system;
-        let moves = self.slopes.iter().flatten().any(|slope| *slope != 0.0);
-        if moves || system.trajectories().next().is_some() || !system.slides.is_empty() {
+        if system.trajectories().next().is_some() || !system.slides.is_empty() {
             return from;
         }
         let found = system.next_break(from + grain(from), to + grain(to));

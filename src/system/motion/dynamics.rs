@@ -108,7 +108,7 @@ pub struct Model<'a, const D: usize = 2> {
     /// Its inputs at the beginning.
     pub inputs: &'a [f64],
     /// Their first and second derivatives; empty where they are held.
-    pub(in crate::system) slopes: &'a [[f64; 2]],
+    slopes: &'a [[f64; 2]],
     start: f64,
     /// Scratch of the system.
     pub work: &'a mut Work<D>,
