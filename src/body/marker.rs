@@ -7,6 +7,7 @@ use super::connectivity::{Node, Row, add_node};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular, perpendicular_matrix};
+use crate::math::vector::norm;
 
 /// A point of a body, with a direction: the slope of a cable, the unit vector of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +39,28 @@ impl Marker {
             slopes: [0.0, 1.0, 0.0, 0.0],
             across: point[1],
             element: None,
+        }
+    }
+
+    /// The point of a rigid body of space, and a direction there: their components along its axes, m and 1.
+    pub fn framed(body: usize, node: usize, point: [f64; 3], direction: [f64; 3]) -> Self {
+        let ([a, b, c], [d, e, f]) = (point, direction);
+        Self {
+            body,
+            nodes: [node, node + 1],
+            values: [1.0, a, b, c],
+            slopes: [0.0, d, e, f],
+            across: 0.0,
+            element: None,
+        }
+    }
+
+    /// The same point of a rigid body of space with another direction.
+    pub fn directed(&self, direction: [f64; 3]) -> Self {
+        let [a, b, c] = direction;
+        Self {
+            slopes: [0.0, a, b, c],
+            ..*self
         }
     }
 
@@ -78,7 +101,10 @@ impl Marker {
 
     /// Distance of a point of a rigid body from the centre of mass, m.
     pub fn arm(&self) -> f64 {
-        self.values[1].hypot(self.across)
+        match self.values {
+            [_, a, 0.0, 0.0] => a.hypot(self.across),
+            [_, a, b, c] => norm(&[a, b, c]),
+        }
     }
 
     /// The same point, its weights constants of another kind of numbers.
@@ -137,6 +163,11 @@ impl<N: Number> Marker<N> {
     /// Whether it is a node of a cable, or belongs to a rigid body: then the second node weighs nothing.
     pub fn is_nodal(&self) -> bool {
         self.nodes[0] == self.nodes[1]
+    }
+
+    /// Whether it belongs to a rigid body of space that turns: to both of its nodes.
+    pub fn is_framed(&self) -> bool {
+        self.element.is_none() && !self.is_nodal()
     }
 
     /// How far along its direction a point of a rigid body is from the centre of mass, m.

@@ -5,6 +5,7 @@ mod assembly;
 mod chain;
 mod connectivity;
 mod elimination;
+mod frame;
 mod jacobian;
 mod layout;
 mod marker;
@@ -18,6 +19,7 @@ pub use connectivity::{
     product, tied_with,
 };
 pub use elimination::Elimination;
+pub use frame::{Axes, Frame, Frames, Plain, RENEWED, Turn, turned};
 pub use jacobian::{Jacobian, SparseRows};
 pub use marker::{Marker, Partial};
 pub use stages::STAGES;

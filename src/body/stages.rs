@@ -23,6 +23,7 @@ use super::Tangent;
 use super::assembly::Assembly;
 use super::connectivity::{Cluster, Node, no_node};
 use super::elimination::Elimination;
+use crate::math::space::axis;
 use crate::math::sparse::{Matrix, Pattern};
 
 /// Most stages: one real and one complex system.
@@ -93,7 +94,7 @@ impl<const D: usize> Stages<D> {
 
     /// The tangent is made at this configuration.
     pub fn set_base(&mut self, x: &[Node<D>]) {
-        unit_directions(x, &mut self.base);
+        unit_directions(x, &self.elastic, &mut self.base);
         for turned in &mut self.turned {
             turned.copy_from_slice(&self.base);
         }
@@ -101,7 +102,7 @@ impl<const D: usize> Stages<D> {
 
     /// Sets the configuration of a stage.
     pub fn set(&mut self, assembly: &Assembly<D>, stage: usize, x: &[Node<D>]) {
-        unit_directions(x, &mut self.turned[stage]);
+        unit_directions(x, &self.elastic, &mut self.turned[stage]);
         let directions = (&self.base[..], &self.turned[stage][..]);
         for knot in &mut self.knots {
             let cluster = &assembly.clusters()[knot.cluster];
@@ -409,9 +410,13 @@ impl<const D: usize> Tangent<D> {
     }
 }
 
-fn unit_directions<const D: usize>(x: &[Node<D>], units: &mut [SVector<f64, D>]) {
-    for (x, unit) in x.iter().zip(units) {
-        *unit = SVector::from(x[1]).normalize();
+/// Directions that nodes turn with; rigid bodies of space have coordinates that turn with them as it is.
+fn unit_directions<const D: usize>(x: &[Node<D>], elastic: &[bool], units: &mut [SVector<f64, D>]) {
+    for ((x, unit), is_elastic) in x.iter().zip(units).zip(elastic) {
+        *unit = match D == 2 || *is_elastic {
+            true => SVector::from(x[1]).normalize(),
+            false => axis(0),
+        };
     }
 }
 

@@ -1,7 +1,7 @@
 //! A saved FMU state, and its bytes: versioned, tied to one model, checksummed, without pointers.
 //!
 //! Layout, little-endian: magic, format version, GUID, lifecycle state, flags, start time, stop
-//! time, time, sub-step, work of both kinds, what integrators go by, the step within which it stands, eleven lengths and that of the scene,
+//! time, time, sub-step, work of both kinds, what integrators go by, the step within which it stands, twelve lengths and that of the scene,
 //! the numbers, the scene (JSON), SHA-256 of all before. With the scene inside, a state brings an instance without resources to life.
 
 use std::mem::MaybeUninit;
@@ -15,10 +15,10 @@ use crate::simulation::{Snapshot, Spectra};
 use crate::system::{DenseStep, Pace, State};
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 const GUID_BYTES: usize = 38;
 const HASH_BYTES: usize = 32;
-const ARRAYS: usize = 11;
+const ARRAYS: usize = 12;
 /// Numbers of every motion that inputs drive.
 const DRIVEN: usize = 5;
 /// Numbers that every state has.
@@ -131,6 +131,7 @@ impl SavedState {
             eigenvalues,
             coordinates,
             rates,
+            frames,
             angles,
             travel,
             driven,
@@ -142,10 +143,17 @@ impl SavedState {
             vectors = DenseStep::blank(coordinates.len()).vectors;
         }
         let (driven, rest) = driven.as_chunks::<DRIVEN>();
+        let (axes, no_axis) = frames.as_chunks();
+        let (frames, no_frame) = axes.as_chunks();
         let (slopes, none) = slopes.as_chunks();
         let (eigenvalues, half) = eigenvalues.as_chunks();
-        if !rest.is_empty() || !none.is_empty() || !half.is_empty() {
-            let parts = "holds a part of a driven motion, of an input or of an eigenvalue";
+        if [rest, none, half, no_axis]
+            .iter()
+            .any(|rest| !rest.is_empty())
+            || !no_frame.is_empty()
+        {
+            let parts =
+                "holds a part of a driven motion, of an input, of an eigenvalue or of a frame";
             return Err(refused(parts));
         }
         let state = State {
@@ -154,6 +162,7 @@ impl SavedState {
             pace,
             coordinates,
             rates,
+            frames: frames.to_vec(),
             angles,
             travel,
             driven: driven.to_vec(),
@@ -197,6 +206,7 @@ impl SavedState {
             spectra.eigenvalues.as_flattened(),
             &state.coordinates,
             &state.rates,
+            state.frames.as_flattened().as_flattened(),
             &state.angles,
             &state.travel,
             state.driven.as_flattened(),
@@ -350,6 +360,7 @@ mod tests {
                     pace: Pace::from_numbers([1.0, 0.0, 120.0, 0.1, 60.0, 1e-4, 2e-3, 1e3]),
                     coordinates: vec![0.1, 0.2],
                     rates: vec![0.3, 0.4],
+                    frames: vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]],
                     angles: vec![7.0],
                     travel: vec![0.5],
                     driven: vec![[1.0, 2.0, 3.0, 4.0, 5.0]],

@@ -7,14 +7,14 @@ use nalgebra::SMatrix;
 
 use super::end::{Angle, End, coupling};
 use super::joints::{
-    Coincident, Constraint, ConstraintKind, Joint, Linear, Primitive, Target, UnitLength, View,
+    Constraint, ConstraintKind, HeldRow, Joint, Linear, Primitive, Target, UnitLength, View,
 };
 use super::loads::Load;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
-    Assembly, Dependent, Elimination, Links, Marker, Node, Row, add_node, no_node, product,
-    tied_with,
+    Assembly, Dependent, Elimination, Frame, Frames, Links, Marker, Node, Row, add_node, no_block,
+    no_node, product, tied_with,
 };
 use crate::math::function::Function;
 use crate::math::space::Vector;
@@ -48,6 +48,8 @@ pub struct Parts<const D: usize = 2> {
     pub chains: Vec<CableChain<D>>,
     /// Rigid bodies and point masses.
     pub lumped_masses: Vec<LumpedMass>,
+    /// Rigid bodies of space that turn: their nodes hold the centre of mass and the principal axes.
+    pub frames: Vec<Frame>,
     /// Rigid bodies whose sections are read.
     pub rods: Vec<Rod>,
     /// Nodes of rigid bodies, and whether they can turn.
@@ -97,6 +99,12 @@ impl<const D: usize> System<D> {
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let grounded = grounded(&parts, &nonlinear);
         let takes_moments = takes_moments(&parts);
+        let frames = Frames::new(std::mem::take(&mut parts.frames), parts.nodes.len());
+        let described = parts.nodes.clone();
+        for frame in frames.list() {
+            let at = unplaced(&parts.nodes[frame.node]);
+            parts.nodes[frame.node..][..2].fill(at);
+        }
         let mut system = Self {
             reference: parts.nodes,
             is_driven_by_time: false,
@@ -104,7 +112,11 @@ impl<const D: usize> System<D> {
             grounded,
             takes_moments,
             is_damped: chains_damped || loads_damped,
-            needs_rates: loads_damped || parts.rotation != 0.0 || parts.tracks_work,
+            needs_rates: loads_damped
+                || parts.rotation != 0.0
+                || parts.tracks_work
+                || !frames.is_empty(),
+            frames,
             chains: parts.chains,
             lumped_masses: parts.lumped_masses,
             rods: parts.rods,
@@ -134,8 +146,9 @@ impl<const D: usize> System<D> {
         let is_driven_by_time = system.functions().any(|(_, f)| is_expression(f));
         (system.has_breaks, system.is_driven_by_time) = (has_breaks, is_driven_by_time);
         system.move_reference();
+        system.find_rotations();
         system.find_weight();
-        system.keep(nonlinear);
+        system.keep(nonlinear, &described);
         system.needs_rates |= !system.constraints.is_empty();
         Ok(system)
     }
@@ -178,6 +191,26 @@ impl<const D: usize> System<D> {
         }
     }
 
+    /// Finds the rotations of rigid bodies among the coordinates.
+    fn find_rotations(&mut self) {
+        let mut frames = std::mem::take(&mut self.frames);
+        let (mut y, mut q) = (
+            vec![0.0; self.elimination.scratch()],
+            vec![0.0; self.coordinates()],
+        );
+        let mut unit = vec![no_node(); self.reference.len()];
+        for frame in frames.list_mut() {
+            for axis in (0..3).filter(|axis| frame.moments[*axis] > 0.0) {
+                unit[frame.node][1][axis] = frame.moments[axis];
+                self.elimination.reduce(&unit, &mut y, &mut q);
+                unit[frame.node][1][axis] = 0.0;
+                let place = q.iter().position(|q| *q != 0.0);
+                frame.places[axis] = place.map(|at| (at, q[at]));
+            }
+        }
+        self.frames = frames;
+    }
+
     /// Mass times a sparse nodal vector.
     fn inertia_of(&self, follow: &[(usize, Node<D>)]) -> Vec<(usize, Node<D>)> {
         let zero = vec![no_node(); self.reference.len()];
@@ -199,23 +232,30 @@ impl<const D: usize> System<D> {
             let force = self.gravity * lump.mass;
             lump.marker.add_force(force, Vector::zeros(), &mut weight);
         }
+        for frame in self.frames.list() {
+            weight[frame.node][0] = (self.gravity * frame.mass).into();
+        }
         self.weight = weight;
     }
 
     /// Keeps non-linear constraints, but for those that nothing free can violate.
-    fn keep(&mut self, nonlinear: Vec<Constraint<D>>) {
+    fn keep(&mut self, nonlinear: Vec<Constraint<D>>, described: &[Node<D>]) {
+        let mut x = self.reference.clone();
+        for frame in self.frames.list() {
+            frame.set_axes(&frame.axes(described), &mut x);
+        }
         let assembly = &self.elimination.assembly;
         let slides = nonlinear.iter().filter_map(|c| match &c.kind {
             ConstraintKind::PointOnCurve(along) if c.is_slide() => {
-                Some(along.nearest(&self.chains[along.chain], &self.reference))
+                Some(along.nearest(&self.chains[along.chain], &x))
             }
             _ => None,
         });
         let travel: Vec<f64> = slides.collect();
         let drives = vec![[0.0; 3]; self.drives.len()];
         let view = View {
-            x: &self.reference,
-            v: &self.reference,
+            x: &x,
+            v: &x,
             drives: &drives,
             chains: &self.chains,
             travel: &travel,
@@ -224,7 +264,8 @@ impl<const D: usize> System<D> {
         let is_free = |(index, constraint): (usize, &Constraint<D>)| {
             let mut size = 0.0;
             constraint.gradient(&view).for_each(|node, term| {
-                assembly.restrict_node(node, term, &mut y);
+                let (node, term) = &self.frames.pull(node, term, &x);
+                assembly.restrict_node(*node, term, &mut y);
                 size += product(term, term);
             });
             let mut is_free = false;
@@ -287,30 +328,55 @@ fn constraints<const D: usize>(parts: &Parts<D>) -> (Vec<Linear<D>>, Vec<Constra
             continue;
         }
         // A particle has no direction of its own.
-        for axis in 0..D {
-            let mut coefficients = no_node();
-            coefficients[1][axis] = 1.0;
-            linear.push(Linear {
-                joint: None,
-                row: Row {
-                    terms: vec![(*node, coefficients)],
-                    is_driven: false,
-                },
-                target: Target::Fixed(parts.nodes[*node][1][axis]),
-                on_ends: [[Vector::zeros(); 2]; 2],
-            });
-        }
+        let direction = parts.nodes[*node][1];
+        let held = direction.iter().enumerate();
+        linear.extend(held.map(|(axis, value)| still((*node, 1, axis), *value)));
+    }
+    for frame in &parts.frames {
+        rest(parts, frame, &mut linear);
     }
     for (index, joint) in parts.joints.iter().enumerate() {
         joint.constraints((index, &parts.nodes), &mut linear, &mut nonlinear);
     }
-    release_pins(parts, &mut linear, &mut nonlinear);
+    release_rows(parts, &mut linear, &mut nonlinear);
     (linear, nonlinear)
 }
 
-/// Pins that would tie many rigid bodies together keep multipliers instead of being eliminated: what is tied together is
-/// dense.
-fn release_pins<const D: usize>(
+/// A number of a node that is none of its coordinates.
+fn still<const D: usize>((node, part, axis): (usize, usize, usize), value: f64) -> Linear<D> {
+    let mut coefficients = no_node();
+    coefficients[part][axis] = 1.0;
+    Linear {
+        joint: None,
+        row: Row {
+            terms: vec![(node, coefficients)],
+            is_driven: false,
+        },
+        target: Target::Fixed(value),
+        on_ends: [[Vector::zeros(); 2]; 2],
+    }
+}
+
+/// The second node of a rigid body of space has no coordinates of its own, nor has the first a rotation about an axis without
+/// inertia.
+fn rest<const D: usize>(parts: &Parts<D>, frame: &Frame, linear: &mut Vec<Linear<D>>) {
+    let second = unplaced(&parts.nodes[frame.node]);
+    for (part, vector) in second.iter().enumerate() {
+        let held = vector.iter().enumerate();
+        linear.extend(held.map(|(axis, value)| still((frame.node + 1, part, axis), *value)));
+    }
+    let without = (0..D).filter(|axis| frame.moments[*axis] <= 0.0);
+    linear.extend(without.map(|axis| still((frame.node, 1, axis), 0.0)));
+}
+
+/// Coordinates of both nodes of a rigid body of space where it has not turned.
+fn unplaced<const D: usize>([center, _]: &Node<D>) -> Node<D> {
+    [*center, [0.0; D]]
+}
+
+/// Rows that hold axes of rigid bodies in space, which are no coordinates, keep multipliers instead of being eliminated. So
+/// do pins that would tie many rigid bodies together: what is tied together is dense.
+fn release_rows<const D: usize>(
     parts: &Parts<D>,
     linear: &mut Vec<Linear<D>>,
     nonlinear: &mut Vec<Constraint<D>>,
@@ -319,6 +385,9 @@ fn release_pins<const D: usize>(
     let tied = tied_with(parts.nodes.len(), &rows);
     let is_released = |index: usize| {
         let joint = &parts.joints[index];
+        if joint.ends.iter().any(End::is_framed) {
+            return true;
+        }
         let joins = joint.ends.iter().all(|end| end.is_rigid());
         let mut nodes = joint.ends.iter().filter_map(|end| end.nodes().next());
         match (nodes.next(), nodes.next()) {
@@ -326,10 +395,18 @@ fn release_pins<const D: usize>(
             _ => false,
         }
     };
-    linear.retain(|linear| !linear.joint.is_some_and(is_released));
-    for index in (0..parts.joints.len()).filter(|index| is_released(*index)) {
-        let pin = Coincident::pin(parts.joints[index].ends);
-        nonlinear.extend(pin.map(|c| Constraint::of(index, ConstraintKind::Coincident(c))));
+    let released: Vec<bool> = (0..parts.joints.len()).map(is_released).collect();
+    linear.retain(|linear| {
+        let Some(index) = linear.joint.filter(|index| released[*index]) else {
+            return true;
+        };
+        let row = HeldRow::new(linear, parts.joints[index].ends);
+        nonlinear.push(Constraint::of(index, ConstraintKind::HeldRow(row)));
+        false
+    });
+    if !parts.frames.is_empty() {
+        // What belongs to one joint stands together.
+        nonlinear.sort_by_key(|constraint| constraint.joint);
     }
 }
 
@@ -344,17 +421,30 @@ fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Links
         let [a, b] = lump.marker.nodes;
         links.mass.push((a, b));
     }
+    // What holds the axes of a rigid body of space holds its first node.
+    let mut first: Vec<usize> = (0..parts.nodes.len()).collect();
+    for frame in &parts.frames {
+        links.mass.push((frame.node, frame.node));
+        first[frame.node + 1] = frame.node;
+    }
+    let owners = |nodes: Vec<usize>| {
+        let mut owners: Vec<usize> = nodes.iter().map(|node| first[*node]).collect();
+        if !parts.frames.is_empty() {
+            owners.dedup();
+        }
+        owners
+    };
     let mut tie = |nodes: &[usize]| {
         for (i, a) in nodes.iter().enumerate() {
             (links.stiffness).extend(nodes[i + 1..].iter().map(|b| (*a, *b)));
         }
     };
     for load in parts.loads.iter().chain(&parts.initial_loads) {
-        tie(&load.ends().iter().flat_map(End::nodes).collect::<Vec<_>>());
+        tie(&owners(load.ends().iter().flat_map(End::nodes).collect()));
     }
     let mut joint = None;
     for constraint in nonlinear {
-        let nodes = constraint.nodes(&parts.chains);
+        let nodes = owners(constraint.nodes(&parts.chains));
         if constraint.is_stiff() {
             tie(&nodes);
         }
@@ -402,6 +492,14 @@ fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64>
                 },
             );
         }
+    }
+    for frame in &parts.frames {
+        let mut block = no_block();
+        for axis in 0..D {
+            block[0][axis][0][axis] = frame.mass;
+            block[1][axis][1][axis] = frame.moments[axis];
+        }
+        assembly.add(frame.node, frame.node, &block, &mut mass);
     }
     mass
 }

@@ -74,6 +74,11 @@ impl<const D: usize, N: Number> End<D, N> {
         self.marker().is_none_or(|m| m.element.is_none())
     }
 
+    /// Whether it belongs to a rigid body of space that turns: its axes are no coordinates.
+    pub fn is_framed(&self) -> bool {
+        self.marker().is_some_and(Marker::is_framed)
+    }
+
     /// Adds forces on position and direction.
     pub fn add_force(&self, position: Vector<D, N>, direction: Vector<D, N>, f: &mut [Node<D, N>]) {
         if let Self::Body(marker) = self {

@@ -39,10 +39,13 @@ use std::ops::Range;
 
 use crate::math::space::Vector;
 
-use crate::body::{Chain, Elimination, Node};
+use crate::body::{Chain, Elimination, Frames, Node, Plain};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
+
+/// The global axes.
+const AXES: Plain = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Flexible bodies of a system.
 pub type CableChain<const D: usize = 2> = Chain<Cable<D>, D>;
@@ -54,6 +57,8 @@ pub struct System<const D: usize = 2> {
     reference: Vec<Node<D>>,
     chains: Vec<CableChain<D>>,
     lumped_masses: Vec<LumpedMass>,
+    /// Rigid bodies of space that turn.
+    frames: Frames,
     /// Rigid bodies whose sections are read.
     rods: Vec<Rod>,
     /// Nodes of every body.
@@ -172,7 +177,8 @@ impl<const D: usize> System<D> {
     /// besides them, which is about as much as four elements.
     pub fn parts(&self) -> usize {
         let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
-        4 + elements + self.lumped_masses.len() + self.constraints.len()
+        let rigid = self.lumped_masses.len() + self.frames.list().len();
+        4 + elements + rigid + self.constraints.len()
     }
 
     /// Number of non-linear constraints.
@@ -195,7 +201,9 @@ impl<const D: usize> System<D> {
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
         let chains: f64 = self.chains.iter().map(CableChain::mass).sum();
-        chains + self.lumped_masses.iter().map(|lump| lump.mass).sum::<f64>()
+        let frames = self.frames.list().iter().map(|frame| frame.mass);
+        let lumps = self.lumped_masses.iter().map(|lump| lump.mass);
+        chains + lumps.chain(frames).sum::<f64>()
     }
 
     /// A state with the sizes of this system: the reference configuration at rest.
@@ -207,6 +215,7 @@ impl<const D: usize> System<D> {
             pace: Pace::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
+            frames: vec![AXES; self.frames.list().len()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
             driven: vec![[0.0; 5]; self.trajectories().count()],
@@ -237,6 +246,9 @@ impl<const D: usize> System<D> {
             let at: Vector<D> = lump.marker.position(a) * (s * lump.mass);
             let on = lump.marker.direction(a) * (s * lump.inertia);
             lump.marker.add_force(at, on, f);
+        }
+        for frame in self.frames.list() {
+            frame.add_inertia(s, a, f);
         }
     }
 }

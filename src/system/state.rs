@@ -1,5 +1,7 @@
 //! The state of a system: plain numbers. A clone of it is all that a rollback needs.
 
+use crate::body::Plain;
+
 /// What the integrators in use got for their operations so far: plain numbers, so that a restored state goes on with
 /// the same methods (`integrators/selection.rs`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -210,6 +212,8 @@ pub struct State {
     pub coordinates: Vec<f64>,
     /// Their rates, m sqrt(kg) / s.
     pub rates: Vec<f64>,
+    /// Frames of rigid bodies in space, from which their rotations among the coordinates are counted.
+    pub frames: Vec<Plain>,
     /// Angles that are counted on over full turns, rad.
     pub angles: Vec<f64>,
     /// Where slides are on their cables, m.
@@ -230,6 +234,7 @@ impl State {
         self.pace = other.pace;
         self.coordinates.copy_from_slice(&other.coordinates);
         self.rates.copy_from_slice(&other.rates);
+        self.frames.copy_from_slice(&other.frames);
         self.angles.copy_from_slice(&other.angles);
         self.travel.copy_from_slice(&other.travel);
         self.driven.copy_from_slice(&other.driven);
@@ -237,11 +242,13 @@ impl State {
         self.dense.copy_from(&other.dense);
     }
 
-    /// Numbers of coordinates, rates, angles, slides, driven motions, and of what a step within which it stands holds.
-    pub fn sizes(&self) -> [usize; 6] {
+    /// Numbers of coordinates, rates, frames, angles, slides, driven motions, and of what a step within which it stands
+    /// holds.
+    pub fn sizes(&self) -> [usize; 7] {
         [
             self.coordinates.len(),
             self.rates.len(),
+            self.frames.len(),
             self.angles.len(),
             self.travel.len(),
             self.driven.len(),

@@ -1,8 +1,8 @@
 //! Scratch of a system: nothing allocates in a step.
 
 use super::signal::Trajectory;
-use super::{State, System};
-use crate::body::{Jacobian, Node, Tangent, no_node};
+use super::{AXES, State, System};
+use crate::body::{Jacobian, Node, Plain, Tangent, Turn, no_node};
 use crate::math::recent::Recent;
 
 /// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
@@ -35,6 +35,9 @@ pub struct Work<const D: usize = 2> {
     pub(super) input_rates: Vec<f64>,
     pub(super) angles: Vec<f64>,
     pub(super) travel: Vec<f64>,
+    /// Frames that rotations are counted from, and how bodies have turned from there.
+    pub(super) frames: Vec<Plain>,
+    pub(super) turns: Vec<Turn>,
     /// The state accepted last, to go back to from a step that leaves a cable.
     pub(super) before: State,
     /// Jacobian of the non-linear constraints, what it was made from, and their multipliers at the last acceleration.
@@ -99,6 +102,8 @@ impl<const D: usize> Work<D> {
             input_rates: Vec::new(),
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
+            frames: vec![AXES; system.frames.list().len()],
+            turns: vec![Turn::default(); system.frames.list().len()],
             before: system.blank_state(0.0),
             right: lambda.clone(),
             lambda,
@@ -127,6 +132,7 @@ impl<const D: usize> Work<D> {
 
     /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.
     pub fn resume(&mut self, state: &State) {
+        self.frames.copy_from_slice(&state.frames);
         self.angles.copy_from_slice(&state.angles);
         self.travel.copy_from_slice(&state.travel);
         for (course, driven) in self.trajectories.iter_mut().zip(&state.driven) {

@@ -172,6 +172,7 @@ impl Mechanism {
             bodies,
             chains: self.chains(),
             lumped_masses,
+            frames: Vec::new(),
             rods: Vec::new(),
             rigid,
             joints,

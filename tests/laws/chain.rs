@@ -172,6 +172,7 @@ impl Chain {
             nodes,
             chains: vec![self.flexible()],
             lumped_masses: Vec::new(),
+            frames: Vec::new(),
             rods: Vec::new(),
             rigid: Vec::new(),
             joints: joints.map(|held| self.joint(held)).collect(),

@@ -22,6 +22,7 @@ mod planar;
 mod projection;
 mod random;
 mod reactions;
+mod rigid;
 mod solves;
 mod space;
 mod spatial;

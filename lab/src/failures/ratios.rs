@@ -60,6 +60,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         nodes,
         chains: vec![chain],
         lumped_masses: Vec::new(),
+        frames: Vec::new(),
         rods: Vec::new(),
         rigid: Vec::new(),
         joints: vec![pin],

@@ -41,7 +41,12 @@ impl<const D: usize> Builder<'_, D> {
             }
         }
         let nodes = first..self.parts.nodes.len();
-        self.motions.push(nodes.clone(), motion, arm);
+        let has_frame = self
+            .parts
+            .frames
+            .last()
+            .is_some_and(|frame| frame.node == first);
+        self.motions.push((nodes.clone(), has_frame), motion, arm);
         if let (BodyReference::Cable(cable), Some(field)) =
             (self.resolved.bodies[index], &motion.deformation)
         {

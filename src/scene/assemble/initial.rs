@@ -11,6 +11,8 @@ use crate::scene::{Error, InitialMotion};
 #[derive(Clone, Debug)]
 struct Moving<const D: usize> {
     nodes: Range<usize>,
+    /// Whether its second node holds axes alone.
+    has_frame: bool,
     /// Velocity, m/s, of the point that is so far from the first node along its direction, m.
     velocity: Vector<D>,
     arm: f64,
@@ -27,11 +29,17 @@ pub struct Motions<const D: usize = 2> {
 }
 
 impl<const D: usize> Motions<D> {
-    /// Adds a body; the velocity is that of the point so far from its first node along the direction there, m.
-    pub(super) fn push(&mut self, nodes: Range<usize>, motion: &InitialMotion, arm: f64) {
+    /// Adds a body by its nodes, and whether the second holds axes alone; the velocity is that of the point so far from its first node along the direction there, m.
+    pub(super) fn push(
+        &mut self,
+        (nodes, has_frame): (Range<usize>, bool),
+        motion: &InitialMotion,
+        arm: f64,
+    ) {
         self.deformation.resize(nodes.end, no_node());
         self.bodies.push(Moving {
             nodes,
+            has_frame,
             velocity: vector(motion.velocity.full()),
             arm,
             spin: motion.spin.full(),
@@ -74,6 +82,7 @@ impl<const D: usize> Motions<D> {
         let mut rates = self.deformation.clone();
         for Moving {
             nodes,
+            has_frame,
             velocity,
             arm,
             spin,
@@ -81,7 +90,12 @@ impl<const D: usize> Motions<D> {
         {
             let [first, along] = x[nodes.start];
             let origin: [f64; D] = std::array::from_fn(|k| first[k] + arm * along[k]);
-            for (rate, x) in rates[nodes.clone()].iter_mut().zip(&x[nodes.clone()]) {
+            let of_body = rates[nodes.clone()].iter_mut().zip(&x[nodes.clone()]);
+            for (index, (rate, x)) in of_body.enumerate() {
+                if *has_frame && index == 1 {
+                    *rate = x.map(|axis| spun(*spin, &axis));
+                    continue;
+                }
                 let way = std::array::from_fn(|k| x[0][k] - origin[k]);
                 let moved = velocity + Vector::from(spun(*spin, &way));
                 add_node(rate, 1.0, &[moved.into(), spun(*spin, &x[1])]);

@@ -116,6 +116,7 @@ impl Resolved<'_> {
             bodies: Vec::new(),
             chains: Vec::new(),
             lumped_masses: Vec::new(),
+            frames: Vec::new(),
             rods: Vec::new(),
             rigid: Vec::new(),
             joints: Vec::new(),

@@ -1,18 +1,20 @@
 //! Joints and motions: what they are made of, one file a primitive. What is linear in nodal coordinates becomes rows of
 //! `Phi`; the rest becomes constraints with multipliers.
 
-mod coincident;
 mod direction;
 mod distance;
+mod held_row;
 mod line;
 mod motion;
+mod perpendicular;
 mod point_on_curve;
 mod unit;
 
-pub use coincident::Coincident;
 pub use direction::AngleBetween;
 pub use distance::Distance;
+pub use held_row::HeldRow;
 pub use line::PointOnLine;
+pub use perpendicular::{Across, Direction, Perpendicular};
 pub use point_on_curve::PointOnCurve;
 pub use unit::UnitLength;
 
@@ -35,6 +37,8 @@ pub enum Primitive<const D: usize = 2> {
     Clamped(Vector<D>),
     /// The distance, m.
     Distance(f64),
+    /// A right angle: in space.
+    Perpendicular(Perpendicular<D>),
     /// The second end is on this chain.
     Curve(usize),
     /// The direction is at a driven angle from that of the first end.
@@ -148,8 +152,10 @@ pub enum ConstraintKind<const D: usize = 2> {
     PointOnLine(PointOnLine<D>),
     /// A point on a chain.
     PointOnCurve(PointOnCurve<D>),
-    /// A component of two points that coincide.
-    Coincident(Coincident<D>),
+    /// A row that is linear in what joints see.
+    HeldRow(HeldRow<D>),
+    /// A right angle.
+    Perpendicular(Perpendicular<D>),
 }
 
 macro_rules! each {
@@ -160,7 +166,8 @@ macro_rules! each {
             ConstraintKind::Distance($c) => $call,
             ConstraintKind::PointOnLine($c) => $call,
             ConstraintKind::PointOnCurve($c) => $call,
-            ConstraintKind::Coincident($c) => $call,
+            ConstraintKind::HeldRow($c) => $call,
+            ConstraintKind::Perpendicular($c) => $call,
         }
     };
 }
@@ -190,6 +197,7 @@ impl<const D: usize> Constraint<D> {
     pub fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         match &self.kind {
             ConstraintKind::AngleBetween(c) => c.rate(view),
+            ConstraintKind::HeldRow(c) => c.rate(view),
             _ => N::of(0.0),
         }
     }
@@ -208,7 +216,8 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::PointOnLine(c) => c.stiffness(lambda, add),
             // Small beside inertia, and the blocks move with the point.
             ConstraintKind::PointOnCurve(_) => {}
-            ConstraintKind::Coincident(_) => {}
+            ConstraintKind::HeldRow(_) => {}
+            ConstraintKind::Perpendicular(c) => c.stiffness(lambda, add),
         }
     }
 
@@ -218,19 +227,22 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::UnitLength(_) | ConstraintKind::AngleBetween(_) => 1.0,
             ConstraintKind::Distance(c) => c.length,
             ConstraintKind::PointOnLine(c) => c.size,
-            ConstraintKind::Coincident(c) => c.size,
+            ConstraintKind::HeldRow(c) => c.size,
+            ConstraintKind::Perpendicular(c) => c.size(),
             ConstraintKind::PointOnCurve(c) => chains[c.chain].length(),
         }
     }
 
-    /// The two ends that it joins, where there are two.
-    fn ends(&self) -> Option<&[End<D>; 2]> {
+    /// The ends that it joins; of a slide along a chain the one that slides.
+    fn ends(&self) -> Vec<End<D>> {
         match &self.kind {
-            ConstraintKind::UnitLength(_) | ConstraintKind::PointOnCurve(_) => None,
-            ConstraintKind::AngleBetween(c) => Some(&c.ends),
-            ConstraintKind::Distance(c) => Some(&c.ends),
-            ConstraintKind::PointOnLine(c) => Some(&c.ends),
-            ConstraintKind::Coincident(c) => Some(&c.ends),
+            ConstraintKind::UnitLength(_) => Vec::new(),
+            ConstraintKind::PointOnCurve(c) => vec![c.end],
+            ConstraintKind::AngleBetween(c) => c.ends.to_vec(),
+            ConstraintKind::Distance(c) => c.ends.to_vec(),
+            ConstraintKind::PointOnLine(c) => c.ends.to_vec(),
+            ConstraintKind::HeldRow(c) => c.ends.to_vec(),
+            ConstraintKind::Perpendicular(c) => c.ends(),
         }
     }
 
@@ -243,25 +255,20 @@ impl<const D: usize> Constraint<D> {
                 let chain = first..first + chains[c.chain].node_count();
                 c.end.nodes().chain(chain).collect()
             }
-            _ => self
-                .ends()
-                .into_iter()
-                .flatten()
-                .flat_map(End::nodes)
-                .collect(),
+            _ => self.ends().iter().flat_map(End::nodes).collect(),
         }
     }
 
     /// Whether its derivatives are the same in every configuration.
     pub fn is_linear(&self) -> bool {
-        matches!(self.kind, ConstraintKind::Coincident(_))
+        matches!(&self.kind, ConstraintKind::HeldRow(row) if row.is_constant)
     }
 
     /// Whether its force has a stiffness that is told block by block of these nodes.
     pub fn is_stiff(&self) -> bool {
         !matches!(
             self.kind,
-            ConstraintKind::PointOnCurve(_) | ConstraintKind::Coincident(_)
+            ConstraintKind::PointOnCurve(_) | ConstraintKind::HeldRow(_)
         )
     }
 
@@ -272,11 +279,7 @@ impl<const D: usize> Constraint<D> {
 
     /// Whether it ties to the ground.
     pub fn is_grounded(&self) -> bool {
-        let ground = |end: &End<D>| end.marker().is_none();
-        match &self.kind {
-            ConstraintKind::PointOnCurve(c) => ground(&c.end),
-            _ => self.ends().is_some_and(|ends| ends.iter().any(ground)),
-        }
+        self.ends().iter().any(|end| end.marker().is_none())
     }
 }
 
@@ -346,11 +349,14 @@ impl<const D: usize> Joint<D> {
         };
         for primitive in &self.holds {
             let kind = match primitive {
-                Primitive::Coincident => coincident::hold(&mut rows),
+                Primitive::Coincident => held_row::coincide(&mut rows),
                 Primitive::Line(along) => line::hold(&mut rows, *along),
                 Primitive::Direction(angle) => direction::hold(&mut rows, *angle),
                 Primitive::Clamped(along) => direction::clamp(&mut rows, along),
                 Primitive::Distance(length) => distance::hold(&rows, *length),
+                Primitive::Perpendicular(right) => {
+                    Some(ConstraintKind::Perpendicular(right.clone()))
+                }
                 Primitive::Curve(chain) => {
                     let slide = nonlinear.iter().filter(|c| c.is_slide()).count();
                     let held = point_on_curve::hold(&rows, *chain, slide);

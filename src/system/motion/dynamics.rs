@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 
-use crate::body::Node;
+use crate::body::{Node, RENEWED};
 use crate::elements::Element;
 use crate::math::space::{Vector, moment};
 use crate::system::instant::Instant;
@@ -196,6 +196,33 @@ impl<'a, const D: usize> Model<'a, D> {
         self
     }
 
+    /// Accelerations of the coordinates; of rotations, angular accelerations about the axes that turn with the body.
+    pub fn accelerate(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        self.operations += 1.0;
+        let system = self.system;
+        self.place(time, q, v);
+        system.forces(time, self.work);
+        system.reduce(self.work, a);
+        if !system.constraints.is_empty() {
+            system.constrain(self.work, a);
+        }
+        if system.tracks_work {
+            self.work.power = system.powers(time, a, self.work);
+        }
+    }
+
+    /// Counts rotations from where bodies are, where they have turned far from the frames that the state holds; not within
+    /// a step that is read in between. Whether the state has changed.
+    pub fn renew(&mut self, state: &mut State) -> bool {
+        let frames = &self.system.frames;
+        if frames.largest(&state.coordinates) <= RENEWED || state.dense.is_under_way() {
+            return false;
+        }
+        frames.renew(&mut state.frames, &mut state.coordinates, &mut state.rates);
+        self.work.frames.copy_from_slice(&state.frames);
+        true
+    }
+
     fn place(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.time = time;
         let t = time - self.start;
@@ -319,17 +346,8 @@ impl<'a, const D: usize> Model<'a, D> {
 
 impl<const D: usize> Dynamics for Model<'_, D> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
-        self.operations += 1.0;
-        let system = self.system;
-        self.place(time, q, v);
-        system.forces(time, self.work);
-        system.reduce(self.work, a);
-        if !system.constraints.is_empty() {
-            system.constrain(self.work, a);
-        }
-        if system.tracks_work {
-            self.work.power = system.powers(time, a, self.work);
-        }
+        self.accelerate(time, q, v, a);
+        self.system.frames.to_second(&self.work.turns, a);
     }
 
     fn power(&self) -> [f64; 2] {
@@ -351,8 +369,8 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.operations += LINEARIZE;
         let system = self.system;
-        if !system.constraints.is_empty() {
-            // Multipliers stiffen, and solves need the Jacobian here.
+        if !(system.constraints.is_empty() && system.frames.is_empty()) {
+            // Multipliers stiffen, so do forces on bodies that turn, and solves need the Jacobian here.
             let mut a = std::mem::take(&mut self.work.a);
             self.acceleration(time, q, v, &mut a);
             self.work.a = a;
@@ -423,14 +441,13 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn accepted(&mut self, state: &mut State) -> Accepted {
-        if self.system.constraints.is_empty() && self.system.settled.is_empty() {
-            return self.count(state);
-        }
-        if !self.project(state) {
+        let has_moved = self.renew(state);
+        let is_held = !(self.system.constraints.is_empty() && self.system.settled.is_empty());
+        if is_held && !self.project(state) {
             return Accepted::Broken;
         }
         match self.count(state) {
-            Accepted::AsIs => Accepted::Moved,
+            Accepted::AsIs if is_held || has_moved => Accepted::Moved,
             other => other,
         }
     }

@@ -1,9 +1,10 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use crate::body::{Node, add_node, map_node, perpendicular_node};
+use crate::body::{Frame, Frames, Node, NodeBlock, add_node, map_node, perpendicular_node};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
+use crate::math::sparse::Matrix;
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::signal::Drive;
@@ -36,6 +37,7 @@ impl<const D: usize> System<D> {
         self.elimination
             .expand_from(&self.reference, q, &mut work.y, &mut work.x);
         self.add_driven(&work.targets, 0, &mut work.x);
+        (self.frames).place(&work.frames, &mut work.turns, &mut work.x);
         self.find_travel(&work.x, &mut work.travel);
         if let Some(v) = v {
             self.rate_kinematics(v, work);
@@ -55,6 +57,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Work<D>) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
         self.add_driven(&work.targets, 1, &mut work.v);
+        (self.frames).place_rates(&work.x, &mut work.turns, &mut work.v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
@@ -116,7 +119,13 @@ impl<const D: usize> System<D> {
             }
         };
         change(-1.0, work);
-        self.elimination.reduce(&work.f, &mut work.y, a);
+        if self.frames.is_empty() {
+            self.elimination.reduce(&work.f, &mut work.y, a);
+        } else {
+            work.other.copy_from_slice(&work.f);
+            (self.frames).pull_all((&work.x, Some(&work.v)), &mut work.other);
+            self.elimination.reduce(&work.other, &mut work.y, a);
+        }
         change(1.0, work);
     }
 
@@ -124,6 +133,9 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn assemble(&self, time: f64, work: &mut Work<D>) {
         let assembly = &self.elimination.assembly;
         let clock = self.clock(time, work);
+        if !self.frames.is_empty() {
+            self.add_multiplied(work);
+        }
         let Work { tangent, x, v, .. } = work;
         let (drives, travel, angles) = (&work.drives, &work.travel, &work.angles);
         tangent.stages.set_base(x);
@@ -144,8 +156,8 @@ impl<const D: usize> System<D> {
         for load in &self.loads {
             load.add_tangent(
                 at,
-                &mut |a, b, block| assembly.add(a, b, block, stiffness),
-                &mut |a, b, block| assembly.add(a, b, block, damping),
+                &mut |a, b, block| self.add_block((a, b), block, x, stiffness),
+                &mut |a, b, block| self.add_block((a, b), block, x, damping),
             );
         }
         if self.rotation != 0.0 {
@@ -165,17 +177,53 @@ impl<const D: usize> System<D> {
         };
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             constraint.stiffness(*lambda, &view, &mut |a, b, block| {
-                assembly.add(a, b, block, &mut tangent.stiffness);
+                self.add_block((a, b), block, x, &mut tangent.stiffness);
             });
+        }
+        for frame in self.frames.list() {
+            let block = Frames::geometric(frame, &work.supply, x);
+            assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
         }
         tangent.hold(assembly, &work.jacobian, &self.multipliers);
         self.add_multipliers(&view, &work.jacobian, &mut tangent.stiffness);
+    }
+
+    /// Adds second derivatives by nodal coordinates to a matrix over the free ones.
+    #[inline(always)]
+    fn add_block(
+        &self,
+        (a, b): (usize, usize),
+        block: &NodeBlock<D>,
+        x: &[Node<D>],
+        matrix: &mut Matrix<f64>,
+    ) {
+        let assembly = &self.elimination.assembly;
+        if self.frames.is_empty() {
+            return assembly.add(a, b, block, matrix);
+        }
+        let (a, b, block) = self.frames.pull_block((a, b), block, x);
+        assembly.add(a, b, &block, matrix);
+    }
+
+    /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.supply`.
+    fn add_multiplied(&self, work: &mut Work<D>) {
+        let mut sum = std::mem::take(&mut work.supply);
+        sum.copy_from_slice(&work.f);
+        let view = self.view(work);
+        for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
+            constraint.gradient(&view).for_each(|node, term| {
+                add(&[(node, *term)], -lambda, &mut sum);
+            });
+        }
+        work.supply = sum;
     }
 
     /// Forces that linear constraints supply at accelerations `a`, over the nodes, into `work.supply`:
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
     pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work<D>) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
+        self.frames.place_changes(&work.x, &mut work.other);
+        (self.frames).add_centripetal((&work.x, &work.v), &mut work.other);
         self.add_driven(&work.targets, 2, &mut work.other);
         for (supply, f) in work.supply.iter_mut().zip(&work.f) {
             *supply = map_node(f, |f| -f);
@@ -254,6 +302,9 @@ impl<const D: usize> System<D> {
             let marker = lump.marker.lift();
             let (at, on): (Vector<D, N>, Vector<D, N>) = (marker.position(x), marker.direction(x));
             sum += at.norm_squared() * N::of(lump.mass) + on.norm_squared() * N::of(lump.inertia);
+        }
+        for (node, part, mass) in self.frames.list().iter().flat_map(Frame::masses) {
+            sum += Vector::from(x[node][part]).norm_squared() * N::of(mass);
         }
         N::of(0.5) * sum
     }

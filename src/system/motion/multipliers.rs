@@ -78,7 +78,12 @@ impl<const D: usize> System<D> {
                 continue;
             }
             let gradient = constraint.gradient(&view);
-            (work.jacobian).fill(&self.elimination, row, |tell| gradient.for_each(tell));
+            (work.jacobian).fill(&self.elimination, row, |tell| {
+                gradient.for_each(|node, term| {
+                    let (node, term) = self.frames.pull(node, term, &work.x);
+                    tell(node, &term);
+                });
+            });
         }
     }
 
@@ -131,7 +136,8 @@ impl<const D: usize> System<D> {
         {
             assembly.add_corner(*index, 1.0, matrix);
             constraint.gradient(view).for_each(|node, term| {
-                assembly.add_gradient((*index, node), term, matrix);
+                let (node, term) = self.frames.pull(node, term, view.x);
+                assembly.add_gradient((*index, node), &term, matrix);
             });
         }
     }
@@ -139,9 +145,11 @@ impl<const D: usize> System<D> {
     /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`.
     pub(in crate::system) fn constrain(&self, work: &mut Work<D>, a: &mut [f64]) {
         self.jacobians(work);
-        let is_driven = !self.driven.is_empty();
+        // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
+        let is_driven = !(self.driven.is_empty() && self.frames.is_empty());
         if is_driven {
             self.driven_acceleration(&work.targets, &mut work.other);
+            (self.frames).add_centripetal((&work.x, &work.v), &mut work.other);
         }
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
@@ -238,6 +246,7 @@ impl<const D: usize> System<D> {
         let mut change = std::mem::take(&mut work.a);
         change.fill(0.0);
         (work.jacobian).bring(passes, |row| right[row], &mut change);
+        self.frames.to_rotations(&work.turns, &mut change);
         q.iter_mut().zip(&change).for_each(|(q, c)| *q += c);
         (work.right, work.a) = (right, change);
     }

@@ -9,7 +9,9 @@
 //!
 //! Source: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), chapter 13.
 
-use crate::body::{Node, add_node, map_node, no_node, perpendicular_node, product};
+use nalgebra::Vector3;
+
+use crate::body::{Node, add_node, map_node, no_node, perpendicular_node, product, turned};
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::system::signal::Drive;
 use crate::system::{Evaluation, State, System, Work};
@@ -21,7 +23,10 @@ pub struct Derivatives<const D: usize> {
     pub values: Evaluation<D, Jet>,
     /// Forces on the nodes, but for constraints.
     f: Vec<Node<D, Jet>>,
-    /// Nodal accelerations of what is driven.
+    /// The same on centres of mass and about axes of rigid bodies in space; angular accelerations of these.
+    pulled: Vec<Node<D, Jet>>,
+    spin_rates: Vec<Vector3<Jet>>,
+    /// Nodal accelerations of what is driven, and of axes that turn.
     driven: Vec<Node<D, Jet>>,
     /// First and second derivative of generalized accelerations.
     q: [Vec<f64>; 2],
@@ -46,6 +51,8 @@ impl<const D: usize> Derivatives<D> {
         Self {
             values: Evaluation::new(system),
             f: nodes.clone(),
+            pulled: nodes.clone(),
+            spin_rates: vec![Vector3::from_element(Jet::from_re(0.0)); system.frames.list().len()],
             driven: nodes,
             q: [q.clone(), q],
             one: none.clone(),
@@ -214,7 +221,7 @@ impl<const D: usize> Derivatives<D> {
         k: usize,
         work: &mut Work<D>,
     ) {
-        take(&self.f, k, &mut self.one);
+        self.pull(system, k, work);
         self.driven.fill([[Jet::from_re(0.0); D]; 2]);
         for driven in &system.driven {
             let [_, _, second] = system.linear[driven.row]
@@ -228,6 +235,8 @@ impl<const D: usize> Derivatives<D> {
                 (driven.zip(c.as_flattened())).for_each(|(d, c)| *d += second * Jet::of(*c));
             }
         }
+        let (x, v) = (&self.values.x, &self.values.v);
+        system.frames.add_centripetal((x, v), &mut self.driven);
         if !system.constraints.is_empty() {
             self.turn_constraints(system, k, work);
         }
@@ -253,6 +262,46 @@ impl<const D: usize> Derivatives<D> {
                 set_part(a, k, moved[i] + part(driven.as_flattened()[i], k));
             }
         }
+        self.turn_axes(system, k);
+    }
+
+    /// Derivative `k` of forces on the nodes; of moments on rigid bodies of space, along their axes.
+    fn pull(&mut self, system: &System<D>, k: usize, work: &mut Work<D>) {
+        if system.frames.is_empty() {
+            return take(&self.f, k, &mut self.one);
+        }
+        self.pulled.copy_from_slice(&self.f);
+        let (x, v) = (&self.values.x, &self.values.v);
+        system.frames.pull_all((x, Some(v)), &mut self.pulled);
+        take(&self.pulled, k, &mut self.one);
+        let elimination = &system.elimination;
+        elimination.expand(&work.a, &mut work.y, &mut self.other);
+        for (frame, rate) in system.frames.list().iter().zip(&mut self.spin_rates) {
+            for (rate, value) in rate.iter_mut().zip(&self.other[frame.node][1]) {
+                rate.re = *value;
+            }
+        }
+    }
+
+    /// Derivative `k` of accelerations of axes, from that of angular accelerations in their places.
+    fn turn_axes(&mut self, system: &System<D>, k: usize) {
+        let frames = system.frames.list().iter();
+        for (frame, spin_rate) in frames.zip(&mut self.spin_rates) {
+            let found = &self.other[frame.node][1];
+            for (rate, value) in spin_rate.iter_mut().zip(found) {
+                set_part(rate, k, *value);
+            }
+            let by_rate = turned(&frame.axes(&self.values.x), spin_rate);
+            let by_spin = frame.axes(&self.driven);
+            let mut sum = frame.axes(&self.values.acceleration);
+            for (axis, sum) in sum.iter_mut().enumerate() {
+                for (i, sum) in sum.iter_mut().enumerate() {
+                    let [a, b] = [by_rate[axis][i], by_spin[axis][i]].map(|of| part(of, k));
+                    set_part(sum, k, a + b);
+                }
+            }
+            frame.set_axes(&sum, &mut self.values.acceleration);
+        }
     }
 
     /// What constraints ask of derivative `k` of the accelerations; what their multipliers so far do to it as the
@@ -271,13 +320,14 @@ impl<const D: usize> Derivatives<D> {
                 for (term, driven) in term.as_flattened().iter().zip(driven) {
                     right -= part(*term * *driven, k);
                 }
+                let (node, term) = &system.frames.pull(node, term, view.x);
                 // Derivatives of a product: of the Jacobian by the order, of the other factor by the rest.
                 for order in 1..=k {
                     let times = if (k, order) == (2, 1) { 2.0 } else { 1.0 };
                     let term = map_node(term, |term| part(term, order));
-                    right -= times * product(&term, &self.moved[k - order][node]);
+                    right -= times * product(&term, &self.moved[k - order][*node]);
                     let force = times * self.lambda[k - order][row];
-                    add_node(&mut self.one[node], -force, &term);
+                    add_node(&mut self.one[*node], -force, &term);
                 }
             });
             self.right[row] = right;

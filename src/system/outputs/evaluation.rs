@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::body::{Marker, Node};
+use crate::body::{Frame, Marker, Node};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, moment};
@@ -10,7 +10,7 @@ use crate::system::instant::Instant;
 use crate::system::joints::View;
 use crate::system::loads::Load;
 use crate::system::motion::forces::weighted;
-use crate::system::{CableChain, Dynamics, Model, State, System, Work};
+use crate::system::{CableChain, Model, State, System, Work};
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
@@ -89,7 +89,7 @@ impl<const D: usize> Evaluation<D> {
         self.set_inputs(inputs);
         let mut a = std::mem::take(&mut work.a);
         let mut model = Model::new(system, inputs, work, state);
-        model.acceleration(state.time, &state.coordinates, &state.rates, &mut a);
+        model.accelerate(state.time, &state.coordinates, &state.rates, &mut a);
         system.supply(&a, work);
         work.a = a;
         // An acceleration that is an input acts at once.
@@ -129,7 +129,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (at, view) = (self.instant(system), self.view(system));
         for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
             if constraint.joint == Some(joint) {
-                let [position, direction] = constraint.gradient(&view).ends[1].1;
+                let (end, [position, direction]) = constraint.gradient(&view).ends[1];
+                let u = end.direction(&self.x);
                 force -= position * *lambda;
                 turning -= Vector3::from(moment(&u, &(direction * *lambda)));
             }
@@ -251,6 +252,10 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             add(x, p, true);
             add(d, s, false);
         }
+        for (node, part, mass) in system.frames.list().iter().flat_map(Frame::masses) {
+            let [x, v] = [&self.x, &self.v].map(|of| Vector::from(of[node][part]));
+            add(x, v * N::of(mass), system.is_center(node, part));
+        }
         (linear, angular.into())
     }
 
@@ -265,11 +270,19 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         for lump in &system.lumped_masses {
             sum += lump.marker.lift().position(&self.x) * N::of(lump.mass);
         }
+        for frame in system.frames.list() {
+            sum += Vector::from(self.x[frame.node][0]) * N::of(frame.mass);
+        }
         sum / N::of(system.mass())
     }
 }
 
 impl<const D: usize> System<D> {
+    /// Whether a vector of a rigid body of space is its centre of mass.
+    fn is_center(&self, node: usize, part: usize) -> bool {
+        part == 0 && matches!(self.frames.of_node::<D>(node), Some((_, false)))
+    }
+
     /// Chain, element and place inside it of a marker of a cable.
     pub(in crate::system) fn element(
         &self,

@@ -75,6 +75,7 @@ impl<const D: usize> System<D> {
         let mut x = nodes.to_vec();
         let left = self.fit(&mut x, work);
         self.start_hints(&mut state, &x, inputs);
+        self.frames.frames_at(&x, &mut state.frames);
         work.resume(&state);
         self.forward_kinematics(time, &state.coordinates, None, work);
         match left {
@@ -152,7 +153,7 @@ impl<const D: usize> System<D> {
             let Some((cluster, row)) = holds else {
                 continue;
             };
-            let gap = missing(linear, x, work);
+            let gap = self.gap_of(linear, x, work);
             let cluster = &self.elimination.assembly.clusters()[*cluster];
             let follow = cluster.multipliers.row(*row);
             for (i, node) in cluster.nodes.iter().enumerate() {
@@ -174,7 +175,7 @@ impl<const D: usize> System<D> {
         equilibrium::close(self, inputs, (&open, nodes), work, state).ok()?;
         work.resume(state);
         self.forward_kinematics(state.time, &state.coordinates, None, work);
-        let gaps = self.gaps(&work.x, work, extent(&work.x));
+        let gaps = self.gaps(&work.x, work, self.extent(&work.x));
         let fits = gaps.iter().all(|gap| gap.abs() <= CLOSE);
         let stretched = self
             .chains
@@ -226,7 +227,9 @@ impl<const D: usize> System<D> {
     ) {
         work.f.fill(no_node());
         self.add_inertia(1.0, dx, &mut work.f);
+        (self.frames).pull_all((&work.x, None), &mut work.f);
         self.elimination.reduce(&work.f, &mut work.y, q);
+        self.frames.to_rotations(&work.turns, q);
     }
 
     /// Motions that inputs drive start where the inputs say.
@@ -262,7 +265,7 @@ impl<const D: usize> System<D> {
 
     /// Moves bodies as a whole until rows and constraints hold.
     fn fit(&self, x: &mut [Node<D>], work: &mut Work<D>) -> Result<(), NotAssembled> {
-        let (size, free) = (extent(x), D + spins(D).len());
+        let (size, free) = (self.extent(x), D + spins(D).len());
         let mut best = f64::INFINITY;
         for iteration in 0..=ITERATIONS {
             self.find_slides(x, &mut work.travel);
@@ -295,7 +298,8 @@ impl<const D: usize> System<D> {
             for (body, nodes) in self.bodies.iter().enumerate() {
                 let way = Vector::from_fn(|k, _| -fraction * step[free * body + k] * size);
                 let turn = turn(body).map(|part| -fraction * part);
-                move_body(&mut x[nodes.clone()], way, turn);
+                let about = self.center(body, x);
+                self.move_body((nodes.clone(), about), way, turn, x);
             }
         }
         self.find_slides(x, &mut work.travel);
@@ -303,9 +307,48 @@ impl<const D: usize> System<D> {
         Err(NotAssembled { gaps })
     }
 
+    /// Points of nodes, without what are axes.
+    fn points<'a>(&'a self, x: &'a [Node<D>]) -> impl Iterator<Item = Vector<D>> + 'a {
+        let is_point = |node: &usize| !matches!(self.frames.of_node::<D>(*node), Some((_, true)));
+        (0..x.len()).filter(is_point).map(|node| x[node][0].into())
+    }
+
+    /// Largest distance from the first node, m; 1 where there is none.
+    fn extent(&self, x: &[Node<D>]) -> f64 {
+        extent_of(x[0][0].into(), self.points(x))
+    }
+
+    /// What a body is turned about: the mean of its nodes, m.
+    fn center(&self, body: usize, x: &[Node<D>]) -> Vector<D> {
+        let nodes = self.bodies[body].clone();
+        if self.frames.of_node::<D>(nodes.start).is_some() {
+            return x[nodes.start][0].into();
+        }
+        let sum: Vector<D> = x[nodes.clone()].iter().map(|p| Vector::from(p[0])).sum();
+        sum / nodes.len() as f64
+    }
+
+    /// Moves a body as a whole, turning it about a point.
+    fn move_body(
+        &self,
+        (nodes, about): (std::ops::Range<usize>, Vector<D>),
+        way: Vector<D>,
+        turn: [f64; 3],
+        x: &mut [Node<D>],
+    ) {
+        for node in nodes {
+            let [p, d] = x[node].map(Vector::from);
+            let p = match self.frames.of_node::<D>(node) {
+                Some((_, true)) => rotated(p, turn),
+                _ => about + way + rotated(p - about, turn),
+            };
+            x[node] = [p.into(), rotated(d, turn).into()];
+        }
+    }
+
     /// What is missing of every joint, by positions and by angles, beyond `least` relative to the size of the system.
     fn gaps_by_joint(&self, x: &[Node<D>], work: &Work<D>, least: f64) -> Vec<Gap> {
-        let size = extent(x);
+        let size = self.extent(x);
         let gaps = self.gaps(x, work, size);
         // Squares of the sines of angles, or of lengths, and how many.
         let mut sums: Vec<(Gap, usize)> = Vec::new();
@@ -373,11 +416,27 @@ impl<const D: usize> System<D> {
         }
     }
 
+    /// Whether a row is one of what joints see: not that a rigid body of space has no coordinates but its own.
+    fn is_seen(&self, linear: &Linear<D>) -> bool {
+        let mut nodes = linear.row.terms.iter().map(|(node, _)| *node);
+        nodes.all(|node| self.frames.of_node::<D>(node).is_none())
+    }
+
+    /// What a row is more than it is to equal.
+    fn gap_of(&self, linear: &Linear<D>, x: &[Node<D>], work: &Work<D>) -> f64 {
+        if !self.is_seen(linear) {
+            return 0.0;
+        }
+        let terms = linear.row.terms.iter();
+        let value: f64 = terms.map(|(node, c)| product(c, &x[*node])).sum();
+        value - linear.target.derivatives(&work.drives)[0]
+    }
+
     /// What is missing of every row and constraint; lengths relative to `size`.
     fn gaps(&self, x: &[Node<D>], work: &Work<D>, size: f64) -> Vec<f64> {
         let mut gaps = Vec::new();
         for linear in &self.linear {
-            gaps.push(missing(linear, x, work) / linear_size(linear, size));
+            gaps.push(self.gap_of(linear, x, work) / linear_size(linear, size));
         }
         let view = View {
             x,
@@ -400,18 +459,21 @@ impl<const D: usize> System<D> {
         }
         let mut enter = |row: usize, node: usize, c: &Node<D>, scale: f64| {
             let body = of_node[node];
-            let about = center(&x[self.bodies[body].clone()]);
+            let about = self.center(body, x);
             let ([p, d], [on, by]) = (x[node].map(Vector::from), c.map(Vector::from));
-            for k in 0..D {
+            let is_second = matches!(self.frames.of_node::<D>(node), Some((_, true)));
+            for k in (0..D).filter(|_| !is_second) {
                 jacobian[(row, free * body + k)] += on[k] * size / scale;
             }
-            let turns = [moment(&(p - about), &on), moment(&d, &by)];
+            // Of a second node both vectors are axes.
+            let arm = if is_second { p } else { p - about };
+            let turns = [moment(&arm, &on), moment(&d, &by)];
             for (i, k) in spins(D).enumerate() {
                 jacobian[(row, free * body + D + i)] += (turns[0][k] + turns[1][k]) / scale;
             }
         };
         for (row, linear) in self.linear.iter().enumerate() {
-            for (node, c) in &linear.row.terms {
+            for (node, c) in linear.row.terms.iter().filter(|_| self.is_seen(linear)) {
                 enter(row, *node, c, linear_size(linear, size));
             }
         }
@@ -429,26 +491,21 @@ impl<const D: usize> System<D> {
     }
 }
 
-/// What a row is more than it is to equal.
-fn missing<const D: usize>(linear: &Linear<D>, x: &[Node<D>], work: &Work<D>) -> f64 {
-    let value: f64 = (linear.row.terms.iter())
-        .map(|(node, c)| product(c, &x[*node]))
-        .sum();
-    value - linear.target.derivatives(&work.drives)[0]
-}
-
 fn linear_size<const D: usize>(linear: &Linear<D>, size: f64) -> f64 {
     let positions = linear.on_ends[1][0].norm() > 0.0;
     if positions { size } else { 1.0 }
 }
 
 fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64 {
-    match constraint.kind {
+    match &constraint.kind {
         ConstraintKind::UnitLength(_) | ConstraintKind::AngleBetween(_) => 1.0,
+        ConstraintKind::HeldRow(row) if row.holds_direction() => 1.0,
+        ConstraintKind::Perpendicular(right) if right.is_angle() => 1.0,
         ConstraintKind::Distance(_)
         | ConstraintKind::PointOnLine(_)
         | ConstraintKind::PointOnCurve(_)
-        | ConstraintKind::Coincident(_) => size,
+        | ConstraintKind::HeldRow(_)
+        | ConstraintKind::Perpendicular(_) => size,
     }
 }
 
@@ -464,21 +521,10 @@ fn difference<const D: usize>(a: &[Node<D>], b: &[Node<D>]) -> Vec<Node<D>> {
 
 /// Largest distance from the first node, m; 1 where there is none.
 pub(in crate::system) fn extent<const D: usize>(x: &[Node<D>]) -> f64 {
-    let way = |p: &Node<D>| (Vector::from(p[0]) - Vector::from(x[0][0])).norm();
-    let largest = x.iter().map(way).fold(0.0, f64::max);
+    extent_of(x[0][0].into(), x.iter().map(|node| node[0].into()))
+}
+
+fn extent_of<const D: usize>(first: Vector<D>, points: impl Iterator<Item = Vector<D>>) -> f64 {
+    let largest = points.map(|p| (p - first).norm()).fold(0.0, f64::max);
     if largest > 0.0 { largest } else { 1.0 }
-}
-
-fn center<const D: usize>(nodes: &[Node<D>]) -> Vector<D> {
-    let sum: Vector<D> = nodes.iter().map(|p| Vector::from(p[0])).sum();
-    sum / nodes.len() as f64
-}
-
-fn move_body<const D: usize>(nodes: &mut [Node<D>], way: Vector<D>, turn: [f64; 3]) {
-    let about = center(nodes);
-    for node in nodes {
-        let [p, d] = node.map(Vector::from);
-        let p = about + way + rotated(p - about, turn);
-        *node = [p.into(), rotated(d, turn).into()];
-    }
 }

@@ -1,0 +1,488 @@
+//! Rigid bodies of space: their natural coordinates, and how these follow from what is integrated.
+//!
+//! Joints, loads and outputs see the centre of mass `c` and the principal axes `e1 e2 e3` of a body, in two nodes: `(c, e1)`
+//! and `(e2, e3)`. Points of the body are linear in these, as points of cables are in theirs. What is integrated
+//! are the coordinates of the first node alone: `c`, and the rotation `p` from the frame that the state holds; the second
+//! has none. With rates along the body's own axes the mass is constant, `diag(m, m, m, J1, J2, J3)`,
+//! and so the identity in `q` as everywhere:
+//!
+//! `m c'' = F`, `J w' = sum e_i x f_i - w x J w`, `e_i' = w x e_i`,
+//!
+//! with `f_i` the force on the axis `e_i`. The rotation is the vector of Rodrigues, twice the tangent of half the angle
+//! along the axis: `R = R0 (I + ([p] + [p]^2 / 2) / (1 + p.p / 4))`, `p' = w + p x w / 2 + p (p.w) / 4`. It begins at zero
+//! anew before it is large ([`RENEWED`]), so that it is nowhere singular and nearly the angle.
+//!
+//! Source: J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems (1994), section 2.2 (natural
+//! coordinates); M. Borri, L. Trainelli, C. L. Bottasso, On representations and parameterizations of motion,
+//! Multibody System Dynamics 4 (2000) 129-193 (Cayley-Gibbs-Rodrigues parameters); H. Munthe-Kaas, BIT 38 (1998) 92-111
+//! (one-step methods in coordinates that are renewed every step).
+
+use nalgebra::Vector3;
+
+use super::assembly::{NodeBlock, no_block};
+use super::connectivity::{Node, no_node};
+use crate::math::jet::Number;
+use crate::math::space::{components, vector};
+
+/// Size of the rotation `p` from which on the frame that the state holds is renewed.
+pub const RENEWED: f64 = 0.5;
+
+/// The principal axes of a body, in global components.
+pub type Axes<N = f64> = [Vector3<N>; 3];
+
+/// Axes as plain numbers, one after another.
+pub type Plain = [[f64; 3]; 3];
+
+/// A rigid body of space.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Its first node; the second one follows.
+    pub node: usize,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Principal moments of inertia, kg m^2; zero about the axis of a thin rod.
+    pub moments: [f64; 3],
+    /// For every axis where its rotation is among the coordinates `q`, and how many of that make a radian; none about an axis
+    /// without inertia.
+    pub places: [Option<(usize, f64)>; 3],
+}
+
+/// How a body has turned from the frame that the state holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turn {
+    /// Rotation, rad.
+    pub rotation: Vector3<f64>,
+    /// Its rate, rad/s.
+    pub rate: Vector3<f64>,
+    /// Angular velocity along the body's axes, rad/s.
+    pub spin: Vector3<f64>,
+}
+
+impl Turn {
+    /// The axes, from those where the rotation is zero.
+    fn axes(&self, from: &Axes) -> Axes {
+        let p = self.rotation;
+        let scale = 1.0 / (1.0 + 0.25 * p.norm_squared());
+        // Columns of I + ([p] + [p]^2 / 2) / (1 + p.p / 4), in the axes before.
+        std::array::from_fn(|k| {
+            let unit = Vector3::ith(k, 1.0);
+            let once = p.cross(&unit);
+            let in_axes = unit + (once + p.cross(&once) * 0.5) * scale;
+            combined(from, &in_axes)
+        })
+    }
+
+    /// Angular velocity along the body's axes at this rate.
+    fn spin_of(&self, rate: &Vector3<f64>) -> Vector3<f64> {
+        let p = self.rotation;
+        (rate - p.cross(rate) * 0.5) / (1.0 + 0.25 * p.norm_squared())
+    }
+
+    /// Rate of the rotation, or its change, of a spin, or a small rotation about the body's axes.
+    pub fn rate_of(&self, spin: &Vector3<f64>) -> Vector3<f64> {
+        let p = self.rotation;
+        spin + p.cross(spin) * 0.5 + p * (0.25 * p.dot(spin))
+    }
+
+    /// Second derivative of the rotation, of angular accelerations along the body's axes.
+    fn second_of(&self, spin_rate: &Vector3<f64>) -> Vector3<f64> {
+        let (p, rate, spin) = (self.rotation, self.rate, self.spin);
+        let by_rate = rate.cross(&spin) * 0.5 + rate * (0.25 * p.dot(&spin));
+        self.rate_of(spin_rate) + by_rate + p * (0.25 * rate.dot(&spin))
+    }
+}
+
+/// The vector with these components along axes.
+fn combined<N: Number>(axes: &Axes<N>, components: &Vector3<N>) -> Vector3<N> {
+    axes[0] * components[0] + axes[1] * components[1] + axes[2] * components[2]
+}
+
+/// Rates of axes that turn at a spin along themselves.
+pub fn turned<N: Number>([a, b, c]: &Axes<N>, spin: &Vector3<N>) -> Axes<N> {
+    [
+        b * spin[2] - c * spin[1],
+        c * spin[0] - a * spin[2],
+        a * spin[1] - b * spin[0],
+    ]
+}
+
+/// Axes made orthonormal again.
+fn orthonormal([a, b, _]: &Axes) -> Axes {
+    let a = a.normalize();
+    let b = (b - a * a.dot(b)).normalize();
+    [a, b, a.cross(&b)]
+}
+
+impl Frame {
+    /// Its axes, or their rates where `x` holds rates.
+    pub fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
+        let [[_, a], [b, c]] = [&x[self.node], &x[self.node + 1]];
+        [a, b, c].map(|axis| components(&(*axis).into()).into())
+    }
+
+    /// Sets its axes, or their rates.
+    pub fn set_axes<const D: usize, N: Number>(&self, axes: &Axes<N>, x: &mut [Node<D, N>]) {
+        let [a, b, c] = axes.map(|axis| vector::<D, N>(axis.into()).into());
+        x[self.node][1] = a;
+        x[self.node + 1] = [b, c];
+    }
+
+    /// Masses that the axes would need as coordinates, kg m^2: `J1 = m2 + m3` and so on.
+    pub fn axis_masses(&self) -> [f64; 3] {
+        let [a, b, c] = self.moments;
+        [b + c - a, c + a - b, a + b - c].map(|twice| 0.5 * twice)
+    }
+
+    /// `f += s M a` over its nodes, with the axes as coordinates.
+    pub fn add_inertia<const D: usize>(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
+        for (node, part, mass) in self.masses() {
+            for (f, a) in f[node][part].iter_mut().zip(&a[node][part]) {
+                *f += s * mass * a;
+            }
+        }
+    }
+
+    /// Node and part of each of its vectors, and the mass that it would have as a coordinate: kg, then kg m^2.
+    pub fn masses(&self) -> [(usize, usize, f64); 4] {
+        let [a, b, c] = self.axis_masses();
+        let [first, second] = [self.node, self.node + 1];
+        [
+            (first, 0, self.mass),
+            (first, 1, a),
+            (second, 0, b),
+            (second, 1, c),
+        ]
+    }
+
+    /// Angular velocity along its axes, rad/s.
+    pub fn spin<const D: usize, N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        v: &[Node<D, N>],
+    ) -> Vector3<N> {
+        let ([a, b, c], [ra, rb, rc]) = (self.axes(x), self.axes(v));
+        Vector3::new(c.dot(&rb), a.dot(&rc), b.dot(&ra))
+    }
+
+    /// Moment along its axes of forces on them, N m.
+    pub fn moment<N: Number>([a, b, c]: &Axes<N>, [fa, fb, fc]: &Axes<N>) -> Vector3<N> {
+        Vector3::new(
+            c.dot(fb) - b.dot(fc),
+            a.dot(fc) - c.dot(fa),
+            b.dot(fa) - a.dot(fb),
+        )
+    }
+
+    /// `-w x J w`, N m, along its axes.
+    pub fn gyroscopic<N: Number>(&self, spin: &Vector3<N>) -> Vector3<N> {
+        let [a, b, c] = self.moments.map(N::of);
+        Vector3::new(
+            (b - c) * spin[1] * spin[2],
+            (c - a) * spin[2] * spin[0],
+            (a - b) * spin[0] * spin[1],
+        )
+    }
+
+    /// The spin, or rate of it, about axes without inertia, for which the rotation about them stays zero.
+    fn complete(&self, turn: &Turn, spin: &mut Vector3<f64>, by_rate: bool) {
+        let (p, w) = (turn.rotation, turn.spin);
+        for k in (0..3).filter(|k| self.places[*k].is_none()) {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            spin[k] = -0.5 * (p[i] * spin[j] - p[j] * spin[i]);
+            if by_rate {
+                let rate = turn.rate;
+                spin[k] -= 0.5 * (rate[i] * w[j] - rate[j] * w[i]);
+            }
+        }
+    }
+
+    /// What stands in `q` for the rotation about its axes.
+    fn read(&self, q: &[f64]) -> Vector3<f64> {
+        let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| q[at] / scale);
+        self.places.map(value).into()
+    }
+
+    fn write(&self, rotation: &Vector3<f64>, q: &mut [f64]) {
+        for (place, value) in self.places.iter().zip(rotation) {
+            if let Some((at, scale)) = place {
+                q[*at] = value * scale;
+            }
+        }
+    }
+}
+
+/// Parts and axes of a nodal vector.
+fn entries<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
+    (0..2).flat_map(|part| (0..D).map(move |axis| (part, axis)))
+}
+
+/// The rigid bodies of a system in space; none in the plane.
+#[derive(Clone, Debug, Default)]
+pub struct Frames {
+    list: Vec<Frame>,
+    /// For every node its body and whether it is its second node.
+    of_node: Vec<Option<(usize, bool)>>,
+}
+
+impl Frames {
+    /// For these bodies among so many nodes.
+    pub fn new(list: Vec<Frame>, nodes: usize) -> Self {
+        let mut of_node = vec![None; nodes];
+        for (index, frame) in list.iter().enumerate() {
+            of_node[frame.node] = Some((index, false));
+            of_node[frame.node + 1] = Some((index, true));
+        }
+        Self { list, of_node }
+    }
+
+    /// The bodies.
+    pub fn list(&self) -> &[Frame] {
+        &self.list
+    }
+
+    /// The bodies, to be changed.
+    pub fn list_mut(&mut self) -> &mut [Frame] {
+        &mut self.list
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The body that a node belongs to, and whether it is its second node.
+    #[inline(always)]
+    pub fn of_node<const D: usize>(&self, node: usize) -> Option<(&Frame, bool)> {
+        if D == 2 || self.list.is_empty() {
+            return None;
+        }
+        self.of_node[node].map(|(index, is_second)| (&self.list[index], is_second))
+    }
+
+    /// Axes at coordinates over the nodes, which hold rotations before.
+    pub fn place<const D: usize>(&self, from: &[Plain], turns: &mut [Turn], x: &mut [Node<D>]) {
+        for ((frame, from), turn) in self.list.iter().zip(from).zip(turns) {
+            turn.rotation = components(&x[frame.node][1].into()).into();
+            frame.set_axes(&turn.axes(&from.map(Vector3::from)), x);
+        }
+    }
+
+    /// Rates of axes, whose places hold rates of rotations before.
+    pub fn place_rates<const D: usize>(
+        &self,
+        x: &[Node<D>],
+        turns: &mut [Turn],
+        v: &mut [Node<D>],
+    ) {
+        for (frame, turn) in self.list.iter().zip(turns) {
+            turn.rate = components(&v[frame.node][1].into()).into();
+            turn.spin = turn.spin_of(&turn.rate);
+            frame.set_axes(&turned(&frame.axes(x), &turn.spin), v);
+        }
+    }
+
+    /// Changes of axes to first order, whose places hold small rotations about them before.
+    pub fn place_changes<const D: usize, N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        dx: &mut [Node<D, N>],
+    ) {
+        for frame in &self.list {
+            let turn = components(&dx[frame.node][1].into()).into();
+            frame.set_axes(&turned(&frame.axes(x), &turn), dx);
+        }
+    }
+
+    /// Adds to accelerations of axes what their spins alone ask for: `w x (w x e)`.
+    pub fn add_centripetal<const D: usize, N: Number>(
+        &self,
+        (x, v): (&[Node<D, N>], &[Node<D, N>]),
+        a: &mut [Node<D, N>],
+    ) {
+        for frame in &self.list {
+            let by_spin = turned(&frame.axes(v), &frame.spin(x, v));
+            let sum = frame.axes(a);
+            frame.set_axes(&std::array::from_fn(|k| sum[k] + by_spin[k]), a);
+        }
+    }
+
+    /// What a force on a node does to the coordinates of its body's first node: that node, the force on the centre of mass
+    /// and the moment along the axes.
+    #[inline(always)]
+    pub fn pull<const D: usize, N: Number>(
+        &self,
+        node: usize,
+        force: &Node<D, N>,
+        x: &[Node<D, N>],
+    ) -> (usize, Node<D, N>) {
+        let Some((frame, is_second)) = self.of_node::<D>(node) else {
+            return (node, *force);
+        };
+        let zero = Vector3::from_element(N::of(0.0));
+        let [first, second] = force.map(|part| Vector3::from(components(&part.into())));
+        let (on_center, on_axes) = match is_second {
+            false => (force[0], [zero, second, zero]),
+            true => ([N::of(0.0); D], [zero, first, second]),
+        };
+        let on_axes = match is_second {
+            false => [on_axes[1], zero, zero],
+            true => on_axes,
+        };
+        let moment = Frame::moment(&frame.axes(x), &on_axes);
+        (
+            frame.node,
+            [on_center, vector::<D, N>(moment.into()).into()],
+        )
+    }
+
+    /// Forces over the nodes become those on centres of mass and moments along axes; with the spins of `v`, less what
+    /// these ask for.
+    pub fn pull_all<const D: usize, N: Number>(
+        &self,
+        (x, v): (&[Node<D, N>], Option<&[Node<D, N>]>),
+        f: &mut [Node<D, N>],
+    ) {
+        for frame in &self.list {
+            let mut moment = Frame::moment(&frame.axes(x), &frame.axes(f));
+            if let Some(v) = v {
+                moment += frame.gyroscopic(&frame.spin(x, v));
+            }
+            f[frame.node][1] = vector::<D, N>(moment.into()).into();
+            f[frame.node + 1] = [[N::of(0.0); D]; 2];
+        }
+    }
+
+    /// Second derivatives by nodal coordinates become those by the coordinates of bodies, node by node: the nodes that
+    /// stand for these, and the block; what a pair of nodes of one body has both ways is in it.
+    pub fn pull_block<const D: usize>(
+        &self,
+        (a, b): (usize, usize),
+        block: &NodeBlock<D>,
+        x: &[Node<D>],
+    ) -> (usize, usize, NodeBlock<D>) {
+        let ([to_a, to_b], [of_a, of_b]) = {
+            let [a, b] = [a, b].map(|node| self.partial(node, x));
+            ([a.0, b.0], [a.1, b.1])
+        };
+        let mut pulled = no_block();
+        for (i, k) in entries::<D>() {
+            for (j, l) in entries::<D>() {
+                let mut sum = 0.0;
+                for (p, r) in entries::<D>() {
+                    let inner: f64 = entries::<D>()
+                        .map(|(q, s)| block[p][r][q][s] * of_b[q][s][j][l])
+                        .sum();
+                    sum += of_a[p][r][i][k] * inner;
+                }
+                pulled[i][k][j][l] = sum;
+            }
+        }
+        if to_a == to_b && a != b {
+            let once = pulled;
+            for (i, k) in entries::<D>() {
+                for (j, l) in entries::<D>() {
+                    pulled[i][k][j][l] += once[j][l][i][k];
+                }
+            }
+        }
+        (to_a, to_b, pulled)
+    }
+
+    /// Derivatives of a node's vectors by the coordinates of its body, and the node that has these.
+    fn partial<const D: usize>(&self, node: usize, x: &[Node<D>]) -> (usize, NodeBlock<D>) {
+        let mut partial = no_block();
+        let Some((frame, is_second)) = self.of_node::<D>(node) else {
+            for (i, k) in entries::<D>() {
+                partial[i][k][i][k] = 1.0;
+            }
+            return (node, partial);
+        };
+        let axes = frame.axes(x);
+        for turn in 0..D {
+            let [a, b, c] = turned(&axes, &Vector3::ith(turn, 1.0));
+            let changes = if is_second {
+                [b, c]
+            } else {
+                [Vector3::zeros(), a]
+            };
+            for (part, change) in changes.iter().enumerate() {
+                for axis in 0..D {
+                    partial[part][axis][1][turn] = change[axis];
+                }
+            }
+            if !is_second {
+                partial[0][turn][0][turn] = 1.0;
+            }
+        }
+        (frame.node, partial)
+    }
+
+    /// Stiffness that forces on the axes of a body add where it turns: `sum (E_i.F_i) I - F_i E_i^T` along its axes, the
+    /// symmetric part.
+    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> NodeBlock<D> {
+        let (axes, forces) = (frame.axes(x), frame.axes(f));
+        let along = |i: usize, j: usize| forces[i].dot(&axes[j]);
+        let mut block = no_block();
+        for i in 0..D {
+            for j in 0..D {
+                block[1][i][1][j] = -0.5 * (along(i, j) + along(j, i));
+            }
+            block[1][i][1][i] += (0..3).map(|k| along(k, k)).sum::<f64>();
+        }
+        block
+    }
+
+    /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
+    /// angular velocities rates.
+    pub fn to_rotations(&self, turns: &[Turn], q: &mut [f64]) {
+        for (frame, turn) in self.list.iter().zip(turns) {
+            let mut spin = frame.read(q);
+            frame.complete(turn, &mut spin, false);
+            frame.write(&turn.rate_of(&spin), q);
+        }
+    }
+
+    /// Angular accelerations become second derivatives of rotations.
+    pub fn to_second(&self, turns: &[Turn], a: &mut [f64]) {
+        for (frame, turn) in self.list.iter().zip(turns) {
+            let mut rate = frame.read(a);
+            frame.complete(turn, &mut rate, true);
+            frame.write(&turn.second_of(&rate), a);
+        }
+    }
+
+    /// The largest rotation in coordinates, rad.
+    pub fn largest(&self, q: &[f64]) -> f64 {
+        let sizes = self.list.iter().map(|frame| frame.read(q).norm());
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// Rotations begin at zero anew: the frames become what they are, made orthonormal, and rates spins.
+    pub fn renew(&self, frames: &mut [Plain], q: &mut [f64], v: &mut [f64]) {
+        for (frame, axes) in self.list.iter().zip(frames) {
+            let mut turn = Turn {
+                rotation: frame.read(q),
+                ..Turn::default()
+            };
+            turn.spin = turn.spin_of(&frame.read(v));
+            *axes = orthonormal(&turn.axes(&axes.map(Vector3::from))).map(<[f64; 3]>::from);
+            frame.write(&Vector3::zeros(), q);
+            frame.write(&turn.spin, v);
+        }
+    }
+
+    /// Frames at nodal coordinates.
+    pub fn frames_at<const D: usize>(&self, x: &[Node<D>], frames: &mut [Plain]) {
+        for (frame, axes) in self.list.iter().zip(frames) {
+            *axes = orthonormal(&frame.axes(x)).map(<[f64; 3]>::from);
+        }
+    }
+
+    /// Nodal vectors with nothing in the places of axes.
+    pub fn clear<const D: usize>(&self, x: &mut [Node<D>]) {
+        for frame in &self.list {
+            x[frame.node][1] = [0.0; D];
+            x[frame.node + 1] = no_node();
+        }
+    }
+}
