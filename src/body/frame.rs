@@ -93,7 +93,7 @@ impl Turn {
 }
 
 /// The vector with these components along axes.
-fn combined<N: Number>(axes: &Axes<N>, components: &Vector3<N>) -> Vector3<N> {
+pub fn combined<N: Number>(axes: &Axes<N>, components: &Vector3<N>) -> Vector3<N> {
     axes[0] * components[0] + axes[1] * components[1] + axes[2] * components[2]
 }
 

@@ -229,6 +229,7 @@ fn advance_smoothly(
     let follows = state.dense.has_ended_at(state.time);
     let mut controller = Controller::new(follows.then_some(state.dense.ceiling));
     let mut counted = dynamics.operations();
+    dynamics.renew(state);
     method.begin(dynamics, state.time, &state.coordinates, &state.rates);
     if follows {
         method.recall(&state.dense);
@@ -245,6 +246,9 @@ fn advance_smoothly(
         }
         if dynamics.is_exhausted() {
             return Err(Stop::TooMuchWork);
+        }
+        if dynamics.renew(state) {
+            method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
         }
         let wanted = state.step.min(method.longest_step());
         let beyond = dense::trial(method, dynamics, state, (until, wanted));

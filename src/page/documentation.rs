@@ -117,7 +117,7 @@ fn body_in_words(body: &Body) -> String {
             format!("the flexible body <em>{name}</em>, {length} m long, of {elements}")
         }
         Body::Rigid(rigid) => {
-            let kind = if rigid.inertia > 0.0 {
+            let kind = if rigid.inertia.is_some() {
                 "rigid body"
             } else {
                 "particle"

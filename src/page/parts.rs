@@ -145,6 +145,18 @@ fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold) -> String {
         }
         Hold::Direction(angle) => format!("the direction{}", given(" at", *angle, "rad")),
         Hold::Distance(length) => format!("the distance{}{point}", given(" of", *length, "m")),
+        Hold::Axis(axis) => {
+            let axis = vector(dimension, *axis);
+            format!("the axis that is along {axis} at the start")
+        }
+        Hold::Across(a, b) => {
+            let [a, b] = [*a, *b].map(|of| vector(dimension, of));
+            format!("a right angle between the axes that are along {a} and {b} at the start")
+        }
+        Hold::Plane(across) => format!(
+            "the position in the plane across {} at the start{point}",
+            vector(dimension, *across)
+        ),
         Hold::Curve(..) => "the position on the line of the cable".into(),
         Hold::Spring {
             rest,

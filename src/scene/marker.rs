@@ -1,5 +1,7 @@
 //! Bodies and markers: how they are found by name, and where they are at the start.
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::description::Declaration;
 use super::resolved::{
     Action, BodyReference, Cable, CableId, Ends, First, Form, Hold, Joint, Marker, MarkerId,
@@ -160,7 +162,7 @@ impl<'a> Place<'a> {
     pub(super) fn turns(self) -> bool {
         match self {
             Self::Along(..) => true,
-            Self::Point(rigid, _) => rigid.body.inertia > 0.0,
+            Self::Point(rigid, _) => rigid.body.inertia.is_some(),
         }
     }
 
@@ -176,7 +178,7 @@ impl<'a> Place<'a> {
     fn direction(self) -> [f64; 3] {
         match self {
             Self::Along(cable, s) => cable.body.shape.tangent(s),
-            Self::Point(rigid, _) => [rigid.body.angle.cos(), rigid.body.angle.sin(), 0.0],
+            Self::Point(rigid, _) => rigid.body.directed([1.0, 0.0, 0.0]),
         }
     }
 }
@@ -184,12 +186,27 @@ impl<'a> Place<'a> {
 impl RigidBody {
     /// Where a point of the body's frame is at the start, m.
     pub fn point(&self, point: [f64; 3]) -> [f64; 3] {
+        let way = self.directed(point);
+        std::array::from_fn(|k| self.position[k] + way[k])
+    }
+
+    /// A direction or a way in the body's frame, in global components at the start.
+    pub fn directed(&self, way: [f64; 3]) -> [f64; 3] {
+        if self.orientation.is_some() {
+            return (self.axes() * Vector3::from(way)).into();
+        }
         let (sin, cos) = self.angle.sin_cos();
         [
-            self.position[0] + cos * point[0] - sin * point[1],
-            self.position[1] + sin * point[0] + cos * point[1],
-            self.position[2] + point[2],
+            cos * way[0] - sin * way[1],
+            sin * way[0] + cos * way[1],
+            way[2],
         ]
+    }
+
+    /// The axes of the body's frame at the start in space, in global components, as columns.
+    pub fn axes(&self) -> Matrix3<f64> {
+        let given = self.orientation.and_then(|orientation| orientation.axes());
+        given.unwrap_or_else(Matrix3::identity)
     }
 }
 
@@ -272,7 +289,7 @@ impl<'a> Joint<'a> {
     pub(super) fn holds_direction(&self) -> bool {
         self.holds
             .iter()
-            .any(|hold| matches!(hold, Hold::Direction(_)))
+            .any(|hold| matches!(hold, Hold::Direction(_) | Hold::Axis(_) | Hold::Across(..)))
     }
 
     /// Whether it holds a position or a distance.

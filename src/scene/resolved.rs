@@ -192,8 +192,14 @@ pub enum Hold {
     Position,
     /// The position on a line through the first end: its direction in the axes of that end, of any length.
     Line([f64; 3]),
-    /// The direction, at this angle from that of the first end.
+    /// The direction, at this angle from that of the first end; in space how bodies stand to each other.
     Direction(Option<f64>),
+    /// An axis, which stays along that of the first body: its direction at the start, in global axes.
+    Axis([f64; 3]),
+    /// A right angle between an axis of the first body and one of the second: their directions at the start, in global axes.
+    Across([f64; 3], [f64; 3]),
+    /// The position in a plane through the first end: the direction across it at the start, in global axes.
+    Plane([f64; 3]),
     /// The distance.
     Distance(Option<f64>),
     /// The position on the curve of a cable that bends, by its place among the chains, and which slide that is.

@@ -456,6 +456,16 @@ impl Simulation {
     }
 }
 
+/// Sets the number of an inertia, or its moment about an axis.
+fn set_inertia(inertia: &mut crate::scene::Inertia, axis: usize, value: f64) {
+    use crate::scene::Inertia;
+    match inertia {
+        Inertia::Number(number) => *number = value,
+        Inertia::Moments(moments) => moments[axis] = value,
+        Inertia::Tensor(rows) => rows[axis][axis] = value,
+    }
+}
+
 /// Puts the value of a parameter into the scene that it came from.
 fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
     use Parameter::*;
@@ -467,7 +477,7 @@ fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
         SecondMoment(id) => scene.cable_mut(id).section.second_moment = value,
         Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
         Mass(id) => scene.rigid_mut(id).mass = value,
-        Inertia(id) => scene.rigid_mut(id).inertia = value,
+        Inertia(id, axis) => set_inertia(&mut scene.rigid_mut(id).inertia, axis, value),
         LumpedMass(i) => scene.masses[i].mass = value,
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),

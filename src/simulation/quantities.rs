@@ -22,12 +22,14 @@ pub enum Quantity {
     Direction(MarkerId, usize),
     /// Continuous angle of a marker or a joint.
     Angle(AngleId),
-    /// Angular velocity of the direction at a marker.
-    AngularVelocity(MarkerId),
+    /// Entry of the matrix whose columns are the axes of a rigid body's frame, by rows.
+    Orientation(MarkerId, usize),
+    /// Component of the angular velocity at a marker; in the plane the third.
+    AngularVelocity(MarkerId, usize),
     /// Angular velocity of the second marker of a joint less that of its first.
     JointVelocity(HolderId),
-    /// Angular acceleration of the direction at a marker.
-    AngularAcceleration(MarkerId),
+    /// Component of the angular acceleration at a marker; in the plane the third.
+    AngularAcceleration(MarkerId, usize),
     /// Angular acceleration of the second marker of a joint less that of its first.
     JointAcceleration(HolderId),
     /// Axial strain at a marker.
@@ -44,8 +46,8 @@ pub enum Quantity {
     Travel(SlideId),
     /// Component of the force of a joint or motion.
     Reaction(HolderId, usize),
-    /// Moment of a joint or motion.
-    ReactionMoment(HolderId),
+    /// Component of the moment of a joint or motion; in the plane the third.
+    ReactionMoment(HolderId, usize),
     /// Component of the force on what drives a marker: opposite to the reaction.
     MotionForce(HolderId, usize),
     /// Moment on what turns a marker.
@@ -104,14 +106,17 @@ pub(super) fn value<const D: usize, N: Number>(
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
         Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
         Angle(angle) => values.angles[angle.index()],
-        AngularVelocity(id) => End::<D, N>::Body(on(id)).spin(&values.x, &values.v),
+        Orientation(id, k) => {
+            let axes = values.axes(system, at(id));
+            let frame = assembled.frame(at(id).body).row(k % 3);
+            (0..3).fold(N::of(0.0), |sum, j| sum + axes[j][k / 3] * N::of(frame[j]))
+        }
+        AngularVelocity(id, axis) => values.spin(system, at(id))[axis],
         JointVelocity(joint) => {
             let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
             b - a
         }
-        AngularAcceleration(id) => {
-            End::<D, N>::Body(on(id)).spin_rate(&values.x, &values.v, &values.acceleration)
-        }
+        AngularAcceleration(id, axis) => values.spin_rate(system, at(id))[axis],
         JointAcceleration(joint) => {
             let rate =
                 |end: End<D>| (end.lift()).spin_rate(&values.x, &values.v, &values.acceleration);
@@ -125,7 +130,7 @@ pub(super) fn value<const D: usize, N: Number>(
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, axis) => values.reaction(system, joint.index()).0[axis],
-        ReactionMoment(joint) => values.reaction(system, joint.index()).1[2],
+        ReactionMoment(joint, axis) => values.reaction(system, joint.index()).1[axis],
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
         MotionMoment(joint) => -values.reaction(system, joint.index()).1[2],
         CouplingForce(id, axis) => values.coupling(system, assembled.coupling(id)).0[axis],
@@ -160,14 +165,14 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         Position(..) | CenterOfMass(_) | Travel(_) => (Kinematics, |by| Some(by.size)),
         Velocity(..) => (Kinematics, |by| Some(by.size * by.rate)),
         Acceleration(..) => (Dynamics, |by| Some(by.size * by.rate * by.rate)),
-        Direction(..) | Angle(_) => (Kinematics, |_| Some(1.0)),
-        AngularVelocity(_) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
-        AngularAcceleration(_) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
+        Direction(..) | Angle(_) | Orientation(..) => (Kinematics, |_| Some(1.0)),
+        AngularVelocity(..) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
+        AngularAcceleration(..) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
         Strain(_) | Curvature(_) => (Kinematics, |_| Some(0.0)),
         AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) => {
             (Dynamics, |by| Some(by.force))
         }
-        BendingMoment(..) | ReactionMoment(_) | MotionMoment(_) => {
+        BendingMoment(..) | ReactionMoment(..) | MotionMoment(_) => {
             (Dynamics, |by| Some(by.force * by.size))
         }
         CouplingForce(..) => (Kinematics, |by| Some(by.force)),

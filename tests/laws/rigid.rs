@@ -2,8 +2,10 @@
 //! multipliers: dense, in global components, joints differentiated numerically along twists.
 
 use flexbody::body::{Frame, Marker, Node};
+use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
+use flexbody::math::jet::Jet;
 use flexbody::system::joints::{Across, Direction, Joint, Perpendicular, Primitive};
-use flexbody::system::{End, Evaluation, Parts, State, System, Work};
+use flexbody::system::{Derivatives, End, Evaluation, Model, Parts, State, System, Work};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
 type V = Vector3<f64>;
@@ -472,6 +474,119 @@ fn accelerations_are_those_of_newton_and_euler() {
                 assert!(
                     miss < 1e-6 * size,
                     "{run} {names:?} axis {k}: {miss:e} of {size:e}"
+                );
+            }
+        }
+    }
+}
+
+/// Energy, momentum and angular momentum of a state.
+fn invariants(system: &System<3>, state: &State, work: &mut Work<3>) -> [f64; 7] {
+    let mut values = Evaluation::new(system);
+    values.kinematics(system, state, work);
+    let energy = values.kinetic_energy(system) + values.gravity_energy(system);
+    let ([a, b, c], [d, e, f]) = {
+        let (linear, angular) = values.momentum(system);
+        (<[f64; 3]>::from(linear), angular)
+    };
+    [energy, a, b, c, d, e, f]
+}
+
+fn advanced(
+    method: &mut dyn Method,
+    (system, state, work): (&System<3>, &mut State, &mut Work<3>),
+    until: f64,
+    tolerance: f64,
+) -> u64 {
+    let tolerance = Tolerance {
+        relative: tolerance,
+        position: system.scale(),
+        time: 0.5,
+    };
+    let mut model = Model::new(system, &[], work, state);
+    let (counts, result) = advance(method, &mut model, state, until, &tolerance);
+    result.expect("a motion");
+    counts.steps
+}
+
+#[test]
+fn free_mechanisms_keep_energy_momentum_and_angular_momentum() {
+    let mut chance = Chance(7);
+    let mut runs = 0;
+    while runs < 40 {
+        let mut mechanism = Mechanism::random(&mut chance);
+        if mechanism
+            .joints
+            .iter()
+            .any(|joint| joint.bodies[0].is_none())
+        {
+            continue;
+        }
+        mechanism.gravity = V::zeros();
+        runs += 1;
+        let (system, start, mut work) = mechanism.started();
+        let n = system.coordinates();
+        let before = invariants(&system, &start, &mut work);
+        let mut ends = Vec::new();
+        let methods: [&mut dyn Method; 2] = [&mut Rk4::new(n, 1e-9, 1e-9), &mut Radau::new(n)];
+        for method in methods {
+            let mut state = start.clone();
+            let name = method.name();
+            let steps = advanced(method, (&system, &mut state, &mut work), 3.0, 1e-8);
+            let after = invariants(&system, &state, &mut work);
+            for (k, (a, b)) in before.iter().zip(after).enumerate() {
+                let miss = (a - b).abs() / before[0];
+                assert!(miss < 3e-6, "{runs} {name}, {steps} steps, {k}: {miss:e}");
+            }
+            let mut values = Evaluation::new(&system);
+            values.kinematics(&system, &state, &mut work);
+            ends.push(values.x);
+        }
+        let far = ends[0].iter().flatten().zip(ends[1].iter().flatten());
+        let far = far.map(|(a, b)| (V::from(*a) - V::from(*b)).norm());
+        let far = far.fold(0.0, f64::max);
+        assert!(far < 1e-4, "{runs}: {far:e}");
+    }
+}
+
+#[test]
+fn derivatives_in_time_are_those_of_the_motion() {
+    let mut chance = Chance(3);
+    for run in 0..100 {
+        let mechanism = Mechanism::random(&mut chance);
+        let (system, start, mut work) = mechanism.started();
+        let mut accelerations = Vec::new();
+        const STEP: f64 = 2e-3;
+        let mut made = Derivatives::new(&system);
+        let mut state = start.clone();
+        for k in 0..5 {
+            if k > 0 {
+                let mut method = Rk4::new(system.coordinates(), 1e-9, 1e-9);
+                let until = STEP * f64::from(k);
+                advanced(&mut method, (&system, &mut state, &mut work), until, 1e-13);
+            }
+            let mut plain = Evaluation::new(&system);
+            plain.kinematics(&system, &state, &mut work);
+            plain.dynamics(&system, &state, &[], &mut work);
+            if k == 2 {
+                made.in_time(&system, (&plain, &state), &[], 2, &mut work);
+            }
+            accelerations.push(plain.acceleration);
+        }
+        for (node, found) in made.values.acceleration.iter().enumerate() {
+            for (part, found) in found.iter().enumerate() {
+                let at = |k: usize| V::from(accelerations[k][node][part]);
+                let [a, b, c, d, e] = [at(0), at(1), at(2), at(3), at(4)];
+                let first = ((a - e) + (d - b) * 8.0) / (12.0 * STEP);
+                let second = ((b + d) * 16.0 - c * 30.0 - a - e) / (12.0 * STEP * STEP);
+                let [jerk, snap] =
+                    [|j: &Jet| j.v1, |j: &Jet| j.v2].map(|of| V::from_fn(|k, _| of(&found[k])));
+                let size = c.norm() + mechanism.gravity.norm() + 10.0;
+                let misses = [(jerk - first).norm(), (snap - second).norm()];
+                let (jerks, snaps) = (size + jerk.norm(), size + snap.norm());
+                assert!(
+                    misses[0] < 1e-4 * jerks && misses[1] < 1e-3 * snaps,
+                    "{run} node {node}, {part}: {misses:?} of {jerks} and {snaps}"
                 );
             }
         }

@@ -1,12 +1,14 @@
 //! Bodies: a cable becomes a chain of elements or, where it does not bend, a rod; a rigid body a node.
 
+use nalgebra::Vector3;
+
 use super::Builder;
-use crate::body::Marker;
+use crate::body::{Frame, Marker};
 use crate::elements::cable::{self, Inertia};
 use crate::elements::{self, Nodal};
 use crate::math::space::{Vector, axis, turned, vector};
-use crate::scene::resolved::{BodyReference, Cable, Form};
-use crate::scene::{CableBody, Error, Strain};
+use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
+use crate::scene::{CableBody, Error, RigidBody, Strain};
 use crate::system::{CableChain, LumpedMass, Rod};
 
 /// A rigid body about its centre of mass: where that is, m, the angle of its frame, rad, mass, kg, and inertia, kg m^2.
@@ -29,15 +31,11 @@ impl<const D: usize> Builder<'_, D> {
             },
             BodyReference::Rigid(rigid) => {
                 let rigid = rigid.body;
-                self.lump(
-                    index,
-                    &Lump {
-                        position: rigid.position.full(),
-                        angle: rigid.angle,
-                        mass: rigid.mass,
-                        inertia: rigid.inertia,
-                    },
-                );
+                if D == 3 && rigid.inertia.is_some() {
+                    self.frame(rigid);
+                } else {
+                    self.particle(index, rigid);
+                }
             }
         }
         let nodes = first..self.parts.nodes.len();
@@ -56,6 +54,50 @@ impl<const D: usize> Builder<'_, D> {
         }
         self.parts.bodies.push(nodes);
         Ok(())
+    }
+
+    /// A rigid body of the plane, or a particle.
+    fn particle(&mut self, index: usize, rigid: &RigidBody) {
+        self.lump(
+            index,
+            &Lump {
+                position: rigid.position.full(),
+                angle: rigid.angle,
+                mass: rigid.mass,
+                inertia: rigid.inertia.number(),
+            },
+        );
+    }
+
+    /// A rigid body of space that turns: its principal axes in two nodes.
+    fn frame(&mut self, rigid: &RigidBody) {
+        let (moments, principal) = rigid.inertia.principal();
+        let largest = moments.iter().copied().fold(0.0, f64::max);
+        let axes = rigid.axes() * principal;
+        let axis = |k: usize| vector::<D, f64>(axes.column(k).into_owned().into()).into();
+        let node = self.parts.nodes.len();
+        self.parts.frames.push(Frame {
+            node,
+            mass: rigid.mass,
+            // What rounding left of the moment of a thin rod about itself is none.
+            moments: moments.map(|moment| if moment > 1e-9 * largest { moment } else { 0.0 }),
+            places: [None; 3],
+        });
+        let center = vector::<D, f64>(rigid.position.full()).into();
+        let nodes = [[center, axis(0)], [axis(1), axis(2)]];
+        self.parts.nodes.extend(nodes);
+    }
+
+    /// A point of a rigid body in its frame, m.
+    pub(super) fn point(&self, rigid: Rigid<'_>, point: [f64; 3]) -> Marker {
+        let (index, body) = (rigid.id.index(), rigid.body);
+        let node = self.parts.bodies[index].start;
+        if D == 2 || !body.inertia.is_some() {
+            return Marker::rigid(index, node, [point[0], point[1]]);
+        }
+        let back = body.inertia.principal().1.transpose();
+        let [point, first] = [point, [1.0, 0.0, 0.0]].map(|way| back * Vector3::from(way));
+        Marker::framed(index, node, point.into(), first.into())
     }
 
     /// A cable that bends.

@@ -1,5 +1,6 @@
 //! From a validated scene to a system.
 
+mod axes;
 mod axial;
 mod bodies;
 mod initial;
@@ -7,6 +8,8 @@ mod motions;
 mod ports;
 
 pub use initial::Motions;
+
+use nalgebra::Matrix3;
 
 use super::resolved::{
     self, Action, CouplingId, Ends, First, Form, Hold, InputKind, LoadKind, MarkerId, On, Place,
@@ -38,6 +41,8 @@ pub struct Assembled<const D: usize = 2> {
     pub motions: Motions<D>,
     /// For every marker, itself in the system.
     markers: Vec<Marker>,
+    /// For every body, its principal axes in its frame, as columns.
+    frames: Vec<Matrix3<f64>>,
     /// For every coupling, its place among the loads of the system.
     couplings: Vec<usize>,
 }
@@ -51,6 +56,11 @@ impl<const D: usize> Assembled<D> {
     /// The marker of the system that a marker of the scene is.
     pub fn marker(&self, id: MarkerId) -> &Marker {
         &self.markers[id.index()]
+    }
+
+    /// Principal axes of a rigid body of space in its frame, as columns.
+    pub fn frame(&self, body: usize) -> &Matrix3<f64> {
+        &self.frames[body]
     }
 
     /// Place among the loads of the system of a coupling.
@@ -104,6 +114,7 @@ impl Resolved<'_> {
             motions: builder.motions,
             nodes,
             markers: builder.markers,
+            frames: self.bodies.iter().map(principal).collect(),
             couplings: builder.couplings,
         })
     }
@@ -170,11 +181,7 @@ impl<const D: usize> Builder<'_, D> {
         for marker in &self.resolved.markers {
             self.markers.push(match marker.place {
                 Place::Along(cable, s) => self.along(cable, s),
-                Place::Point(rigid, point) => {
-                    let body = rigid.id.index();
-                    let [x, y, _] = point;
-                    Marker::rigid(body, self.parts.bodies[body].start, [x, y])
-                }
+                Place::Point(rigid, point) => self.point(rigid, point),
             });
         }
     }
@@ -250,7 +257,7 @@ impl<const D: usize> Builder<'_, D> {
         for joint in &self.resolved.joints {
             let ends = self.ends(joint.ends);
             let holds = joint.holds.iter();
-            let holds = holds.filter_map(|hold| self.primitive(hold, joint, ends));
+            let holds = holds.flat_map(|hold| self.primitives(hold, joint, ends));
             let holds = holds.collect();
             let springs = joint.holds.iter();
             let spring = springs.filter_map(|hold| self.spring_of(hold, ends)).next();
@@ -268,6 +275,28 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// The equations of what a joint holds; none of a spring.
+    fn primitives(
+        &self,
+        hold: &Hold,
+        joint: &resolved::Joint<'_>,
+        ends: [End<D>; 2],
+    ) -> Vec<Primitive<D>> {
+        let is_framed = ends.iter().any(End::is_framed);
+        match *hold {
+            Hold::Line(direction) if D == 3 && !joint.ends.is_grounded() => {
+                self.on_line(ends, direction)
+            }
+            Hold::Axis(axis) => self.along_axis(ends, axis),
+            Hold::Across(first, second) => {
+                vec![self.right_angle(ends, [first, second].map(|of| vector(of)))]
+            }
+            Hold::Plane(across) => vec![self.across_way(ends, unit(across))],
+            Hold::Direction(_) if D == 3 && is_framed => self.standing(ends),
+            _ => self.primitive(hold, joint, ends).into_iter().collect(),
+        }
+    }
+
+    /// The equation of what a joint holds; none of a spring.
     fn primitive(
         &self,
         hold: &Hold,
@@ -283,7 +312,7 @@ impl<const D: usize> Builder<'_, D> {
                 Primitive::Distance(given.unwrap_or_else(|| self.distance_at_start(&ends)))
             }
             Hold::Curve(chain, _) => Primitive::Curve(chain),
-            Hold::Spring { .. } => return None,
+            Hold::Spring { .. } | Hold::Axis(_) | Hold::Across(..) | Hold::Plane(_) => return None,
         })
     }
 
@@ -373,6 +402,14 @@ impl<const D: usize> Builder<'_, D> {
             let built = self.action(action);
             self.parts.loads.push(built);
         }
+    }
+}
+
+/// Principal axes of a body in its frame.
+fn principal(body: &resolved::BodyReference<'_>) -> Matrix3<f64> {
+    match body {
+        resolved::BodyReference::Rigid(rigid) => rigid.body.inertia.principal().1,
+        resolved::BodyReference::Cable(_) => Matrix3::identity(),
     }
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::accuracy::elements;
 use super::strict::{Strict, at, typed};
-use super::{Spin, Vector};
+use super::{Inertia, Orientation, Spin, Vector};
 
 /// A body; `element` says of which kind.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -70,7 +70,7 @@ pub enum Model {
     Rigid,
 }
 
-/// A rigid body; without inertia, a particle. In space there are particles only.
+/// A rigid body; without inertia, a particle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidBody {
@@ -79,16 +79,18 @@ pub struct RigidBody {
     /// Mass, kg.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
-    /// Moment of inertia about the centre of mass, kg m^2; 0 (and where nothing is said) is a particle, which
-    /// does not turn.
+    /// Inertia about the centre of mass, kg m^2: a number in the plane; in space the moments about the axes of the body's
+    /// frame, or the whole tensor. Zero (and where nothing is said) is a particle, which does not turn.
     #[serde(default)]
-    #[schemars(range(min = 0.0))]
-    pub inertia: f64,
+    pub inertia: Inertia,
     /// Centre of mass at the start, m.
     pub position: Vector,
     /// Direction of the body's frame at the start, counter-clockwise, rad.
     #[serde(default)]
     pub angle: f64,
+    /// In space: how the body's frame stands at the start; along the global axes where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
     /// Motion at the start; velocity of the centre of mass.
     #[serde(default)]
     pub motion: InitialMotion,
@@ -186,7 +188,7 @@ pub struct InitialMotion {
     /// Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s; zero by default.
     #[serde(default, skip_serializing_if = "Vector::is_unsaid")]
     pub velocity: Vector,
-    /// Angular velocity, counter-clockwise in the plane, rad/s.
+    /// Angular velocity, counter-clockwise in the plane, in global axes in space, rad/s.
     #[serde(default)]
     pub spin: Spin,
     /// Velocity of deformation, m/s, beside both: its components as expressions in the material coordinate `s`,

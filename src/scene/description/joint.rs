@@ -19,10 +19,15 @@ pub struct Joint {
     /// With `ground` only: where on the ground, m; where the second marker is at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vector>,
-    /// `slider`: direction of the line along which the marker may move, in the axes of the first marker (of ground: the
-    /// global ones). `prismatic`: the same, by default the direction of the first marker itself.
+    /// In the axes of the body of the first marker at the start (of ground: the global ones). `slider`, `cylindrical`: direction
+    /// of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    /// first marker itself. In space, `revolute`, `cylindrical`: the axis to turn about (`revolute` without one is
+    /// `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Vector>,
+    /// `universal` only: the axis that is fixed in the second body, across `direction` and in the same axes as that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_direction: Option<Vector>,
     /// `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
     /// rad; as at the start by default. `hinge`: the same at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -45,15 +50,23 @@ pub struct Joint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
-    /// Holds the position.
+    /// Holds the position; in space also an axis, which bodies turn about.
     Revolute,
-    /// Holds the position and the direction.
+    /// Holds the position, in space: a ball in its socket.
+    Spherical,
+    /// Holds the position and a right angle between an axis of each body, in space: a cross between two forks.
+    Universal,
+    /// Holds the position and the direction, in space how bodies stand to each other.
     Weld,
     /// Holds the marker on a line of the first one, which may move, and lets it turn.
     Slider,
-    /// Holds the marker on a line of the first one, and the direction.
+    /// Holds the marker on a line of the first one, in space, and lets it turn about that line only.
+    Cylindrical,
+    /// Holds the marker on a line of the first one, and the direction, in space how bodies stand to each other.
     Prismatic,
-    /// Holds the direction.
+    /// Holds the marker in a plane of the first one, in space, and lets it turn in that plane only.
+    Planar,
+    /// Holds the direction, in space how bodies stand to each other.
     Orientation,
     /// Holds the distance.
     Distance,
@@ -83,8 +96,14 @@ pub enum Condition {
     Position,
     /// The position, on a line through the first marker.
     Line,
-    /// The direction.
+    /// The direction; in space how bodies stand to each other.
     Direction,
+    /// In space an axis, which stays along that of the first body.
+    Axis,
+    /// In space an axis, which stays across one of the first body.
+    Across,
+    /// In space the position, in a plane through the first marker.
+    Plane,
     /// The distance.
     Distance,
     /// The position, on the curve of a cable, which stands in place of the first marker.
@@ -115,14 +134,28 @@ pub enum Symbol {
 }
 
 impl JointKind {
+    /// Whether there is one in space alone.
+    pub fn is_spatial(self) -> bool {
+        matches!(
+            self,
+            Self::Spherical | Self::Universal | Self::Cylindrical | Self::Planar
+        )
+    }
+
     /// The one declaration of the kind.
     #[rustfmt::skip] // a table
     pub fn declaration(self) -> Declaration {
-        use Condition::{Curve, Direction, Distance, Line, Position, Spring};
+        use Condition::{Across, Axis, Curve, Direction, Distance, Line, Plane, Position, Spring};
         let (name, keys, holds, symbol): (_, &[Keys], &[Condition], _) = match self {
-            Self::Revolute => ("revolute", &[(&[], &["point"])], &[Position], Symbol::Pin),
+            Self::Revolute => ("revolute", &[(&[], &["point", "direction"])], &[Position, Axis], Symbol::Pin),
+            Self::Spherical => ("spherical", &[(&[], &["point"])], &[Position], Symbol::Pin),
+            Self::Universal => {
+                ("universal", &[(&["direction", "second_direction"], &["point"])], &[Position, Across], Symbol::Pin)
+            }
             Self::Weld => ("weld", &[(&[], &["point", "angle"])], &[Position, Direction], Symbol::Weld),
             Self::Slider => ("slider", &[(&["direction"], &["point"])], &[Line], Symbol::Slider),
+            Self::Cylindrical => ("cylindrical", &[(&["direction"], &["point"])], &[Line, Axis], Symbol::Prismatic),
+            Self::Planar => ("planar", &[(&["direction"], &["point"])], &[Plane, Axis], Symbol::Slider),
             Self::Prismatic => ("prismatic", &[(&[], &["point", "direction", "angle"])], &[Line, Direction], Symbol::Prismatic),
             Self::Orientation => ("orientation", &[(&[], &["angle"])], &[Direction], Symbol::Orientation),
             Self::Distance => ("distance", &[(&[], &["point", "length"])], &[Distance], Symbol::Link),

@@ -10,6 +10,7 @@ mod load;
 mod output;
 mod port;
 mod reader;
+mod rotation;
 mod strict;
 mod value;
 mod vector;
@@ -29,6 +30,7 @@ pub use load::{ActionKind, ActsOn, Input, InputKind, Load, LoadKind};
 pub use output::{Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;
+pub use rotation::{Inertia, Orientation};
 pub use strict::Strict;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};
 pub use vector::{Spin, Vector};
@@ -42,8 +44,7 @@ pub struct Scene {
     /// Whose model it is.
     #[serde(default, skip_serializing_if = "About::is_empty")]
     pub about: About,
-    /// Dimension: 2 in the plane, 3 in space. In space there are cables (they stretch and bend, isotropically, and know no
-    /// torsion) and particles.
+    /// Dimension: 2 in the plane, 3 in space. Cables in space stretch and bend, isotropically, and know no torsion.
     #[schemars(range(min = 2, max = 3))]
     pub dimension: usize,
     /// Gravitational acceleration, m/s^2; zero by default.

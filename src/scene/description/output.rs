@@ -46,9 +46,11 @@ pub enum OutputKind {
     /// Direction at a marker, or direction of the second marker of a revolute joint or hinge less
     /// that of its first, rad, counted on over full turns.
     Angle,
-    /// Rate of the angle, rad/s.
+    /// How a rigid body in space stands: the matrix whose columns are the axes of its frame in global components, by rows.
+    Orientation,
+    /// Rate of the angle, rad/s; in space the angular velocity of a rigid body, global axes.
     AngularVelocity,
-    /// Rate of the rate of the angle, rad/s^2.
+    /// Rate of the angular velocity, rad/s^2.
     AngularAcceleration,
     /// Axial strain at a marker of a cable that bends, in the strain measure of the body. Where a load or joint acts, that after it.
     Strain,
@@ -109,6 +111,8 @@ pub enum ReadAt {
     Flexible,
     /// A marker of a cable, where its mesh, if it has one, has a node.
     Node,
+    /// A marker of a rigid body in space that turns.
+    Standing,
     /// A marker or a joint that turns.
     Turning,
     /// The same, its angle counted on over full turns.
@@ -131,6 +135,7 @@ impl OutputKind {
         match self {
             Self::Position | Self::Velocity | Self::Acceleration => ReadAt::Marker,
             Self::Direction => ReadAt::Directed,
+            Self::Orientation => ReadAt::Standing,
             Self::Strain | Self::Curvature => ReadAt::Flexible,
             Self::AxialForce | Self::BendingMoment => ReadAt::Cable,
             Self::ConnectivityForce => ReadAt::Node,
@@ -155,9 +160,12 @@ impl Kind for OutputKind {
 
     fn keys(&self) -> &'static [Keys] {
         match self.read_at() {
-            ReadAt::Marker | ReadAt::Directed | ReadAt::Cable | ReadAt::Flexible | ReadAt::Node => {
-                &[(&["marker"], &[])]
-            }
+            ReadAt::Marker
+            | ReadAt::Directed
+            | ReadAt::Standing
+            | ReadAt::Cable
+            | ReadAt::Flexible
+            | ReadAt::Node => &[(&["marker"], &[])],
             ReadAt::Turning | ReadAt::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
             ReadAt::Slide => &[(&["joint"], &[])],
             ReadAt::Force | ReadAt::Moment => &[(&["motion"], &[]), (&["joint"], &[])],

@@ -8,7 +8,7 @@ use super::checks::{
 };
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
-use crate::scene::{Body, CableBody, Error, InitialMotion, Model, RigidBody, Shape, Spin};
+use crate::scene::{Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Spin};
 
 impl Body {
     pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
@@ -121,19 +121,18 @@ impl RigidBody {
     fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
         positive(&at("mass"), "kg", self.mass)?;
-        not_negative(&at("inertia"), "kg m^2", self.inertia)?;
+        self.validate_inertia(&at("inertia"), dimension)?;
         vector(&at("position"), dimension, &self.position)?;
         finite(&at("angle"), self.angle)?;
-        for (key, value) in [("inertia", self.inertia), ("angle", self.angle)] {
-            if value != 0.0 {
-                let instead = "0 of a rigid body, which is a particle";
-                planar(&at(key), dimension, instead, &value.to_string())?;
-            }
+        if self.angle != 0.0 {
+            let instead = "0 beside `orientation`, which says how a body stands,";
+            planar(&at("angle"), dimension, instead, &self.angle.to_string())?;
         }
+        self.validate_orientation(&at("orientation"), dimension)?;
         for (marker, point) in &self.markers {
             let place = at(&format!("markers.{marker}"));
             vector(&place, dimension, point)?;
-            if self.inertia == 0.0 && point.full() != [0.0; 3] {
+            if !self.inertia.is_some() && point.full() != [0.0; 3] {
                 let wanted = match dimension {
                     2 => "[0, 0] in a body without inertia, which does not turn",
                     _ => "[0, 0, 0] in a body without inertia, which does not turn",
@@ -149,7 +148,7 @@ impl RigidBody {
             ));
         }
         let spin = self.motion.spin.full();
-        if self.inertia == 0.0 && spin != [0.0; 3] {
+        if !self.inertia.is_some() && spin != [0.0; 3] {
             let wanted = "0 in a body without inertia, which does not turn";
             let found = match dimension {
                 2 => spin[2].to_string(),
@@ -158,6 +157,84 @@ impl RigidBody {
             return Err(expected(&at("motion.spin"), wanted, found));
         }
         Ok(())
+    }
+}
+
+impl RigidBody {
+    /// A number in the plane; moments that a body can have in space.
+    fn validate_inertia(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let (shown, is_number) = match self.inertia {
+            Inertia::Number(number) => {
+                not_negative(path, "kg m^2", number)?;
+                (number.to_string(), true)
+            }
+            Inertia::Moments(moments) => (format!("{moments:?}"), false),
+            Inertia::Tensor(rows) => (format!("{rows:?}"), false),
+        };
+        match (dimension, is_number) {
+            (2, true) => return Ok(()),
+            (2, false) => return Err(expected(path, "a number in the plane", shown)),
+            (_, true) if !self.inertia.is_some() => return Ok(()),
+            (_, true) => {
+                let wanted =
+                    "three moments of inertia or a tensor of a body in space (0 of a particle)";
+                return Err(expected(path, wanted, shown));
+            }
+            (_, false) => {}
+        }
+        let tensor = self.inertia.tensor();
+        if tensor.iter().any(|entry| !entry.is_finite()) {
+            return Err(expected(path, "finite numbers", shown));
+        }
+        let largest = tensor.amax();
+        if (tensor - tensor.transpose()).amax() > 1e-9 * largest {
+            return Err(expected(path, "a symmetric tensor", shown));
+        }
+        let mut moments = self.inertia.principal().0;
+        moments.sort_by(f64::total_cmp);
+        let [a, b, c] = moments;
+        if b <= 0.0 || a < -1e-9 * c {
+            let wanted = "moments of inertia that are positive, one of them 0 at most (a thin rod)";
+            return Err(expected(
+                path,
+                wanted,
+                format!("the principal moments {moments:?}"),
+            ));
+        }
+        if c > (a + b) * (1.0 + 1e-9) {
+            let wanted = "moments of inertia of which none is more than the sum of the other two";
+            return Err(expected(
+                path,
+                wanted,
+                format!("the principal moments {moments:?}"),
+            ));
+        }
+        Ok(())
+    }
+
+    fn validate_orientation(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let Some(orientation) = &self.orientation else {
+            return Ok(());
+        };
+        if dimension == 2 {
+            return Err(expected(
+                path,
+                "nothing beside `angle` in the plane",
+                "an orientation",
+            ));
+        }
+        if !self.inertia.is_some() {
+            let wanted = "nothing of a body without inertia, which does not turn";
+            return Err(expected(path, wanted, "an orientation"));
+        }
+        let numbers = orientation.numbers();
+        match orientation.axes() {
+            Some(_) if numbers.iter().all(|number| number.is_finite()) => Ok(()),
+            _ => {
+                let wanted = "finite numbers, of a matrix orthonormal right-handed axes, of a quaternion not all zero";
+                Err(expected(path, wanted, format!("{numbers:?}")))
+            }
+        }
     }
 }
 

@@ -1,16 +1,31 @@
 //! Checks of joints.
 
-use super::checks::{Key, expected, finite, keys, planar, positive, spring_damper, vector};
-use crate::scene::Error;
+use nalgebra::Vector3;
+
+use super::checks::{Key, expected, finite, keys, planar, positive, quoted, spring_damper, vector};
 use crate::scene::description::{Condition, Declaration, Joint, Kind as _};
 use crate::scene::marker::GROUND;
-use crate::scene::resolved::{self, Ends, First, Hold, Resolved, SlideId};
+use crate::scene::resolved::{self, Ends, First, Hold, Marker, Place, Resolved, SlideId};
+use crate::scene::{Error, Vector};
+
+/// Cosine of an angle that is a right one but for rounding.
+const RIGHT: f64 = 1e-6;
+
+/// A direction that a joint demands.
+fn given(direction: Option<Vector>) -> [f64; 3] {
+    direction.map_or([1.0, 0.0, 0.0], |of| of.full())
+}
 
 impl Joint {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 6] = [
+        let all: [Key; 7] = [
             ("point", self.point.is_some(), "a point [x, y]"),
             ("direction", self.direction.is_some(), "a direction [x, y]"),
+            (
+                "second_direction",
+                self.second_direction.is_some(),
+                "a direction [x, y, z]",
+            ),
             ("angle", self.angle.is_some(), "an angle"),
             ("length", self.length.is_some(), "a length"),
             ("stiffness", self.stiffness.is_some(), "a stiffness"),
@@ -19,33 +34,58 @@ impl Joint {
         keys(path, "joint", &all, self.kind.keys())
     }
 
-    /// In space nothing has an angle yet, but a cable has a direction.
+    /// What there is in the plane alone, or in space.
     fn validate_dimension(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let Declaration { name, holds, .. } = self.kind.declaration();
-        let instead = "revolute, distance or along, or slider, weld, orientation or prismatic from the ground,";
         let kind = format!("{path}.kind");
         if holds.contains(&Condition::Spring) {
-            return planar(&kind, dimension, instead, name);
-        }
-        let has_axes = |of: &Condition| matches!(of, Condition::Direction | Condition::Line);
-        if holds.iter().any(has_axes) && self.markers[0] != GROUND {
-            let found = format!("{name} between two bodies");
-            planar(&kind, dimension, instead, &found)?;
+            return planar(&kind, dimension, "any other kind of joint", name);
         }
         if holds.contains(&Condition::Direction) && self.angle.is_some() {
             planar(&format!("{path}.angle"), dimension, "nothing", "an angle")?;
+        }
+        if dimension == 3 {
+            let needs_direction = holds.contains(&Condition::Line) && self.direction.is_none();
+            let place = format!("{path}.direction");
+            return match needs_direction {
+                true => Err(expected(&place, "a direction [x, y, z]", "nothing")),
+                false => Ok(()),
+            };
+        }
+        if self.kind.is_spatial() {
+            let wanted = "revolute, weld, slider, prismatic, orientation, distance, hinge or along in the plane";
+            return Err(expected(&kind, wanted, name));
+        }
+        if holds.contains(&Condition::Axis) && self.direction.is_some() {
+            let place = format!("{path}.direction");
+            return Err(expected(&place, "nothing in the plane", "a direction"));
         }
         Ok(())
     }
 
     fn validate_numbers(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
-        if let Some(direction) = self.direction {
-            vector(&at("direction"), dimension, &direction)?;
+        let directions = [
+            ("direction", self.direction),
+            ("second_direction", self.second_direction),
+        ];
+        for (key, direction) in directions {
+            let Some(direction) = direction else {
+                continue;
+            };
+            vector(&at(key), dimension, &direction)?;
             if direction.full() == [0.0; 3] {
                 let wanted = "a direction that is not zero";
                 let found = format!("{:?}", direction.given());
-                return Err(expected(&at("direction"), wanted, found));
+                return Err(expected(&at(key), wanted, found));
+            }
+        }
+        if let (Some(a), Some(b)) = (self.direction, self.second_direction) {
+            let [a, b] = [a, b].map(|of| Vector3::from(of.full()).normalize());
+            if a.dot(&b).abs() > RIGHT {
+                let wanted = "a direction across `direction`";
+                let found = format!("one at {} rad from it", a.dot(&b).acos());
+                return Err(expected(&at("second_direction"), wanted, found));
             }
         }
         if let Some(angle) = self.angle {
@@ -67,8 +107,13 @@ impl<'a> Resolved<'a> {
             let ends = self.joint_ends(&path, joint)?;
             joint.validate_numbers(&path, self.scene.dimension)?;
             let holds = joint.kind.declaration().holds.iter();
-            let holds =
-                holds.map(|condition| self.resolve_condition(&path, joint, *condition, &ends));
+            let is_held = |condition: &&Condition| match condition {
+                Condition::Axis => self.scene.dimension == 3 && joint.direction.is_some(),
+                _ => true,
+            };
+            let holds = holds
+                .filter(is_held)
+                .map(|condition| self.resolve_condition(&path, joint, *condition, &ends));
             let holds = holds.collect::<Result<_, _>>()?;
             let holder = self.hold(&path, &joint.name);
             self.joints.push(resolved::Joint {
@@ -98,18 +143,66 @@ impl<'a> Resolved<'a> {
             });
         }
         let ends = self.require_pair(path, &joint.markers, joint.point)?;
+        if self.scene.dimension == 3 {
+            self.require_axes(path, joint, &ends)?;
+            return Ok(ends);
+        }
         let turns = |of: &Condition| matches!(of, Condition::Direction | Condition::Spring);
         let holds_direction = holds.iter().any(turns);
         if a != GROUND && (holds_direction || holds.contains(&Condition::Line)) {
             self.require_turning(&first, a)?;
         }
         if holds_direction {
-            match self.scene.dimension {
-                2 => self.require_turning(&second, b)?,
-                _ => self.require_cable_marker(&second, b)?,
-            };
+            self.require_turning(&second, b)?;
         }
         Ok(ends)
+    }
+
+    /// In space: axes belong to the ground and to rigid bodies with inertia; a cable has a direction alone, which the ground
+    /// or such a body can hold.
+    fn require_axes(&self, path: &str, joint: &Joint, ends: &Ends<'a>) -> Result<(), Error> {
+        let holds = joint.kind.declaration().holds;
+        let is_cable = |marker: &Marker<'_>| matches!(marker.place, Place::Along(..));
+        let first = match ends.first {
+            First::Marker(marker) => Some(marker),
+            First::Ground(_) | First::Cable(_) => None,
+        };
+        let axes = [Condition::Axis, Condition::Across, Condition::Plane];
+        let has_axis = |of: &&Condition| axes.contains(of) && joint.direction.is_some();
+        let needs_frames = holds.iter().any(|of| has_axis(&of));
+        let holds_direction = holds.contains(&Condition::Direction);
+        let sides = [
+            (0, first, needs_frames || holds.contains(&Condition::Line)),
+            (1, Some(ends.second), needs_frames),
+        ];
+        for (side, marker, needs_frame) in sides {
+            let Some(marker) = marker.filter(|_| needs_frame || holds_direction) else {
+                continue;
+            };
+            let is_clamped = holds_direction && is_cable(&marker);
+            if needs_frame && is_cable(&marker) || !marker.place.turns() {
+                let wanted = "a marker of a rigid body with inertia, which has axes,";
+                let place = format!("{path}.markers[{side}]");
+                return Err(expected(&place, wanted, quoted(marker.name)));
+            }
+            let both = first.is_some_and(|first| is_cable(&first)) && is_cable(&ends.second);
+            if is_clamped && both {
+                let wanted = "a rigid body or the ground beside a cable, which has no axes,";
+                return Err(expected(&format!("{path}.markers"), wanted, "two cables"));
+            }
+        }
+        Ok(())
+    }
+
+    /// A direction in the axes of the first end's body, in global axes at the start.
+    fn global(ends: &Ends<'a>, direction: [f64; 3]) -> [f64; 3] {
+        match ends.first {
+            First::Marker(Marker {
+                place: Place::Point(rigid, _),
+                ..
+            }) => rigid.body.directed(direction),
+            _ => direction,
+        }
     }
 
     /// A condition of a joint with its values.
@@ -122,6 +215,16 @@ impl<'a> Resolved<'a> {
     ) -> Result<Hold, Error> {
         Ok(match condition {
             Condition::Position => Hold::Position,
+            Condition::Line if self.scene.dimension == 3 => {
+                Hold::Line(Self::global(ends, given(joint.direction)))
+            }
+            Condition::Axis => Hold::Axis(Self::global(ends, given(joint.direction))),
+            Condition::Plane => Hold::Plane(Self::global(ends, given(joint.direction))),
+            Condition::Across => {
+                let both = [joint.direction, joint.second_direction];
+                let [a, b] = both.map(|of| Self::global(ends, given(of)));
+                Hold::Across(a, b)
+            }
             Condition::Line => {
                 // By default the direction of the first end itself.
                 Hold::Line(joint.direction.map_or([1.0, 0.0, 0.0], |of| of.full()))

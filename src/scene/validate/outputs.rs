@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, keys, needed, planar, quoted};
+use super::checks::{Key, expected, keys, needed, quoted};
 use crate::scene::Error;
 use crate::scene::description::{Kind as _, Output, ReadAt};
 use crate::scene::resolved::{self, AngleId, Marker, MotionKind, Of, Reaction, Resolved, Turning};
@@ -69,12 +69,17 @@ impl<'a> Resolved<'a> {
             }
             None => Ok(Turning::Marker(marker(Self::require_turning)?)),
         };
+        let spinning = || match &output.joint {
+            Some(_) => turning(),
+            None => Ok(Turning::Marker(marker(Self::require_spinning)?)),
+        };
         Ok(match output.kind.read_at() {
             ReadAt::Marker => Of::Marker(marker(Self::require_marker)?),
             ReadAt::Directed => Of::Marker(marker(Self::require_directed)?),
+            ReadAt::Standing => Of::Marker(marker(Self::require_standing)?),
             ReadAt::Cable | ReadAt::Node => Of::Marker(marker(Self::require_cable_marker)?),
             ReadAt::Flexible => Of::Marker(marker(Self::require_flexible_marker)?),
-            ReadAt::Turning => Of::Turning(turning()?),
+            ReadAt::Turning => Of::Turning(spinning()?),
             ReadAt::Angle => {
                 let turning = turning()?;
                 self.count_angle(turning)
@@ -116,9 +121,6 @@ impl<'a> Resolved<'a> {
         let name = needed(path, "joint", "a name", output.joint.as_deref())?;
         let path = format!("{path}.joint");
         let joint = self.require_joint(&path, name)?;
-        if is_moment {
-            planar(&path, self.scene.dimension, "no moment", &quoted(name))?;
-        }
         let (wanted, offered) = match is_moment {
             false => ("a joint that transmits a force", joint.holds_position()),
             true => ("a joint that transmits a moment", joint.holds_direction()),

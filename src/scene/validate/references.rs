@@ -28,6 +28,31 @@ impl<'a> Resolved<'a> {
         self.require_directed(path, name)
     }
 
+    /// A marker that moments turn: in the plane, one with a direction; in space, one of a rigid body with inertia.
+    pub(super) fn require_spinning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+        match self.scene.dimension {
+            2 => self.require_turning(path, name),
+            _ => self.require_standing(path, name),
+        }
+    }
+
+    /// A marker of a rigid body in space that turns.
+    pub(super) fn require_standing(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+        let marker = self.require_marker(path, name)?;
+        let wanted = match self.scene.dimension {
+            2 => "nothing in the plane, where \"angle\" says how a body stands",
+            _ => {
+                "a marker of a rigid body with inertia; a cable without torsion has a direction alone"
+            }
+        };
+        match marker.place {
+            Place::Point(rigid, _) if self.scene.dimension == 3 && rigid.body.inertia.is_some() => {
+                Ok(marker)
+            }
+            _ => Err(expected(path, wanted, quoted(name))),
+        }
+    }
+
     /// A marker with a direction: of a cable, or of a rigid body that has inertia.
     pub(super) fn require_directed(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;

@@ -142,7 +142,7 @@ fn is_force(source: Source) -> bool {
             | BendingMoment(..)
             | ConnectivityForce(..)
             | Reaction(..)
-            | ReactionMoment(_)
+            | ReactionMoment(..)
             | MotionForce(..)
             | MotionMoment(_)
             | CouplingForce(..)

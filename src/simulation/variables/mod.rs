@@ -75,7 +75,7 @@ pub enum Parameter {
     /// Mass of a rigid body.
     Mass(RigidId),
     /// Moment of inertia of a rigid body.
-    Inertia(RigidId),
+    Inertia(RigidId, usize),
     /// Mass lumped at a marker.
     LumpedMass(usize),
     /// Stiffness of a hinge.

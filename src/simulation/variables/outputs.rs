@@ -17,6 +17,8 @@ enum Shape {
     Vector,
     /// One an axis to turn about: in the plane the third alone.
     Turn,
+    /// Three by three, by rows.
+    Matrix,
     /// As many as are asked for; in its meaning, `{}` is the number from 1 on.
     List,
 }
@@ -26,7 +28,7 @@ enum Shape {
 enum Read {
     Marker(fn(MarkerId, usize) -> Quantity),
     /// Of a marker, of a joint.
-    Turning(fn(MarkerId) -> Quantity, fn(HolderId) -> Quantity),
+    Turning(fn(MarkerId, usize) -> Quantity, fn(HolderId) -> Quantity),
     Counted(fn(AngleId) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
     Holder(fn(HolderId, usize) -> Quantity),
@@ -42,18 +44,21 @@ type Row = (&'static str, &'static str, Option<Unit>, Shape, Read);
 fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
     use OutputKind as Kind;
     use Quantity::*;
-    use Shape::{List, Scalar, Turn, Vector};
+    use Shape::{List, Matrix, Scalar, Turn, Vector};
     match kind {
         Kind::Position => vec![("position", "Position of {}", Some(METRE), Vector, Read::Marker(Position))],
         Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Marker(Velocity))],
         Kind::Acceleration => vec![("acceleration", "Acceleration of {}", Some(METRE_PER_SECOND_2), Vector, Read::Marker(Acceleration))],
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
+        Kind::Orientation => vec![
+            ("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation)),
+        ],
         Kind::Angle => vec![("angle", "Direction {}, counted on over full turns", Some(RADIAN), Scalar, Read::Counted(Angle))],
         Kind::AngularVelocity => vec![
-            ("angular_velocity", "Angular velocity of {}", Some(RADIAN_PER_SECOND), Scalar, Read::Turning(AngularVelocity, JointVelocity)),
+            ("angular_velocity", "Angular velocity of {}", Some(RADIAN_PER_SECOND), Turn, Read::Turning(AngularVelocity, JointVelocity)),
         ],
         Kind::AngularAcceleration => vec![
-            ("angular_acceleration", "Angular acceleration of {}", Some(RADIAN_PER_SECOND_2), Scalar,
+            ("angular_acceleration", "Angular acceleration of {}", Some(RADIAN_PER_SECOND_2), Turn,
                 Read::Turning(AngularAcceleration, JointAcceleration)),
         ],
         Kind::Strain => vec![("strain", "Axial strain at {}", None, Scalar, Read::Marker(|m, _| Strain(m)))],
@@ -66,7 +71,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         Kind::Travel => vec![("travel", "Length along the cable at which {} stands", Some(METRE), Scalar, Read::Slide(Travel))],
         Kind::Reaction => vec![("reaction", "Force of {}", Some(NEWTON), Vector, Read::Holder(Reaction))],
         Kind::ReactionMoment => vec![
-            ("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Scalar, Read::Holder(|h, _| ReactionMoment(h))),
+            ("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::Holder(ReactionMoment)),
         ],
         Kind::Energy => energies(resolved),
         Kind::Work => vec![
@@ -151,6 +156,11 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             Shape::List => what.to_owned(),
             _ => what.replace("{}", &place),
         };
+        let shape = match (shape, output.of) {
+            // A joint has one axis, in space too.
+            (Shape::Turn, Of::Turning(Turning::Pivot(_))) => Shape::Scalar,
+            _ => shape,
+        };
         let source = |k| source(read, &output.of, k);
         list.shaped((&name, &what), unit, (shape, count), source);
     }
@@ -183,7 +193,9 @@ fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
 fn source(read: Read, of: &Of<'_>, k: usize) -> Source {
     Source::Output(match (read, of) {
         (Read::Marker(quantity), Of::Marker(marker)) => quantity(marker.id, k),
-        (Read::Turning(quantity, _), Of::Turning(Turning::Marker(marker))) => quantity(marker.id),
+        (Read::Turning(quantity, _), Of::Turning(Turning::Marker(marker))) => {
+            quantity(marker.id, k)
+        }
         (Read::Turning(_, quantity), Of::Turning(Turning::Pivot(pivot))) => quantity(pivot.joint),
         (Read::Counted(quantity), Of::Angle(_, angle)) => quantity(*angle),
         (Read::Slide(quantity), Of::Slide(_, slide)) => quantity(*slide),
@@ -261,6 +273,10 @@ impl List {
         match (shape, count) {
             (Shape::Scalar, _) => self.output(name.into(), what.into(), unit, source(0)),
             (Shape::Turn, 2) => self.output(name.into(), what.into(), unit, source(2)),
+            (Shape::Matrix, _) => (0..9).for_each(|k| {
+                let what = format!("{what}, {} of the {} axis", AXES[k / 3], AXES[k % 3]);
+                self.output(component(name, k), what, unit, source(k));
+            }),
             _ => (0..count).for_each(|k| {
                 let what = match shape {
                     Shape::List => what.replace("{}", &(k + 1).to_string()),

@@ -66,15 +66,28 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
 
 fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
     let (i, body) = (rigid.id, rigid.body);
-    let (mass, inertia) = (Parameter::Mass(i), Parameter::Inertia(i));
+    let row = (
+        "mass",
+        "Mass",
+        Some(KILOGRAM),
+        Parameter::Mass(i),
+        body.mass,
+    );
+    list.parameters(&body.name, "of", &[row]);
     let about = "Moment of inertia about the centre of mass";
-    let rows = [
-        ("mass", "Mass", Some(KILOGRAM), mass, body.mass),
-        ("inertia", about, Some(INERTIA), inertia, body.inertia),
-    ];
-    // In space rigid bodies are particles.
-    let count = if dimension == 2 { 2 } else { 1 };
-    list.parameters(&body.name, "of", &rows[..count]);
+    if dimension == 2 {
+        let (inertia, start) = (Parameter::Inertia(i, 0), body.inertia.number());
+        let row = ("inertia", about, Some(INERTIA), inertia, start);
+        list.parameters(&body.name, "of", &[row]);
+    } else if body.inertia.is_some() {
+        let tensor = body.inertia.tensor();
+        for (axis, name) in AXES.iter().enumerate() {
+            let what = format!("{about} of {} and the {name} axis of its frame", body.name);
+            let parameter = Parameter::Inertia(i, axis);
+            let key = component(&format!("{}.inertia", body.name), axis);
+            list.parameter(key, what, Some(INERTIA), parameter, tensor[(axis, axis)]);
+        }
+    }
 }
 
 /// Stiffness and damping of hinges, spring-dampers and couplings.

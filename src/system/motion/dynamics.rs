@@ -51,6 +51,11 @@ pub trait Dynamics {
     fn apply_damping(&mut self, x: &mut [f64]);
     /// Largest rotation of any direction, rad, and change of any stretch between two configurations.
     fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64;
+    /// Before a step: a state whose rotations are large is put in terms of smaller ones. Whether it was; its coordinates,
+    /// rates and accelerations are others then, the motion is the same.
+    fn renew(&mut self, _state: &mut State) -> bool {
+        false
+    }
     /// Told of every accepted step: brings the state back to the constraints and counts turns on.
     fn accepted(&mut self, state: &mut State) -> Accepted;
     /// Begins a stretch in which nothing has a kink or jumps: from a time to the one returned, `until` at the
@@ -209,18 +214,6 @@ impl<'a, const D: usize> Model<'a, D> {
         if system.tracks_work {
             self.work.power = system.powers(time, a, self.work);
         }
-    }
-
-    /// Counts rotations from where bodies are, where they have turned far from the frames that the state holds; not within
-    /// a step that is read in between. Whether the state has changed.
-    pub fn renew(&mut self, state: &mut State) -> bool {
-        let frames = &self.system.frames;
-        if frames.largest(&state.coordinates) <= RENEWED || state.dense.is_under_way() {
-            return false;
-        }
-        frames.renew(&mut state.frames, &mut state.coordinates, &mut state.rates);
-        self.work.frames.copy_from_slice(&state.frames);
-        true
     }
 
     fn place(&mut self, time: f64, q: &[f64], v: &[f64]) {
@@ -440,14 +433,25 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         tangent.sqrt().atan().max(beyond).max(stretch)
     }
 
+    fn renew(&mut self, state: &mut State) -> bool {
+        let frames = &self.system.frames;
+        if frames.largest(&state.coordinates) <= RENEWED {
+            return false;
+        }
+        frames.renew(&mut state.frames, &mut state.coordinates, &mut state.rates);
+        self.work.frames.copy_from_slice(&state.frames);
+        true
+    }
+
     fn accepted(&mut self, state: &mut State) -> Accepted {
-        let has_moved = self.renew(state);
-        let is_held = !(self.system.constraints.is_empty() && self.system.settled.is_empty());
-        if is_held && !self.project(state) {
+        if self.system.constraints.is_empty() && self.system.settled.is_empty() {
+            return self.count(state);
+        }
+        if !self.project(state) {
             return Accepted::Broken;
         }
         match self.count(state) {
-            Accepted::AsIs if is_held || has_moved => Accepted::Moved,
+            Accepted::AsIs => Accepted::Moved,
             other => other,
         }
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::body::{Frame, Marker, Node};
+use crate::body::{Frame, Marker, Node, combined};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, moment};
@@ -10,7 +10,7 @@ use crate::system::instant::Instant;
 use crate::system::joints::View;
 use crate::system::loads::Load;
 use crate::system::motion::forces::weighted;
-use crate::system::{CableChain, Model, State, System, Work};
+use crate::system::{CableChain, End, Model, State, System, Work};
 
 /// Coordinates, rates, accelerations and what constraints supply, of all nodes at one state.
 #[derive(Clone, Debug)]
@@ -110,6 +110,39 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             let element = &chain.elements()[j];
             (element.recovered_strain(&e, xi), element.strain(&e, xi).1)
         })
+    }
+
+    /// Principal axes of the rigid body of space that a marker belongs to, in global components; the global ones where it
+    /// belongs to none.
+    pub fn axes(&self, system: &System<D>, marker: &Marker) -> [[N; 3]; 3] {
+        match system.frames.of_node::<D>(marker.nodes[0]) {
+            Some((frame, _)) => frame.axes(&self.x).map(<[N; 3]>::from),
+            None => crate::system::AXES.map(|axis| axis.map(N::of)),
+        }
+    }
+
+    /// Angular velocity at a marker, rad/s: in the plane, its third component, that of the direction; in space that of the rigid
+    /// body.
+    pub fn spin(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
+        let Some((frame, _)) = system.frames.of_node::<D>(marker.nodes[0]) else {
+            let spin = End::<D, N>::Body(marker.lift()).spin(&self.x, &self.v);
+            return [N::of(0.0), N::of(0.0), spin];
+        };
+        let spin = frame.spin(&self.x, &self.v);
+        combined(&frame.axes(&self.x), &spin).into()
+    }
+
+    /// Angular acceleration at a marker, rad/s^2.
+    pub fn spin_rate(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
+        let (x, v, a) = (&self.x, &self.v, &self.acceleration);
+        let Some((frame, _)) = system.frames.of_node::<D>(marker.nodes[0]) else {
+            let rate = End::<D, N>::Body(marker.lift()).spin_rate(x, v, a);
+            return [N::of(0.0), N::of(0.0), rate];
+        };
+        // Half the sum of e x e'', of which w x (w x e) gives nothing.
+        let (axes, second) = (frame.axes(x), frame.axes(a));
+        let sum = (0..3).fold(Vector3::zeros(), |sum, k| sum + axes[k].cross(&second[k]));
+        (sum * N::of(0.5)).into()
     }
 
     /// Force (N) and moment (N m), in the plane its third component, of a joint or motion on its second end.
