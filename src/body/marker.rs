@@ -165,6 +165,15 @@ impl<N: Number> Marker<N> {
         self.nodes[0] == self.nodes[1]
     }
 
+    /// The point with so much of its own direction and so much of that of another marker there.
+    pub fn blended(&self, own: N, other: &Self, its: N) -> Self {
+        let slope = |k: usize| own * self.slopes[k] + its * other.slopes[k];
+        Self {
+            slopes: std::array::from_fn(slope),
+            ..*self
+        }
+    }
+
     /// Whether it belongs to a rigid body of space that turns: to both of its nodes.
     pub fn is_framed(&self) -> bool {
         self.element.is_none() && !self.is_nodal()

@@ -300,14 +300,16 @@ impl<'a> Joint<'a> {
 
     /// As a joint with an angle: its ends turn about one point.
     pub(super) fn pivot(&self) -> Option<Pivot<'a>> {
-        let is_pivot = matches!(
-            self.holds[..],
-            [Hold::Position] | [Hold::Position, Hold::Spring { .. }]
-        );
-        is_pivot.then_some(Pivot {
+        let axis = match self.holds[..] {
+            [Hold::Position] | [Hold::Position, Hold::Spring { .. }] => None,
+            [Hold::Position | Hold::Line(_), Hold::Axis(axis)] => Some(axis),
+            _ => return None,
+        };
+        Some(Pivot {
             name: self.name,
             joint: self.holder,
             ends: self.ends,
+            axis,
         })
     }
 
@@ -384,6 +386,8 @@ impl<'a> MotionKind<'a> {
                 let [x, y, _] = marker.direction;
                 vec![y.atan2(x)]
             }
+            // In space the angle is counted from the start.
+            Self::Angle(Turning::Pivot(pivot), _) if pivot.axis.is_some() => vec![0.0],
             Self::Angle(Turning::Pivot(pivot), _) => vec![pivot.ends.angle()],
             Self::Position(marker, drives) => marker.position[..drives.len()].to_vec(),
             Self::Displacement(slider, _) => vec![slider.ends.point().map_or(0.0, |point| {

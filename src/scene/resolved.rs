@@ -137,6 +137,8 @@ pub struct Pivot<'a> {
     pub joint: HolderId,
     /// What it joins.
     pub ends: Ends<'a>,
+    /// In space its axis at the start, in global axes.
+    pub axis: Option<[f64; 3]>,
 }
 
 /// A joint that holds a marker on a line through a point of the ground.

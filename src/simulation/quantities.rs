@@ -100,6 +100,7 @@ pub(super) fn value<const D: usize, N: Number>(
     let on = |id: MarkerId| -> Marker<N> { assembled.marker(id).lift() };
     let at = |id: MarkerId| assembled.marker(id);
     let ends = |joint: HolderId| system.joints()[joint.index()].ends;
+    let turn = |joint: HolderId| system.joints()[joint.index()].turn;
     match quantity {
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
@@ -112,11 +113,20 @@ pub(super) fn value<const D: usize, N: Number>(
             (0..3).fold(N::of(0.0), |sum, j| sum + axes[j][k / 3] * N::of(frame[j]))
         }
         AngularVelocity(id, axis) => values.spin(system, at(id))[axis],
+        JointVelocity(joint) if turn(joint).is_some() => {
+            let rate = turn(joint).map(|turn| turn.rate(&values.x, &values.v));
+            rate.unwrap_or_else(|| N::of(0.0))
+        }
         JointVelocity(joint) => {
             let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
             b - a
         }
         AngularAcceleration(id, axis) => values.spin_rate(system, at(id))[axis],
+        JointAcceleration(joint) if turn(joint).is_some() => {
+            let of = [&values.x[..], &values.v, &values.acceleration];
+            let second = turn(joint).map(|turn| turn.second(of));
+            second.unwrap_or_else(|| N::of(0.0))
+        }
         JointAcceleration(joint) => {
             let rate =
                 |end: End<D>| (end.lift()).spin_rate(&values.x, &values.v, &values.acceleration);

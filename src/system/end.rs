@@ -5,6 +5,7 @@ use nalgebra::SMatrix;
 use crate::body::{Marker, Node, NodeBlock, Partial, Row, no_block};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, perpendicular};
+use crate::system::joints::AxisTurn;
 
 /// A point of the ground or of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,11 +125,16 @@ impl<const D: usize> End<D> {
 pub struct Angle<const D: usize = 2> {
     /// From here to there.
     pub ends: [End<D>; 2],
+    /// In space, about what.
+    pub turn: Option<AxisTurn<D>>,
 }
 
 impl<const D: usize> Angle<D> {
     /// The angle that is nearest to `hint`, rad.
     pub fn value<N: Number>(&self, x: &[Node<D, N>], hint: N) -> N {
+        if let Some(turn) = &self.turn {
+            return turn.value(x, hint);
+        }
         let [a, b] = self.ends.map(|end| end.lift().direction(x));
         let (along, across) = (a.dot(&b), cross(&a, &b));
         let (sin, cos) = hint.sin_cos();
@@ -138,6 +144,9 @@ impl<const D: usize> Angle<D> {
 
     /// Its rate, rad/s.
     pub fn rate<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
+        if let Some(turn) = &self.turn {
+            return turn.rate(x, v);
+        }
         let [a, b] = self.ends.map(|end| end.lift().spin(x, v));
         b - a
     }

@@ -3,10 +3,15 @@
 use nalgebra::Vector3;
 
 use super::Builder;
-use crate::body::Frame;
-use crate::math::space::{Vector, components, normals};
+use crate::body::{Frame, Marker};
+use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
+use crate::scene::resolved::{self, Action, Pivot, Place, Turning};
 use crate::system::End;
-use crate::system::joints::{Across, Direction, Perpendicular, Primitive};
+use crate::system::joints::{Across, AxisTurn, Direction, Perpendicular, Primitive};
+use crate::system::loads::{Couple, Load};
+
+/// The axis of the plane.
+const THIRD: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl<const D: usize> Builder<'_, D> {
     /// A direction at the start, fixed in the body of an end; of a cable its own.
@@ -21,6 +26,67 @@ impl<const D: usize> Builder<'_, D> {
         let axes = Frame::axes(frame, &self.parts.nodes);
         let direction = Vector3::from(components(&direction));
         Direction::Of(marker.directed(axes.map(|axis| axis.dot(&direction))))
+    }
+
+    /// A marker in the directions of the axes of its body's frame.
+    pub(super) fn frame_axes(&self, marker: resolved::Marker<'_>) -> [Marker; D] {
+        let built = self.marker(marker);
+        std::array::from_fn(|k| match marker.place {
+            Place::Point(rigid, _) if built.is_framed() => {
+                let back = rigid.body.inertia.principal().1.transpose();
+                built.directed(back.column(k).into_owned().into())
+            }
+            _ => built,
+        })
+    }
+
+    /// A moment on a rigid body: in global axes, or in those of its frame.
+    pub(super) fn moment_on(&self, marker: resolved::Marker<'_>, action: &Action<'_>) -> Load<D> {
+        let axes = self.frame_axes(marker);
+        let about = |k: usize| match action.follower {
+            true => Direction::Of(axes[k]),
+            false => Direction::Fixed(axis(k)),
+        };
+        let parts = action.components.iter().enumerate();
+        Load::Couple(Couple {
+            ends: self.on_marker(marker),
+            parts: parts.map(|(k, size)| (size.clone(), about(k))).collect(),
+        })
+    }
+
+    /// A torque about the axis of a joint.
+    pub(super) fn torque(&self, pivot: Pivot<'_>, action: &Action<'_>) -> Load<D> {
+        let ends = self.ends(pivot.ends);
+        let about = self.fixed(&ends[0], super::unit(pivot.axis.unwrap_or(THIRD)));
+        let sizes = action.components.iter();
+        Load::Couple(Couple {
+            ends,
+            parts: sizes.map(|size| (size.clone(), about)).collect(),
+        })
+    }
+
+    /// In space, the turn that a joint with an axis lets its bodies make.
+    pub(super) fn turn_of(&self, joint: &resolved::Joint<'_>) -> Option<AxisTurn<D>> {
+        self.turn(joint.pivot()?)
+    }
+
+    /// The same of what turns; none of a marker.
+    pub(super) fn axis_turn(&self, turning: &Turning<'_>) -> Option<AxisTurn<D>> {
+        match turning {
+            Turning::Pivot(pivot) => self.turn(*pivot),
+            Turning::Marker(_) => None,
+        }
+    }
+
+    /// The turn about the axis of a joint, zero at the start.
+    fn turn(&self, pivot: Pivot<'_>) -> Option<AxisTurn<D>> {
+        let (ends, axis) = (self.ends(pivot.ends), super::unit(pivot.axis?));
+        let across = normal(&axis, 0);
+        let left = vector(moment(&axis, &across));
+        Some(AxisTurn {
+            across: [across, left].map(|direction| self.fixed(&ends[0], direction)),
+            of: self.fixed(&ends[1], across),
+        })
     }
 
     /// A direction of the first body across one of the second.

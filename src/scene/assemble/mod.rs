@@ -19,7 +19,7 @@ use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
 use crate::math::function::Function;
 use crate::math::space::{Vector, vector};
-use crate::system::joints::{Joint, Primitive};
+use crate::system::joints::{AxisTurn, Joint, Primitive};
 use crate::system::loads::{self, Load};
 use crate::system::{Angle, BuildError, End, LumpedMass, Parts, Signal, System};
 
@@ -233,15 +233,15 @@ impl<const D: usize> Builder<'_, D> {
         (ends[1].position(nodes) - ends[0].position(nodes)).norm()
     }
 
-    fn count_angle(&mut self, ends: [End<D>; 2]) -> usize {
-        self.parts.angles.push(Angle { ends });
+    fn count_angle(&mut self, ends: [End<D>; 2], turn: Option<AxisTurn<D>>) -> usize {
+        self.parts.angles.push(Angle { ends, turn });
         self.parts.angles.len() - 1
     }
 
     /// Angles that are read, as the scene numbers them; those of hinges and ports follow.
     fn angles(&mut self) {
         for turning in &self.resolved.angles {
-            self.count_angle(self.turning(turning));
+            self.count_angle(self.turning(turning), self.axis_turn(turning));
         }
     }
 
@@ -250,6 +250,7 @@ impl<const D: usize> Builder<'_, D> {
             holds: vec![primitive],
             ends,
             spring: None,
+            turn: None,
         });
     }
 
@@ -265,13 +266,15 @@ impl<const D: usize> Builder<'_, D> {
                 holds,
                 ends,
                 spring,
+                turn: self.turn_of(joint),
             });
         }
     }
 
     /// From the direction of the first end to that of the second at the start, where none is given.
     fn angle(&self, ends: [End<D>; 2], given: Option<f64>) -> f64 {
-        given.unwrap_or_else(|| Angle { ends }.value(&self.parts.nodes, 0.0))
+        let turn = None;
+        given.unwrap_or_else(|| Angle { ends, turn }.value(&self.parts.nodes, 0.0))
     }
 
     /// The equations of what a joint holds; none of a spring.
@@ -329,7 +332,7 @@ impl<const D: usize> Builder<'_, D> {
         let spring = loads::RotationalSpring {
             ends,
             rest: self.angle(ends, rest),
-            angle: self.count_angle(ends),
+            angle: self.count_angle(ends, None),
             stiffness,
             damping,
         };
@@ -377,7 +380,10 @@ impl<const D: usize> Builder<'_, D> {
                 marker: self.marker(marker),
                 follower: action.follower,
                 components: each(components),
+                axes: self.frame_axes(marker),
             }),
+            On::Marker(marker) if D == 3 => self.moment_on(marker, action),
+            On::Joint(pivot) if D == 3 => self.torque(pivot, action),
             On::Marker(marker) => moment(self.on_marker(marker)),
             On::Joint(pivot) => moment(self.ends(pivot.ends)),
             On::Cable(cable) => Load::Distributed(loads::Distributed {

@@ -3,7 +3,7 @@
 use super::{Builder, unit};
 use crate::scene::resolved::{MotionKind, PortKind};
 use crate::system::Drive;
-use crate::system::joints::Primitive;
+use crate::system::joints::{DrivenTurn, Primitive};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn motions(&mut self) {
@@ -21,7 +21,11 @@ impl<const D: usize> Builder<'_, D> {
     fn motion(&mut self, motion: &MotionKind<'_>) {
         match motion {
             MotionKind::Angle(turning, drive) => {
-                let driven = Primitive::DrivenDirection(self.drive(drive));
+                let (turn, drive) = (self.axis_turn(turning), self.drive(drive));
+                let driven = match turn {
+                    Some(turn) => Primitive::DrivenTurn(DrivenTurn { turn, drive }),
+                    None => Primitive::DrivenDirection(drive),
+                };
                 self.hold(driven, self.turning(turning));
             }
             MotionKind::Position(marker, drives) => {

@@ -35,7 +35,7 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     fn couple_angle(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
-        let counted = self.count_angle(self.on_marker(port.marker));
+        let counted = self.count_angle(self.on_marker(port.marker), None);
         self.couple(Load::RotationalBushing(RotationalBushing {
             marker: self.marker(port.marker),
             counted,

@@ -29,11 +29,12 @@ pub struct Load {
     /// start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vector>,
-    /// `force` only: the components turn with the marker, along and across (to the left).
+    /// `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
+    /// space along the axes of the body's frame.
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
-    /// All but `spring_damper`: the components of a force (N) or of a force per length (N/m), one of
-    /// a moment or torque (N m).
+    /// All but `spring_damper`: the components of a force (N), of a force per length (N/m) or of a moment in space (N m), one
+    /// of a moment in the plane or of a torque (N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<LoadValue>,
     /// `spring_damper`: stiffness, N/m.
@@ -55,9 +56,10 @@ pub struct Load {
 pub enum LoadKind {
     /// Force at a marker, N.
     Force,
-    /// Moment at a marker, counter-clockwise, N m.
+    /// Moment at a marker, counter-clockwise in the plane, N m. In space it keeps its global axes where it does not follow,
+    /// and its work then depends on the way that the body turns.
     Moment,
-    /// Moment on the second marker of a joint, opposite on its first, N m.
+    /// Moment on the second marker of a joint about its axis, opposite on its first, N m.
     Torque,
     /// Force in global axes per reference length of a cable, N/m.
     Distributed,
@@ -83,7 +85,7 @@ pub struct Input {
     /// `rest_length`: name of the spring-damper.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<String>,
-    /// `force` only: the components turn with the marker, along and across (to the left).
+    /// `force`, in space `moment` too: as of a load.
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
     /// Value before the master sets one: the components of a force, one of others; zero by default,
@@ -114,7 +116,7 @@ impl Kind for LoadKind {
     fn keys(&self) -> &'static [Keys] {
         match self {
             Self::Force => &[(&["marker", "value"], &["follower"])],
-            Self::Moment => &[(&["marker", "value"], &[])],
+            Self::Moment => &[(&["marker", "value"], &["follower"])],
             Self::Torque => &[(&["joint", "value"], &[])],
             Self::Distributed => &[(&["body", "value"], &[])],
             Self::SpringDamper => &[(&["markers"], &["point", "stiffness", "damping", "length"])],
@@ -128,7 +130,7 @@ impl Kind for InputKind {
     fn keys(&self) -> &'static [Keys] {
         match self {
             Self::Force => &[(&["marker"], &["follower"])],
-            Self::Moment => &[(&["marker"], &[])],
+            Self::Moment => &[(&["marker"], &["follower"])],
             Self::Torque => &[(&["joint"], &[])],
             Self::Distributed => &[(&["body"], &[])],
             Self::RestLength => &[(&["load"], &[])],
@@ -186,11 +188,12 @@ impl ActionKind {
         self.declaration().2
     }
 
-    /// Number of components: those of a force in so many dimensions, 1 of a moment.
+    /// Number of components: those of a force in so many dimensions; of a moment 1 in the plane, 3 in space; 1 of a torque.
     pub fn components(self, dimension: usize) -> usize {
-        match self.is_force() {
-            true => dimension,
-            false => 1,
+        match self {
+            Self::Moment if dimension == 2 => 1,
+            Self::Torque => 1,
+            Self::Force | Self::Distributed | Self::Moment => dimension,
         }
     }
 }

@@ -80,12 +80,16 @@ impl<'a> Resolved<'a> {
             let name = needed(path, key, "a name", name.as_deref())?;
             Ok::<_, Error>((format!("{path}.{key}"), name))
         };
+        if follower && !kind.is_force() && self.scene.dimension == 2 {
+            let wanted = "nothing for a moment in the plane";
+            return Err(expected(&format!("{path}.follower"), wanted, "true"));
+        }
         let on = match kind.acts_on() {
             ActsOn::Marker => {
                 let (at, name) = named("marker", marker)?;
                 // A direction is what a moment turns and what a follower turns with.
                 On::Marker(match follower || !kind.is_force() {
-                    true => self.require_turning(&at, name)?,
+                    true => self.require_spinning(&at, name)?,
                     false => self.require_marker(&at, name)?,
                 })
             }
@@ -116,6 +120,9 @@ impl<'a> Resolved<'a> {
         let signal = |path: &str, of: &Value| value(path, of, false).map(Signal::Function);
         match (kind.is_force(), given) {
             (true, _) => components(path, self.scene.dimension, given.components(), signal),
+            (false, _) if kind.components(self.scene.dimension) > 1 => {
+                components(path, self.scene.dimension, given.components(), signal)
+            }
             (false, LoadValue::One(of)) => Ok(vec![signal(path, of)?]),
             (false, LoadValue::Vector(values)) => Err(expected(path, "one value", values.len())),
         }

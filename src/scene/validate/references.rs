@@ -160,9 +160,15 @@ impl<'a> Resolved<'a> {
 
     /// A joint with an angle of its own.
     pub(super) fn require_pivot(&self, path: &str, name: &str) -> Result<Pivot<'a>, Error> {
-        planar(path, self.scene.dimension, NOTHING_TURNS, &quoted(name))?;
-        let Some(pivot) = self.require_joint(path, name)?.pivot() else {
-            return Err(expected(path, "a revolute joint or a hinge", quoted(name)));
+        let joint = self.require_joint(path, name)?;
+        let is_in_plane = self.scene.dimension == 2;
+        let pivot = joint.pivot();
+        let Some(pivot) = pivot.filter(|pivot| is_in_plane || pivot.axis.is_some()) else {
+            let wanted = match self.scene.dimension {
+                2 => "a revolute joint or a hinge",
+                _ => "a revolute joint with a direction, or a cylindrical one",
+            };
+            return Err(expected(path, wanted, quoted(name)));
         };
         for marker in pivot.ends.markers() {
             if !marker.place.turns() {

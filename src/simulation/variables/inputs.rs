@@ -50,8 +50,26 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
 /// A load; its variables bear the name of a port or of what it acts on.
 fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     let axes = ["component x", "component y", "component z"];
+    let turning = [
+        "along the x axis of its frame",
+        "along the y axis of its frame",
+        "along the z axis of its frame",
+    ];
     let (key, what, unit, ways): (_, _, _, &[&str]) = match &input.kind {
         InputKind::Action(action) => match action.kind {
+            ActionKind::Force if action.follower && input.start.len() == 3 => (
+                "follower_force",
+                "Force that turns along, on",
+                NEWTON,
+                &turning,
+            ),
+            ActionKind::Moment if action.follower => {
+                let what = "Moment that turns along, on";
+                ("follower_moment", what, NEWTON_METRE, &turning)
+            }
+            ActionKind::Moment if input.start.len() == 3 => {
+                ("moment", "Moment on", NEWTON_METRE, &axes)
+            }
             ActionKind::Force if action.follower => (
                 "follower_force",
                 "Force that turns along, on",

@@ -8,6 +8,7 @@ mod line;
 mod motion;
 mod perpendicular;
 mod point_on_curve;
+mod turn;
 mod unit;
 
 pub use direction::AngleBetween;
@@ -16,6 +17,7 @@ pub use held_row::HeldRow;
 pub use line::PointOnLine;
 pub use perpendicular::{Across, Direction, Perpendicular};
 pub use point_on_curve::PointOnCurve;
+pub use turn::{AxisTurn, DrivenTurn};
 pub use unit::UnitLength;
 
 use super::CableChain;
@@ -43,6 +45,8 @@ pub enum Primitive<const D: usize = 2> {
     Curve(usize),
     /// The direction is at a driven angle from that of the first end.
     DrivenDirection(usize),
+    /// The angle about an axis in space is driven.
+    DrivenTurn(DrivenTurn<D>),
     /// The position has driven coordinates (first end: ground).
     DrivenPosition([usize; D]),
     /// The position along this unit vector is at a driven distance from the first end (ground).
@@ -58,6 +62,8 @@ pub struct Joint<const D: usize = 2> {
     pub ends: [End<D>; 2],
     /// Index of its rotational spring among the loads: a hinge.
     pub spring: Option<usize>,
+    /// In space the turn about its axis, where it has one.
+    pub turn: Option<AxisTurn<D>>,
 }
 
 /// What a row is to equal.
@@ -156,6 +162,8 @@ pub enum ConstraintKind<const D: usize = 2> {
     HeldRow(HeldRow<D>),
     /// A right angle.
     Perpendicular(Perpendicular<D>),
+    /// A driven turn.
+    DrivenTurn(DrivenTurn<D>),
 }
 
 macro_rules! each {
@@ -168,6 +176,7 @@ macro_rules! each {
             ConstraintKind::PointOnCurve($c) => $call,
             ConstraintKind::HeldRow($c) => $call,
             ConstraintKind::Perpendicular($c) => $call,
+            ConstraintKind::DrivenTurn($c) => $call,
         }
     };
 }
@@ -198,6 +207,7 @@ impl<const D: usize> Constraint<D> {
         match &self.kind {
             ConstraintKind::AngleBetween(c) => c.rate(view),
             ConstraintKind::HeldRow(c) => c.rate(view),
+            ConstraintKind::DrivenTurn(c) => c.rate(view),
             _ => N::of(0.0),
         }
     }
@@ -218,13 +228,16 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::PointOnCurve(_) => {}
             ConstraintKind::HeldRow(_) => {}
             ConstraintKind::Perpendicular(c) => c.stiffness(lambda, add),
+            ConstraintKind::DrivenTurn(c) => c.stiffness(lambda, view, add),
         }
     }
 
     /// Size of `g` to measure its residual by: 1 for directions, m for lengths.
     pub fn size(&self, chains: &[CableChain<D>]) -> f64 {
         match &self.kind {
-            ConstraintKind::UnitLength(_) | ConstraintKind::AngleBetween(_) => 1.0,
+            ConstraintKind::UnitLength(_)
+            | ConstraintKind::AngleBetween(_)
+            | ConstraintKind::DrivenTurn(_) => 1.0,
             ConstraintKind::Distance(c) => c.length,
             ConstraintKind::PointOnLine(c) => c.size,
             ConstraintKind::HeldRow(c) => c.size,
@@ -243,6 +256,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::PointOnLine(c) => c.ends.to_vec(),
             ConstraintKind::HeldRow(c) => c.ends.to_vec(),
             ConstraintKind::Perpendicular(c) => c.ends(),
+            ConstraintKind::DrivenTurn(c) => c.ends(),
         }
     }
 
@@ -311,9 +325,9 @@ impl<const D: usize> Joint<D> {
         self.holds
             .iter()
             .flat_map(|primitive| match primitive {
-                Primitive::DrivenDirection(drive) | Primitive::DrivenDistance(_, drive) => {
-                    std::slice::from_ref(drive)
-                }
+                Primitive::DrivenDirection(drive)
+                | Primitive::DrivenDistance(_, drive)
+                | Primitive::DrivenTurn(DrivenTurn { drive, .. }) => std::slice::from_ref(drive),
                 Primitive::DrivenPosition(drives) => drives,
                 _ => &[],
             })
@@ -364,6 +378,7 @@ impl<const D: usize> Joint<D> {
                     None
                 }
                 Primitive::DrivenDirection(drive) => motion::direction(&mut rows, *drive),
+                Primitive::DrivenTurn(driven) => Some(ConstraintKind::DrivenTurn(driven.clone())),
                 Primitive::DrivenPosition(drives) => motion::position(&mut rows, *drives),
                 Primitive::DrivenDistance(along, drive) => {
                     motion::distance(&mut rows, *along, *drive)

@@ -8,7 +8,7 @@
 use nalgebra::SMatrix;
 
 use super::{Gradient, View};
-use crate::body::Marker;
+use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::{Add, End, bilinear};
@@ -41,22 +41,24 @@ pub struct Perpendicular<const D: usize> {
 }
 
 impl<const D: usize> Direction<D> {
-    fn value<N: Number>(&self, x: &[crate::body::Node<D, N>]) -> Vector<D, N> {
+    /// Its components now.
+    pub fn value<N: Number>(&self, x: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Of(marker) => marker.lift().direction(x),
             Self::Fixed(direction) => direction.map(N::of),
         }
     }
 
-    fn rate<N: Number>(&self, v: &[crate::body::Node<D, N>]) -> Vector<D, N> {
+    /// Their rates.
+    pub fn rate<N: Number>(&self, v: &[Node<D, N>]) -> Vector<D, N> {
         match self {
             Self::Of(marker) => marker.lift().direction(v),
             Self::Fixed(_) => Vector::zeros(),
         }
     }
 
-    /// Its end, if it is that of a body.
-    fn end(&self) -> End<D> {
+    /// Its end; the ground where it is fixed.
+    pub fn end(&self) -> End<D> {
         match self {
             Self::Of(marker) => End::Body(*marker),
             Self::Fixed(_) => End::Ground(Vector::zeros()),

@@ -1,5 +1,5 @@
-//! A force at a marker: dead (global axes) or follower (along the marker's direction and across it, to
-//! the left).
+//! A force at a marker: dead (global axes) or follower (in the plane along the marker's direction and across it, to the
+//! left; in space along the axes of a body's frame).
 
 use nalgebra::SMatrix;
 
@@ -19,6 +19,8 @@ pub struct Force<const D: usize = 2> {
     pub follower: bool,
     /// Components, N.
     pub components: [Signal; D],
+    /// In space, what a follower's components are along.
+    pub axes: [Marker; D],
 }
 
 impl<const D: usize> Force<D> {
@@ -26,6 +28,14 @@ impl<const D: usize> Force<D> {
         let components = self.components.each_ref().map(|c| c.value(at));
         if !self.follower {
             return Vector::from(components);
+        }
+        if D == 3 {
+            let along = self.axes.each_ref().map(|axis| axis.lift().direction(at.x));
+            let parts = along
+                .iter()
+                .zip(components)
+                .map(|(along, size)| along * size);
+            return parts.fold(Vector::zeros(), |sum, part| sum + part);
         }
         let u = self.marker.lift().direction(at.x).normalize();
         u * components[0] + perpendicular(u) * components[1]
@@ -42,7 +52,8 @@ impl<const D: usize> Force<D> {
 
     /// The force follows the direction: `d force = perpendicular(force) (u x du) / u.u`; the symmetric part.
     pub(super) fn add_stiffness(&self, at: Instant<'_, D>, add: Add<'_, D>) {
-        if !self.follower {
+        // In space what it adds is small beside inertia.
+        if !self.follower || D == 3 {
             return;
         }
         let u: Vector<D> = self.marker.direction(at.x);

@@ -2,6 +2,7 @@
 //! [`Signal`]: a function of time or an input.
 
 mod bushing;
+mod couple;
 mod distributed;
 mod force;
 mod hinge;
@@ -9,6 +10,7 @@ mod moment;
 mod spring;
 
 pub use bushing::{Bushing, RotationalBushing};
+pub use couple::Couple;
 pub use distributed::{Distributed, Line};
 pub use force::Force;
 pub use hinge::RotationalSpring;
@@ -27,8 +29,10 @@ use crate::math::space::Vector;
 pub enum Load<const D: usize = 2> {
     /// A force at a marker, dead or follower.
     Force(Force<D>),
-    /// A moment on one end, and its opposite on another.
+    /// A moment on one end, and its opposite on another, in the plane.
     Moment(Moment<D>),
+    /// The same in space.
+    Couple(Couple<D>),
     /// A dead force per reference length of a cable or a rod.
     Distributed(Distributed<D>),
     /// A spring with a damper between two ends.
@@ -62,6 +66,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Force(load) => load.act(at, call),
             Self::Moment(load) => load.act(at, call),
+            Self::Couple(load) => load.act(at, call),
             Self::Distributed(_) => {}
             Self::Spring(load) => load.act(at, call),
             Self::RotationalSpring(load) => load.act(at, call),
@@ -76,7 +81,8 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Force(load) => load.add_stiffness(at, stiffness),
             Self::Moment(load) => load.add_stiffness(at, stiffness),
-            Self::Distributed(_) => {}
+            // What it adds to the stiffness where bodies turn is not symmetric, and small beside inertia.
+            Self::Couple(_) | Self::Distributed(_) => {}
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
             Self::RotationalSpring(load) => load.add_tangent(at, stiffness, damping),
             Self::Bushing(load) => load.add_tangent(stiffness, damping),
@@ -90,6 +96,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Force(load) => [load.power(at), none],
             Self::Moment(load) => [load.power(at), none],
+            Self::Couple(load) => [load.power(at), none],
             Self::Distributed(load) => [load.power(at), none],
             Self::Spring(load) => load.power(at),
             Self::RotationalSpring(load) => [none, load.dissipation(at)],
@@ -115,6 +122,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Force(load) => load.work(before, after),
             Self::Moment(load) => load.work(before, after),
+            Self::Couple(load) => load.work(before, after),
             Self::Distributed(load) => load.work(before, after),
             Self::Bushing(load) => load.work(before, after),
             Self::RotationalBushing(load) => load.work(before, after),
@@ -133,6 +141,11 @@ impl<const D: usize> Load<D> {
         match &mut held {
             Self::Force(load) => hold(&mut load.components, fraction),
             Self::Moment(load) => hold(std::slice::from_mut(&mut load.size), fraction),
+            Self::Couple(load) => {
+                for (size, _) in &mut load.parts {
+                    hold(std::slice::from_mut(size), fraction);
+                }
+            }
             Self::Distributed(load) => hold(&mut load.components, fraction),
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
             Self::RotationalSpring(_) => {}
@@ -150,13 +163,20 @@ impl<const D: usize> Load<D> {
 
     /// Whether it has a potential, so that its tangent is symmetric: a force that turns with a body has none.
     pub fn is_conservative(&self) -> bool {
-        !matches!(self, Self::Force(load) if load.follower)
+        match self {
+            Self::Force(load) => !load.follower,
+            Self::Couple(_) => false,
+            _ => true,
+        }
     }
 
     /// Whether it turns what it acts on.
     pub fn is_moment(&self) -> bool {
         match self {
-            Self::Moment(_) | Self::RotationalSpring(_) | Self::RotationalBushing(_) => true,
+            Self::Moment(_)
+            | Self::Couple(_)
+            | Self::RotationalSpring(_)
+            | Self::RotationalBushing(_) => true,
             Self::Force(_) | Self::Distributed(_) | Self::Spring(_) | Self::Bushing(_) => false,
         }
     }
@@ -180,11 +200,15 @@ impl<const D: usize> Load<D> {
             Self::Distributed(load) => (&load.components, &[]),
             Self::Moment(load) => (one(&load.size), &[]),
             Self::Spring(load) => (one(&load.length), &[]),
-            Self::RotationalSpring(_) => (&[], &[]),
+            Self::Couple(_) | Self::RotationalSpring(_) => (&[], &[]),
             Self::Bushing(load) => (&load.position, &load.velocity),
             Self::RotationalBushing(load) => (one(&load.angle), one(&load.velocity)),
         };
-        first.iter().chain(second)
+        let parts = match self {
+            Self::Couple(load) => &load.parts[..],
+            _ => &[],
+        };
+        (first.iter().chain(second)).chain(parts.iter().map(|(size, _)| size))
     }
 
     /// Ends between which its tangent couples.
@@ -192,6 +216,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Force(load) => vec![End::Body(load.marker)],
             Self::Moment(load) => load.ends.to_vec(),
+            Self::Couple(load) => load.ends.to_vec(),
             Self::Distributed(_) => vec![],
             Self::Spring(load) => load.ends.to_vec(),
             Self::RotationalSpring(load) => load.ends.to_vec(),

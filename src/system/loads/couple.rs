@@ -1,0 +1,111 @@
+//! A moment on a rigid body of space, and its opposite on another: about directions that stay where they are in space (a dead
+//! moment), or that turn with a body (a follower, or the axis of a joint). On the axes `e_k` of a body it is the
+//! forces `M x e_k / 2`, whose moment is `M`. A dead moment about more than one axis does work that depends on the way and
+//! has no potential.
+//!
+//! Source: H. Ziegler, Principles of Structural Stability, 2nd ed. (1977), section 5.2 (moments without a potential).
+
+use nalgebra::Vector3;
+
+use super::Instant;
+use crate::body::{Marker, Node};
+use crate::math::jet::Number;
+use crate::math::space::{Vector, components, vector};
+use crate::system::end::End;
+use crate::system::joints::Direction;
+use crate::system::signal::Signal;
+
+/// A moment.
+#[derive(Clone, Debug)]
+pub struct Couple<const D: usize> {
+    /// The second end takes the moment, the first one its opposite.
+    pub ends: [End<D>; 2],
+    /// Sizes, N m, and what they are about.
+    pub parts: Vec<(Signal, Direction<D>)>,
+}
+
+/// The three axes of the body that a marker belongs to, as directions of markers.
+fn axes(marker: &Marker) -> [Marker; 3] {
+    std::array::from_fn(|k| {
+        let mut unit = [0.0; 3];
+        unit[k] = 1.0;
+        marker.directed(unit)
+    })
+}
+
+/// Angular velocity of an end, rad/s.
+pub(super) fn spin<const D: usize, N: Number>(
+    end: &End<D>,
+    x: &[Node<D, N>],
+    v: &[Node<D, N>],
+) -> Vector3<N> {
+    let End::Body(marker) = end else {
+        return Vector3::zeros();
+    };
+    let turned = axes(marker).map(|axis| {
+        let axis = axis.lift();
+        let [e, rate] =
+            [axis.direction(x), axis.direction(v)].map(|of| Vector3::from(components(&of)));
+        e.cross(&rate)
+    });
+    (turned[0] + turned[1] + turned[2]) * N::of(0.5)
+}
+
+/// Forces on directions at the ends of a moment on the second one and its opposite on the first.
+pub(super) fn act<const D: usize, N: Number>(
+    ends: &[End<D>; 2],
+    moment: &Vector3<N>,
+    x: &[Node<D, N>],
+    mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+) {
+    for (end, sign) in ends.iter().zip([-0.5, 0.5]) {
+        let End::Body(marker) = end else {
+            continue;
+        };
+        for axis in axes(marker) {
+            let axis = axis.lift();
+            let along = Vector3::from(components(&axis.direction(x)));
+            let force = moment.cross(&along) * N::of(sign);
+            call(&End::Body(axis), [Vector::zeros(), vector(force.into())]);
+        }
+    }
+}
+
+impl<const D: usize> Couple<D> {
+    fn moment<N: Number>(&self, at: Instant<'_, D, N>) -> Vector3<N> {
+        let parts = self.parts.iter().map(|(size, about)| {
+            let about = Vector3::from(components(&about.value(at.x)));
+            about * size.value(at)
+        });
+        parts.fold(Vector3::zeros(), |sum, part| sum + part)
+    }
+
+    pub(super) fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
+        act(&self.ends, &self.moment(at), at.x, call);
+    }
+
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        let [first, second] = self.ends.each_ref().map(|end| spin(end, at.x, at.v));
+        self.moment(at).dot(&(second - first))
+    }
+
+    /// Exact for small turns.
+    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
+        let [first, second] = self.ends.each_ref().map(|end| {
+            let End::Body(marker) = end else {
+                return Vector3::zeros();
+            };
+            let turned = axes(marker).map(|axis| {
+                let [a, b]: [Vector<D>; 2] = [axis.direction(before.x), axis.direction(after.x)];
+                let [a, b] = [a, b].map(|of| Vector3::from(components(&of)));
+                a.cross(&b)
+            });
+            (turned[0] + turned[1] + turned[2]) * 0.5
+        });
+        self.moment(before).dot(&(second - first))
+    }
+}
