@@ -302,7 +302,8 @@ impl<'a> Joint<'a> {
     pub(super) fn pivot(&self) -> Option<Pivot<'a>> {
         let axis = match self.holds[..] {
             [Hold::Position] | [Hold::Position, Hold::Spring { .. }] => None,
-            [Hold::Position | Hold::Line(_), Hold::Axis(axis)] => Some(axis),
+            [Hold::Position | Hold::Line(_), Hold::Axis(axis)]
+            | [Hold::Position, Hold::Axis(axis), Hold::Spring { .. }] => Some(axis),
             _ => return None,
         };
         Some(Pivot {

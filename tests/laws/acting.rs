@@ -118,13 +118,14 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
         rotational.push(Acted {
             frame,
             load: Load::RotationalSpring(RotationalSpring {
+                turn: None,
                 ends,
                 angle: 0,
                 stiffness: 3.0 + made.noise[25],
                 damping: 1.0 + made.noise[26],
                 rest: 7.0 * made.noise[27],
             }),
-            angles: vec![Angle { ends }],
+            angles: vec![Angle { ends, turn: None }],
         });
     }
     for (body, kind) in made.bodies.iter().enumerate() {
@@ -190,7 +191,7 @@ fn couplings(frame: &Frame) -> Vec<Acted<'_>> {
                     angle,
                     velocity,
                 }),
-                angles: vec![Angle { ends }],
+                angles: vec![Angle { ends, turn: None }],
             });
         }
     }

@@ -87,6 +87,7 @@ impl Mechanism {
             holds,
             ends: hold.ends.map(|end| self.product_end(end)),
             spring: None,
+            turn: None,
         }
     }
 
@@ -99,6 +100,7 @@ impl Mechanism {
                 marker: self.marker(*at),
                 follower: *follower,
                 components: size.each_ref().map(signal),
+                axes: [self.marker(*at); 2],
             }),
             Acting::Moment { ends: e, size } => Load::Moment(Moment {
                 ends: ends(e),
@@ -156,8 +158,12 @@ impl Mechanism {
             let mut joint = self.joint(hold, &mut drives);
             if let Kind::Hinge([stiffness, damping, rest]) = hold.kind {
                 joint.spring = Some(loads.len());
-                angles.push(Angle { ends: joint.ends });
+                angles.push(Angle {
+                    ends: joint.ends,
+                    turn: None,
+                });
                 loads.push(Load::RotationalSpring(RotationalSpring {
+                    turn: None,
                     ends: joint.ends,
                     angle: angles.len() - 1,
                     stiffness,

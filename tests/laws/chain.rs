@@ -159,6 +159,7 @@ impl Chain {
             holds,
             ends: [End::Ground(position), second],
             spring: None,
+            turn: None,
         }
     }
 

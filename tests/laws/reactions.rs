@@ -58,6 +58,7 @@ fn case(chain: &Chain) -> Case {
             marker: marker(places[0]),
             follower: false,
             components: [Signal::Input(0), Signal::Input(1)],
+            axes: [marker(places[0]); 2],
         }),
         Load::Moment(Moment {
             ends: [End::Ground(Vector2::zeros()), End::Body(marker(places[1]))],

@@ -3,9 +3,13 @@
 
 use flexbody::body::{Frame, Marker, Node};
 use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
+use flexbody::math::function::Function;
 use flexbody::math::jet::Jet;
 use flexbody::system::joints::{Across, Direction, Joint, Perpendicular, Primitive};
-use flexbody::system::{Derivatives, End, Evaluation, Model, Parts, State, System, Work};
+use flexbody::system::loads::{Load, Spring};
+use flexbody::system::{
+    Derivatives, Dynamics, End, Evaluation, Model, Parts, Signal, State, System, Work,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
 type V = Vector3<f64>;
@@ -373,6 +377,7 @@ impl Mechanism {
             holds,
             ends,
             spring: None,
+            turn: None,
         }
     }
 
@@ -385,7 +390,7 @@ impl Mechanism {
         nodes.collect()
     }
 
-    fn system(&self) -> System<3> {
+    fn parts(&self) -> Parts<3> {
         let count = self.bodies.len();
         let frames = self.bodies.iter().enumerate().map(|(i, body)| Frame {
             node: 2 * i,
@@ -393,7 +398,7 @@ impl Mechanism {
             moments: body.moments.into(),
             places: [None; 3],
         });
-        System::new(Parts {
+        Parts {
             nodes: self.nodes(|body| (body.center, body.axes)),
             bodies: (0..count).map(|i| 2 * i..2 * i + 2).collect(),
             chains: Vec::new(),
@@ -409,14 +414,18 @@ impl Mechanism {
             gravity: self.gravity,
             rotation: 0.0,
             tracks_work: false,
-        })
-        .expect("a system")
+        }
     }
 
     /// The system with its state as described.
     fn started(&self) -> (System<3>, State, Work<3>) {
-        let system = self.system();
-        let mut work = Work::new(&system);
+        let system = System::new(self.parts()).expect("a system");
+        let (state, work) = self.state_of(&system);
+        (system, state, work)
+    }
+
+    fn state_of(&self, system: &System<3>) -> (State, Work<3>) {
+        let mut work = Work::new(system);
         let described = self.nodes(|body| (body.center, body.axes));
         let cross = |w: V| Matrix3::new(0.0, -w[2], w[1], w[2], 0.0, -w[0], -w[1], w[0], 0.0);
         let rates = self.nodes(|body| (body.velocity, cross(body.spin) * body.axes));
@@ -431,7 +440,7 @@ impl Mechanism {
                         .collect::<Vec<_>>()
                 )
             });
-        (system, state, work)
+        (state, work)
     }
 }
 
@@ -590,5 +599,73 @@ fn derivatives_in_time_are_those_of_the_motion() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn the_stiffness_is_the_derivative_of_forces() {
+    let mut chance = Chance(11);
+    for run in 0..60 {
+        let mut mechanism = Mechanism::random(&mut chance);
+        mechanism.bodies.iter_mut().for_each(|body| {
+            (body.velocity, body.spin) = (V::zeros(), V::zeros());
+        });
+        let mut parts = mechanism.parts();
+        for (body, sign) in (0..mechanism.bodies.len()).flat_map(|body| [(body, 1.0), (body, -1.0)])
+        {
+            let at = chance.vector();
+            let marker = Marker::framed(body, 2 * body, at.into(), [1.0, 0.0, 0.0]);
+            let point =
+                mechanism.bodies[body].point(&at) + chance.vector() + V::new(sign, 0.0, 0.0);
+            parts.loads.push(Load::Spring(Spring {
+                ends: [End::Ground(point), End::Body(marker)],
+                stiffness: 50.0,
+                damping: 0.0,
+                length: Signal::Function(Function::constant(0.4)),
+            }));
+        }
+        let system = System::new(parts).expect("a system");
+        let (mut state, mut work) = mechanism.state_of(&system);
+        state.rates.fill(0.0);
+        let n = system.coordinates();
+        let rest = vec![0.0; n];
+        let mut model = Model::new(&system, &[], &mut work, &state);
+        model.renew_beyond(&mut state, 0.0);
+        let mut tangents = Vec::new();
+        for k in 0..n {
+            let mut unit = vec![0.0; n];
+            unit[k] = 1.0;
+            model.linearize(0.0, &state.coordinates, &rest);
+            model.apply_stiffness(&mut unit);
+            tangents.push(unit);
+        }
+        let at = |model: &mut Model<'_, 3>, k: usize, h: f64| {
+            let mut q = state.coordinates.clone();
+            let mut way = vec![0.0; n];
+            way[k] = 1.0;
+            model.linearize(0.0, &state.coordinates, &rest);
+            model.take_out_normal(&mut way);
+            q.iter_mut().zip(&way).for_each(|(q, way)| *q += h * way);
+            let mut moved = State {
+                coordinates: q,
+                ..state.clone()
+            };
+            model.project(&mut moved);
+            let mut a = vec![0.0; n];
+            model.accelerate(0.0, &moved.coordinates, &rest, &mut a);
+            model.linearize(0.0, &state.coordinates, &rest);
+            model.take_out_normal(&mut a);
+            a
+        };
+        const STEP: f64 = 1e-4;
+        let columns = (0..n).map(|k| {
+            let [a, b] = [at(&mut model, k, STEP), at(&mut model, k, -STEP)];
+            DVector::from_fn(n, |j, _| (b[j] - a[j]) / (2.0 * STEP))
+        });
+        let wanted = DMatrix::from_columns(&columns.collect::<Vec<_>>());
+        let symmetric = (&wanted + wanted.transpose()) * 0.5;
+        let found = DMatrix::from_fn(n, n, |i, j| tangents[j][i]);
+        let miss = (&symmetric - &found).amax() / found.amax();
+        assert!(miss < 1e-5, "{run}: {miss:e}");
     }
 }

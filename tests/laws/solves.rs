@@ -228,6 +228,7 @@ fn model_tangent(chain: &Chain) -> Outcome {
         marker: chain.marker(0),
         follower: false,
         components: [Signal::Input(1), Signal::Input(2)],
+        axes: [chain.marker(0); 2],
     });
     let loads = vec![moment(last, 0), force, moment(0, 3)];
     let inputs = [2.0, 3.0, -1.0, -4.0];

@@ -54,6 +54,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
             End::Body(Marker::inside(0, &chain, 0, 0.0)),
         ],
         spring: None,
+        turn: None,
     };
     let system = System::new(Parts {
         bodies: std::iter::once(0..nodes.len()).collect(),

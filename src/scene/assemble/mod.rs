@@ -261,12 +261,14 @@ impl<const D: usize> Builder<'_, D> {
             let holds = holds.flat_map(|hold| self.primitives(hold, joint, ends));
             let holds = holds.collect();
             let springs = joint.holds.iter();
-            let spring = springs.filter_map(|hold| self.spring_of(hold, ends)).next();
+            let turn = self.turn_of(joint);
+            let spring = springs.filter_map(|hold| self.spring_of(hold, ends, turn));
+            let spring = spring.last();
             self.parts.joints.push(Joint {
                 holds,
                 ends,
                 spring,
-                turn: self.turn_of(joint),
+                turn,
             });
         }
     }
@@ -320,7 +322,12 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// Appends the spring of a hinge to the loads; its place there.
-    fn spring_of(&mut self, hold: &Hold, ends: [End<D>; 2]) -> Option<usize> {
+    fn spring_of(
+        &mut self,
+        hold: &Hold,
+        ends: [End<D>; 2],
+        turn: Option<AxisTurn<D>>,
+    ) -> Option<usize> {
         let Hold::Spring {
             rest,
             stiffness,
@@ -331,8 +338,12 @@ impl<const D: usize> Builder<'_, D> {
         };
         let spring = loads::RotationalSpring {
             ends,
-            rest: self.angle(ends, rest),
-            angle: self.count_angle(ends, None),
+            rest: match turn {
+                Some(_) => rest.unwrap_or(0.0),
+                None => self.angle(ends, rest),
+            },
+            angle: self.count_angle(ends, turn),
+            turn,
             stiffness,
             damping,
         };

@@ -21,7 +21,7 @@ pub struct Joint {
     pub point: Option<Vector>,
     /// In the axes of the body of the first marker at the start (of ground: the global ones). `slider`, `cylindrical`: direction
     /// of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    /// first marker itself. In space, `revolute`, `cylindrical`: the axis to turn about (`revolute` without one is
+    /// first marker itself. In space, `revolute`, `hinge`, `cylindrical`: the axis to turn about (`revolute` without one is
     /// `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Vector>,
@@ -29,7 +29,7 @@ pub struct Joint {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_direction: Option<Vector>,
     /// `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
-    /// rad; as at the start by default. `hinge`: the same at rest.
+    /// rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
     /// `distance` only: length of the link, m; the distance at the start by default.
@@ -159,7 +159,7 @@ impl JointKind {
             Self::Prismatic => ("prismatic", &[(&[], &["point", "direction", "angle"])], &[Line, Direction], Symbol::Prismatic),
             Self::Orientation => ("orientation", &[(&[], &["angle"])], &[Direction], Symbol::Orientation),
             Self::Distance => ("distance", &[(&[], &["point", "length"])], &[Distance], Symbol::Link),
-            Self::Hinge => ("hinge", &[(&[], &["point", "angle", "stiffness", "damping"])], &[Position, Spring], Symbol::Spiral),
+            Self::Hinge => ("hinge", &[(&[], &["point", "direction", "angle", "stiffness", "damping"])], &[Position, Axis, Spring], Symbol::Spiral),
             Self::Along => ("along", &[(&[], &[])], &[Curve], Symbol::Ring),
         };
         Declaration { name, keys, holds, symbol }

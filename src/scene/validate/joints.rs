@@ -38,14 +38,13 @@ impl Joint {
     fn validate_dimension(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let Declaration { name, holds, .. } = self.kind.declaration();
         let kind = format!("{path}.kind");
-        if holds.contains(&Condition::Spring) {
-            return planar(&kind, dimension, "any other kind of joint", name);
-        }
         if holds.contains(&Condition::Direction) && self.angle.is_some() {
             planar(&format!("{path}.angle"), dimension, "nothing", "an angle")?;
         }
         if dimension == 3 {
-            let needs_direction = holds.contains(&Condition::Line) && self.direction.is_none();
+            let demands = [Condition::Line, Condition::Spring];
+            let demands = holds.iter().any(|of| demands.contains(of));
+            let needs_direction = demands && self.direction.is_none();
             let place = format!("{path}.direction");
             return match needs_direction {
                 true => Err(expected(&place, "a direction [x, y, z]", "nothing")),

@@ -7,8 +7,8 @@ use nalgebra::SMatrix;
 use super::{Direction, Gradient, View};
 use crate::body::Node;
 use crate::math::jet::Number;
-use crate::math::space::Vector;
-use crate::system::end::{Add, End, bilinear};
+use crate::math::space::{Vector, moment};
+use crate::system::end::{Add, End, bilinear, coupling};
 
 /// The turn of one body against another about an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +53,46 @@ impl<const D: usize> AxisTurn<D> {
         hint + (cos * across - sin * along).atan2(cos * along + sin * across)
     }
 
+    /// Unit vector along the axis.
+    pub fn axis<N: Number>(&self, x: &[Node<D, N>]) -> [N; 3] {
+        let [n, m] = self.across.map(|across| across.value(x));
+        moment(&n, &m)
+    }
+
+    /// Adds the stiffness of a spring that is at rest now: so much times the square of the derivatives of the angle.
+    pub fn add_square(&self, k: f64, x: &[Node<D>], add: Add<'_, D>) {
+        let [p, q] = self.products(x);
+        let size = p.hypot(q);
+        let turned = [q / size, p / size];
+        let [first, u] = [self.turned(turned), self.of.end()];
+        let across = first.direction(x);
+        let [w, u_now]: [Vector<D>; 2] = match first {
+            End::Body(_) => [across, self.of.value(x)],
+            End::Ground(_) => {
+                let [n, m] = self.across.map(|across| across.value(x));
+                [m * turned[1] - n * turned[0], self.of.value(x)]
+            }
+        };
+        let [on_first, on_second] = [u_now, w];
+        let part = |a: Vector<D>, b: Vector<D>| a * b.transpose() * k;
+        let by = [
+            [part(on_first, on_first), part(on_first, on_second)],
+            [part(on_second, on_first), part(on_second, on_second)],
+        ];
+        coupling(&[first, u], by, 1, add);
+    }
+
+    /// `w = -sin n + cos m`, across `u` at the angle with this sine and cosine, fixed in the first body: its end.
+    fn turned<N: Number>(&self, [sin, cos]: [N; 2]) -> End<D, N> {
+        let [n, m] = self.across;
+        match (n, m) {
+            (Direction::Of(n), Direction::Of(m)) => {
+                End::Body(n.lift().blended(-sin, &m.lift(), cos))
+            }
+            _ => End::Ground(Vector::zeros()),
+        }
+    }
+
     /// Its rate, rad/s.
     pub fn rate<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         let ([p, q], [p_rate, q_rate]) = (self.products(x), self.rates(x, v));
@@ -78,17 +118,6 @@ impl<const D: usize> DrivenTurn<D> {
         (drive, [sin, cos])
     }
 
-    /// `w = -sin n + cos m`, which is to stay across `u`, fixed in the first body: its end.
-    fn turned<N: Number>(&self, [sin, cos]: [N; 2]) -> End<D, N> {
-        let [n, m] = self.turn.across;
-        match (n, m) {
-            (Direction::Of(n), Direction::Of(m)) => {
-                End::Body(n.lift().blended(-sin, &m.lift(), cos))
-            }
-            _ => End::Ground(Vector::zeros()),
-        }
-    }
-
     pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let (_, [sin, cos]) = self.drive(view);
         let [p, q] = self.turn.products(view.x);
@@ -101,7 +130,7 @@ impl<const D: usize> DrivenTurn<D> {
         let u = self.turn.of.value(view.x);
         Gradient {
             ends: [
-                (self.turned([sin, cos]), [none, u]),
+                (self.turn.turned([sin, cos]), [none, u]),
                 (self.turn.of.end().lift(), [none, m * cos - n * sin]),
             ],
         }
@@ -126,7 +155,8 @@ impl<const D: usize> DrivenTurn<D> {
 
     pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         let (_, turned) = self.drive(view);
-        if let (End::Body(first), Direction::Of(second)) = (self.turned(turned), &self.turn.of) {
+        if let (End::Body(first), Direction::Of(second)) = (self.turn.turned(turned), &self.turn.of)
+        {
             bilinear(
                 [(&first, 1), (second, 1)],
                 SMatrix::identity() * lambda,

@@ -1,9 +1,12 @@
-//! The rotational spring with a damper of a hinge: between two directions.
+//! The rotational spring with a damper of a hinge: between two directions, in space about an axis.
 
-use super::{Add, Instant};
+use nalgebra::Vector3;
+
+use super::{Add, Instant, couple};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular};
 use crate::system::end::{End, coupling};
+use crate::system::joints::AxisTurn;
 
 /// A rotational spring and a damper in parallel between two directions.
 #[derive(Clone, Debug)]
@@ -18,6 +21,8 @@ pub struct RotationalSpring<const D: usize = 2> {
     pub damping: f64,
     /// Angle without moment, rad.
     pub rest: f64,
+    /// In space, what turns about what.
+    pub turn: Option<AxisTurn<D>>,
 }
 
 impl<const D: usize> RotationalSpring<D> {
@@ -26,6 +31,9 @@ impl<const D: usize> RotationalSpring<D> {
     }
 
     fn rate<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        if let Some(turn) = &self.turn {
+            return turn.rate(at.x, at.v);
+        }
         let [a, b] = self.ends.map(|end| end.lift().spin(at.x, at.v));
         b - a
     }
@@ -41,6 +49,10 @@ impl<const D: usize> RotationalSpring<D> {
         mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
     ) {
         let moment = self.moment(at);
+        if let Some(turn) = &self.turn {
+            let moment = Vector3::from(turn.axis(at.x)) * moment;
+            return couple::act(&self.ends, &moment, at.x, call);
+        }
         let [first, second] = self.ends.map(|end| end.lift());
         call(&second, second.turn(moment, at.x));
         call(&first, first.turn(-moment, at.x));
@@ -52,6 +64,11 @@ impl<const D: usize> RotationalSpring<D> {
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,
     ) {
+        if let Some(turn) = &self.turn {
+            // What a moment about an axis that turns adds is small beside inertia.
+            turn.add_square(self.stiffness, at.x, stiffness);
+            return turn.add_square(self.damping, at.x, damping);
+        }
         let moment = self.moment(at);
         // Derivatives of the angle by both directions.
         let [a, b] = self.ends.map(|end| {

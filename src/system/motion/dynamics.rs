@@ -216,6 +216,18 @@ impl<'a, const D: usize> Model<'a, D> {
         }
     }
 
+    /// Puts a state whose rotations are larger than this in terms of smaller ones. Whether they were.
+    pub fn renew_beyond(&mut self, state: &mut State, size: f64) -> bool {
+        let frames = &self.system.frames;
+        if frames.largest(&state.coordinates) <= size {
+            return false;
+        }
+        let (q, v) = (&mut state.coordinates, &mut state.rates);
+        frames.renew(&mut state.frames, q, v);
+        self.work.frames.copy_from_slice(&state.frames);
+        true
+    }
+
     fn place(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.time = time;
         let t = time - self.start;
@@ -434,13 +446,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn renew(&mut self, state: &mut State) -> bool {
-        let frames = &self.system.frames;
-        if frames.largest(&state.coordinates) <= RENEWED {
-            return false;
-        }
-        frames.renew(&mut state.frames, &mut state.coordinates, &mut state.rates);
-        self.work.frames.copy_from_slice(&state.frames);
-        true
+        self.renew_beyond(state, RENEWED)
     }
 
     fn accepted(&mut self, state: &mut State) -> Accepted {

@@ -171,7 +171,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         if let Some(load) = system.joints[joint].spring
             && let Load::RotationalSpring(spring) = &system.loads[load]
         {
-            turning[2] += spring.moment(at);
+            let axis = match &spring.turn {
+                Some(turn) => turn.axis(&self.x),
+                None => [N::of(0.0), N::of(0.0), N::of(1.0)],
+            };
+            turning += Vector3::from(axis) * spring.moment(at);
         }
         (force, turning.into())
     }

@@ -97,6 +97,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         let (mut shift, mut before, mut correction) = (self.kept, f64::INFINITY, f64::INFINITY);
         let (mut strength, mut is_nudged) = (0.0, false);
         for iteration in 0..if is_transient { TRANSIENT } else { ITERATIONS } {
+            self.model.renew_beyond(state, 0.0);
             (self.model).acceleration(time, &state.coordinates, &self.rest, &mut self.force);
             if self.force.iter().all(|f| *f == 0.0) {
                 return Ok(());
