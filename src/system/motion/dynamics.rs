@@ -228,6 +228,12 @@ impl<'a, const D: usize> Model<'a, D> {
         true
     }
 
+    /// The largest turn from one state to another, as [`Dynamics::largest_turn`].
+    pub fn turn_between(&mut self, [from, to]: [&State; 2]) -> f64 {
+        let [from, to] = [from, to].map(|state| self.system.nodes_of(state, self.work));
+        largest_turn(&from, &to)
+    }
+
     fn place(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.time = time;
         let t = time - self.start;
@@ -428,21 +434,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         system.forward_kinematics(time, from, None, self.work);
         self.work.other.copy_from_slice(&self.work.x);
         system.forward_kinematics(time, to, None, self.work);
-        // Squares of the largest tangent of a turn, of the least and of the largest stretch; turns beyond a right angle.
-        let (mut tangent, mut least, mut most, mut beyond) = (0.0_f64, 1.0_f64, 1.0_f64, 0.0_f64);
-        for (a, b) in self.work.other.iter().zip(&self.work.x) {
-            let [a, b] = [a, b].map(|node| Vector::from(node[1]));
-            let (along, across) = (a.dot(&b), Vector::from(moment(&a, &b)).norm_squared());
-            if along > 0.0 {
-                tangent = tangent.max(across / (along * along));
-            } else {
-                beyond = beyond.max(across.sqrt().atan2(along));
-            }
-            let stretch = b.norm_squared() / a.norm_squared();
-            (least, most) = (least.min(stretch), most.max(stretch));
-        }
-        let stretch = 0.5 * most.ln().max(-least.ln());
-        tangent.sqrt().atan().max(beyond).max(stretch)
+        largest_turn(&self.work.other, &self.work.x)
     }
 
     fn renew(&mut self, state: &mut State) -> bool {
@@ -481,4 +473,23 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     fn end_stretch(&mut self, state: &mut State) -> Accepted {
         self.leave(state)
     }
+}
+
+/// Largest rotation of any direction, rad, and change of any stretch between two configurations of nodes.
+fn largest_turn<const D: usize>(from: &[Node<D>], to: &[Node<D>]) -> f64 {
+    // Squares of the largest tangent of a turn, of the least and of the largest stretch; turns beyond a right angle.
+    let (mut tangent, mut least, mut most, mut beyond) = (0.0_f64, 1.0_f64, 1.0_f64, 0.0_f64);
+    for (a, b) in from.iter().zip(to) {
+        let [a, b] = [a, b].map(|node| Vector::from(node[1]));
+        let (along, across) = (a.dot(&b), Vector::from(moment(&a, &b)).norm_squared());
+        if along > 0.0 {
+            tangent = tangent.max(across / (along * along));
+        } else {
+            beyond = beyond.max(across.sqrt().atan2(along));
+        }
+        let stretch = b.norm_squared() / a.norm_squared();
+        (least, most) = (least.min(stretch), most.max(stretch));
+    }
+    let stretch = 0.5 * most.ln().max(-least.ln());
+    tangent.sqrt().atan().max(beyond).max(stretch)
 }

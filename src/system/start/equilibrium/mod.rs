@@ -193,7 +193,7 @@ impl Path<'_> {
             }
             // Far from the last equilibrium there may be another one, with a turn more.
             let mut model = Model::new(&next, self.inputs, work, &from);
-            let turn = model.largest_turn(&from.coordinates, &state.coordinates);
+            let turn = model.turn_between([&from, state]);
             let leaps_on = turn > BRANCH;
             if leaps_on && (step > SMALLEST.sqrt() || leaps == LEAPS) {
                 outcome = Err(correction);
