@@ -163,8 +163,8 @@ impl Search<'_, '_> {
         Some(found)
     }
 
-    /// What each output may still change with the tolerance: what the mesh leaves, but not much more than a third of the error
-    /// where another mesh says it.
+    /// What each output may still change with the tolerance: what the mesh leaves, but not much more than a third of the
+    /// error where another mesh says it.
     fn left(&self, in_space: &[Difference], is_chosen: bool) -> Vec<f64> {
         let most = if is_chosen { 1.0 } else { MOST };
         let left = in_space.iter().map(|found| {
