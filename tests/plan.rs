@@ -84,6 +84,20 @@ fn as_many_elements_as_the_error_asks_for() {
     }
 }
 
+/// Order 4: two doublings say what the third would change, and it is dearer than they are.
+#[test]
+fn a_doubling_that_is_foreseen_is_not_run() {
+    let scene = edited(BEAM, |scene| scene["accuracy"] = json!({"error": 1e-4}));
+    let (chosen, plan) = planned(&scene.expect("a scene")).expect("a plan");
+    let plan = plan.expect("a plan");
+    assert_eq!(plan.dearer, None, "twice the mesh was run");
+    let (found, told) = (frequency_error(chosen), plan.outputs[0].error);
+    assert!(
+        found <= told && told <= 1e-4,
+        "{found:e}, foreseen {told:e}"
+    );
+}
+
 #[test]
 fn the_same_plan_every_time() {
     let scene = edited(BEAM, |_| ()).expect("a scene");

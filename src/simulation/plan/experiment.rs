@@ -40,7 +40,8 @@ pub(super) enum Unfinished {
 pub(super) struct Experiment {
     /// Table of the inputs.
     signals: Option<String>,
-    steps: u64,
+    /// Communication steps.
+    pub steps: u64,
     step: f64,
     stop: f64,
     /// Steps from one point that is compared to the next.

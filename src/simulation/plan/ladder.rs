@@ -8,6 +8,12 @@ const HALF: f64 = 0.5;
 const PATIENCE: usize = 3;
 /// How many times its least change an output that does not settle may change.
 const NEARLY: f64 = 2.0;
+/// What a rung may leave of what the one before changed where outputs converge so regularly that the next one need not be
+/// run, and the one before that.
+const REGULAR: f64 = 0.4;
+const BEFORE: f64 = 0.6;
+/// Part of what may change below which nothing more is asked of an output.
+const QUIET: f64 = 0.5;
 
 /// What a run is made with.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,15 +30,15 @@ pub(super) struct Choice {
 /// Choices from cheap to dear, with what the next one changed.
 pub(super) struct Ladder {
     pub rungs: Vec<(Choice, Vec<Difference>)>,
-    /// What an output may change.
-    limit: f64,
+    /// What every output may change.
+    limits: Vec<f64>,
 }
 
 impl Ladder {
-    pub fn new(limit: f64) -> Self {
+    pub fn new(limits: Vec<f64>) -> Self {
         Self {
             rungs: Vec::new(),
-            limit,
+            limits,
         }
     }
 
@@ -46,9 +52,42 @@ impl Ladder {
             return false;
         };
         let is_open = |(group, difference): (usize, &Difference)| {
-            difference.largest > self.limit && !self.is_stuck(group)
+            difference.largest > self.limits[group] && !self.is_stuck(group)
         };
         !last.iter().enumerate().any(is_open)
+    }
+
+    /// What the next rung would change, where all outputs converge regularly; `least` is the part that it leaves at least of
+    /// what the last one changed. Nothing where that is more than may be.
+    pub fn foreseen(&self, least: f64) -> Option<Vec<Difference>> {
+        let groups = self.limits.iter().enumerate().map(|(group, limit)| {
+            let now = self.rungs.last()?.1[group].largest;
+            let largest = match now <= QUIET * limit {
+                true => now,
+                false => now * self.rate(group)?.max(least),
+            };
+            (largest <= *limit).then_some(Difference {
+                largest,
+                until: None,
+            })
+        });
+        groups.collect()
+    }
+
+    /// What the last rung left of what the one before changed, where that says what the next one will leave.
+    pub fn rate(&self, group: usize) -> Option<f64> {
+        // Letting rigid bodies bend is no doubling.
+        let rigid = |choice: &Choice| choice.elements.iter().filter(|count| **count == 0).count();
+        let least = rigid(&self.rungs.last()?.0);
+        let alike = self
+            .rungs
+            .iter()
+            .rev()
+            .filter(|rung| rigid(&rung.0) == least);
+        let mut changes = alike.map(|(_, all)| all[group].largest);
+        let [last, before] = [changes.next()?, changes.next()?];
+        let is_new = changes.next().is_some_and(|first| before > BEFORE * first);
+        (last <= REGULAR * before && !is_new).then(|| last / before.max(f64::MIN_POSITIVE))
     }
 
     /// Whether an output has stopped coming closer.
@@ -80,7 +119,7 @@ impl Ladder {
             changes.fold(f64::INFINITY, f64::min)
         };
         let allowed: Vec<f64> = (0..groups)
-            .map(|group| self.limit.max(NEARLY * closest(group)))
+            .map(|group| self.limits[group].max(NEARLY * closest(group)))
             .collect();
         let good_for = |rung: usize, group: usize| self.rungs[rung].1[group].until;
         let longest = |group: usize| {

@@ -53,10 +53,10 @@ impl Difference {
     }
 }
 
-/// Whether no output changes by more than a limit, or than it did before.
-pub(super) fn are_kept(now: &[Difference], before: &[Difference], limit: f64) -> bool {
-    let mut pairs = now.iter().zip(before);
-    pairs.all(|(now, before)| now.largest <= limit.max(before.largest))
+/// Whether no output changes by more than its limit, or than it did before.
+pub(super) fn are_kept(now: &[Difference], before: &[Difference], limits: &[f64]) -> bool {
+    let mut pairs = now.iter().zip(before).zip(limits);
+    pairs.all(|((now, before), limit)| now.largest <= limit.max(before.largest))
 }
 
 /// The outputs of a scene that count.

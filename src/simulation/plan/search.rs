@@ -9,7 +9,11 @@ use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scen
 use crate::simulation::{Variable, check, variables};
 
 /// Part of the error wanted that doubling may change.
-const OF_SPACE: f64 = 2.0 / 3.0;
+pub(super) const OF_SPACE: f64 = 2.0 / 3.0;
+/// Part of the error wanted that all doublings to come and the tolerance may change together, where they converge regularly.
+pub(super) const SHARED: f64 = 0.9;
+/// Part of what doubling changes that the next one changes at least, where that is foreseen.
+const LEAST: f64 = 1.0 / 16.0;
 /// Most cables of which single ones are tried with fewer elements.
 const MOST_SINGLE: usize = 4;
 /// Most elements of a cable, runs, and work of all of them (some seconds); of a fuzzer little, so that it gets on.
@@ -22,7 +26,7 @@ pub(super) struct Search<'a, 'p> {
     pub scene: &'a Scene,
     pub variables: Vec<Variable>,
     pub groups: Vec<Group>,
-    experiment: Experiment,
+    pub experiment: Experiment,
     /// Error wanted.
     pub error: f64,
     /// Runs so far, and the work of all of them.
@@ -98,9 +102,10 @@ impl<'a, 'p> Search<'a, 'p> {
         // What contradicts itself is told with its place.
         check(&self.planned(&choice))?;
         let in_time = self.find_tolerance(&mut choice)?;
-        let in_space = self.find_elements(&mut choice)?;
+        let in_space = self.find_elements(&mut choice, &in_time)?;
         let found_with = choice.tolerance;
-        let in_time = self.verify_tolerance(&mut choice).unwrap_or(in_time);
+        let verified = self.verify_tolerance(&mut choice, &in_space, &in_time);
+        let in_time = verified.unwrap_or(in_time);
         let in_space = match choice.tolerance < found_with {
             true => self.coarsen(&mut choice, in_space),
             false => in_space,
@@ -240,9 +245,18 @@ impl<'a, 'p> Search<'a, 'p> {
         refined
     }
 
+    /// The same part of the error wanted for every output.
+    pub fn equal(&self, part: f64) -> Vec<f64> {
+        vec![part * self.error; self.groups.len()]
+    }
+
     /// The coarsest mesh that doubling changes by no more than may be, and what it changes.
-    fn find_elements(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Error> {
-        let mut ladder = Ladder::new(OF_SPACE * self.error);
+    fn find_elements(
+        &mut self,
+        choice: &mut Choice,
+        in_time: &[Difference],
+    ) -> Result<Vec<Difference>, Error> {
+        let mut ladder = Ladder::new(self.equal(OF_SPACE));
         let mut tried = Choice {
             elements: self.stiffest(&choice.elements),
             ..choice.clone()
@@ -250,6 +264,10 @@ impl<'a, 'p> Search<'a, 'p> {
         loop {
             let mut closer = tried.clone();
             if !self.refine(&mut closer) {
+                break;
+            }
+            if let Some(found) = ladder.foreseen(LEAST) {
+                ladder.add(&tried, found);
                 break;
             }
             self.tighten(&tried, &mut closer);
@@ -263,7 +281,7 @@ impl<'a, 'p> Search<'a, 'p> {
                     }
                 }
             }
-            if ladder.is_climbed() {
+            if ladder.is_climbed() || self.is_enough(&ladder, in_time) {
                 break;
             }
             tried = closer;
@@ -275,15 +293,40 @@ impl<'a, 'p> Search<'a, 'p> {
         *choice = best;
         let mut closer = choice.clone();
         self.refine(&mut closer);
+        // Where doubling was foreseen it has not been run.
+        if self.known(&closer).is_none() {
+            closer.clone_from(choice);
+        }
         self.coarsen_one_by_one(choice, &closer, &found);
-        let last = self
-            .compare(choice, &closer, self.error)
-            .unwrap_or_default();
+        let last = match closer == *choice {
+            true => Vec::new(),
+            false => self
+                .compare(choice, &closer, self.error)
+                .unwrap_or_default(),
+        };
         let worst = |(a, b): (&Difference, &Difference)| a.worst(*b);
         Ok(match last.is_empty() {
             true => found,
             false => found.iter().zip(&last).map(worst).collect(),
         })
+    }
+
+    /// Whether what the last rung changed and all doublings to come would leaves enough to the tolerance.
+    fn is_enough(&self, ladder: &Ladder, in_time: &[Difference]) -> bool {
+        let Some((_, last)) = ladder.rungs.last() else {
+            return false;
+        };
+        last.iter()
+            .zip(in_time)
+            .enumerate()
+            .all(|(group, (found, time))| {
+                let rate = ladder.rate(group).map(|rate| rate.max(LEAST));
+                let to_come = match rate {
+                    Some(rate) => found.largest / (1.0 - rate),
+                    None => found.largest / OF_SPACE,
+                };
+                to_come + time.largest <= SHARED * self.error
+            })
     }
 
     /// Halves the numbers of elements of single cables while that changes no more than may be.
@@ -295,7 +338,7 @@ impl<'a, 'p> Search<'a, 'p> {
         if !(2..=MOST_SINGLE).contains(&cables.len()) {
             return;
         }
-        let limit = OF_SPACE * self.error;
+        let limits = self.equal(OF_SPACE);
         for cable in cables {
             let mut tried = choice.clone();
             tried.elements[cable] /= 2;
@@ -306,7 +349,7 @@ impl<'a, 'p> Search<'a, 'p> {
                 continue;
             }
             let changed = self.compare(&tried, closer, self.error);
-            if changed.is_ok_and(|changed| are_kept(&changed, found, limit)) {
+            if changed.is_ok_and(|changed| are_kept(&changed, found, &limits)) {
                 *choice = tried;
             }
         }
@@ -315,7 +358,7 @@ impl<'a, 'p> Search<'a, 'p> {
     /// Halves all numbers of elements while that changes no more than may be: errors in time had a part in what doubling
     /// changed before. What doubling changes.
     fn coarsen(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
-        let (mut found, limit) = (found, OF_SPACE * self.error);
+        let (mut found, limits) = (found, self.equal(OF_SPACE));
         loop {
             let half = self.half(choice);
             if half.elements == choice.elements {
@@ -324,7 +367,7 @@ impl<'a, 'p> Search<'a, 'p> {
             let Ok(now) = self.compare(&half, choice, self.error) else {
                 return found;
             };
-            if !are_kept(&now, &found, limit) {
+            if !are_kept(&now, &found, &limits) {
                 return found;
             }
             (*choice, found) = (half, now);

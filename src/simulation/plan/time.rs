@@ -2,17 +2,34 @@
 
 use super::experiment::Unfinished;
 use super::ladder::{Choice, Ladder};
-use super::outputs::{Difference, are_kept};
-use super::search::Search;
+use super::outputs::Difference;
+use super::search::{OF_SPACE, SHARED, Search};
 use crate::scene::Error;
 
 /// Part of the error wanted that a tenth of the tolerance may change.
 const OF_TIME: f64 = 1.0 / 3.0;
+/// Part of what a tolerance changes that a tenth of it changes at least, where that is foreseen.
+const LEAST: f64 = 0.25;
+/// Part of what a tenth may change, below which one mesh speaks for all.
+const CLEAR: f64 = 0.3;
+/// The error of a tolerance over what a tenth of it changes.
+const TAIL: f64 = 1.5;
+/// How many times the proportion of the coarsest mesh two tolerances have with another one at most, and what it counts at
+/// least.
+const PROPORTION: f64 = 1.5;
+const SLOWEST: f64 = 0.125;
+/// How many times what it may a doubling changes at most where errors in time may be the reason.
+const NEAR: f64 = 4.0;
 /// Tolerance above which a tenth of it says less of the error: what it changes counts this many times.
 const LOOSE: f64 = 1e-4;
 const DOUBT: f64 = 3.0;
 /// Steps of one run over those of another below which both took the same ones.
 const ALIKE: f64 = 1.2;
+/// Steps over those of communication below which these alone end them.
+const SAME: f64 = 1.05;
+/// Parts of the error wanted: the most that the tolerance may change by half the mesh, and the least that is left to it.
+const MOST: f64 = 0.45;
+const LITTLE: f64 = 0.05;
 /// The loosest tolerance that is tried, and the last in errors wanted. None looser than the error wanted: with short
 /// communication steps it would do, and with longer ones not.
 const LOOSEST: f64 = 1e-2;
@@ -28,7 +45,7 @@ impl Search<'_, '_> {
     /// The loosest tolerance that the coarsest mesh allows, and what a tenth of it changes.
     pub(super) fn find_tolerance(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Error> {
         loop {
-            match self.loosest(choice) {
+            match self.loosest(choice, &self.equal(OF_TIME)) {
                 Ok(found) => return Ok(found),
                 // A mesh that is too coarse to be run says nothing of time.
                 Err(Unfinished::Failed(reason)) => {
@@ -42,11 +59,19 @@ impl Search<'_, '_> {
     }
 
     /// The loosest tolerance from that of a choice on, and what a tenth of it changes.
-    fn loosest(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Unfinished> {
+    fn loosest(
+        &mut self,
+        choice: &mut Choice,
+        limits: &[f64],
+    ) -> Result<Vec<Difference>, Unfinished> {
         let is_given = self.scene.accuracy.relative_tolerance.is_some();
-        let mut ladder = Ladder::new(OF_TIME * self.error);
+        let mut ladder = Ladder::new(limits.to_vec());
         let mut tried = choice.clone();
         loop {
+            if let Some(found) = ladder.foreseen(LEAST) {
+                ladder.add(&tried, found);
+                break;
+            }
             match (self.in_time(&tried), ladder.rungs.is_empty()) {
                 (Ok(found), _) => ladder.add(&tried, found),
                 (Err(reason), true) => return Err(reason),
@@ -55,45 +80,14 @@ impl Search<'_, '_> {
             if ladder.is_climbed() || is_given {
                 break;
             }
-            // A tighter one that takes the same steps changes nothing.
-            let steps = self.steps(&tried);
-            let mut is_open = tried.tolerance >= 1.5 * LAST * self.error;
-            while is_open {
-                tried.tolerance = tenth(tried.tolerance);
-                if self.steps(&tried) >= ALIKE * steps {
-                    break;
-                }
-                is_open = tried.tolerance >= 1.5 * LAST * self.error;
-            }
-            if !is_open {
+            if tried.tolerance < 1.5 * LAST * self.error {
                 break;
             }
+            tried.tolerance = tenth(tried.tolerance);
         }
         let (best, found) = ladder.best().unwrap_or_default();
         choice.tolerance = best.tolerance;
         Ok(found)
-    }
-
-    /// What outputs change from a looser tolerance to a tenth of the best, if that is no more than may be: a hundredth of
-    /// it says more of its error than a tenth.
-    fn by_tightest(
-        &mut self,
-        looser: &Choice,
-        best: &Choice,
-        found: &[Difference],
-    ) -> Option<Vec<Difference>> {
-        let tightest = Choice {
-            tolerance: tenth(best.tolerance),
-            ..best.clone()
-        };
-        self.known(&tightest)?;
-        let now = self.compare(looser, &tightest, self.error).ok()?;
-        are_kept(&now, found, OF_TIME * self.error).then_some(now)
-    }
-
-    /// Sub-steps of a run that was made.
-    fn steps(&mut self, choice: &Choice) -> f64 {
-        self.run(choice).map_or(0.0, |run| run.steps as f64)
     }
 
     /// What a tenth of the tolerance changes; where that takes the same steps, since communication points end them, what
@@ -104,11 +98,18 @@ impl Search<'_, '_> {
             ..choice.clone()
         };
         let steps = self.run(choice)?.steps as f64;
-        closer.is_halved = (self.run(&closer)?.steps as f64) < ALIKE * steps;
-        let doubt = match choice.tolerance > LOOSE {
-            true => DOUBT,
-            false => 1.0,
+        // Halves that a looser one was compared with are closer still.
+        let halves = Choice {
+            is_halved: true,
+            ..choice.clone()
         };
+        if self.known(&halves).is_some() {
+            closer = halves;
+        } else {
+            closer.is_halved = steps < SAME * self.experiment.steps as f64
+                || (self.run(&closer)?.steps as f64) < ALIKE * steps;
+        }
+        let doubt = doubt(choice.tolerance);
         let mut found = self.compare(choice, &closer, self.error)?;
         found
             .iter_mut()
@@ -117,47 +118,142 @@ impl Search<'_, '_> {
     }
 
     /// A mesh that `auto` takes with another integrator than a coarser one makes other errors in time: the tolerance that it
-    /// needs.
+    /// needs, where these may be what changes too much.
     pub(super) fn tighten(&mut self, coarser: &Choice, choice: &mut Choice) {
+        let Ok(found) = self.compare(coarser, choice, self.error) else {
+            return;
+        };
+        let largest = found.iter().map(|found| found.largest);
+        let part = largest.fold(0.0, f64::max) / (OF_SPACE * self.error);
+        if !(1.0..NEAR).contains(&part) || self.end_alike([coarser, choice]) {
+            return;
+        }
         let mut tried = choice.clone();
-        if !self.end_alike([coarser, choice]) && self.loosest(&mut tried).is_ok() {
+        if self.loosest(&mut tried, &self.equal(OF_TIME)).is_ok() {
             choice.tolerance = tried.tolerance;
         }
     }
 
     /// Whether the tolerance found with the coarsest mesh is good enough for the one chosen, by one half as fine;
     /// else a tighter one. What a tenth of it changes.
-    pub(super) fn verify_tolerance(&mut self, choice: &mut Choice) -> Option<Vec<Difference>> {
+    pub(super) fn verify_tolerance(
+        &mut self,
+        choice: &mut Choice,
+        in_space: &[Difference],
+        in_time: &[Difference],
+    ) -> Option<Vec<Difference>> {
         let mut half = self.half(choice);
-        if half.elements == self.fewest && choice.elements == self.fewest {
-            return None;
-        }
         // Another integrator makes other errors.
         if !self.end_alike([&half, choice]) {
             half.elements.clone_from(&choice.elements);
         }
-        let found = self.loosest(&mut half).ok()?;
-        let (tolerance, found) = self.loosen(&half, found);
+        let limits = self.left(in_space, half.elements == choice.elements);
+        let is_clear = |(found, limit): (&Difference, &f64)| found.largest <= CLEAR * limit;
+        if choice.tolerance == self.first_tolerance() && in_time.iter().zip(&limits).all(is_clear) {
+            return None;
+        }
+        let (tolerance, found) = match self.by_looser(&half, &limits) {
+            Some(found) => found,
+            None => {
+                let found = self.loosest(&mut half, &limits).ok()?;
+                (half.tolerance, found)
+            }
+        };
         choice.tolerance = tolerance;
         Some(found)
     }
 
-    /// Ten times the tolerance while that is good enough: a coarser mesh may have asked for more, and what a tenth changes
-    /// counts more than it says.
-    fn loosen(&mut self, best: &Choice, found: Vec<Difference>) -> (f64, Vec<Difference>) {
+    /// What each output may still change with the tolerance: what the mesh leaves, but not much more than a third of the
+    /// error where another mesh says it.
+    fn left(&self, in_space: &[Difference], is_chosen: bool) -> Vec<f64> {
+        let most = if is_chosen { 1.0 } else { MOST };
+        let left = in_space.iter().map(|found| {
+            let left = (SHARED * self.error - found.largest).min(most * self.error);
+            match left > LITTLE * self.error {
+                true => left,
+                false => OF_TIME * self.error,
+            }
+        });
+        left.collect()
+    }
+
+    /// The loosest tolerance that is good enough by what ten times as much changes, and what a tenth of it would.
+    fn by_looser(&mut self, best: &Choice, limits: &[f64]) -> Option<(f64, Vec<Difference>)> {
         let is_given = self.scene.accuracy.relative_tolerance.is_some();
-        let (mut tolerance, mut found) = (best.tolerance, found);
+        let mut tolerance = best.tolerance;
+        let mut found: Option<Vec<Difference>> = None;
+        let coarsest = Choice {
+            elements: self.fewest.clone(),
+            ..best.clone()
+        };
         loop {
             let mut looser = best.clone();
             looser.tolerance = decade(10.0 * tolerance);
             if is_given || looser.tolerance > self.first_tolerance() {
-                return (tolerance, found);
+                break;
             }
-            let Some(now) = self.by_tightest(&looser, best, &found) else {
-                return (tolerance, found);
-            };
-            (tolerance, found) = (looser.tolerance, now);
+            let mut now = self.compare(&looser, best, self.error).ok()?;
+            let doubt = doubt(looser.tolerance);
+            now.iter_mut().for_each(|d| d.largest *= doubt);
+            let tail = (TAIL / doubt).max(1.0);
+            let mut pairs = now.iter().zip(limits);
+            let is_kept = pairs.all(|(now, limit)| tail * now.largest <= *limit);
+            if !is_kept && found.is_none() {
+                return self
+                    .as_coarsest(&coarsest, &now, limits)
+                    .map(|found| (tolerance, found));
+            }
+            if !is_kept {
+                break;
+            }
+            (tolerance, found) = (looser.tolerance, Some(now));
         }
+        Some((tolerance, found?))
+    }
+
+    /// What a tenth of a tolerance changes, where ten times as much changes that, and both are in the proportion that they
+    /// have at the coarsest mesh; nothing where that is more than may be.
+    fn as_coarsest(
+        &mut self,
+        coarsest: &Choice,
+        now: &[Difference],
+        limits: &[f64],
+    ) -> Option<Vec<Difference>> {
+        let with = |tolerance: f64| Choice {
+            tolerance,
+            ..coarsest.clone()
+        };
+        let looser = with(decade(10.0 * coarsest.tolerance));
+        let loosest = with(decade(10.0 * looser.tolerance));
+        let tighter = with(tenth(coarsest.tolerance));
+        // The tightest three of them that were run.
+        let made = match self.known(&tighter).is_some() {
+            true => [looser, coarsest.clone(), tighter],
+            false => [loosest, looser, coarsest.clone()],
+        };
+        for choice in &made {
+            self.known(choice)?;
+        }
+        let looser = self.compare(&made[0], &made[1], self.error).ok()?;
+        let tighter = self.compare(&made[1], &made[2], self.error).ok()?;
+        let groups = now.iter().zip(limits).zip(looser.iter().zip(&tighter));
+        let foreseen = groups.map(|((now, limit), (looser, tighter))| {
+            let rate = PROPORTION * tighter.largest / looser.largest.max(f64::MIN_POSITIVE);
+            let largest = now.largest * rate.clamp(SLOWEST, 1.0);
+            (largest <= *limit).then_some(Difference {
+                largest,
+                until: None,
+            })
+        });
+        foreseen.collect()
+    }
+}
+
+/// How many times what a tenth of a tolerance changes counts.
+fn doubt(tolerance: f64) -> f64 {
+    match tolerance > LOOSE {
+        true => DOUBT,
+        false => 1.0,
     }
 }
 
