@@ -238,16 +238,7 @@ fn advance_smoothly(
     let follows = state.dense.has_ended_at(state.time);
     let mut controller = Controller::new(follows.then_some(state.dense.ceiling));
     let mut counted = dynamics.operations();
-    method.take_up(state.pace.variant());
-    method.begin(dynamics, state.time, &state.coordinates, &state.rates);
-    if follows {
-        method.recall(&state.dense);
-    }
-    // Whether errors have set the step.
-    let mut is_settled = state.step > 0.0;
-    if !is_settled {
-        state.step = first_step(method.acceleration(), &state.rates, tolerance);
-    }
+    let mut is_settled = begin(method, dynamics, state, tolerance);
     let shortest = shortest(until, state.time);
     let mut is_fresh = true;
     loop {
@@ -283,8 +274,7 @@ fn advance_smoothly(
                 take(method, state, (trial, until));
                 settle(method, dynamics, state)?;
                 relax(method, dynamics, state, (until, tolerance))?;
-                let operations = dynamics.operations();
-                let since = operations - std::mem::replace(&mut counted, operations);
+                let since = since(dynamics, &mut counted);
                 let alike = dynamics.steps_in(tolerance.time, trial.h);
                 let step = (trial, since, error / alike < QUIET);
                 if rival.is_some_and(|rival| rival.takes_over(state, step)) {
@@ -300,6 +290,31 @@ fn advance_smoothly(
             }
         }
     }
+}
+
+/// Begins at a state; whether errors have set the step that it proposes.
+fn begin(
+    method: &mut dyn Method,
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+    tolerance: &Tolerance,
+) -> bool {
+    method.take_up(state.pace.variant());
+    method.begin(dynamics, state.time, &state.coordinates, &state.rates);
+    if state.dense.has_ended_at(state.time) {
+        method.recall(&state.dense);
+    }
+    let is_settled = state.step > 0.0;
+    if !is_settled {
+        state.step = first_step(method.acceleration(), &state.rates, tolerance);
+    }
+    is_settled
+}
+
+/// Operations since they were `counted`, which are counted anew.
+fn since(dynamics: &dyn Dynamics, counted: &mut f64) -> f64 {
+    let operations = dynamics.operations();
+    operations - std::mem::replace(counted, operations)
 }
 
 /// Goes on with the tableau that takes fewer operations over the time that remains (s); with the second only where errors
