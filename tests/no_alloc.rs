@@ -178,8 +178,8 @@ fn scenes() -> Vec<String> {
     let mut scenes: Vec<String> = [r#""integrator": "radau""#, r#""integrator": "rk4""#]
         .map(|method| MANY.replace("METHOD", method))
         .into();
-    for integrator in ["radau", "rk4", "rkn43", "verlet", "auto"] {
-        let reads_rates = !matches!(integrator, "rkn43" | "verlet");
+    for integrator in ["radau", "rk4", "rkn43", "rkn64", "verlet", "auto"] {
+        let reads_rates = !matches!(integrator, "rkn43" | "rkn64" | "verlet");
         for damping_time in [0.0, 1e-4].into_iter().take(1 + usize::from(reads_rates)) {
             for joints in [(PIN, ""), (CLAMP, "joint"), (SLIDERS, "third")] {
                 scenes.push(scene(integrator, damping_time, joints));

@@ -4,23 +4,33 @@
 use flexbody::scene::{Integrator, Scene};
 use flexbody::simulation::{Simulation, Snapshot};
 
+/// A soft pendulum without damping: what holds its explicit steps back is their error.
+const PENDULUM: &str = include_str!("cases/soft_pendulum/scene.json");
 /// Driven slowly from rest: the rule that begins takes it for soft.
 const SPIN_UP: &str = include_str!("../scenes/spin_up_beam.json");
 /// Communication points of a run.
 const POINTS: u32 = 120;
 
 fn scene(integrator: Integrator) -> Scene {
-    let mut scene = Scene::from_json(SPIN_UP).expect("a scene");
-    scene.bodies[0].cable_mut().expect("a cable").elements = Some(2);
+    of(SPIN_UP, 2, 1e-4, integrator)
+}
+
+fn of(text: &str, elements: u32, tolerance: f64, integrator: Integrator) -> Scene {
+    let mut scene = Scene::from_json(text).expect("a scene");
+    scene.bodies[0].cable_mut().expect("a cable").elements = Some(elements);
     scene.accuracy = Default::default();
-    scene.accuracy.relative_tolerance = Some(1e-4);
+    scene.accuracy.relative_tolerance = Some(tolerance);
     scene.method.integrator = integrator;
     scene
 }
 
 /// Snapshots at the start and at every communication point, methods and work, in steps of a length, s.
 fn run(integrator: Integrator, step: f64) -> (Vec<Snapshot>, Vec<&'static str>, f64) {
-    let mut simulation = Simulation::new(scene(integrator));
+    run_of(scene(integrator), step)
+}
+
+fn run_of(scene: Scene, step: f64) -> (Vec<Snapshot>, Vec<&'static str>, f64) {
+    let mut simulation = Simulation::new(scene);
     simulation.initialize(0.0).expect("a start");
     simulation.start().expect("a start");
     let (mut states, mut methods, mut work) = (vec![simulation.snapshot()], Vec::new(), 0.0);
@@ -62,7 +72,12 @@ fn a_restored_state_goes_on_with_the_same_bits() {
         methods.windows(2).any(|pair| pair[0] != pair[1]),
         "no change"
     );
-    let mut other = Simulation::new(scene(Integrator::Auto));
+    restores(scene(Integrator::Auto), step, (&states, &methods));
+}
+
+/// Every snapshot of a run leads to the same bits as the run.
+fn restores(scene: Scene, step: f64, (states, methods): (&[Snapshot], &[&str])) {
+    let mut other = Simulation::new(scene);
     other.initialize(0.0).expect("a start");
     for first in 0..states.len() - 3 {
         other.restore(&states[first]).expect("a state");
@@ -76,4 +91,35 @@ fn a_restored_state_goes_on_with_the_same_bits() {
             assert_eq!(other.report().method, methods[next - 1]);
         }
     }
+}
+
+#[test]
+fn the_order_follows_what_holds_steps_back() {
+    let pendulum = |tolerance, integrator| of(PENDULUM, 12, tolerance, integrator);
+    for (tolerance, gain) in [(1e-3, 0.1), (1e-4, 0.1), (1e-5, 0.1), (1e-7, 0.3)] {
+        let named = [Integrator::Auto, Integrator::Rkn43, Integrator::Rkn64];
+        let [auto, low, high] =
+            named.map(|integrator| run_of(pendulum(tolerance, integrator), 0.01).2);
+        println!("{tolerance:e}: {auto} with the choice, {low} of order 4, {high} of order 6");
+        assert!(
+            auto < 1.05 * low.min(high),
+            "{tolerance:e}: {auto}, {low}, {high}"
+        );
+        assert!(
+            auto < (1.0 - gain) * low * 1.05,
+            "{tolerance:e}: {auto}, {low}"
+        );
+    }
+}
+
+#[test]
+fn a_restored_state_goes_on_with_the_same_order() {
+    let scene = || of(PENDULUM, 12, 1e-5, Integrator::Auto);
+    let step = 5e-3;
+    let (states, methods, _) = run_of(scene(), step);
+    for name in ["rkn43", "rkn64"] {
+        let points = methods.iter().filter(|method| **method == name).count();
+        assert!(points > 2, "{name} at {points} points");
+    }
+    restores(scene(), step, (&states, &methods));
 }

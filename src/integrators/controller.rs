@@ -8,6 +8,8 @@ use super::Attempt;
 const SHRINK: f64 = 0.2;
 const GROW: f64 = 5.0;
 const SAFETY: f64 = 0.9;
+/// Growth from one step to the next from which on steps have not found their length yet.
+const GROWING: f64 = 1.5;
 /// Growth of the longest step after one whose stage equations were not solved.
 const RELAX: f64 = 1.1;
 
@@ -26,6 +28,13 @@ pub(super) struct Trial {
     pub is_last: bool,
     /// Whether it is shorter than wanted, to reach the end in whole steps.
     pub is_cut: bool,
+}
+
+impl Trial {
+    /// Whether the step to propose next (s) is so much longer that steps have not found their length yet.
+    pub fn has_grown(&self, next: f64) -> bool {
+        !self.is_cut && next > GROWING * self.h
+    }
 }
 
 /// Chooses lengths of steps over a stretch without jumps.

@@ -13,7 +13,7 @@ mod rk4;
 mod selection;
 
 pub use controller::rescaled;
-pub use nystrom::{Nystrom, RKN43, Tableau, VERLET};
+pub use nystrom::{Nystrom, RKN43, RKN64, Tableau, VERLET};
 pub use radau::Radau;
 pub use rk4::Rk4;
 pub use selection::Methods;
@@ -63,6 +63,13 @@ pub trait Method: Send {
     /// Operations ([`Dynamics::operations`]) of a step at least.
     fn fewest_operations(&self) -> f64 {
         1.0
+    }
+    /// Goes on with the first (0) or the second (1) of its tableaux, where it has two.
+    fn take_up(&mut self, _variant: usize) {}
+    /// The tableau that would get over the time that remains (s) with fewer operations than the one in use, and the step (s) to
+    /// propose to it, where errors allow that in use steps of `h` (s).
+    fn cheaper(&self, _h: f64, _remaining: f64) -> Option<(usize, f64)> {
+        None
     }
     /// Forgets history: inputs may have jumped.
     fn begin(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
@@ -163,6 +170,8 @@ pub enum Stop {
 /// Error of a step, in tolerances and without what adds up of drives, below which twice its length would be accurate
 /// enough: it is not the fastest waves that set its length.
 const QUIET: f64 = 1.0 / 16.0;
+/// Steps to the end of a stretch from which on their number depends on their length alone.
+const MANY: f64 = 4.0;
 /// Most corrections of a state that is read.
 const RELAXATIONS: usize = 3;
 
@@ -229,20 +238,16 @@ fn advance_smoothly(
     let follows = state.dense.has_ended_at(state.time);
     let mut controller = Controller::new(follows.then_some(state.dense.ceiling));
     let mut counted = dynamics.operations();
-    dynamics.renew(state);
-    method.begin(dynamics, state.time, &state.coordinates, &state.rates);
-    if follows {
-        method.recall(&state.dense);
-    }
-    if state.step <= 0.0 {
-        state.step = first_step(method.acceleration(), &state.rates, tolerance);
-    }
+    let mut is_settled = begin(method, dynamics, state, tolerance);
     let shortest = shortest(until, state.time);
     let mut is_fresh = true;
     loop {
         let remaining = until - state.time;
         if remaining <= 0.0 {
             return Ok(());
+        }
+        if is_fresh || remaining > MANY * state.step {
+            take_up_cheaper(method, state, (remaining, is_settled));
         }
         if dynamics.is_exhausted() {
             return Err(Stop::TooMuchWork);
@@ -261,6 +266,7 @@ fn advance_smoothly(
         match method.attempt(dynamics, from, trial.h, tolerance) {
             Attempt::Done(error) if error <= 1.0 => {
                 state.step = controller.accept(trial, error, state.step);
+                is_settled = !trial.has_grown(state.step);
                 counts.steps += 1;
                 if beyond.is_some() {
                     let operations = dynamics.operations() - counted;
@@ -271,8 +277,7 @@ fn advance_smoothly(
                 take(method, state, (trial, until));
                 settle(method, dynamics, state)?;
                 relax(method, dynamics, state, (until, tolerance))?;
-                let operations = dynamics.operations();
-                let since = operations - std::mem::replace(&mut counted, operations);
+                let since = since(dynamics, &mut counted);
                 let alike = dynamics.steps_in(tolerance.time, trial.h);
                 let step = (trial, since, error / alike < QUIET);
                 if rival.is_some_and(|rival| rival.takes_over(state, step)) {
@@ -287,6 +292,47 @@ fn advance_smoothly(
                 }
             }
         }
+    }
+}
+
+/// Begins at a state; whether errors have set the step that it proposes.
+fn begin(
+    method: &mut dyn Method,
+    dynamics: &mut dyn Dynamics,
+    state: &mut State,
+    tolerance: &Tolerance,
+) -> bool {
+    method.take_up(state.pace.variant());
+    dynamics.renew(state);
+    method.begin(dynamics, state.time, &state.coordinates, &state.rates);
+    if state.dense.has_ended_at(state.time) {
+        method.recall(&state.dense);
+    }
+    let is_settled = state.step > 0.0;
+    if !is_settled {
+        state.step = first_step(method.acceleration(), &state.rates, tolerance);
+    }
+    is_settled
+}
+
+/// Operations since they were `counted`, which are counted anew.
+fn since(dynamics: &dyn Dynamics, counted: &mut f64) -> f64 {
+    let operations = dynamics.operations();
+    operations - std::mem::replace(counted, operations)
+}
+
+/// Goes on with the tableau that takes fewer operations over the time that remains (s); with the second only where errors
+/// have set the step.
+fn take_up_cheaper(
+    method: &mut dyn Method,
+    state: &mut State,
+    (remaining, is_settled): (f64, bool),
+) {
+    let cheaper = method.cheaper(state.step, remaining);
+    if let Some((variant, step)) = cheaper.filter(|(variant, _)| *variant == 0 || is_settled) {
+        method.take_up(variant);
+        state.pace.set_variant(variant);
+        state.step = step;
     }
 }
 

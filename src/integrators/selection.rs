@@ -29,8 +29,6 @@ const GAIN: f64 = 1.1;
 const FALLEN: f64 = 2.0;
 /// Part of what the method before got for an operation below which a trial ends with its first step.
 const HOPELESS: f64 = 0.5;
-/// Growth from one step to the next from which on steps have not found their length yet.
-const GROWING: f64 = 1.5;
 
 /// One method, or two to choose from.
 pub struct Methods(Vec<Box<dyn Method>>);
@@ -97,7 +95,7 @@ impl Rival {
         state: &mut State,
         (step, operations, is_quiet): (Trial, f64, bool),
     ) -> bool {
-        let grows = !step.is_cut && state.step > GROWING * step.h;
+        let grows = step.has_grown(state.step);
         let pace = &mut state.pace;
         pace.time += step.h;
         pace.operations += operations;
@@ -159,7 +157,7 @@ pub(super) fn give_up(state: &mut State) {
 /// The other method goes on; the one in use advanced `reached` (s) with an operation.
 fn change(state: &mut State, reached: f64) {
     let pace = &mut state.pace;
-    pace.method = 1.0 - pace.method;
+    pace.change();
     pace.other = reached;
     (pace.time, pace.operations, pace.cost) = (0.0, 0.0, 0.0);
     std::mem::swap(&mut state.step, &mut pace.step);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::integrators::{Method, Methods, Nystrom, RKN43, Radau, Rk4, Tolerance, VERLET};
+use crate::integrators::{Method, Methods, Nystrom, RKN43, RKN64, Radau, Rk4, Tolerance, VERLET};
 use crate::scene::{Error, Integrator, LoadKind, Resolved};
 use crate::system::{State, System, Work, fastest};
 
@@ -53,7 +53,12 @@ pub(super) fn choose<const D: usize>(
     if named == Integrator::Radau {
         return Ok((tolerance, Methods::one(radau())));
     }
-    if system.reads_rates() && matches!(named, Integrator::Verlet | Integrator::Rkn43) {
+    if system.reads_rates()
+        && matches!(
+            named,
+            Integrator::Verlet | Integrator::Rkn43 | Integrator::Rkn64
+        )
+    {
         let found = format!("{named:?}").to_lowercase();
         let message = format!(
             "expected \"auto\", \"radau\" or \"rk4\" where accelerations read rates (damping, joints that \
@@ -63,14 +68,16 @@ pub(super) fn choose<const D: usize>(
     }
     let (frequency, decay) = fastest(system, start.inputs, work, start.state);
     let nystrom = |tableau| -> Box<dyn Method> { Box::new(Nystrom::new(tableau, n, frequency)) };
+    let both = || -> Box<dyn Method> { Box::new(Nystrom::pair([&RKN43, &RKN64], n, frequency)) };
     let rk4 = || -> Box<dyn Method> { Box::new(Rk4::new(n, frequency, decay)) };
     let explicit = match named {
         Integrator::Verlet => nystrom(&VERLET),
         Integrator::Rkn43 => nystrom(&RKN43),
+        Integrator::Rkn64 => nystrom(&RKN64),
         Integrator::Rk4 => rk4(),
         _ if system.reads_rates() => rk4(),
         _ if relative >= LOOSEST => nystrom(&VERLET),
-        _ => nystrom(&RKN43),
+        _ => both(),
     };
     if named != Integrator::Auto {
         return Ok((tolerance, Methods::one(explicit)));

@@ -317,7 +317,7 @@ fn the_integrator_follows_stiffness_damping_and_tolerance() {
 
 #[test]
 fn a_method_that_cannot_take_rates_is_refused_where_they_are_read() {
-    for integrator in ["verlet", "rkn43"] {
+    for integrator in ["verlet", "rkn43", "rkn64"] {
         let error = rod(0.7e6, 1e-4, integrator, 1e-4).initialize(0.0);
         let text = error.expect_err("damping").to_string();
         let begins = r#"method.integrator: expected "auto", "radau" or "rk4""#;

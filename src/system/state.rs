@@ -6,7 +6,7 @@ use crate::body::Plain;
 /// the same methods (`integrators/selection.rs`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pace {
-    /// Index of the method in use: 0 or 1.
+    /// Index of the method in use, 0 or 1; 2 more where the explicit one goes on with its second tableau.
     pub method: f64,
     /// Steps of a trial that are still to be measured; 0 outside a trial.
     pub trial: f64,
@@ -59,7 +59,22 @@ impl Pace {
 
     /// Index of the method in use among `count`.
     pub fn index(&self, count: usize) -> usize {
-        (self.method.max(0.0) as usize).min(count - 1)
+        (self.method.max(0.0) as usize % 2).min(count - 1)
+    }
+
+    /// Index of the tableau that the explicit method goes on with: 0 or 1.
+    pub fn variant(&self) -> usize {
+        usize::from(self.method >= 2.0)
+    }
+
+    /// The explicit method goes on with this tableau.
+    pub fn set_variant(&mut self, variant: usize) {
+        self.method = (self.index(2) + 2 * variant) as f64;
+    }
+
+    /// The other method goes on.
+    pub fn change(&mut self) {
+        self.method = (1 - self.index(2) + 2 * self.variant()) as f64;
     }
 }
 
@@ -254,5 +269,23 @@ impl State {
             self.driven.len(),
             self.dense.vectors.len(),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tableau_outlasts_a_change_of_the_method() {
+        let mut pace = Pace::default();
+        pace.set_variant(1);
+        assert_eq!((pace.index(2), pace.variant()), (0, 1));
+        pace.change();
+        assert_eq!((pace.index(2), pace.index(1), pace.variant()), (1, 0, 1));
+        pace.set_variant(0);
+        assert_eq!((pace.index(2), pace.variant()), (1, 0));
+        pace.change();
+        assert_eq!(pace, Pace::default());
     }
 }

@@ -61,24 +61,24 @@ fn a_model_description_says_whose_the_model_is() {
     }
 }
 
-/// Error after ten radians (rad of the oscillation) and how many steps it took.
-fn error_and_steps(tolerance: f64) -> (f64, u64) {
+/// Error after ten radians (rad of the oscillation) and how much work it took.
+fn error_and_work(tolerance: f64) -> (f64, f64) {
     let mut simulation = started(&oscillator(tolerance));
     let time = 2.5;
     simulation.step(time).expect("a step");
     let found = read(&mut simulation, "bead.c.position[1]");
     (
         (found - 0.3 * (4.0 * time).cos()).abs(),
-        simulation.report().steps,
+        simulation.report().work,
     )
 }
 
 /// `accuracy.relative_tolerance`: the error shrinks with it and the work grows.
 #[test]
 fn errors_shrink_with_the_tolerance() {
-    let mut before = error_and_steps(1e-2);
+    let mut before = error_and_work(1e-2);
     for tolerance in [1e-4, 1e-6, 1e-8] {
-        let now = error_and_steps(tolerance);
+        let now = error_and_work(tolerance);
         assert!(
             10.0 * now.0 < before.0,
             "{tolerance}: {now:?} after {before:?}"

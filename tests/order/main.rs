@@ -5,7 +5,9 @@ mod control;
 mod problem;
 mod work;
 
-use flexbody::integrators::{Attempt, Method, Nystrom, RKN43, Radau, Rk4, Tolerance, VERLET};
+use flexbody::integrators::{
+    Attempt, Method, Nystrom, RKN43, RKN64, Radau, Rk4, Tolerance, VERLET,
+};
 use nalgebra::{Matrix2, Vector2};
 use problem::Problem;
 
@@ -19,7 +21,7 @@ struct Row {
     rates: bool,
 }
 
-const ROWS: [Row; 4] = [
+const ROWS: [Row; 5] = [
     Row {
         name: "rk4",
         order: 4.0,
@@ -45,6 +47,13 @@ const ROWS: [Row; 4] = [
         name: "rkn43",
         order: 4.0,
         make: || Box::new(Nystrom::new(&RKN43, 2, 1.0)),
+        steps: [20, 40, 80],
+        rates: false,
+    },
+    Row {
+        name: "rkn64",
+        order: 6.0,
+        make: || Box::new(Nystrom::new(&RKN64, 2, 1.0)),
         steps: [20, 40, 80],
         rates: false,
     },
@@ -176,20 +185,24 @@ fn estimates_have_order_three_at_least() {
     }
 }
 
-/// Growth of the largest deflection of a linear oscillator `q'' = -w^2 q - 2 z w v` over many steps of
-/// `h` = 1, from its first to its second half.
-fn growth(method: &mut dyn Method, frequency: f64, ratio: f64) -> f64 {
+/// A linear oscillator `q'' = -w^2 q - 2 z w v`.
+fn oscillator(frequency: f64, ratio: f64) -> Problem {
     thread_local! {
         static LINEAR: std::cell::Cell<[f64; 2]> = const { std::cell::Cell::new([0.0; 2]) };
     }
     LINEAR.set([frequency * frequency, 2.0 * ratio * frequency]);
-    let mut problem = Problem::new(
+    Problem::new(
         |_, q, v| {
             let [k, r] = LINEAR.get();
             -q * k - v * r
         },
         |_, _| LINEAR.get().map(Matrix2::from_diagonal_element),
-    );
+    )
+}
+
+/// Growth of the largest deflection of an oscillator over many steps of `h` = 1, from its first to its second half.
+fn growth(method: &mut dyn Method, frequency: f64, ratio: f64) -> f64 {
+    let mut problem = oscillator(frequency, ratio);
     let mut state = [vec![1.0, 0.0], vec![0.0, 0.0]];
     let mut largest = [0.0_f64; 2];
     for step in 0..400 {
@@ -222,14 +235,41 @@ fn rk4_is_stable_exactly_as_far_as_it_says() {
 
 #[test]
 fn nystrom_methods_are_stable_exactly_as_far_as_they_say() {
-    for tableau in [&VERLET, &RKN43] {
+    for tableau in [&VERLET, &RKN43, &RKN64] {
         let method = |frequency| Nystrom::new(tableau, 2, frequency);
         let limit = method(1.0).longest_step() / 0.9;
-        let grown = growth(&mut method(1.0), 0.999 * limit, 0.0);
-        // Neutral: what is seen of the largest deflection differs a little.
-        assert!(grown < 1.001, "{}: {grown}", method(1.0).name());
+        for part in 1..=500 {
+            let frequency = 0.999 * limit * f64::from(part) / 500.0;
+            let grown = growth(&mut method(1.0), frequency, 0.0);
+            // Neutral, or nearly: what is seen of the largest deflection differs a little.
+            let most = if part < 500 { 1.01 } else { 1.001 };
+            let name = method(1.0).name();
+            assert!(grown < most, "{name}: {grown} at {frequency}");
+        }
         let grown = growth(&mut method(1.0), 1.01 * limit, 0.0);
         assert!(grown > 1.1, "{}: {grown}", method(1.0).name());
+    }
+}
+
+#[test]
+fn nystrom_methods_estimate_more_than_the_error_of_any_oscillation() {
+    for (tableau, power) in [(&RKN43, 4.0), (&RKN64, 5.0)] {
+        for part in 1..=100 {
+            let frequency = 0.9 * tableau.limit * f64::from(part) / 100.0;
+            let mut problem = oscillator(frequency, 0.0);
+            let mut state = [vec![1.0, 0.0], vec![0.0, 0.0]];
+            let mut method = Nystrom::new(tableau, 2, 1.0);
+            let rescaled = force(&mut method, &mut problem, (0.0, &mut state), 1.0);
+            let estimate = (rescaled / TIGHT.relative).powf(power / 4.0) * TIGHT.relative;
+            let (sin, cos) = frequency.sin_cos();
+            let [position, velocity] = [state[0][0] - cos, state[1][0] + frequency * sin];
+            let error = position.abs().max(velocity.abs());
+            assert!(
+                estimate > 2.5 * error,
+                "{}: {error:e} at {frequency}, estimated as {estimate:e}",
+                tableau.name
+            );
+        }
     }
 }
 

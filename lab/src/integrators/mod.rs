@@ -6,7 +6,7 @@
 //! | `verlet` | velocity Verlet |
 //! | `rk4` | the product's, here also at a fixed step |
 //! | `dopri5` | Dormand and Prince 5(4) |
-//! | `rkn43`, `rkn64` | Nystrom pairs of Dormand, El-Mikkawy and Prince |
+//! | `rkn43`, `rkn64` | the product's Nystrom pairs, without a limit of the step, here also at a fixed one |
 //! | `gauss6` | Gauss, three stages |
 //! | `radau` | the product's, here also at a fixed step |
 //! | `alpha_1.0`, `alpha_0.8`, `alpha_0.6` | generalized-alpha by its spectral radius |
@@ -22,7 +22,6 @@ mod gauss;
 mod mechanisms;
 mod midpoint;
 mod newton;
-mod nystrom;
 #[cfg(test)]
 mod order;
 mod partitioning;
@@ -32,7 +31,7 @@ mod verlet;
 use std::sync::{Arc, Mutex};
 
 use flexbody::body::Node;
-use flexbody::integrators::{Method, Nystrom, RKN43, Radau, Rk4};
+use flexbody::integrators::{Method, Nystrom, RKN43, RKN64, Radau, Rk4};
 use flexbody::system::fastest;
 
 use crate::scene::{Outcome, Start};
@@ -72,7 +71,7 @@ pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
             only_positions()?;
             let tableau = match name {
                 "rkn43" => &RKN43,
-                _ => &nystrom::RKN64,
+                _ => &RKN64,
             };
             // No frequency, no limit: how far they go is what the chart shows.
             Box::new(Nystrom::new(tableau, n, 0.0))

@@ -50,6 +50,7 @@ impl<const D: usize> Builder<'_, D> {
         let parts = action.components.iter().enumerate();
         Load::Couple(Couple {
             ends: self.on_marker(marker),
+            is_torque: false,
             parts: parts.map(|(k, size)| (size.clone(), about(k))).collect(),
         })
     }
@@ -61,6 +62,7 @@ impl<const D: usize> Builder<'_, D> {
         let sizes = action.components.iter();
         Load::Couple(Couple {
             ends,
+            is_torque: true,
             parts: sizes.map(|size| (size.clone(), about)).collect(),
         })
     }

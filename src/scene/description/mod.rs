@@ -195,6 +195,8 @@ pub enum Integrator {
     Verlet,
     /// Runge-Kutta-Nystrom of order 4 with an embedded order 3, explicit: for soft scenes.
     Rkn43,
+    /// Runge-Kutta-Nystrom of order 6 with an embedded order 4, explicit: for soft scenes at tight tolerances.
+    Rkn64,
 }
 
 /// Default experiment of the FMU.

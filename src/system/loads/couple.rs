@@ -20,6 +20,8 @@ use crate::system::signal::Signal;
 pub struct Couple<const D: usize> {
     /// The second end takes the moment, the first one its opposite.
     pub ends: [End<D>; 2],
+    /// Whether it is the torque of a joint, about whose axis bodies turn against each other alone: it has a potential.
+    pub is_torque: bool,
     /// Sizes, N m, and what they are about.
     pub parts: Vec<(Signal, Direction<D>)>,
 }

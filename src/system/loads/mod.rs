@@ -165,7 +165,7 @@ impl<const D: usize> Load<D> {
     pub fn is_conservative(&self) -> bool {
         match self {
             Self::Force(load) => !load.follower,
-            Self::Couple(_) => false,
+            Self::Couple(load) => load.is_torque,
             _ => true,
         }
     }

@@ -6,7 +6,9 @@ use super::times;
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    let mut all: Vec<Specimen> = ["radau", "rk4", "verlet", "rkn43"].map(thrown).into();
+    let mut all: Vec<Specimen> = ["radau", "rk4", "verlet", "rkn43", "rkn64"]
+        .map(thrown)
+        .into();
     all.extend([
         element(),
         automatic(),

@@ -110,6 +110,7 @@ fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
     let (system, time) = (model.system, Jet::from_re(model.time));
     let work = &mut *model.work;
     system.elimination.expand(q, &mut work.y, &mut work.other);
+    system.frames.place_changes(&work.x, &mut work.other);
     let jets = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
     let (inputs, rates) = (jets(&work.inputs), jets(&work.input_rates));
     let angles = jets(&work.angles);
@@ -152,6 +153,7 @@ fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
     }
     work.f = force;
     let mut out = vec![0.0; q.len()];
+    system.frames.pull_all((&work.x, None), &mut work.f);
     system.elimination.reduce(&work.f, &mut work.y, &mut out);
     out
 }
