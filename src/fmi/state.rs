@@ -143,26 +143,18 @@ impl SavedState {
             vectors = DenseStep::blank(coordinates.len()).vectors;
         }
         let (driven, rest) = driven.as_chunks::<DRIVEN>();
-        let (axes, no_axis) = frames.as_chunks();
-        let (frames, no_frame) = axes.as_chunks();
         let (slopes, none) = slopes.as_chunks();
         let (eigenvalues, half) = eigenvalues.as_chunks();
-        if [rest, none, half, no_axis]
-            .iter()
-            .any(|rest| !rest.is_empty())
-            || !no_frame.is_empty()
-        {
-            let parts =
-                "holds a part of a driven motion, of an input, of an eigenvalue or of a frame";
-            return Err(refused(parts));
-        }
+        let is_whole = [rest, none, half].iter().all(|rest| rest.is_empty());
+        let frames = whole_frames(&frames).filter(|_| is_whole);
+        let frames = frames.ok_or_else(|| refused(PARTS))?;
         let state = State {
             time,
             step,
             pace,
             coordinates,
             rates,
-            frames: frames.to_vec(),
+            frames,
             angles,
             travel,
             driven: driven.to_vec(),
@@ -218,6 +210,16 @@ impl SavedState {
             },
         ]
     }
+}
+
+/// What is wrong with arrays of a length that they cannot have.
+const PARTS: &str = "holds a part of a driven motion, of an input, of an eigenvalue or of a frame";
+
+/// Frames of rigid bodies from their numbers, nothing where one is not whole.
+fn whole_frames(numbers: &[f64]) -> Option<Vec<[[f64; 3]; 3]>> {
+    let (axes, rest) = numbers.as_chunks::<3>();
+    let (frames, part) = axes.as_chunks::<3>();
+    (rest.is_empty() && part.is_empty()).then(|| frames.to_vec())
 }
 
 /// Where an instance stood: its lifecycle state, whether it was initialized, whether it was started.

@@ -5,7 +5,7 @@ use nalgebra::SMatrix;
 use crate::body::{Marker, Node, NodeBlock, Partial, Row, no_block};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, perpendicular};
-use crate::system::joints::AxisTurn;
+use crate::system::direction::AxisTurn;
 
 /// A point of the ground or of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]

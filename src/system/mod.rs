@@ -2,6 +2,7 @@
 //! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
 
 mod build;
+mod direction;
 mod end;
 mod instant;
 pub mod joints;
@@ -16,6 +17,7 @@ mod state;
 mod work;
 
 pub use build::{BuildError, LumpedMass, Parts};
+pub use direction::{AxisTurn, Direction};
 pub use end::{Angle, End};
 pub use instant::Instant;
 pub use motion::breaks::Follower;
@@ -130,7 +132,7 @@ impl<const D: usize> System<D> {
         if self.chains.len() + self.rods.len() == 1 && self.bodies.len() == 1 {
             return longest;
         }
-        longest.max(start::placement::extent(&self.reference))
+        longest.max(start::gaps::extent(&self.reference))
     }
 
     /// Number of independent coordinates `q`.

@@ -12,6 +12,7 @@ mod differences;
 mod driven;
 mod elements;
 mod frames;
+mod linkage;
 mod links;
 mod mechanics;
 mod mechanism;

@@ -6,9 +6,9 @@ use super::Builder;
 use crate::body::{Frame, Marker};
 use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
 use crate::scene::resolved::{self, Action, Pivot, Place, Turning};
-use crate::system::End;
-use crate::system::joints::{Across, AxisTurn, Direction, Perpendicular, Primitive};
+use crate::system::joints::{Across, Perpendicular, Primitive};
 use crate::system::loads::{Couple, Load};
+use crate::system::{AxisTurn, Direction, End};
 
 /// The axis of the plane.
 const THIRD: [f64; 3] = [0.0, 0.0, 1.0];

@@ -19,9 +19,9 @@ use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
 use crate::math::function::Function;
 use crate::math::space::{Vector, vector};
-use crate::system::joints::{AxisTurn, Joint, Primitive};
+use crate::system::joints::{Joint, Primitive};
 use crate::system::loads::{self, Load};
-use crate::system::{Angle, BuildError, End, LumpedMass, Parts, Signal, System};
+use crate::system::{Angle, AxisTurn, BuildError, End, LumpedMass, Parts, Signal, System};
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
 const BYTES: usize = 5000;
@@ -293,7 +293,7 @@ impl<const D: usize> Builder<'_, D> {
             }
             Hold::Axis(axis) => self.along_axis(ends, axis),
             Hold::Across(first, second) => {
-                vec![self.right_angle(ends, [first, second].map(|of| vector(of)))]
+                vec![self.right_angle(ends, [first, second].map(vector))]
             }
             Hold::Plane(across) => vec![self.across_way(ends, unit(across))],
             Hold::Direction(_) if D == 3 && is_framed => self.standing(ends),
@@ -343,7 +343,7 @@ impl<const D: usize> Builder<'_, D> {
                 None => self.angle(ends, rest),
             },
             angle: self.count_angle(ends, turn),
-            turn,
+            turn: turn.map(Box::new),
             stiffness,
             damping,
         };

@@ -47,55 +47,54 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
     }
 }
 
-/// A load; its variables bear the name of a port or of what it acts on.
-fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
-    let axes = ["component x", "component y", "component z"];
-    let turning = [
+/// Key, meaning and unit of a load's variables, and what its components are along.
+fn words(input: &Input<'_>) -> (&'static str, &'static str, Unit, &'static [&'static str]) {
+    const AXES: [&str; 3] = ["component x", "component y", "component z"];
+    const TURNING: [&str; 3] = [
         "along the x axis of its frame",
         "along the y axis of its frame",
         "along the z axis of its frame",
     ];
-    let (key, what, unit, ways): (_, _, _, &[&str]) = match &input.kind {
-        InputKind::Action(action) => match action.kind {
-            ActionKind::Force if action.follower && input.start.len() == 3 => (
-                "follower_force",
-                "Force that turns along, on",
-                NEWTON,
-                &turning,
-            ),
-            ActionKind::Moment if action.follower => {
-                let what = "Moment that turns along, on";
-                ("follower_moment", what, NEWTON_METRE, &turning)
-            }
-            ActionKind::Moment if input.start.len() == 3 => {
-                ("moment", "Moment on", NEWTON_METRE, &axes)
-            }
-            ActionKind::Force if action.follower => (
-                "follower_force",
-                "Force that turns along, on",
-                NEWTON,
-                &[
-                    "along the direction there",
-                    "across, to the left of the direction",
-                ],
-            ),
-            ActionKind::Force => ("force", "Force on", NEWTON, &axes),
-            ActionKind::Moment => ("moment", "Moment on", NEWTON_METRE, &["counter-clockwise"]),
-            ActionKind::Torque => (
-                "torque",
-                "Torque in",
-                NEWTON_METRE,
-                &["on its second marker, opposite on its first"],
-            ),
-            ActionKind::Distributed => (
-                "distributed_force",
-                "Force per reference length on",
-                NEWTON_PER_METRE,
-                &axes,
-            ),
-        },
-        InputKind::RestLength(_) => ("rest_length", "Length at rest of", METRE, &[""]),
+    const ALONG: [&str; 2] = [
+        "along the direction there",
+        "across, to the left of the direction",
+    ];
+    let InputKind::Action(action) = &input.kind else {
+        return ("rest_length", "Length at rest of", METRE, &[""]);
     };
+    let is_spatial = input.start.len() == 3;
+    match (action.kind, action.follower) {
+        (ActionKind::Force, true) => {
+            let ways: &[_] = if is_spatial { &TURNING } else { &ALONG };
+            ("follower_force", "Force that turns along, on", NEWTON, ways)
+        }
+        (ActionKind::Force, false) => ("force", "Force on", NEWTON, &AXES),
+        (ActionKind::Moment, true) => {
+            let what = "Moment that turns along, on";
+            ("follower_moment", what, NEWTON_METRE, &TURNING)
+        }
+        (ActionKind::Moment, false) => {
+            let ways: &[_] = if is_spatial {
+                &AXES
+            } else {
+                &["counter-clockwise"]
+            };
+            ("moment", "Moment on", NEWTON_METRE, ways)
+        }
+        (ActionKind::Torque, _) => {
+            let ways = &["on its second marker, opposite on its first"];
+            ("torque", "Torque in", NEWTON_METRE, ways)
+        }
+        (ActionKind::Distributed, _) => {
+            let what = "Force per reference length on";
+            ("distributed_force", what, NEWTON_PER_METRE, &AXES)
+        }
+    }
+}
+
+/// A load; its variables bear the name of a port or of what it acts on.
+fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
+    let (key, what, unit, ways) = words(input);
     let of = match &input.kind {
         InputKind::Action(action) => action.on(),
         InputKind::RestLength(load) => load,

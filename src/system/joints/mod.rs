@@ -3,24 +3,25 @@
 
 mod direction;
 mod distance;
+mod driven_turn;
 mod held_row;
 mod line;
 mod motion;
 mod perpendicular;
 mod point_on_curve;
-mod turn;
 mod unit;
 
 pub use direction::AngleBetween;
 pub use distance::Distance;
+pub use driven_turn::DrivenTurn;
 pub use held_row::HeldRow;
 pub use line::PointOnLine;
-pub use perpendicular::{Across, Direction, Perpendicular};
+pub use perpendicular::{Across, Perpendicular};
 pub use point_on_curve::PointOnCurve;
-pub use turn::{AxisTurn, DrivenTurn};
 pub use unit::UnitLength;
 
 use super::CableChain;
+use super::direction::AxisTurn;
 use super::end::{Add, End};
 use crate::body::{Node, Row};
 use crate::math::jet::Number;

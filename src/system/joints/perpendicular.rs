@@ -8,19 +8,10 @@
 use nalgebra::SMatrix;
 
 use super::{Gradient, View};
-use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
+use crate::system::direction::Direction;
 use crate::system::end::{Add, End, bilinear};
-
-/// A direction: of a marker, or fixed in space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Direction<const D: usize> {
-    /// That of a marker.
-    Of(Marker),
-    /// A unit vector.
-    Fixed(Vector<D>),
-}
 
 /// What a direction is perpendicular to.
 #[derive(Clone, Debug)]
@@ -38,32 +29,6 @@ pub struct Perpendicular<const D: usize> {
     pub direction: Direction<D>,
     /// What it is perpendicular to.
     pub across: Across<D>,
-}
-
-impl<const D: usize> Direction<D> {
-    /// Its components now.
-    pub fn value<N: Number>(&self, x: &[Node<D, N>]) -> Vector<D, N> {
-        match self {
-            Self::Of(marker) => marker.lift().direction(x),
-            Self::Fixed(direction) => direction.map(N::of),
-        }
-    }
-
-    /// Their rates.
-    pub fn rate<N: Number>(&self, v: &[Node<D, N>]) -> Vector<D, N> {
-        match self {
-            Self::Of(marker) => marker.lift().direction(v),
-            Self::Fixed(_) => Vector::zeros(),
-        }
-    }
-
-    /// Its end; the ground where it is fixed.
-    pub fn end(&self) -> End<D> {
-        match self {
-            Self::Of(marker) => End::Body(*marker),
-            Self::Fixed(_) => End::Ground(Vector::zeros()),
-        }
-    }
 }
 
 impl<const D: usize> Perpendicular<D> {

@@ -11,8 +11,8 @@ use super::Instant;
 use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components, vector};
+use crate::system::direction::Direction;
 use crate::system::end::End;
-use crate::system::joints::Direction;
 use crate::system::signal::Signal;
 
 /// A moment.

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::{Add, Instant, couple};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, perpendicular};
+use crate::system::direction::AxisTurn;
 use crate::system::end::{End, coupling};
-use crate::system::joints::AxisTurn;
 
 /// A rotational spring and a damper in parallel between two directions.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub struct RotationalSpring<const D: usize = 2> {
     /// Angle without moment, rad.
     pub rest: f64,
     /// In space, what turns about what.
-    pub turn: Option<AxisTurn<D>>,
+    pub turn: Option<Box<AxisTurn<D>>>,
 }
 
 impl<const D: usize> RotationalSpring<D> {

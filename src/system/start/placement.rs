@@ -5,14 +5,14 @@
 //! The way is a Gauss-Newton iteration with the smallest steps (E. J. Haug, Computer Aided Kinematics and
 //! Dynamics of Mechanical Systems (1989)), started from the bodies as described.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DVector, Vector3};
 
 use super::equilibrium;
 use super::held::Open;
-use crate::body::{Node, add_node, no_node, product};
-use crate::math::space::{Vector, moment, rotated, spins};
+use crate::body::{Node, add_node, no_node};
+use crate::math::space::{Vector, spins};
 use crate::system::instant::Instant;
-use crate::system::joints::{Constraint, ConstraintKind, Linear, View};
+use crate::system::joints::View;
 use crate::system::loads::Load;
 use crate::system::{CableChain, Dynamics, Model, State, System, Work};
 
@@ -306,209 +306,6 @@ impl<const D: usize> System<D> {
         let gaps = self.gaps_by_joint(x, work, CLOSE);
         Err(NotAssembled { gaps })
     }
-
-    /// Points of nodes, without what are axes.
-    fn points<'a>(&'a self, x: &'a [Node<D>]) -> impl Iterator<Item = Vector<D>> + 'a {
-        let is_point = |node: &usize| !matches!(self.frames.of_node::<D>(*node), Some((_, true)));
-        (0..x.len()).filter(is_point).map(|node| x[node][0].into())
-    }
-
-    /// Largest distance from the first node, m; 1 where there is none.
-    fn extent(&self, x: &[Node<D>]) -> f64 {
-        extent_of(x[0][0].into(), self.points(x))
-    }
-
-    /// What a body is turned about: the mean of its nodes, m.
-    fn center(&self, body: usize, x: &[Node<D>]) -> Vector<D> {
-        let nodes = self.bodies[body].clone();
-        if self.frames.of_node::<D>(nodes.start).is_some() {
-            return x[nodes.start][0].into();
-        }
-        let sum: Vector<D> = x[nodes.clone()].iter().map(|p| Vector::from(p[0])).sum();
-        sum / nodes.len() as f64
-    }
-
-    /// Moves a body as a whole, turning it about a point.
-    fn move_body(
-        &self,
-        (nodes, about): (std::ops::Range<usize>, Vector<D>),
-        way: Vector<D>,
-        turn: [f64; 3],
-        x: &mut [Node<D>],
-    ) {
-        for node in nodes {
-            let [p, d] = x[node].map(Vector::from);
-            let p = match self.frames.of_node::<D>(node) {
-                Some((_, true)) => rotated(p, turn),
-                _ => about + way + rotated(p - about, turn),
-            };
-            x[node] = [p.into(), rotated(d, turn).into()];
-        }
-    }
-
-    /// What is missing of every joint, by positions and by angles, beyond `least` relative to the size of the system.
-    fn gaps_by_joint(&self, x: &[Node<D>], work: &Work<D>, least: f64) -> Vec<Gap> {
-        let size = self.extent(x);
-        let gaps = self.gaps(x, work, size);
-        // Squares of the sines of angles, or of lengths, and how many.
-        let mut sums: Vec<(Gap, usize)> = Vec::new();
-        for (gap, (owner, is_angle)) in gaps.iter().zip(self.owners()) {
-            let (Some(joint), true) = (owner, gap.is_nan() || gap.abs() > least) else {
-                continue;
-            };
-            let gap = match is_angle {
-                true => gap.abs(),
-                false => self.length_of(joint, gap * size).abs(),
-            };
-            match (sums.iter_mut()).find(|(g, _)| (g.joint, g.is_angle) == (joint, is_angle)) {
-                Some((sum, count)) => (sum.size, *count) = (sum.size.hypot(gap), *count + 1),
-                None => sums.push((
-                    Gap {
-                        joint,
-                        size: gap,
-                        is_angle,
-                    },
-                    1,
-                )),
-            }
-        }
-        let angle = |(gap, count): (Gap, usize)| match (gap.is_angle, count) {
-            (false, _) => gap,
-            (true, 1) => Gap {
-                size: gap.size.min(1.0).asin(),
-                ..gap
-            },
-            (true, _) => Gap {
-                size: 2.0 * (0.5 * gap.size).min(1.0).asin(),
-                ..gap
-            },
-        };
-        sums.into_iter().map(angle).collect()
-    }
-
-    /// A gap in m: that of a distance is measured by squares.
-    fn length_of(&self, joint: usize, gap: f64) -> f64 {
-        match self.joints[joint].length() {
-            Some(length) => (length * (length + 2.0 * gap)).max(0.0).sqrt() - length,
-            None => gap,
-        }
-    }
-
-    fn all_constraints(&self) -> impl Iterator<Item = &Constraint<D>> {
-        self.constraints.iter().chain(&self.settled)
-    }
-
-    /// Joints of the entries of [`System::gaps`], and whether those are of angles.
-    fn owners(&self) -> Vec<(Option<usize>, bool)> {
-        let linear = self.linear.iter();
-        let linear = linear.map(|linear| (linear.joint, linear.on_ends[1][0].norm() == 0.0));
-        let constraints = self.all_constraints();
-        let constraints = constraints.map(|c| (c.joint, constraint_size(c, 2.0) == 1.0));
-        linear.chain(constraints).collect()
-    }
-
-    /// Where slides are on their chains, wherever they were before.
-    fn find_slides(&self, x: &[Node<D>], travel: &mut [f64]) {
-        for (travel, constraint) in travel.iter_mut().zip(&self.slides) {
-            if let ConstraintKind::PointOnCurve(along) = &self.constraints[*constraint].kind {
-                *travel = along.nearest(&self.chains[along.chain], x);
-            }
-        }
-    }
-
-    /// Whether a row is one of what joints see: not that a rigid body of space has no coordinates but its own.
-    fn is_seen(&self, linear: &Linear<D>) -> bool {
-        let mut nodes = linear.row.terms.iter().map(|(node, _)| *node);
-        nodes.all(|node| self.frames.of_node::<D>(node).is_none())
-    }
-
-    /// What a row is more than it is to equal.
-    fn gap_of(&self, linear: &Linear<D>, x: &[Node<D>], work: &Work<D>) -> f64 {
-        if !self.is_seen(linear) {
-            return 0.0;
-        }
-        let terms = linear.row.terms.iter();
-        let value: f64 = terms.map(|(node, c)| product(c, &x[*node])).sum();
-        value - linear.target.derivatives(&work.drives)[0]
-    }
-
-    /// What is missing of every row and constraint; lengths relative to `size`.
-    fn gaps(&self, x: &[Node<D>], work: &Work<D>, size: f64) -> Vec<f64> {
-        let mut gaps = Vec::new();
-        for linear in &self.linear {
-            gaps.push(self.gap_of(linear, x, work) / linear_size(linear, size));
-        }
-        let view = View {
-            x,
-            ..self.view(work)
-        };
-        for constraint in self.all_constraints() {
-            gaps.push(constraint.value(&view) / constraint_size(constraint, size));
-        }
-        gaps
-    }
-
-    /// Derivatives of the gaps by translations (relative to `size`) and turns of all bodies.
-    fn rigid_jacobian(&self, x: &[Node<D>], work: &Work<D>, size: f64) -> DMatrix<f64> {
-        let count = self.linear.len() + self.all_constraints().count();
-        let free = D + spins(D).len();
-        let mut jacobian = DMatrix::zeros(count, free * self.bodies.len());
-        let mut of_node = vec![0; x.len()];
-        for (body, nodes) in self.bodies.iter().enumerate() {
-            of_node[nodes.clone()].fill(body);
-        }
-        let mut enter = |row: usize, node: usize, c: &Node<D>, scale: f64| {
-            let body = of_node[node];
-            let about = self.center(body, x);
-            let ([p, d], [on, by]) = (x[node].map(Vector::from), c.map(Vector::from));
-            let is_second = matches!(self.frames.of_node::<D>(node), Some((_, true)));
-            for k in (0..D).filter(|_| !is_second) {
-                jacobian[(row, free * body + k)] += on[k] * size / scale;
-            }
-            // Of a second node both vectors are axes.
-            let arm = if is_second { p } else { p - about };
-            let turns = [moment(&arm, &on), moment(&d, &by)];
-            for (i, k) in spins(D).enumerate() {
-                jacobian[(row, free * body + D + i)] += (turns[0][k] + turns[1][k]) / scale;
-            }
-        };
-        for (row, linear) in self.linear.iter().enumerate() {
-            for (node, c) in linear.row.terms.iter().filter(|_| self.is_seen(linear)) {
-                enter(row, *node, c, linear_size(linear, size));
-            }
-        }
-        let view = View {
-            x,
-            ..self.view(work)
-        };
-        for (i, constraint) in self.all_constraints().enumerate() {
-            constraint.gradient(&view).for_each(|node, c| {
-                let scale = constraint_size(constraint, size);
-                enter(self.linear.len() + i, node, c, scale);
-            });
-        }
-        jacobian
-    }
-}
-
-fn linear_size<const D: usize>(linear: &Linear<D>, size: f64) -> f64 {
-    let positions = linear.on_ends[1][0].norm() > 0.0;
-    if positions { size } else { 1.0 }
-}
-
-fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64 {
-    match &constraint.kind {
-        ConstraintKind::UnitLength(_)
-        | ConstraintKind::AngleBetween(_)
-        | ConstraintKind::DrivenTurn(_) => 1.0,
-        ConstraintKind::HeldRow(row) if row.holds_direction() => 1.0,
-        ConstraintKind::Perpendicular(right) if right.is_angle() => 1.0,
-        ConstraintKind::Distance(_)
-        | ConstraintKind::PointOnLine(_)
-        | ConstraintKind::PointOnCurve(_)
-        | ConstraintKind::HeldRow(_)
-        | ConstraintKind::Perpendicular(_) => size,
-    }
 }
 
 fn difference<const D: usize>(a: &[Node<D>], b: &[Node<D>]) -> Vec<Node<D>> {
@@ -519,14 +316,4 @@ fn difference<const D: usize>(a: &[Node<D>], b: &[Node<D>]) -> Vec<Node<D>> {
         difference
     };
     pairs.map(difference).collect()
-}
-
-/// Largest distance from the first node, m; 1 where there is none.
-pub(in crate::system) fn extent<const D: usize>(x: &[Node<D>]) -> f64 {
-    extent_of(x[0][0].into(), x.iter().map(|node| node[0].into()))
-}
-
-fn extent_of<const D: usize>(first: Vector<D>, points: impl Iterator<Item = Vector<D>>) -> f64 {
-    let largest = points.map(|p| (p - first).norm()).fold(0.0, f64::max);
-    if largest > 0.0 { largest } else { 1.0 }
 }

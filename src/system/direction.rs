@@ -1,14 +1,19 @@
-//! The angle about the axis of a joint in space: from directions across the axis that are fixed in the first body to one that
-//! is fixed in the second, `angle = atan2(m . u, n . u)` with `m = axis x n`; and what drives it,
-//! `-sin(angle) n . u + cos(angle) m . u = 0`.
+//! Directions of bodies and of space, and the angle about the axis of a joint in space: from directions across the axis that
+//! are fixed in the first body to one that is fixed in the second, `angle = atan2(m . u, n . u)` with `m = axis x n`.
 
-use nalgebra::SMatrix;
-
-use super::{Direction, Gradient, View};
-use crate::body::Node;
+use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, moment};
-use crate::system::end::{Add, End, bilinear, coupling};
+use crate::system::end::{Add, End, coupling};
+
+/// A direction: of a marker, or fixed in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Direction<const D: usize> {
+    /// That of a marker.
+    Of(Marker),
+    /// A unit vector.
+    Fixed(Vector<D>),
+}
 
 /// The turn of one body against another about an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,29 +24,46 @@ pub struct AxisTurn<const D: usize> {
     pub of: Direction<D>,
 }
 
-/// A driven turn.
-#[derive(Clone, Debug)]
-pub struct DrivenTurn<const D: usize> {
-    /// What is driven.
-    pub turn: AxisTurn<D>,
-    /// Driven coordinate: the angle, rad.
-    pub drive: usize,
+impl<const D: usize> Direction<D> {
+    /// Its components now.
+    pub fn value<N: Number>(&self, x: &[Node<D, N>]) -> Vector<D, N> {
+        match self {
+            Self::Of(marker) => marker.lift().direction(x),
+            Self::Fixed(direction) => direction.map(N::of),
+        }
+    }
+
+    /// Their rates.
+    pub fn rate<N: Number>(&self, v: &[Node<D, N>]) -> Vector<D, N> {
+        match self {
+            Self::Of(marker) => marker.lift().direction(v),
+            Self::Fixed(_) => Vector::zeros(),
+        }
+    }
+
+    /// Its end; the ground where it is fixed.
+    pub fn end(&self) -> End<D> {
+        match self {
+            Self::Of(marker) => End::Body(*marker),
+            Self::Fixed(_) => End::Ground(Vector::zeros()),
+        }
+    }
 }
 
 impl<const D: usize> AxisTurn<D> {
-    fn products<N: Number>(&self, x: &[Node<D, N>]) -> [N; 2] {
+    pub(super) fn products<N: Number>(&self, x: &[Node<D, N>]) -> [N; 2] {
         let u = self.of.value(x);
         self.across.map(|across| across.value(x).dot(&u))
     }
 
-    fn rates<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> [N; 2] {
+    pub(super) fn rates<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> [N; 2] {
         let (u, rate) = (self.of.value(x), self.of.rate(v));
         self.across
             .map(|across| across.rate(v).dot(&u) + across.value(x).dot(&rate))
     }
 
     /// Twice the products of rates: second derivatives of the products but for accelerations.
-    fn bends<N: Number>(&self, v: &[Node<D, N>]) -> [N; 2] {
+    pub(super) fn bends<N: Number>(&self, v: &[Node<D, N>]) -> [N; 2] {
         let rate = self.of.rate(v);
         self.across
             .map(|across| N::of(2.0) * across.rate(v).dot(&rate))
@@ -83,7 +105,7 @@ impl<const D: usize> AxisTurn<D> {
     }
 
     /// `w = -sin n + cos m`, across `u` at the angle with this sine and cosine, fixed in the first body: its end.
-    fn turned<N: Number>(&self, [sin, cos]: [N; 2]) -> End<D, N> {
+    pub(super) fn turned<N: Number>(&self, [sin, cos]: [N; 2]) -> End<D, N> {
         let [n, m] = self.across;
         match (n, m) {
             (Direction::Of(n), Direction::Of(m)) => {
@@ -107,66 +129,5 @@ impl<const D: usize> AxisTurn<D> {
         let square = p * p + q * q;
         let change = N::of(2.0) * (p * p_rate + q * q_rate) * self.rate(x, v);
         (p * q_second - q * p_second - change) / square
-    }
-}
-
-impl<const D: usize> DrivenTurn<D> {
-    /// The driven angle with two derivatives, its sine and cosine.
-    fn drive<N: Number>(&self, view: &View<'_, D, N>) -> ([N; 3], [N; 2]) {
-        let drive = view.drives[self.drive];
-        let (sin, cos) = drive[0].sin_cos();
-        (drive, [sin, cos])
-    }
-
-    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let (_, [sin, cos]) = self.drive(view);
-        let [p, q] = self.turn.products(view.x);
-        cos * q - sin * p
-    }
-
-    pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
-        let (none, (_, [sin, cos])) = (Vector::zeros(), self.drive(view));
-        let [n, m] = self.turn.across.map(|across| across.value(view.x));
-        let u = self.turn.of.value(view.x);
-        Gradient {
-            ends: [
-                (self.turn.turned([sin, cos]), [none, u]),
-                (self.turn.of.end().lift(), [none, m * cos - n * sin]),
-            ],
-        }
-    }
-
-    pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let ([_, rate, _], [sin, cos]) = self.drive(view);
-        let [p, q] = self.turn.products(view.x);
-        -rate * (sin * q + cos * p)
-    }
-
-    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let ([_, rate, second], [sin, cos]) = self.drive(view);
-        let [p, q] = self.turn.products(view.x);
-        let [p_rate, q_rate] = self.turn.rates(view.x, view.v);
-        let [p_bend, q_bend] = self.turn.bends(view.v);
-        let two = N::of(2.0);
-        cos * q_bend - sin * p_bend - two * rate * (sin * q_rate + cos * p_rate)
-            + rate * rate * (sin * p - cos * q)
-            - second * (cos * p + sin * q)
-    }
-
-    pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
-        let (_, turned) = self.drive(view);
-        if let (End::Body(first), Direction::Of(second)) = (self.turn.turned(turned), &self.turn.of)
-        {
-            bilinear(
-                [(&first, 1), (second, 1)],
-                SMatrix::identity() * lambda,
-                add,
-            );
-        }
-    }
-
-    /// What it joins.
-    pub fn ends(&self) -> Vec<End<D>> {
-        vec![self.turn.across[0].end(), self.turn.of.end()]
     }
 }

@@ -1,0 +1,173 @@
+//! Which rows and constraints parts make, and what they couple.
+
+use super::Parts;
+use crate::body::{Frame, Links, Node, Row, no_node, tied_with};
+use crate::math::space::Vector;
+use crate::system::end::End;
+use crate::system::joints::{Constraint, ConstraintKind, HeldRow, Linear, Target, UnitLength};
+use crate::system::loads::Load;
+
+/// Most nodes that pins tie together and are eliminated with (docs/decisions/0029-constraints-at-linear-cost.md).
+const TIED: usize = 8;
+
+/// Tells cables which of their ends are free.
+pub(super) fn free_ends<const D: usize>(parts: &mut Parts<D>) {
+    let mut used = vec![false; parts.nodes.len()];
+    let joints = parts.joints.iter().flat_map(|joint| joint.ends);
+    let ends = joints.chain(parts.loads.iter().flat_map(Load::ends));
+    let lumped_masses = parts
+        .lumped_masses
+        .iter()
+        .flat_map(|lump| lump.marker.nodes);
+    for node in ends.flat_map(|end| end.nodes()).chain(lumped_masses) {
+        used[node] = true;
+    }
+    for chain in &mut parts.chains {
+        let first = chain.nodes(0)[0];
+        let last = first + chain.node_count() - 1;
+        chain.set_free_ends([!used[first], !used[last]], &parts.nodes);
+    }
+}
+
+pub(super) fn constraints<const D: usize>(
+    parts: &Parts<D>,
+) -> (Vec<Linear<D>>, Vec<Constraint<D>>) {
+    let (mut linear, mut nonlinear) = (Vec::new(), Vec::new());
+    for (node, turns) in &parts.rigid {
+        if *turns {
+            nonlinear.push(Constraint {
+                joint: None,
+                kind: ConstraintKind::UnitLength(UnitLength { node: *node }),
+                offset: 0.0,
+            });
+            continue;
+        }
+        // A particle has no direction of its own.
+        let direction = parts.nodes[*node][1];
+        let held = direction.iter().enumerate();
+        linear.extend(held.map(|(axis, value)| still((*node, 1, axis), *value)));
+    }
+    for frame in &parts.frames {
+        rest(parts, frame, &mut linear);
+    }
+    for (index, joint) in parts.joints.iter().enumerate() {
+        joint.constraints((index, &parts.nodes), &mut linear, &mut nonlinear);
+    }
+    release_rows(parts, &mut linear, &mut nonlinear);
+    (linear, nonlinear)
+}
+
+/// A number of a node that is none of its coordinates.
+fn still<const D: usize>((node, part, axis): (usize, usize, usize), value: f64) -> Linear<D> {
+    let mut coefficients = no_node();
+    coefficients[part][axis] = 1.0;
+    Linear {
+        joint: None,
+        row: Row {
+            terms: vec![(node, coefficients)],
+            is_driven: false,
+        },
+        target: Target::Fixed(value),
+        on_ends: [[Vector::zeros(); 2]; 2],
+    }
+}
+
+/// The second node of a rigid body of space has no coordinates of its own, nor has the first a rotation about an axis without
+/// inertia.
+fn rest<const D: usize>(parts: &Parts<D>, frame: &Frame, linear: &mut Vec<Linear<D>>) {
+    let second = unplaced(&parts.nodes[frame.node]);
+    for (part, vector) in second.iter().enumerate() {
+        let held = vector.iter().enumerate();
+        linear.extend(held.map(|(axis, value)| still((frame.node + 1, part, axis), *value)));
+    }
+    let without = (0..D).filter(|axis| frame.moments[*axis] <= 0.0);
+    linear.extend(without.map(|axis| still((frame.node, 1, axis), 0.0)));
+}
+
+/// Coordinates of both nodes of a rigid body of space where it has not turned.
+pub(super) fn unplaced<const D: usize>([center, _]: &Node<D>) -> Node<D> {
+    [*center, [0.0; D]]
+}
+
+/// Rows that hold axes of rigid bodies in space, which are no coordinates, keep multipliers instead of being eliminated. So
+/// do pins that would tie many rigid bodies together: what is tied together is dense.
+fn release_rows<const D: usize>(
+    parts: &Parts<D>,
+    linear: &mut Vec<Linear<D>>,
+    nonlinear: &mut Vec<Constraint<D>>,
+) {
+    let rows: Vec<&Row<D>> = linear.iter().map(|linear| &linear.row).collect();
+    let tied = tied_with(parts.nodes.len(), &rows);
+    let is_released = |index: usize| {
+        let joint = &parts.joints[index];
+        if joint.ends.iter().any(End::is_framed) {
+            return true;
+        }
+        let joins = joint.ends.iter().all(|end| end.is_rigid());
+        let mut nodes = joint.ends.iter().filter_map(|end| end.nodes().next());
+        match (nodes.next(), nodes.next()) {
+            (Some(a), Some(_)) => joint.is_pin() && joins && tied[a] > TIED,
+            _ => false,
+        }
+    };
+    let released: Vec<bool> = (0..parts.joints.len()).map(is_released).collect();
+    linear.retain(|linear| {
+        let Some(index) = linear.joint.filter(|index| released[*index]) else {
+            return true;
+        };
+        let row = HeldRow::new(linear, parts.joints[index].ends);
+        nonlinear.push(Constraint::of(index, ConstraintKind::HeldRow(row)));
+        false
+    });
+    if !parts.frames.is_empty() {
+        // What belongs to one joint stands together.
+        nonlinear.sort_by_key(|constraint| constraint.joint);
+    }
+}
+
+/// What mass, stiffness and constraints couple.
+pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Links {
+    let mut links = Links::default();
+    for chain in &parts.chains {
+        let elements = 0..chain.elements().len();
+        (links.mass).extend(elements.map(|j| <(usize, usize)>::from(chain.nodes(j))));
+    }
+    for lump in &parts.lumped_masses {
+        let [a, b] = lump.marker.nodes;
+        links.mass.push((a, b));
+    }
+    // What holds the axes of a rigid body of space holds its first node.
+    let mut first: Vec<usize> = (0..parts.nodes.len()).collect();
+    for frame in &parts.frames {
+        links.mass.push((frame.node, frame.node));
+        first[frame.node + 1] = frame.node;
+    }
+    let owners = |nodes: Vec<usize>| {
+        let mut owners: Vec<usize> = nodes.iter().map(|node| first[*node]).collect();
+        if !parts.frames.is_empty() {
+            owners.dedup();
+        }
+        owners
+    };
+    let mut tie = |nodes: &[usize]| {
+        for (i, a) in nodes.iter().enumerate() {
+            (links.stiffness).extend(nodes[i + 1..].iter().map(|b| (*a, *b)));
+        }
+    };
+    for load in parts.loads.iter().chain(&parts.initial_loads) {
+        tie(&owners(load.ends().iter().flat_map(End::nodes).collect()));
+    }
+    let mut joint = None;
+    for constraint in nonlinear {
+        let nodes = owners(constraint.nodes(&parts.chains));
+        if constraint.is_stiff() {
+            tie(&nodes);
+        }
+        match links.held.last_mut() {
+            Some((on, count)) if joint == constraint.joint && *on == nodes => *count += 1,
+            _ => links.held.push((nodes, 1)),
+        }
+        joint = constraint.joint;
+    }
+    links
+}

@@ -1,0 +1,80 @@
+//! What drives the angle about the axis of a joint in space: `-sin(angle) n . u + cos(angle) m . u = 0` with directions `n`
+//! and `m` across the axis of the first body and `u` of the second.
+
+use nalgebra::SMatrix;
+
+use super::{Gradient, View};
+use crate::math::jet::Number;
+use crate::math::space::Vector;
+use crate::system::direction::{AxisTurn, Direction};
+use crate::system::end::{Add, End, bilinear};
+
+/// A driven turn.
+#[derive(Clone, Debug)]
+pub struct DrivenTurn<const D: usize> {
+    /// What is driven.
+    pub turn: AxisTurn<D>,
+    /// Driven coordinate: the angle, rad.
+    pub drive: usize,
+}
+
+impl<const D: usize> DrivenTurn<D> {
+    /// The driven angle with two derivatives, its sine and cosine.
+    fn drive<N: Number>(&self, view: &View<'_, D, N>) -> ([N; 3], [N; 2]) {
+        let drive = view.drives[self.drive];
+        let (sin, cos) = drive[0].sin_cos();
+        (drive, [sin, cos])
+    }
+
+    pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let (_, [sin, cos]) = self.drive(view);
+        let [p, q] = self.turn.products(view.x);
+        cos * q - sin * p
+    }
+
+    pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
+        let (none, (_, [sin, cos])) = (Vector::zeros(), self.drive(view));
+        let [n, m] = self.turn.across.map(|across| across.value(view.x));
+        let u = self.turn.of.value(view.x);
+        Gradient {
+            ends: [
+                (self.turn.turned([sin, cos]), [none, u]),
+                (self.turn.of.end().lift(), [none, m * cos - n * sin]),
+            ],
+        }
+    }
+
+    pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let ([_, rate, _], [sin, cos]) = self.drive(view);
+        let [p, q] = self.turn.products(view.x);
+        -rate * (sin * q + cos * p)
+    }
+
+    pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        let ([_, rate, second], [sin, cos]) = self.drive(view);
+        let [p, q] = self.turn.products(view.x);
+        let [p_rate, q_rate] = self.turn.rates(view.x, view.v);
+        let [p_bend, q_bend] = self.turn.bends(view.v);
+        let two = N::of(2.0);
+        cos * q_bend - sin * p_bend - two * rate * (sin * q_rate + cos * p_rate)
+            + rate * rate * (sin * p - cos * q)
+            - second * (cos * p + sin * q)
+    }
+
+    pub(super) fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
+        let (_, turned) = self.drive(view);
+        if let (End::Body(first), Direction::Of(second)) = (self.turn.turned(turned), &self.turn.of)
+        {
+            bilinear(
+                [(&first, 1), (second, 1)],
+                SMatrix::identity() * lambda,
+                add,
+            );
+        }
+    }
+
+    /// What it joins.
+    pub fn ends(&self) -> Vec<End<D>> {
+        vec![self.turn.across[0].end(), self.turn.of.end()]
+    }
+}
