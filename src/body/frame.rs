@@ -389,7 +389,7 @@ impl Frames {
     }
 
     /// Derivatives of a node's vectors by the coordinates of its body, and the node that has these.
-    fn partial<const D: usize>(&self, node: usize, x: &[Node<D>]) -> (usize, NodeBlock<D>) {
+    pub fn partial<const D: usize>(&self, node: usize, x: &[Node<D>]) -> (usize, NodeBlock<D>) {
         let mut partial = no_block();
         let Some((frame, is_second)) = self.of_node::<D>(node) else {
             for (i, k) in entries::<D>() {
@@ -426,6 +426,24 @@ impl Frames {
         for i in 0..D {
             for j in 0..D {
                 block[1][i][1][j] = -0.5 * (along(i, j) + along(j, i));
+            }
+            block[1][i][1][i] += (0..3).map(|k| along(k, k)).sum::<f64>();
+        }
+        block
+    }
+
+    /// The same as it is, not symmetric where the forces have a moment.
+    pub fn whole_geometric<const D: usize>(
+        frame: &Frame,
+        f: &[Node<D>],
+        x: &[Node<D>],
+    ) -> NodeBlock<D> {
+        let (axes, forces) = (frame.axes(x), frame.axes(f));
+        let along = |i: usize, j: usize| forces[i].dot(&axes[j]);
+        let mut block = no_block();
+        for i in 0..D {
+            for j in 0..D {
+                block[1][i][1][j] = -along(j, i);
             }
             block[1][i][1][i] += (0..3).map(|k| along(k, k)).sum::<f64>();
         }

@@ -206,7 +206,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.supply`.
-    fn add_multiplied(&self, work: &mut Work<D>) {
+    pub(in crate::system) fn add_multiplied(&self, work: &mut Work<D>) {
         let mut sum = std::mem::take(&mut work.supply);
         sum.copy_from_slice(&work.f);
         let view = self.view(work);

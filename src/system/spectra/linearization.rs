@@ -12,7 +12,7 @@
 //! Riemannian Manifolds, 2nd ed. (2018), proposition 10.4 (variation of motions on a manifold).
 
 use super::probe::{Blocks, Nodes, Probe, SKEW};
-use crate::body::{Elimination, Node, map_node, no_block, no_node, perpendicular_node};
+use crate::body::{Elimination, Frames, Node, map_node, no_block, no_node, perpendicular_node};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number, moving};
 use crate::math::row_space::RowSpace;
@@ -22,6 +22,9 @@ use crate::system::end::End;
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::{System, Work};
+
+/// Moment on a rigid body in space, relative to the forces that make it, that is rounding.
+const ROUNDED: f64 = 1e-8;
 
 /// `K` and `R` over the free coordinates, and what constraints make of them: rows and columns of multipliers stand with
 /// `K`.
@@ -96,6 +99,7 @@ impl<const D: usize> System<D> {
             });
         }
         made.is_symmetric &= elsewhere.is_empty();
+        self.linearize_rotations(work, &mut made);
         made.others = [made.stiffness.clone(), made.damping.clone()];
         self.linearize_chains(work, at_rest, &mut probe, &mut made);
         let mut multipliers = Matrix::zeros(pattern);
@@ -191,7 +195,8 @@ impl<const D: usize> System<D> {
                 };
                 load.add_force(at, f);
             };
-            let blocks = probe.differentiate(&nodes, false, &force);
+            let pulled = |blocks: Blocks| blocks.pulled(&self.frames, &work.x);
+            let blocks = pulled(probe.differentiate(&nodes, false, &force));
             blocks.add(assembly, &mut made.stiffness, &mut none);
             if !blocks.is_symmetric() {
                 made.follower.get_or_insert(index);
@@ -200,7 +205,7 @@ impl<const D: usize> System<D> {
             }
             if load.is_damped() && !at_rest {
                 made.is_damped = true;
-                let blocks = probe.differentiate(&nodes, true, &force);
+                let blocks = pulled(probe.differentiate(&nodes, true, &force));
                 blocks.add(assembly, &mut made.damping, &mut none);
             }
         }
@@ -307,7 +312,33 @@ impl<const D: usize> System<D> {
                 }
             });
         };
-        probe.differentiate(&nodes, false, &force)
+        let blocks = probe.differentiate(&nodes, false, &force);
+        blocks.pulled(&self.frames, &work.x)
+    }
+
+    /// What forces on rigid bodies of space add where these turn.
+    fn linearize_rotations(&self, work: &mut Work<D>, made: &mut Linearization<'_, D>) {
+        if self.frames.is_empty() {
+            return;
+        }
+        self.add_multiplied(work);
+        let assembly = &self.elimination.assembly;
+        let mut none = |_: usize, _: usize, _: f64| {};
+        for frame in self.frames.list() {
+            let node = frame.node;
+            let whole = Frames::whole_geometric(frame, &work.supply, &work.x);
+            let half = Frames::geometric(frame, &work.supply, &work.x);
+            let pairs = whole.as_flattened().iter().zip(half.as_flattened());
+            let entries = pairs.flat_map(|(a, b)| a.as_flattened().iter().zip(b.as_flattened()));
+            let (skew, size) = entries.fold((0.0_f64, 0.0_f64), |(skew, size), (a, b)| {
+                (skew.max((a - b).abs()), size.max(a.abs()))
+            });
+            // In equilibrium no moment is left.
+            let is_balanced = skew <= ROUNDED * size;
+            made.is_symmetric &= is_balanced;
+            let block = if is_balanced { half } else { whole };
+            assembly.add_block((node, node), &block, &mut made.stiffness, &mut none);
+        }
     }
 
     /// What constraints hold, and what their turning adds to `K`.

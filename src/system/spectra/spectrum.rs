@@ -39,6 +39,12 @@ pub enum SpectrumError {
          with them (\"rotation\")"
     )]
     Turns(f64),
+    /// A rigid body in space turns at this rate, rad/s.
+    #[error(
+        "expected rigid bodies in space that do not turn at the start, whose gyroscopic forces are not linearized, found \
+         one at {0} rad/s"
+    )]
+    Spins(f64),
     /// Numbers that are not finite.
     #[error("expected a linearization of finite numbers, found others")]
     NotFinite,
@@ -170,6 +176,7 @@ pub fn eigenvalues<const D: usize>(
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
     let linear = at(system, inputs, work, state);
+    refuse_spinning(system, work)?;
     refuse_turning(system, &linear, state)?;
     let mut found = if is_small(&linear, count) {
         all(&linear)?
@@ -213,6 +220,18 @@ fn all<const D: usize>(linear: &Linearization<'_, D>) -> Result<Vec<Complex<f64>
     let squares = general(&stiffness).ok_or(SpectrumError::NotFinite)?;
     let noise = noise(squares.iter().map(|k| k.norm()), terms);
     Ok(roots(squares.into_iter(), noise))
+}
+
+/// Refuses rigid bodies in space that turn: their gyroscopic forces are not linearized.
+fn refuse_spinning<const D: usize>(
+    system: &System<D>,
+    work: &Work<D>,
+) -> Result<(), SpectrumError> {
+    let mut spins = work.turns.iter().map(|turn| turn.spin.norm());
+    match spins.find(|spin| !system.frames.is_empty() && *spin != 0.0) {
+        Some(spin) => Err(SpectrumError::Spins(spin)),
+        None => Ok(()),
+    }
 }
 
 /// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an
