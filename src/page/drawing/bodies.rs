@@ -1,6 +1,6 @@
 //! Bodies, their markers and masses.
 
-use super::picture::{BODY, INK, INSIDE, Picture};
+use super::picture::{BODY, INK, INSIDE, Picture, seen};
 use crate::page::canvas::{Point, Style};
 use crate::scene::{BodyReference, Cable, CableBody, RigidBody};
 
@@ -10,13 +10,13 @@ const PARTS: u32 = 96;
 const MOST_NODES: u32 = 64;
 
 /// Points along a cable, of a rigid one its ends; corners around a rigid body's markers and its centre, m.
-pub(super) fn outline(body: BodyReference<'_>) -> Vec<[f64; 3]> {
+pub(super) fn outline(body: BodyReference<'_>, dimension: usize) -> Vec<[f64; 3]> {
     match body {
         BodyReference::Cable(cable) if cable.is_rigid() => {
             [0.0, 1.0].map(|s| cable.body.shape.point(s)).into()
         }
         BodyReference::Cable(cable) => cable_outline(cable.body),
-        BodyReference::Rigid(rigid) => rigid_outline(rigid.body),
+        BodyReference::Rigid(rigid) => rigid_outline(rigid.body, dimension),
     }
 }
 
@@ -26,19 +26,23 @@ fn cable_outline(cable: &CableBody) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// Corners around a rigid body's markers and its centre, m.
-pub(super) fn rigid_outline(rigid: &RigidBody) -> Vec<[f64; 3]> {
+/// Corners, as it is seen, around a rigid body's markers and its centre, m.
+pub(super) fn rigid_outline(rigid: &RigidBody, dimension: usize) -> Vec<[f64; 3]> {
     let markers = rigid.markers.values();
     let points = markers.map(|point| rigid.point(point.full()));
-    hull(points.chain([rigid.position.full()]).collect())
+    hull(dimension, points.chain([rigid.position.full()]).collect())
 }
 
-/// Corners of the smallest convex polygon around points in the plane, counter-clockwise; the two ends where all lie
-/// on a line.
+/// Corners of the smallest convex polygon around points in the plane, or in the image of space, counter-clockwise; the two
+/// ends where all lie on a line.
 ///
 /// Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
-fn hull(mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+fn hull(dimension: usize, mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
+    let at = |point: &[f64; 3]| seen(dimension, *point);
+    points.sort_by(|a, b| {
+        let [a, b] = [at(a), at(b)];
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+    });
     points.dedup();
     if points.len() < 3 {
         return points;
@@ -47,6 +51,7 @@ fn hull(mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
         let mut corners: Vec<[f64; 3]> = Vec::new();
         for point in points {
             while let [.., a, b] = corners[..] {
+                let [a, b, point] = [at(&a), at(&b), at(point)];
                 let left = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
                 if left > 0.0 {
                     break;
@@ -65,7 +70,8 @@ fn hull(mut points: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
 
 impl Picture<'_> {
     pub(super) fn body(&mut self, body: BodyReference<'_>) {
-        let points: Vec<Point> = outline(body).iter().map(|point| self.at(*point)).collect();
+        let corners = outline(body, self.scene.dimension);
+        let points: Vec<Point> = corners.iter().map(|point| self.at(*point)).collect();
         match body {
             BodyReference::Cable(cable) if cable.is_rigid() => {
                 self.rigid(cable.body.shape.point(0.5), &points);
@@ -143,7 +149,7 @@ mod tests {
     #[test]
     fn a_hull_keeps_corners_and_ends() {
         let found = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
-            let flat = hull(points.iter().map(|[x, y]| [*x, *y, 0.0]).collect());
+            let flat = hull(2, points.iter().map(|[x, y]| [*x, *y, 0.0]).collect());
             flat.iter().map(|[x, y, _]| [*x, *y]).collect()
         };
         let square = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.5], [1.0, 1.0], [0.0, 1.0]];

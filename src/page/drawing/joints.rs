@@ -57,6 +57,13 @@ impl Picture<'_> {
 
     /// Direction of the line that a joint holds its second marker on.
     fn along(&self, joint: &Joint<'_>) -> [f64; 2] {
+        if self.scene.dimension == 3 {
+            let given = joint.holds.iter().find_map(|hold| match hold {
+                Hold::Line(direction) | Hold::Plane(direction) => Some(*direction),
+                _ => None,
+            });
+            return self.way(given.unwrap_or_default());
+        }
         let given = joint.holds.iter().find_map(|hold| match hold {
             Hold::Line(direction) => Some(*direction),
             _ => None,

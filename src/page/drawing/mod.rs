@@ -58,7 +58,7 @@ fn bounds(resolved: &Resolved<'_>) -> [Point; 2] {
     let outlines = resolved
         .bodies
         .iter()
-        .flat_map(|body| bodies::outline(*body));
+        .flat_map(|body| bodies::outline(*body, resolved.scene.dimension));
     for point in outlines.chain(joints).chain(loads) {
         let point = picture::seen(resolved.scene.dimension, point);
         for axis in 0..2 {

@@ -2,7 +2,7 @@
 
 use super::actions::actions;
 use super::bodies::rigid_outline;
-use super::picture::{BODY, FAINT, INK, Picture};
+use super::picture::{BODY, FAINT, INK, Picture, seen};
 use crate::page::canvas::{LINE, Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{
@@ -65,7 +65,7 @@ impl<'a> Picture<'a> {
     fn add_particles(&self, labels: &mut [Label<'a>]) {
         for body in &self.resolved.bodies {
             if let BodyReference::Rigid(rigid) = body
-                && let [point] = rigid_outline(rigid.body)[..]
+                && let [point] = rigid_outline(rigid.body, self.scene.dimension)[..]
                 && let Some(label) = self.label_at(labels, self.at(point))
             {
                 label.lines.insert(0, (body.name(), BODY));
@@ -146,10 +146,10 @@ impl<'a> Picture<'a> {
                 }
                 BodyReference::Rigid(rigid) => {
                     let rigid = rigid.body;
-                    if rigid_outline(rigid).len() < 2 && !rigid.markers.is_empty() {
+                    if rigid_outline(rigid, self.scene.dimension).len() < 2 && !rigid.markers.is_empty() {
                         continue;
                     }
-                    let side = rigid_side(rigid, [0.0; 3]).map(|part| -part);
+                    let side = rigid_side(rigid, self.scene.dimension, [0.0; 3]).map(|part| -part);
                     (self.at(rigid.position.full()), side, 1.8)
                 }
             };
@@ -162,7 +162,7 @@ impl<'a> Picture<'a> {
     fn side(&self, on: On<'_>) -> Point {
         match on {
             On::Along(cable, s) => self.cable_side(cable.body, s),
-            On::Point(rigid, point) => rigid_side(rigid.body, point),
+            On::Point(rigid, point) => rigid_side(rigid.body, self.scene.dimension, point),
         }
     }
 
@@ -195,10 +195,13 @@ impl<'a> Picture<'a> {
     }
 }
 
-fn rigid_side(rigid: &RigidBody, point: [f64; 3]) -> Point {
-    let corners = rigid_outline(rigid);
-    let p = rigid.point(point);
-    let out = [p[0] - rigid.position[0], p[1] - rigid.position[1]];
+fn rigid_side(rigid: &RigidBody, dimension: usize, point: [f64; 3]) -> Point {
+    let corners: Vec<Point> = rigid_outline(rigid, dimension)
+        .iter()
+        .map(|corner| seen(dimension, *corner))
+        .collect();
+    let [p, centre] = [rigid.point(point), rigid.position.full()].map(|at| seen(dimension, at));
+    let out = [p[0] - centre[0], p[1] - centre[1]];
     match corners[..] {
         // A rod: above it.
         [a, b] => upper(direction([a[1] - b[1], a[0] - b[0]])),
