@@ -186,7 +186,29 @@ fn scenes() -> Vec<String> {
             }
         }
     }
+    scenes.extend(in_space());
     scenes
+}
+
+/// Ready scenes of rigid bodies in space, with a tolerance in place of an error.
+fn in_space() -> impl Iterator<Item = String> {
+    let ready = [
+        include_str!("../scenes/gyroscope.json"),
+        include_str!("../scenes/robot_6_axis.json"),
+        include_str!("../scenes/stewart_platform.json"),
+        include_str!("../scenes/crane_3d.json"),
+    ];
+    ready.into_iter().flat_map(|text| {
+        ["radau", "rk4"].map(|integrator| {
+            let mut scene: serde_json::Value = serde_json::from_str(text).expect("JSON");
+            scene["accuracy"] = serde_json::json!({ "relative_tolerance": 1e-4 });
+            scene["method"] = serde_json::json!({ "integrator": integrator });
+            let bodies = scene["bodies"].as_array_mut().expect("bodies");
+            let cables = bodies.iter_mut().filter(|body| body["element"] == "cable");
+            cables.for_each(|cable| cable["elements"] = serde_json::json!(2));
+            scene.to_string()
+        })
+    })
 }
 
 /// What an input starts from: what it drives should not be torn away.
