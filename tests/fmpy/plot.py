@@ -202,10 +202,15 @@ def together(shapes):
 
 def reactions(run):
     """Columns of forces and of moments: name, label."""
-    axes = {".reaction[1]": " x", ".reaction[2]": " y", ".reaction[3]": " z"}
-    forces = [(name, name[:-12] + axes[name[-12:]]) for name in run if name[-12:] in axes]
-    moments = [(name, name.removesuffix(".reaction_moment")) for name in run if name.endswith(".reaction_moment")]
-    return forces, moments
+    return [
+        [
+            (name, name.removesuffix(key + end) + (of + axis if axis else ""))
+            for name in run
+            for end, axis in {"": "", "[1]": "x", "[2]": "y", "[3]": "z"}.items()
+            if name.endswith(key + end)
+        ]
+        for key, of in ((".reaction", " "), (".reaction_moment", " about "))
+    ]
 
 
 def curves(axes, run, columns, words, energy):

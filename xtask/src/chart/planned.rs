@@ -69,15 +69,28 @@ impl Case {
     /// A run with a choice.
     pub fn run(&self, choice: &Choice) -> Result<Run> {
         let mut scene = self.scene.clone();
-        for (body, count) in cables(&mut scene).zip(&choice.0) {
-            match count {
-                0 => body["model"] = json!("rigid"),
-                count => body["elements"] = json!(count),
-            }
-        }
+        mesh(&mut scene, &choice.0);
         scene["accuracy"] = json!({ "relative_tolerance": choice.1 });
         let [stop, step] = ["stop_time", "step"].map(|key| number(&scene["experiment"][key]));
         Ok(Run::new(&scene, stop?, step?))
+    }
+}
+
+/// Gives a scene the meshes that its plan chooses, whatever it is run with afterwards.
+pub fn settle(bench: &Bench, scene: &mut Value) -> Result<()> {
+    let (counts, tolerance) = chosen(&bench.plan(scene)?)?;
+    mesh(scene, &counts);
+    scene["accuracy"] = json!({ "relative_tolerance": tolerance });
+    Ok(())
+}
+
+/// Gives the cables of a scene numbers of elements.
+fn mesh(scene: &mut Value, counts: &[u32]) {
+    for (body, count) in cables(scene).zip(counts) {
+        match count {
+            0 => body["model"] = json!("rigid"),
+            count => body["elements"] = json!(count),
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, Ran, Run};
 use super::csv::Csv;
+use super::planned;
 
 const TOLERANCES: [f64; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 /// Tolerance of the references, all with the implicit method: explicit ones are stable there or are not.
@@ -28,6 +29,7 @@ pub fn measure(bench: &Bench) -> Result<()> {
         if RESTING.contains(&name) {
             scene["initial"] = json!("as_shaped");
         }
+        planned::settle(bench, &mut scene)?;
         let number = |key: &str| scene["experiment"][key].as_f64();
         let (stop, step) = (number("stop_time"), number("step"));
         let (stop, step) = stop.zip(step).context("expected an experiment")?;
