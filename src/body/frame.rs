@@ -20,7 +20,7 @@
 use nalgebra::Vector3;
 
 use super::assembly::{NodeBlock, no_block};
-use super::connectivity::{Node, no_node};
+use super::connectivity::Node;
 use crate::math::jet::Number;
 use crate::math::space::{components, vector};
 
@@ -417,37 +417,23 @@ impl Frames {
         (frame.node, partial)
     }
 
-    /// Stiffness that forces on the axes of a body add where it turns: `sum (E_i.F_i) I - F_i E_i^T` along its axes, the
-    /// symmetric part.
-    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> NodeBlock<D> {
-        let (axes, forces) = (frame.axes(x), frame.axes(f));
-        let along = |i: usize, j: usize| forces[i].dot(&axes[j]);
-        let mut block = no_block();
-        for i in 0..D {
-            for j in 0..D {
-                block[1][i][1][j] = -0.5 * (along(i, j) + along(j, i));
-            }
-            block[1][i][1][i] += (0..3).map(|k| along(k, k)).sum::<f64>();
-        }
-        block
-    }
-
-    /// The same as it is, not symmetric where the forces have a moment.
-    pub fn whole_geometric<const D: usize>(
+    /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`, and its
+    /// symmetric part, which is all of it where the forces have no moment.
+    pub fn geometric<const D: usize>(
         frame: &Frame,
         f: &[Node<D>],
         x: &[Node<D>],
-    ) -> NodeBlock<D> {
+    ) -> [NodeBlock<D>; 2] {
         let (axes, forces) = (frame.axes(x), frame.axes(f));
         let along = |i: usize, j: usize| forces[i].dot(&axes[j]);
-        let mut block = no_block();
-        for i in 0..D {
-            for j in 0..D {
-                block[1][i][1][j] = -along(j, i);
-            }
-            block[1][i][1][i] += (0..3).map(|k| along(k, k)).sum::<f64>();
+        let trace: f64 = (0..3).map(|k| along(k, k)).sum();
+        let [mut whole, mut symmetric] = [no_block(); 2];
+        for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
+            let diagonal = if i == j { trace } else { 0.0 };
+            whole[1][i][1][j] = diagonal - along(j, i);
+            symmetric[1][i][1][j] = diagonal - 0.5 * (along(i, j) + along(j, i));
         }
-        block
+        [whole, symmetric]
     }
 
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
@@ -493,14 +479,6 @@ impl Frames {
     pub fn frames_at<const D: usize>(&self, x: &[Node<D>], frames: &mut [Plain]) {
         for (frame, axes) in self.list.iter().zip(frames) {
             *axes = orthonormal(&frame.axes(x)).map(<[f64; 3]>::from);
-        }
-    }
-
-    /// Nodal vectors with nothing in the places of axes.
-    pub fn clear<const D: usize>(&self, x: &mut [Node<D>]) {
-        for frame in &self.list {
-            x[frame.node][1] = [0.0; D];
-            x[frame.node + 1] = no_node();
         }
     }
 }

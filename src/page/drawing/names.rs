@@ -146,7 +146,9 @@ impl<'a> Picture<'a> {
                 }
                 BodyReference::Rigid(rigid) => {
                     let rigid = rigid.body;
-                    if rigid_outline(rigid, self.scene.dimension).len() < 2 && !rigid.markers.is_empty() {
+                    if rigid_outline(rigid, self.scene.dimension).len() < 2
+                        && !rigid.markers.is_empty()
+                    {
                         continue;
                     }
                     let side = rigid_side(rigid, self.scene.dimension, [0.0; 3]).map(|part| -part);

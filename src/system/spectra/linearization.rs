@@ -326,8 +326,7 @@ impl<const D: usize> System<D> {
         let mut none = |_: usize, _: usize, _: f64| {};
         for frame in self.frames.list() {
             let node = frame.node;
-            let whole = Frames::whole_geometric(frame, &work.supply, &work.x);
-            let half = Frames::geometric(frame, &work.supply, &work.x);
+            let [whole, half] = Frames::geometric(frame, &work.supply, &work.x);
             let pairs = whole.as_flattened().iter().zip(half.as_flattened());
             let entries = pairs.flat_map(|(a, b)| a.as_flattened().iter().zip(b.as_flattened()));
             let (skew, size) = entries.fold((0.0_f64, 0.0_f64), |(skew, size), (a, b)| {
