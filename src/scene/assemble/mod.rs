@@ -310,7 +310,7 @@ impl<const D: usize> Builder<'_, D> {
             }
             Hold::Axis(axis) => self.along_axis(ends, axis),
             Hold::Across(first, second) => {
-                vec![self.right_angle(ends, [first, second].map(|of| vector(of)))]
+                vec![self.right_angle(ends, [first, second].map(vector))]
             }
             Hold::Plane(across) => vec![self.across_way(ends, unit(across))],
             Hold::Direction(_) if D == 3 && is_framed => self.standing(ends),
