@@ -39,6 +39,14 @@ pub fn without(scene: &Value, pointer: &str) -> Value {
     changed
 }
 
+/// Where the entry of a matrix with row and column exchanged is.
+fn mirror(pointer: &str) -> Option<String> {
+    let (rest, column) = pointer.rsplit_once('/')?;
+    let (rest, row) = rest.rsplit_once('/')?;
+    let are_numbers = [row, column].iter().all(|key| key.parse::<u8>().is_ok());
+    (are_numbers && row != column).then(|| format!("{rest}/{column}/{row}"))
+}
+
 /// Names that a reference may have in a scene.
 fn names(scene: &Value) -> Vec<String> {
     let mut names = vec!["ground".to_owned()];
@@ -80,7 +88,18 @@ pub fn changes(scene: &Value, place: &Place) -> Vec<Mutant> {
         Sort::Number => {
             let x = found.as_f64().expect("a number");
             let step = if x == 0.0 { SHIFT } else { SHIFT * x.abs() };
-            vec![plain(json!(x + step)), plain(json!(x - step))]
+            let mut found = vec![plain(json!(x + step)), plain(json!(x - step))];
+            // Of a symmetric matrix both entries.
+            if let Some(mirrored) = mirror(&place.pointer)
+                && scene.pointer(&mirrored).is_some()
+            {
+                let first = with(scene, &place.pointer, json!(x + step));
+                found.push(Mutant {
+                    scene: with(&first, &mirrored, json!(x + step)),
+                    is_renamed: false,
+                });
+            }
+            found
         }
         Sort::Integer => {
             let n = found.as_u64().expect("a whole number");

@@ -24,25 +24,25 @@ macro_rules! named {
 }
 
 named! { label, LABELS, Quantity:
-    Position(_, 0) => "position x", Position(..) => "position y",
-    Velocity(_, 0) => "velocity x", Velocity(..) => "velocity y",
-    Acceleration(_, 0) => "acceleration x", Acceleration(..) => "acceleration y",
-    Direction(_, 0) => "direction x", Direction(..) => "direction y",
-    Orientation(..) => "orientation", Angle(_) => "angle", AngularVelocity(..) => "angular velocity", JointVelocity(_) => "joint velocity",
-    AngularAcceleration(..) => "angular acceleration", JointAcceleration(_) => "joint acceleration",
+    Position(_, 0) => "position x", Position(_, 1) => "position y", Position(..) => "position z",
+    Velocity(_, 0) => "velocity x", Velocity(_, 1) => "velocity y", Velocity(..) => "velocity z",
+    Acceleration(_, 0) => "acceleration x", Acceleration(_, 1) => "acceleration y", Acceleration(..) => "acceleration z",
+    Direction(_, 0) => "direction x", Direction(_, 1) => "direction y", Direction(..) => "direction z",
+    Orientation(..) => "orientation", Angle(_) => "angle", AngularVelocity(_, 0) => "angular velocity x", AngularVelocity(_, 1) => "angular velocity y", AngularVelocity(..) => "angular velocity", JointVelocity(_) => "joint velocity",
+    AngularAcceleration(_, 0) => "angular acceleration x", AngularAcceleration(_, 1) => "angular acceleration y", AngularAcceleration(..) => "angular acceleration", JointAcceleration(_) => "joint acceleration",
     Strain(_) => "strain", Curvature(_) => "curvature", AxialForce(_) => "axial force",
-    BendingMoment(..) => "bending moment",
-    ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(..) => "connectivity force y",
-    Travel(_) => "travel", Reaction(_, 0) => "reaction x", Reaction(..) => "reaction y",
-    ReactionMoment(..) => "reaction moment",
-    MotionForce(_, 0) => "motion force x", MotionForce(..) => "motion force y",
+    BendingMoment(_, 0) => "bending moment x", BendingMoment(_, 1) => "bending moment y", BendingMoment(..) => "bending moment",
+    ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(_, 1) => "connectivity force y", ConnectivityForce(..) => "connectivity force z",
+    Travel(_) => "travel", Reaction(_, 0) => "reaction x", Reaction(_, 1) => "reaction y", Reaction(..) => "reaction z",
+    ReactionMoment(_, 0) => "reaction moment x", ReactionMoment(_, 1) => "reaction moment y", ReactionMoment(..) => "reaction moment",
+    MotionForce(_, 0) => "motion force x", MotionForce(_, 1) => "motion force y", MotionForce(..) => "motion force z",
     MotionMoment(_) => "motion moment",
-    CouplingForce(_, 0) => "coupling force x", CouplingForce(..) => "coupling force y",
+    CouplingForce(_, 0) => "coupling force x", CouplingForce(_, 1) => "coupling force y", CouplingForce(..) => "coupling force z",
     CouplingMoment(_) => "coupling moment",
     KineticEnergy => "kinetic energy", StrainEnergy => "strain energy", GravityEnergy => "gravity energy",
     SpringEnergy => "spring energy", Input => "input", Dissipated => "dissipated",
-    Momentum(0) => "momentum x", Momentum(_) => "momentum y", AngularMomentum(_) => "angular momentum",
-    CenterOfMass(0) => "center of mass x", CenterOfMass(_) => "center of mass y",
+    Momentum(0) => "momentum x", Momentum(1) => "momentum y", Momentum(_) => "momentum z", AngularMomentum(0) => "angular momentum x", AngularMomentum(1) => "angular momentum y", AngularMomentum(_) => "angular momentum",
+    CenterOfMass(0) => "center of mass x", CenterOfMass(1) => "center of mass y", CenterOfMass(_) => "center of mass z",
     Resolution => "resolution", Residual(0) => "residual of positions", Residual(_) => "residual of velocities",
 }
 
@@ -80,9 +80,11 @@ fn every_output_has_a_claim_that_tells_sign_and_axis() {
             numbers.collect::<Vec<_>>()
         };
         for (name, quantity) in &quantities {
-            let other = match name.strip_suffix("[1]") {
-                Some(stem) => format!("{stem}[2]"),
-                None => name.replace("[2]", "[1]"),
+            // The first component beside the second, others beside the first.
+            let other = match name.split_once('[') {
+                Some((stem, "1]")) => format!("{stem}[2]"),
+                Some((stem, _)) => format!("{stem}[1]"),
+                None => name.clone(),
             };
             let (mine, others) = (value(name), value(&other));
             let label = label(*quantity);

@@ -148,8 +148,15 @@ impl Schema {
         if let Some(variants) = variants(node) {
             return variants.iter().any(|variant| value == variant);
         }
+        if let Some(alternatives) = node["oneOf"].as_array() {
+            return alternatives.iter().any(|node| self.fits(node, value));
+        }
         match (kind(node), value) {
-            ("number" | "integer", Value::Number(_)) | ("array", Value::Array(_)) => true,
+            ("number" | "integer", Value::Number(_)) => true,
+            ("array", Value::Array(found)) => {
+                let is_long = length(node).is_none_or(|length| found.len() as u64 == length);
+                is_long && found.iter().all(|item| self.fits(&node["items"], item))
+            }
             ("string", Value::String(_)) => true,
             ("object", Value::Object(found)) => {
                 let required = node["required"].as_array();
@@ -181,13 +188,19 @@ impl Schema {
             "boolean" => vec![json!(true)],
             "string" => vec![json!("0.37+0.1*t"), json!("0.37")],
             "array" if length(node).is_none() => match kind(self.resolve(&node["items"])) {
-                "number" => vec![json!([0.37]), json!([0.37, 0.21])],
+                "number" => vec![
+                    json!([0.37]),
+                    json!([0.37, 0.21]),
+                    json!([0.37, 0.21, 0.53]),
+                ],
                 "array" => vec![json!([[0.0, 0.37], [1.0, 0.73]])],
                 _ => Vec::new(),
             },
             "array" => {
                 let one = self.samples(&node["items"]);
-                one.iter().map(|sample| json!([sample, sample])).collect()
+                let count = length(node).unwrap_or_default() as usize;
+                let several = |sample: &Value| Value::from(vec![sample.clone(); count]);
+                one.iter().map(several).collect()
             }
             "object" => self.object_sample(node),
             _ => Vec::new(),

@@ -15,7 +15,7 @@ use crate::specimen::{Outcome, Specimen, limits, units};
 /// Names all parameters, with the list and the key of the scene that they stand for and their units.
 macro_rules! keys {
     ($($variant:ident => $list:literal, $key:literal, $unit:literal;)*) => {
-        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Gravity", "Rotation", "RelativeTolerance"];
+        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Inertia", "Gravity", "Rotation", "RelativeTolerance"];
         /// Name, place in the scene and unit of a parameter whose variable bears the name of a part.
         fn key(parameter: Parameter, scene: &Value, variable: &str) -> (&'static str, String, &'static str) {
             match parameter {
@@ -23,6 +23,17 @@ macro_rules! keys {
                     let place = part(scene, $list, variable);
                     (stringify!($variant), format!("/{}/{place}{}", $list, $key), $unit)
                 })*
+                Parameter::Inertia(_, axis) => {
+                    let place = format!("/bodies/{}/inertia", part(scene, "bodies", variable));
+                    // A number in the plane, moments or a matrix in space.
+                    let found = scene.pointer(&place).and_then(Value::as_array);
+                    let place = match found.map(|rows| rows[0].is_array()) {
+                        None => place,
+                        Some(false) => format!("{place}/{axis}"),
+                        Some(true) => format!("{place}/{axis}/{axis}"),
+                    };
+                    ("Inertia", place, "kg.m2")
+                }
                 Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
                 Parameter::Rotation => ("Rotation", "/rotation".into(), "rad/s"),
                 Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
@@ -50,7 +61,6 @@ keys! {
     SecondMoment => "bodies", "/section/second_moment", "m4";
     Elements => "bodies", "/elements", "";
     Mass => "bodies", "/mass", "kg";
-    Inertia => "bodies", "/inertia", "kg.m2";
     LumpedMass => "masses", "/mass", "kg";
     HingeStiffness => "joints", "/stiffness", "N.m/rad";
     HingeDamping => "joints", "/damping", "N.m.s/rad";
@@ -63,11 +73,29 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 39] = [
+const INPUTS: [(&str, &str); 57] = [
     ("inputs.force[1]", "N"),
     ("inputs.force[2]", "N"),
     ("inputs.follower_force[1]", "N"),
     ("inputs.follower_force[2]", "N"),
+    ("inputs.force[3]", "N"),
+    ("inputs.distributed_force[3]", "N/m"),
+    ("motions.position[3]", "m"),
+    ("motions.velocity[3]", "m/s"),
+    ("motions.acceleration[3]", "m/s2"),
+    ("ports.force[3]", "N"),
+    ("ports.position[3]", "m"),
+    ("ports.velocity[3]", "m/s"),
+    ("ports.acceleration[3]", "m/s2"),
+    ("couplings.position[3]", "m"),
+    ("couplings.velocity[3]", "m/s"),
+    ("inputs.follower_force[3]", "N"),
+    ("inputs.moment[1]", "N.m"),
+    ("inputs.moment[2]", "N.m"),
+    ("inputs.moment[3]", "N.m"),
+    ("inputs.follower_moment[1]", "N.m"),
+    ("inputs.follower_moment[2]", "N.m"),
+    ("inputs.follower_moment[3]", "N.m"),
     ("inputs.moment", "N.m"),
     ("inputs.torque", "N.m"),
     ("inputs.distributed_force[1]", "N/m"),
@@ -212,7 +240,14 @@ fn parameters_out_of_their_limits_are_those_that_are_refused() {
                 false => simulation.set_real(index, value).is_ok(),
             };
             let [least, greatest] = limits[&name];
-            for value in [-1.0, 2e5] {
+            // No moment of inertia in space is more than the sum of the other two: of one alone there is no limit to tell.
+            let is_one_of_three = name.contains(".inertia[");
+            let tried: &[f64] = if is_one_of_three {
+                &[-1.0]
+            } else {
+                &[-1.0, 2e5]
+            };
+            for &value in tried {
                 let is_within = least.is_none_or(|least| value >= least)
                     && greatest.is_none_or(|greatest| value <= greatest);
                 if set(value) != is_within {

@@ -33,8 +33,9 @@ impl<const D: usize> Builder<'_, D> {
         let built = self.marker(marker);
         std::array::from_fn(|k| match marker.place {
             Place::Point(rigid, _) if built.is_framed() => {
-                let back = rigid.body.inertia.principal().1.transpose();
-                built.directed(back.column(k).into_owned().into())
+                let mut unit = [0.0; 3];
+                unit[k] = 1.0;
+                built.directed(self.resolved.solid(rigid).directed(unit))
             }
             _ => built,
         })

@@ -1,7 +1,5 @@
 //! Bodies: a cable becomes a chain of elements or, where it does not bend, a rod; a rigid body a node.
 
-use nalgebra::Vector3;
-
 use super::Builder;
 use crate::body::{Frame, Marker};
 use crate::elements::cable::{self, Inertia};
@@ -23,18 +21,17 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn body(&mut self, index: usize) -> Result<(), Error> {
         let first = self.parts.nodes.len();
         let motion = self.resolved.scene.bodies[index].motion();
-        let mut arm = 0.0;
+        let mut arm = [0.0; 3];
         match self.resolved.bodies[index] {
             BodyReference::Cable(cable) => match cable.id.form {
                 Form::Chain(_) => self.chain(cable, first)?,
-                Form::Rod(_) => arm = self.rod(index, cable.body),
+                Form::Rod(_) => arm[0] = self.rod(index, cable.body),
             },
             BodyReference::Rigid(rigid) => {
-                let rigid = rigid.body;
-                if D == 3 && rigid.inertia.is_some() {
-                    self.frame(rigid);
+                if D == 3 && rigid.body.inertia.is_some() {
+                    arm = self.frame(rigid);
                 } else {
-                    self.particle(index, rigid);
+                    self.particle(index, rigid.body);
                 }
             }
         }
@@ -69,23 +66,26 @@ impl<const D: usize> Builder<'_, D> {
         );
     }
 
-    /// A rigid body of space that turns: its principal axes in two nodes.
-    fn frame(&mut self, rigid: &RigidBody) {
-        let (moments, principal) = rigid.inertia.principal();
-        let largest = moments.iter().copied().fold(0.0, f64::max);
-        let axes = rigid.axes() * principal;
+    /// A rigid body of space that turns: its principal axes in two nodes. Gives back how far along them from the centre of
+    /// all its mass the origin of its frame is, m.
+    fn frame(&mut self, rigid: Rigid<'_>) -> [f64; 3] {
+        let (solid, body) = (self.resolved.solid(rigid), rigid.body);
+        let largest = solid.moments.iter().copied().fold(0.0, f64::max);
+        let axes = body.axes() * solid.axes;
         let axis = |k: usize| vector::<D, f64>(axes.column(k).into_owned().into()).into();
         let node = self.parts.nodes.len();
+        // What rounding left of the moment of a thin rod about itself is none.
+        let rounded = |moment| if moment > 1e-9 * largest { moment } else { 0.0 };
         self.parts.frames.push(Frame {
             node,
-            mass: rigid.mass,
-            // What rounding left of the moment of a thin rod about itself is none.
-            moments: moments.map(|moment| if moment > 1e-9 * largest { moment } else { 0.0 }),
+            mass: solid.mass,
+            moments: solid.moments.map(rounded),
             places: [None; 3],
         });
-        let center = vector::<D, f64>(rigid.position.full()).into();
+        let center = vector::<D, f64>(body.point(solid.center.into())).into();
         let nodes = [[center, axis(0)], [axis(1), axis(2)]];
         self.parts.nodes.extend(nodes);
+        solid.along([0.0; 3])
     }
 
     /// A point of a rigid body in its frame, m.
@@ -95,9 +95,9 @@ impl<const D: usize> Builder<'_, D> {
         if D == 2 || !body.inertia.is_some() {
             return Marker::rigid(index, node, [point[0], point[1]]);
         }
-        let back = body.inertia.principal().1.transpose();
-        let [point, first] = [point, [1.0, 0.0, 0.0]].map(|way| back * Vector3::from(way));
-        Marker::framed(index, node, point.into(), first.into())
+        let solid = self.resolved.solid(rigid);
+        let first = solid.directed([1.0, 0.0, 0.0]);
+        Marker::framed(index, node, solid.along(point), first)
     }
 
     /// A cable that bends.

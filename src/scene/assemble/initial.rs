@@ -13,9 +13,10 @@ struct Moving<const D: usize> {
     nodes: Range<usize>,
     /// Whether its second node holds axes alone.
     has_frame: bool,
-    /// Velocity, m/s, of the point that is so far from the first node along its direction, m.
+    /// Velocity, m/s, of the point that is so far from the first node along its direction, and along the axes in the second
+    /// one where that holds axes, m.
     velocity: Vector<D>,
-    arm: f64,
+    arm: [f64; 3],
     /// Angular velocity, rad/s.
     spin: [f64; 3],
 }
@@ -29,12 +30,13 @@ pub struct Motions<const D: usize = 2> {
 }
 
 impl<const D: usize> Motions<D> {
-    /// Adds a body by its nodes, and whether the second holds axes alone; the velocity is that of the point so far from its first node along the direction there, m.
+    /// Adds a body by its nodes, and whether the second holds axes alone; the velocity is that of the point
+    /// so far from its first node along the direction there, and along those axes, m.
     pub(super) fn push(
         &mut self,
         (nodes, has_frame): (Range<usize>, bool),
         motion: &InitialMotion,
-        arm: f64,
+        arm: [f64; 3],
     ) {
         self.deformation.resize(nodes.end, no_node());
         self.bodies.push(Moving {
@@ -89,7 +91,13 @@ impl<const D: usize> Motions<D> {
         } in &self.bodies
         {
             let [first, along] = x[nodes.start];
-            let origin: [f64; D] = std::array::from_fn(|k| first[k] + arm * along[k]);
+            let mut origin: [f64; D] = std::array::from_fn(|k| first[k] + arm[0] * along[k]);
+            if *has_frame {
+                let [second, third] = x[nodes.start + 1];
+                for k in 0..D {
+                    origin[k] += arm[1] * second[k] + arm[2] * third[k];
+                }
+            }
             let of_body = rates[nodes.clone()].iter_mut().zip(&x[nodes.clone()]);
             for (index, (rate, x)) in of_body.enumerate() {
                 if *has_frame && index == 1 {

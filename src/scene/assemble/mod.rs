@@ -6,6 +6,7 @@ mod bodies;
 mod initial;
 mod motions;
 mod ports;
+mod solids;
 
 pub use initial::Motions;
 
@@ -114,7 +115,11 @@ impl Resolved<'_> {
             motions: builder.motions,
             nodes,
             markers: builder.markers,
-            frames: self.bodies.iter().map(principal).collect(),
+            frames: self
+                .bodies
+                .iter()
+                .map(|body| self.principal(body))
+                .collect(),
             couplings: builder.couplings,
         })
     }
@@ -152,6 +157,14 @@ impl Resolved<'_> {
                 format!("expected memory for {elements} elements ({wanted} MB), found less");
             Error::new("bodies", message)
         })
+    }
+
+    /// Principal axes of a body in its frame.
+    fn principal(&self, body: &resolved::BodyReference<'_>) -> Matrix3<f64> {
+        match body {
+            resolved::BodyReference::Rigid(rigid) => self.solid(*rigid).axes,
+            resolved::BodyReference::Cable(_) => Matrix3::identity(),
+        }
     }
 
     fn explain(&self, error: &BuildError) -> Error {
@@ -193,6 +206,10 @@ impl<const D: usize> Builder<'_, D> {
     fn masses(&mut self) {
         for mass in &self.resolved.masses {
             let marker = self.marker(mass.marker);
+            // Of a rigid body of space it is in the inertia.
+            if marker.is_framed() {
+                continue;
+            }
             self.parts.lumped_masses.push(LumpedMass {
                 marker,
                 mass: mass.mass,
@@ -419,14 +436,6 @@ impl<const D: usize> Builder<'_, D> {
             let built = self.action(action);
             self.parts.loads.push(built);
         }
-    }
-}
-
-/// Principal axes of a body in its frame.
-fn principal(body: &resolved::BodyReference<'_>) -> Matrix3<f64> {
-    match body {
-        resolved::BodyReference::Rigid(rigid) => rigid.body.inertia.principal().1,
-        resolved::BodyReference::Cable(_) => Matrix3::identity(),
     }
 }
 

@@ -17,10 +17,14 @@ fn given(direction: Option<Vector>) -> [f64; 3] {
 }
 
 impl Joint {
-    fn validate_keys(&self, path: &str) -> Result<(), Error> {
+    fn validate_keys(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let (point, direction) = match dimension {
+            2 => ("a point [x, y]", "a direction [x, y]"),
+            _ => ("a point [x, y, z]", "a direction [x, y, z]"),
+        };
         let all: [Key; 7] = [
-            ("point", self.point.is_some(), "a point [x, y]"),
-            ("direction", self.direction.is_some(), "a direction [x, y]"),
+            ("point", self.point.is_some(), point),
+            ("direction", self.direction.is_some(), direction),
             (
                 "second_direction",
                 self.second_direction.is_some(),
@@ -101,7 +105,7 @@ impl<'a> Resolved<'a> {
     pub(super) fn resolve_joints(&mut self) -> Result<(), Error> {
         for (index, joint) in self.scene.joints.iter().enumerate() {
             let path = format!("joints[{index}]");
-            joint.validate_keys(&path)?;
+            joint.validate_keys(&path, self.scene.dimension)?;
             joint.validate_dimension(&path, self.scene.dimension)?;
             let ends = self.joint_ends(&path, joint)?;
             joint.validate_numbers(&path, self.scene.dimension)?;
@@ -180,13 +184,13 @@ impl<'a> Resolved<'a> {
             };
             let is_clamped = holds_direction && is_cable(&marker);
             if needs_frame && is_cable(&marker) || !marker.place.turns() {
-                let wanted = "a marker of a rigid body with inertia, which has axes,";
+                let wanted = "a marker of a rigid body with inertia, which has axes";
                 let place = format!("{path}.markers[{side}]");
                 return Err(expected(&place, wanted, quoted(marker.name)));
             }
             let both = first.is_some_and(|first| is_cable(&first)) && is_cable(&ends.second);
             if is_clamped && both {
-                let wanted = "a rigid body or the ground beside a cable, which has no axes,";
+                let wanted = "a rigid body or the ground beside a cable, which has no axes";
                 return Err(expected(&format!("{path}.markers"), wanted, "two cables"));
             }
         }

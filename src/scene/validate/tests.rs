@@ -181,6 +181,9 @@ fn values_out_of_range_are_refused() {
         /bodies/2/mass | 0 | bodies[2].mass: expected a positive number (kg), found 0
         /bodies/2/inertia | -1 | bodies[2].inertia: expected zero or a positive number (kg m^2)
         /bodies/3/markers/eye | [0, 1] | bodies[3].markers.eye: expected [0, 0] in a body without inertia
+        /bodies/2/inertia | [1, 1, 1] | bodies[2].inertia: expected a number in the plane, found [1.0, 1.0, 1.0]
+        /bodies/2/inertia | [[1, 0, 0], [0, 1, 0], [0, 0, 1]] | bodies[2].inertia: expected a number in the plane
+        /bodies/2/orientation | {"cardan": [0, 0, 1]} | bodies[2].orientation: expected nothing beside `angle` in the plane
         /bodies/3/motion | {"spin": 1} | bodies[3].motion.spin: expected 0 in a body without inertia
         /bodies/2/markers/2x | [0, 0] | bodies[2].markers.2x: expected a letter or _
         /initial | 3 | initial: expected a state or {"state": ..., "loads": [...]}, found 3
@@ -221,7 +224,10 @@ fn joints_take_what_is_theirs_and_no_more() {
     check(
         scene,
         r#"
-        /joints/0/direction | [1, 0] | joints[0].direction: expected nothing for this kind of joint
+        /joints/0/direction | [1, 0] | joints[0].direction: expected nothing in the plane, found a direction
+        /joints/1/direction | [1, 0] | joints[1].direction: expected nothing in the plane, found a direction
+        /joints/4/direction | [1, 0] | joints[4].direction: expected nothing for this kind of joint
+        /joints/2/second_direction | [0, 1] | joints[2].second_direction: expected nothing for this kind of joint
         /joints/0/stiffness | 1 | joints[0].stiffness: expected nothing for this kind of joint
         /joints/0/angle | 1 | joints[0].angle: expected nothing for this kind of joint
         /joints/6/point | [1, 0] | joints[6].point: expected nothing for this kind of joint
@@ -247,6 +253,11 @@ fn joints_take_what_is_theirs_and_no_more() {
         /joints/4 | {"name": "link", "kind": "distance", "markers": ["rod.tip", "crank.a"]} | joints[4].length: expected a length, since
         /joints/4 | {"name": "link", "kind": "distance", "markers": ["ground", "rod.tip"], "point": [1, 1]} | accepted
         /joints/0/kind | "ball" | joints[0].kind: expected "revolute" or
+        /joints/0/kind | "spherical" | joints[0].kind: expected revolute, weld, slider, prismatic, orientation, distance, hinge or along in the plane, found spherical
+        /joints/2/kind | "cylindrical" | joints[2].kind: expected revolute, weld
+        /joints/2/kind | "planar" | joints[2].kind: expected revolute, weld
+        /joints/0 | {"name": "cross", "kind": "universal", "markers": ["ground", "rod.root"], "direction": [1, 0], "second_direction": [0, 1]} | joints[0].kind: expected revolute, weld
+        /joints/0 | {"name": "cross", "kind": "universal", "markers": ["ground", "rod.root"], "direction": [1, 0]} | joints[0].second_direction: expected a direction [x, y, z], found nothing
     "#,
     );
 }
@@ -291,7 +302,8 @@ fn loads_take_what_is_theirs_and_no_more() {
         /loads/0/value | 1 | loads[0].value: expected 2 values [x, y], found 1
         /loads/0/marker | "load.eye" | loads[0].marker: expected a marker that can turn
         /loads/0/joint | "pin" | loads[0].joint: expected nothing for this kind of load
-        /loads/1/follower | true | loads[1].follower: expected nothing for this kind of load
+        /loads/1/follower | true | loads[1].follower: expected nothing for a moment in the plane, found true
+        /loads/2/follower | true | loads[2].follower: expected nothing for this kind of load
         /loads/1/marker | "load.eye" | loads[1].marker: expected a marker that can turn
         /loads/1/value | [1, 2] | loads[1].value: expected one value, found 2
         /loads/1/value | "1 +" | loads[1].value: expected a number, t, a function
@@ -316,6 +328,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         scene,
         r#"
         /inputs/0/follower | true | inputs[1]: expected an input not declared before, found "rod.tip"
+        /inputs/2/follower | true | inputs[2].follower: expected nothing for a moment in the plane
         /inputs/0/joint | "pin" | inputs[0].joint: expected nothing for this kind of input
         /inputs/0/start | [1] | inputs[0].start: expected 2 component(s), found 1
         /inputs/2/marker | "load.eye" | inputs[2].marker: expected a marker that can turn
@@ -330,6 +343,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
         /outputs/0 | {"kind": "direction", "joint": "knee"} | outputs[0].marker: expected a name
         /outputs/0 | {"kind": "direction", "marker": "crank.a"} | accepted
+        /outputs/0 | {"kind": "orientation", "marker": "crank.a"} | outputs[0].marker: expected nothing in the plane, where "angle" says how a body stands
         /outputs/0 | {"kind": "angle", "joint": "clamp"} | outputs[0].joint: expected a revolute joint or a hinge
         /outputs/0 | {"kind": "angle", "joint": "pin", "marker": "rod.tip"} | outputs[0]: expected one name of what is read, found two
         /outputs/0 | {"kind": "travel", "joint": "rail"} | outputs[0].joint: expected a joint of kind along

@@ -16,6 +16,8 @@ mod rods;
 mod sections;
 mod slides;
 mod space;
+mod space_bodies;
+mod space_joints;
 mod tables;
 
 use serde_json::{Value, json};
@@ -41,6 +43,8 @@ pub fn all() -> Vec<Specimen> {
         tables::all(),
         initial::all(),
         space::all(),
+        space_bodies::all(),
+        space_joints::all(),
     ];
     parts.into_iter().flatten().collect()
 }

@@ -50,8 +50,17 @@ fn the_schema_has_a_variant_for_every_kind() {
         json!(["name", "kind", "joint", "value"])
     );
     assert!(
-        variant("Input", "moment")["properties"]
+        variant("Input", "torque")["properties"]
             .get("follower")
+            .is_none()
+    );
+    assert_eq!(
+        variant("Joint", "universal")["required"][4],
+        "second_direction"
+    );
+    assert!(
+        variant("Joint", "spherical")["properties"]
+            .get("direction")
             .is_none()
     );
     assert!(

@@ -1,8 +1,10 @@
-//! What space offers, and what it refuses for want of an angle.
+//! What space offers, and what it refuses: what has an angle of particles and of cables without torsion, what no body can
+//! have, and what joints cannot hold.
 
 use serde_json::{Value, json};
 
 use super::check;
+use crate::scene::Scene;
 
 fn scene() -> Value {
     let cable = |name: &str, from: [f64; 3], to: [f64; 3]| {
@@ -53,6 +55,7 @@ fn vectors_have_three_components() {
         /bodies/0/motion/deformation | ["0", "0"] | bodies[0].motion.deformation: expected 3 values [x, y, z], found 2
         /bodies/2/position | [3, 1] | bodies[2].position: expected 3 components [x, y, z], found 2
         /bodies/2/markers/eye | [0, 0, 1] | bodies[2].markers.eye: expected [0, 0, 0] in a body without inertia
+        /joints/2/second_direction | [0, 1, 0] | joints[2].second_direction: expected nothing for this kind of joint
         /joints/2/direction | [1, 0] | joints[2].direction: expected 3 components [x, y, z], found 2
         /joints/2/direction | [0, 0, 0] | joints[2].direction: expected a direction that is not zero
         /motions/0/value | ["t", 0] | motions[0].value: expected 3 values [x, y, z], found 2
@@ -66,33 +69,201 @@ fn vectors_have_three_components() {
 }
 
 #[test]
-fn what_has_an_angle_is_refused() {
+fn what_a_particle_and_a_cable_do_not_have_is_refused() {
     check(
         scene,
         r#"
         /rotation | 1 | rotation: expected 0 in space, found 1
         /initial | "steady" | initial: expected as_shaped or static_equilibrium in space, found steady
-        /bodies/2/inertia | 1 | bodies[2].inertia: expected 0 of a rigid body, which is a particle in space, found 1
-        /bodies/2/angle | 1 | bodies[2].angle: expected 0 of a rigid body, which is a particle in space, found 1
+        /bodies/2/inertia | 0 | accepted
+        /bodies/2/inertia | [0, 0, 0] | bodies[2].inertia: expected moments of inertia that are positive, one of them 0 at most
+        /bodies/2/orientation | {"cardan": [0, 0, 1]} | bodies[2].orientation: expected nothing of a body without inertia
+        /bodies/2/motion | {"spin": [0, 0, 1]} | bodies[2].motion.spin: expected 0 in a body without inertia
         /bodies/0/shape | {"arc": {"from": [0, 0, 0], "to": [1, 0, 0], "length": 2}} | accepted
         /bodies/0/shape | {"arc": {"from": [0, 0, 0], "to": [0, 0, 1], "length": 2}} | bodies[0].shape: expected ends of an arc that are not one above the other
         /bodies/0 | {"name": "rod", "element": "cable", "elements": 8, "material": {"youngs_modulus": 7e5, "density": 5540}, "section": {"area": 1.8e-3, "second_moment": 1e-9}, "shape": {"arc": {"from": [0, 0, 0], "to": [1, 0, 0], "length": 2}}} | bodies[0].section.second_moment: expected 0 of a cable that is curved without stress
         /masses/0/inertia | 1 | masses[0].inertia: expected 0 in space, found 1
         /joints/0/angle | 1 | joints[0].angle: expected nothing in space, found an angle
-        /joints/0/markers | ["rope.tip", "rod.root"] | joints[0].kind: expected revolute, distance or along, or slider, weld, orientation or prismatic from the ground, in space, found weld between two bodies
-        /joints/2/markers | ["rod.tip", "load.eye"] | joints[2].kind: expected revolute, distance or along, or slider, weld, orientation or prismatic from the ground, in space, found slider between two bodies
-        /joints/0/markers | ["ground", "load.eye"] | joints[0].markers[1]: expected a marker of a cable
-        /joints/1/kind | "orientation" | joints[1].kind: expected revolute, distance
-        /joints/1/kind | "prismatic" | joints[1].kind: expected revolute, distance
-        /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].kind: expected revolute, distance
+        /joints/0/markers | ["rope.tip", "rod.root"] | joints[0].markers: expected a rigid body or the ground beside a cable, which has no axes, found two cables
+        /joints/0/markers | ["ground", "load.eye"] | joints[0].markers[1]: expected a marker of a rigid body with inertia
+        /joints/2/markers | ["rod.tip", "load.eye"] | joints[2].markers[0]: expected a marker of a rigid body with inertia
+        /joints/1/kind | "orientation" | joints[1].markers: expected a rigid body or the ground beside a cable
+        /joints/1/kind | "spherical" | accepted
+        /joints/1/kind | "prismatic" | joints[1].direction: expected a direction [x, y, z], found nothing
+        /joints/1/direction | [0, 0, 1] | joints[1].markers[0]: expected a marker of a rigid body with inertia, which has axes
+        /joints/2/kind | "cylindrical" | joints[2].markers[1]: expected a marker of a rigid body with inertia
+        /joints/2/kind | "planar" | joints[2].markers[1]: expected a marker of a rigid body with inertia
+        /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].direction: expected a direction [x, y, z], found nothing
+        /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1, "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia
         /motions/0 | {"name": "lift", "kind": "angle", "marker": "rope.tip", "value": 0} | motions[0].marker: expected nothing that has an angle
-        /loads/0 | {"name": "push", "kind": "moment", "marker": "rod.tip", "value": 0} | loads[0].marker: expected nothing that has an angle
-        /loads/0/follower | true | loads[0].marker: expected nothing that has an angle
+        /motions/0 | {"name": "lift", "kind": "angle", "joint": "knot", "value": 0} | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one
+        /loads/0 | {"name": "push", "kind": "moment", "marker": "rod.tip", "value": [0, 0, 1]} | loads[0].marker: expected a marker of a rigid body with inertia; a cable without torsion has a direction alone
+        /loads/0 | {"name": "push", "kind": "torque", "joint": "knot", "value": 1} | loads[0].joint: expected a revolute joint with a direction
+        /loads/0/follower | true | loads[0].marker: expected a marker of a rigid body with inertia
         /outputs/0 | {"kind": "angle", "marker": "rod.tip"} | outputs[0].marker: expected nothing that has an angle
+        /outputs/0 | {"kind": "angle", "joint": "knot"} | outputs[0].joint: expected a revolute joint with a direction
         /outputs/0 | {"kind": "direction", "marker": "rod.tip"} | accepted
         /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
-        /outputs/1 | {"kind": "reaction_moment", "joint": "clamp"} | outputs[1].joint: expected no moment in space, found "clamp"
+        /outputs/0 | {"kind": "angular_velocity", "marker": "rod.tip"} | outputs[0].marker: expected a marker of a rigid body with inertia
+        /outputs/0 | {"kind": "orientation", "marker": "load.eye"} | outputs[0].marker: expected a marker of a rigid body with inertia
+        /outputs/1 | {"kind": "reaction_moment", "joint": "clamp"} | accepted
+        /outputs/1 | {"kind": "reaction_moment", "joint": "knot"} | outputs[1].joint: expected a joint that transmits a moment, found "knot"
         /ports/0/rotation | true | ports[0].marker: expected nothing that has an angle
+    "#,
+    );
+}
+
+/// Rigid bodies and every joint between them.
+fn mechanism() -> Value {
+    let body = |name: &str, position: [f64; 3]| {
+        json!({"name": name, "element": "rigid", "mass": 1, "inertia": [1, 2, 2.5], "position": position,
+            "orientation": {"cardan": [0.1, 0.2, 0.3]}, "motion": {"spin": [0, 0, 1]},
+            "markers": {"in": [-0.5, 0, 0], "out": [0.5, 0.1, 0.2]}})
+    };
+    json!({
+        "name": "mechanism", "dimension": 3,
+        "bodies": [
+            body("a", [0.0, 0.0, 0.0]), body("b", [1.0, 0.0, 0.0]), body("c", [2.0, 0.0, 0.0]),
+            {"name": "rope", "element": "cable", "elements": 8,
+                "material": {"youngs_modulus": 7e5, "density": 5540},
+                "section": {"area": 1.8e-3, "second_moment": 0.0},
+                "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}}
+        ],
+        "joints": [
+            {"name": "pin", "kind": "revolute", "markers": ["ground", "a.in"], "direction": [0, 0, 1]},
+            {"name": "elbow", "kind": "hinge", "markers": ["a.out", "b.in"], "direction": [0, 1, 0], "stiffness": 1,
+                "angle": 0.1},
+            {"name": "cross", "kind": "universal", "markers": ["b.out", "c.in"], "direction": [1, 0, 0],
+                "second_direction": [0, 1, 0]},
+            {"name": "sleeve", "kind": "cylindrical", "markers": ["a.in", "c.out"], "direction": [1, 1, 0]},
+            {"name": "table", "kind": "planar", "markers": ["ground", "c.in"], "direction": [0, 0, 1]},
+            {"name": "rail", "kind": "prismatic", "markers": ["a.in", "b.out"], "direction": [1, 0, 0]},
+            {"name": "clamp", "kind": "weld", "markers": ["a.in", "rope.root"]},
+            {"name": "ball", "kind": "spherical", "markers": ["b.in", "rope.tip"]},
+            {"name": "track", "kind": "slider", "markers": ["b.in", "rope.tip"], "direction": [1, 0, 0]},
+            {"name": "guide", "kind": "orientation", "markers": ["a.in", "c.in"]}
+        ],
+        "motions": [{"name": "turn", "kind": "angle", "joint": "pin", "value": "t"}],
+        "loads": [
+            {"name": "twist", "kind": "moment", "marker": "a.in", "value": [1, "t", 0]},
+            {"name": "follow", "kind": "moment", "marker": "b.in", "value": [1, 2, 3], "follower": true},
+            {"name": "thrust", "kind": "force", "marker": "c.in", "value": [1, 2, 3], "follower": true},
+            {"name": "motor", "kind": "torque", "joint": "elbow", "value": 2}
+        ],
+        "inputs": [
+            {"kind": "moment", "marker": "a.in", "start": [1, 2, 3]},
+            {"kind": "moment", "marker": "a.in", "follower": true},
+            {"kind": "torque", "joint": "sleeve", "start": [1]}
+        ],
+        "outputs": [
+            {"kind": "orientation", "marker": "a.in"}, {"kind": "angular_velocity", "marker": "a.in"},
+            {"kind": "angle", "joint": "sleeve"}, {"kind": "angular_acceleration", "joint": "elbow"},
+            {"kind": "reaction_moment", "joint": "cross"}, {"kind": "reaction_moment", "motion": "turn"},
+            {"kind": "reaction", "joint": "table"}
+        ]
+    })
+}
+
+#[test]
+fn a_mechanism_is_valid_and_survives_being_written() {
+    let read = Scene::from_json(&mechanism().to_string()).expect("a valid scene");
+    assert_eq!(Scene::from_json(&read.to_json()), Ok(read));
+}
+
+#[test]
+fn rigid_bodies_are_what_bodies_can_be() {
+    check(
+        mechanism,
+        r#"
+        /bodies/0/inertia | 1 | bodies[0].inertia: expected three moments of inertia or a tensor of a body in space (0 of a particle), found 1
+        /bodies/0/inertia | -1 | bodies[0].inertia: expected zero or a positive number (kg m^2)
+        /bodies/0/inertia | 0 | bodies[0].orientation: expected nothing of a body without inertia
+        /bodies/0/inertia | [1, 2] | bodies[0].inertia: expected a list of 3, found 2
+        /bodies/0/inertia | [[1, 0, 0], [0, 1, 0]] | bodies[0].inertia: expected a list of 3, found 2
+        /bodies/0/inertia | [1, 1, 2] | accepted
+        /bodies/0/inertia | [0, 1, 1] | accepted
+        /bodies/0/inertia | [1, 1, 2.1] | bodies[0].inertia: expected moments of inertia of which none is more than the sum of the other two
+        /bodies/0/inertia | [0, 0, 1] | bodies[0].inertia: expected moments of inertia that are positive, one of them 0 at most (a thin rod)
+        /bodies/0/inertia | [-0.1, 1, 1] | bodies[0].inertia: expected moments of inertia that are positive
+        /bodies/0/inertia | [[2, 0.3, 0.1], [0.3, 2, 0], [0.1, 0, 2]] | accepted
+        /bodies/0/inertia | [[2, 0.3, 0], [0.2, 2, 0], [0, 0, 2]] | bodies[0].inertia: expected a symmetric tensor
+        /bodies/0/inertia | [[2, 1.5, 0], [1.5, 2, 0], [0, 0, 2]] | bodies[0].inertia: expected moments of inertia of which none is more
+        /bodies/0/inertia | [[2, 3, 0], [3, 2, 0], [0, 0, 2]] | bodies[0].inertia: expected moments of inertia that are positive
+        /bodies/0/angle | 1 | bodies[0].angle: expected 0 beside `orientation`, which says how a body stands, in space, found 1
+        /bodies/0/motion/spin | 1 | bodies[0].motion.spin: expected [x, y, z] in space, found 1
+        /bodies/0/markers/in | [1, 2] | bodies[0].markers.in: expected 3 components [x, y, z], found 2
+        /bodies/0/orientation | null | accepted
+        /bodies/0/orientation | {"rotation_vector": [0, 0, 7]} | accepted
+        /bodies/0/orientation | {"euler": [1, 2, 3]} | accepted
+        /bodies/0/orientation | {"quaternion": [0, 2, 0, 0]} | accepted
+        /bodies/0/orientation | {"quaternion": [0, 0, 0, 0]} | bodies[0].orientation: expected finite numbers, of a matrix orthonormal right-handed axes, of a quaternion not all zero, found [0.0, 0.0, 0.0, 0.0]
+        /bodies/0/orientation | {"matrix": [[0, -1, 0], [1, 0, 0], [0, 0, 1]]} | accepted
+        /bodies/0/orientation | {"matrix": [[0, 1, 0], [1, 0, 0], [0, 0, 1]]} | bodies[0].orientation: expected finite numbers, of a matrix orthonormal right-handed axes
+        /bodies/0/orientation | {"matrix": [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]} | bodies[0].orientation: expected finite numbers, of a matrix orthonormal
+        /bodies/0/orientation | {"cardan": [1, 2]} | bodies[0].orientation
+        /bodies/0/orientation | {"angles": [1, 2, 3]} | bodies[0].orientation
+    "#,
+    );
+}
+
+#[test]
+fn joints_hold_axes_of_the_ground_and_of_rigid_bodies() {
+    check(
+        mechanism,
+        r#"
+        /joints/0/direction | null | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one, found "pin"
+        /joints/0/kind | "spherical" | joints[0].direction: expected nothing for this kind of joint
+        /joints/0/direction | [0, 0, 0] | joints[0].direction: expected a direction that is not zero
+        /joints/1/direction | null | joints[1].direction: expected a direction [x, y, z], found nothing
+        /joints/1/stiffness | null | joints[1]: expected a stiffness or a damping, found neither
+        /joints/2/second_direction | null | joints[2].second_direction: expected a direction [x, y, z], found nothing
+        /joints/2/second_direction | [0, 0, 0] | joints[2].second_direction: expected a direction that is not zero
+        /joints/2/second_direction | [0, 1] | joints[2].second_direction: expected 3 components [x, y, z], found 2
+        /joints/2/second_direction | [1, 1, 0] | joints[2].second_direction: expected a direction across `direction`, found one at 0.785398
+        /joints/2/markers | ["b.out", "rope.tip"] | joints[2].markers[1]: expected a marker of a rigid body with inertia, which has axes
+        /joints/3/direction | null | joints[3].direction: expected a direction [x, y, z], found nothing
+        /joints/3/markers | ["rope.tip", "c.out"] | joints[3].markers[0]: expected a marker of a rigid body with inertia
+        /joints/4/markers | ["ground", "rope.tip"] | joints[4].markers[1]: expected a marker of a rigid body with inertia
+        /joints/5/direction | null | joints[5].direction: expected a direction [x, y, z], found nothing
+        /joints/5/angle | 1 | joints[5].angle: expected nothing in space, found an angle
+        /joints/5/markers | ["rope.tip", "b.out"] | joints[5].markers[0]: expected a marker of a rigid body with inertia
+        /joints/6/markers | ["rope.root", "a.in"] | accepted
+        /joints/6/angle | 1 | joints[6].angle: expected nothing in space, found an angle
+        /joints/7/direction | [1, 0, 0] | joints[7].direction: expected nothing for this kind of joint
+        /joints/8/markers | ["rope.tip", "b.in"] | joints[8].markers[0]: expected a marker of a rigid body with inertia
+        /joints/9/angle | 1 | joints[9].angle: expected nothing in space, found an angle
+    "#,
+    );
+}
+
+#[test]
+fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
+    check(
+        mechanism,
+        r#"
+        /motions/0/joint | "elbow" | accepted
+        /motions/0/joint | "sleeve" | accepted
+        /motions/0/joint | "cross" | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one, found "cross"
+        /motions/0 | {"name": "turn", "kind": "angle", "marker": "a.in", "value": 0} | motions[0].marker: expected nothing that has an angle
+        /motions/0 | {"name": "turn", "kind": "displacement", "joint": "rail", "value": 0} | motions[0].joint: expected a slider on a fixed line
+        /loads/0/value | 1 | loads[0].value: expected 3 values [x, y, z], found 1
+        /loads/0/value | [1, 2] | loads[0].value: expected 3 values [x, y, z], found 2
+        /loads/1/marker | "rope.tip" | loads[1].marker: expected a marker of a rigid body with inertia
+        /loads/2/marker | "rope.tip" | loads[2].marker: expected a marker of a rigid body with inertia
+        /loads/3/joint | "table" | loads[3].joint: expected a revolute joint with a direction
+        /loads/3/joint | "ball" | loads[3].joint: expected a revolute joint with a direction
+        /loads/3/value | [1, 2, 3] | loads[3].value: expected one value, found 3
+        /inputs/0/start | [1] | inputs[0].start: expected 3 component(s), found 1
+        /inputs/2/start | [1, 2, 3] | inputs[2].start: expected 1 component(s), found 3
+        /inputs/2/joint | "guide" | inputs[2].joint: expected a revolute joint with a direction
+        /outputs/0/marker | "rope.tip" | outputs[0].marker: expected a marker of a rigid body with inertia; a cable without torsion
+        /outputs/1/marker | "rope.tip" | outputs[1].marker: expected a marker of a rigid body with inertia
+        /outputs/2/joint | "cross" | outputs[2].joint: expected a revolute joint with a direction
+        /outputs/4/joint | "ball" | outputs[4].joint: expected a joint that transmits a moment, found "ball"
+        /outputs/4/joint | "track" | outputs[4].joint: expected a joint that transmits a moment, found "track"
+        /outputs/6 | {"kind": "natural_frequency", "count": 1} | outputs[6].kind: expected nothing of frequencies in a scene with rigid bodies that turn in space, found "a"
+        /outputs/6 | {"kind": "eigenvalue", "count": 1} | outputs[6].kind: expected nothing of frequencies
+        /outputs/6/joint | "guide" | outputs[6].joint: expected a joint that transmits a force, found "guide"
     "#,
     );
 }
