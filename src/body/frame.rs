@@ -389,7 +389,7 @@ impl Frames {
     }
 
     /// Derivatives of a node's vectors by the coordinates of its body, and the node that has these.
-    fn partial<const D: usize>(&self, node: usize, x: &[Node<D>]) -> (usize, NodeBlock<D>) {
+    pub fn partial<const D: usize>(&self, node: usize, x: &[Node<D>]) -> (usize, NodeBlock<D>) {
         let mut partial = no_block();
         let Some((frame, is_second)) = self.of_node::<D>(node) else {
             for (i, k) in entries::<D>() {

@@ -12,7 +12,7 @@
 //! Riemannian Manifolds, 2nd ed. (2018), proposition 10.4 (variation of motions on a manifold).
 
 use super::probe::{Blocks, Nodes, Probe, SKEW};
-use crate::body::{Elimination, Node, map_node, no_block, no_node, perpendicular_node};
+use crate::body::{Elimination, Frames, Node, map_node, no_block, no_node, perpendicular_node};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number, moving};
 use crate::math::row_space::RowSpace;
@@ -90,10 +90,19 @@ impl<const D: usize> System<D> {
         let mut elsewhere = Vec::new();
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             let blocks = self.linearize_constraint(work, (constraint, *lambda), &mut probe);
+            let blocks = blocks.pulled(&self.frames, &work.x);
             let assembly = &self.elimination.assembly;
             blocks.add(assembly, &mut made.stiffness, &mut |r, c, value| {
                 elsewhere.push((r, c, value));
             });
+        }
+        for frame in self.frames.list() {
+            // Forces on axes where these turn; without the moment that speeds the body up, which is none in equilibrium.
+            let block = Frames::geometric(frame, &work.supply, &work.x);
+            let node = (frame.node, frame.node);
+            let mut none = |_: usize, _: usize, _: f64| {};
+            let assembly = &self.elimination.assembly;
+            assembly.add_block(node, &block, &mut made.stiffness, &mut none);
         }
         made.is_symmetric &= elsewhere.is_empty();
         made.others = [made.stiffness.clone(), made.damping.clone()];
@@ -191,16 +200,19 @@ impl<const D: usize> System<D> {
                 };
                 load.add_force(at, f);
             };
-            let blocks = probe.differentiate(&nodes, false, &force);
+            let pulled = |blocks: Blocks| blocks.pulled(&self.frames, &work.x);
+            let blocks = pulled(probe.differentiate(&nodes, false, &force));
             blocks.add(assembly, &mut made.stiffness, &mut none);
-            if !blocks.is_symmetric() {
+            // Of a moment about the axis of a joint in space that is skew which the joint holds.
+            let has_potential = !self.frames.is_empty() && load.is_conservative();
+            if !blocks.is_symmetric() && !has_potential {
                 made.follower.get_or_insert(index);
                 let zeros = || General::zeros(assembly.pattern());
                 blocks.add(assembly, following.get_or_insert_with(zeros), &mut none);
             }
             if load.is_damped() && !at_rest {
                 made.is_damped = true;
-                let blocks = probe.differentiate(&nodes, true, &force);
+                let blocks = pulled(probe.differentiate(&nodes, true, &force));
                 blocks.add(assembly, &mut made.damping, &mut none);
             }
         }
@@ -374,7 +386,8 @@ impl<const D: usize> System<D> {
             self.constraints[*row]
                 .gradient(&view)
                 .for_each(|node, term| {
-                    let term = map_node(term, |t| t.v1);
+                    let (node, term) = self.frames.pull(node, term, &x);
+                    let term = map_node(&term, |t| t.v1);
                     (self.elimination.assembly).restrict_node(node, &term, &mut rate);
                 });
             self.elimination.project_in_place(&mut rate);

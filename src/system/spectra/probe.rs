@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::body::{Assembly, Node, NodeBlock, map_node, no_block};
+use crate::body::{Assembly, Frames, Node, NodeBlock, map_node, no_block};
 use crate::elements;
 use crate::math::jet::Jet;
 use crate::math::sparse::General;
@@ -83,6 +83,31 @@ impl Blocks {
     pub(super) fn vectors<const D: usize>(&self) -> elements::Blocks<D> {
         let part = |r: usize, c: usize| self.whole.fixed_view::<D, D>(r * D, c * D).into();
         std::array::from_fn(|r| std::array::from_fn(|c| part(r, c)))
+    }
+
+    /// The same over the coordinates of bodies, at this configuration: rotations in place of axes.
+    pub(super) fn pulled<const D: usize>(self, frames: &Frames, x: &[Node<D>]) -> Self {
+        if frames.is_empty() {
+            return self;
+        }
+        let partials = self.nodes.iter().map(|node| frames.partial(*node, x));
+        let partials: Vec<(usize, NodeBlock<D>)> = partials.collect();
+        let mut nodes: Vec<usize> = partials.iter().map(|(node, _)| *node).collect();
+        nodes.dedup();
+        let size = 2 * D;
+        let mut change = DMatrix::zeros(size * self.nodes.len(), size * nodes.len());
+        for (i, (owner, partial)) in partials.iter().enumerate() {
+            let j = nodes.iter().position(|node| node == owner).unwrap_or(0);
+            for (r, row) in partial.as_flattened().iter().enumerate() {
+                for (c, entry) in row.as_flattened().iter().enumerate() {
+                    change[(size * i + r, size * j + c)] = *entry;
+                }
+            }
+        }
+        Self {
+            whole: change.transpose() * self.whole * change,
+            nodes,
+        }
     }
 
     pub(super) fn is_symmetric(&self) -> bool {

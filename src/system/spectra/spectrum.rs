@@ -39,6 +39,9 @@ pub enum SpectrumError {
          with them (\"rotation\")"
     )]
     Turns(f64),
+    /// A rigid body of space turns at this rate, rad/s.
+    #[error("expected rigid bodies that do not turn in space, found one at {0} rad/s")]
+    Spins(f64),
     /// Numbers that are not finite.
     #[error("expected a linearization of finite numbers, found others")]
     NotFinite,
@@ -170,6 +173,12 @@ pub fn eigenvalues<const D: usize>(
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
     let linear = at(system, inputs, work, state);
+    // What turning adds where turns do not commute is not in the tangent.
+    let spins = (system.frames.list().iter()).map(|frame| frame.spin(&work.x, &work.v).norm());
+    let spin = spins.fold(0.0, f64::max);
+    if spin > 0.0 {
+        return Err(SpectrumError::Spins(spin));
+    }
     refuse_turning(system, &linear, state)?;
     let mut found = if is_small(&linear, count) {
         all(&linear)?
