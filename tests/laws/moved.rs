@@ -129,7 +129,7 @@ fn output(simulation: &mut Simulation, name: &str) -> Option<f64> {
 }
 
 /// A number, or the components of a vector.
-fn values(simulation: &mut Simulation, name: &str) -> Vec<f64> {
+pub fn values(simulation: &mut Simulation, name: &str) -> Vec<f64> {
     let parts = (1..=3).map(|k| format!("{name}[{k}]"));
     let components: Vec<f64> = parts.filter_map(|part| output(simulation, &part)).collect();
     match components.is_empty() {

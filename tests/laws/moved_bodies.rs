@@ -5,8 +5,8 @@ use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use crate::laws::differences::{Outcome, check};
-use crate::laws::moved::{Plane, agree, simulation};
+use crate::laws::differences::{Outcome, check, within};
+use crate::laws::moved::{Plane, agree, simulation, values};
 
 const CASES: u32 = 8;
 
@@ -237,4 +237,49 @@ fn planar_mechanisms_of_rigid_bodies_move_alike_in_any_plane_of_space() {
     let planes = || (prop::array::uniform3(-2.0..2.0), -1.0..1.0);
     check(CASES, planes(), |plane| runs_alike(&open(), plane));
     check(CASES, planes(), |plane| runs_alike(&closed(), plane));
+}
+
+/// Bars that hang on hinges one below the other, along the second axis of the plane.
+fn hanging(count: usize) -> Value {
+    let name = |k: usize| format!("bar{k}");
+    let bars = (0..count).map(|k| {
+        let markers = json!({"top": [0.0, 0.25], "low": [0.0, -0.25]});
+        let mut bar = body(&name(k), [0.3, -0.25 - 0.5 * k as f64], 0.0, markers);
+        bar["motion"]["velocity"] = json!([0.0, 0.0]);
+        bar
+    });
+    let hinges = (0..count).map(|k| {
+        let above = match k {
+            0 => "ground".into(),
+            _ => format!("{}.low", name(k - 1)),
+        };
+        json!({"name": format!("hinge{k}"), "kind": "hinge", "markers": [above, format!("{}.top", name(k))],
+               "stiffness": 2.0 + 0.1 * k as f64})
+    });
+    json!({"name": "hanging", "dimension": 2, "gravity": [0.0, -9.81], "bodies": bars.collect::<Vec<_>>(),
+           "joints": hinges.collect::<Vec<_>>(),
+           "outputs": [{"kind": "natural_frequency", "count": 3}, {"kind": "eigenvalue", "count": 3}]})
+}
+
+/// In the plane by iteration where bodies are many.
+#[test]
+fn chains_of_rigid_bodies_swing_alike_in_any_plane_of_space() {
+    let planes = || (prop::array::uniform3(-2.0..2.0), -1.0..1.0);
+    check(4, planes(), |(axis, distance): ([f64; 3], f64)| {
+        for count in [3, 15] {
+            let flat = hanging(count);
+            let plane = Plane {
+                axes: Rotation3::new(Vector3::from(axis)),
+                distance,
+            };
+            let there = moved(&plane, &flat);
+            let (mut flat, mut moved) = (simulation(&flat), simulation(&there));
+            for word in ["natural_frequency", "eigenvalue.frequency"] {
+                for (a, b) in values(&mut flat, word).iter().zip(values(&mut moved, word)) {
+                    within(word, (a - b).abs(), 1e-7 * a)?;
+                }
+            }
+        }
+        Ok(())
+    });
 }

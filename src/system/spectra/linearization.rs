@@ -34,6 +34,8 @@ pub(super) struct Linearization<'a, const D: usize> {
     pub elements: Vec<Elastic<D>>,
     pub others: [General<f64>; 2],
     pub border: Border,
+    /// Whether rigid bodies turn in space.
+    pub is_framed: bool,
     /// Whether `R` is not zero.
     pub is_damped: bool,
     /// Whether `K` is symmetric but for loads that follow, and moves no block out of its place.
@@ -79,6 +81,7 @@ impl<const D: usize> System<D> {
             elements: Vec::new(),
             others: [General::zeros(pattern), General::zeros(pattern)],
             border: Border::default(),
+            is_framed: !self.frames.is_empty(),
             is_damped: self.rotation != 0.0,
             is_symmetric: true,
             follower: None,

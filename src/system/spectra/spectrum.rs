@@ -42,6 +42,11 @@ pub enum SpectrumError {
     /// A rigid body of space turns at this rate, rad/s.
     #[error("expected rigid bodies that do not turn in space, found one at {0} rad/s")]
     Spins(f64),
+    /// Rigid bodies turn in space among too many coordinates: most, present.
+    #[error(
+        "expected at most {0} free coordinates beside rigid bodies that turn in space, found {1}"
+    )]
+    Many(usize, usize),
     /// Numbers that are not finite.
     #[error("expected a linearization of finite numbers, found others")]
     NotFinite,
@@ -116,6 +121,7 @@ pub fn natural_frequencies<const D: usize>(
         return Err(SpectrumError::NotConservative(body));
     }
     refuse_turning(system, &linear, state)?;
+    refuse_many(&linear)?;
     let modes = linear.modes();
     if count > modes {
         return Err(SpectrumError::Count(count, modes));
@@ -180,6 +186,7 @@ pub fn eigenvalues<const D: usize>(
         return Err(SpectrumError::Spins(spin));
     }
     refuse_turning(system, &linear, state)?;
+    refuse_many(&linear)?;
     let mut found = if is_small(&linear, count) {
         all(&linear)?
     } else {
@@ -281,5 +288,15 @@ fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
 
 fn is_small<const D: usize>(linear: &Linearization<'_, D>, count: usize) -> bool {
     let n = linear.elimination.coordinates();
-    n <= SMALL || (n <= MIDDLE && SHARE * count > n)
+    n <= SMALL || linear.is_framed || (n <= MIDDLE && SHARE * count > n)
+}
+
+/// Refuses more coordinates beside rigid bodies that turn in space than dense matrices are for: the iteration does not
+/// hold their axes.
+fn refuse_many<const D: usize>(linear: &Linearization<'_, D>) -> Result<(), SpectrumError> {
+    let n = linear.elimination.coordinates();
+    match linear.is_framed && n > MIDDLE {
+        true => Err(SpectrumError::Many(MIDDLE, n)),
+        false => Ok(()),
+    }
 }
