@@ -417,23 +417,18 @@ impl Frames {
         (frame.node, partial)
     }
 
-    /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`, and its
-    /// symmetric part, which is all of it where the forces have no moment.
-    pub fn geometric<const D: usize>(
-        frame: &Frame,
-        f: &[Node<D>],
-        x: &[Node<D>],
-    ) -> [NodeBlock<D>; 2] {
+    /// Stiffness that forces on the axes of a body add where it turns, along its axes: the symmetric part of
+    /// `sum (E_i.F_i) I - F_i E_i^T`, which is all of it where the forces have no moment.
+    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> NodeBlock<D> {
         let (axes, forces) = (frame.axes(x), frame.axes(f));
         let along = |i: usize, j: usize| forces[i].dot(&axes[j]);
         let trace: f64 = (0..3).map(|k| along(k, k)).sum();
-        let [mut whole, mut symmetric] = [no_block(); 2];
+        let mut block = no_block();
         for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
             let diagonal = if i == j { trace } else { 0.0 };
-            whole[1][i][1][j] = diagonal - along(j, i);
-            symmetric[1][i][1][j] = diagonal - 0.5 * (along(i, j) + along(j, i));
+            block[1][i][1][j] = diagonal - 0.5 * (along(i, j) + along(j, i));
         }
-        [whole, symmetric]
+        block
     }
 
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do

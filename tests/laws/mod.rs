@@ -18,6 +18,7 @@ mod mechanics;
 mod mechanism;
 mod motion;
 mod moved;
+mod moved_bodies;
 mod pinned;
 mod planar;
 mod projection;

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, needed, quoted};
+use crate::scene::Error;
 use crate::scene::description::{Kind as _, Output, ReadAt};
 use crate::scene::resolved::{self, AngleId, Marker, MotionKind, Of, Reaction, Resolved, Turning};
-use crate::scene::{Body, Error};
 
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
@@ -92,7 +92,6 @@ impl<'a> Resolved<'a> {
             ReadAt::Scene => Of::Scene,
             ReadAt::Spectrum => {
                 let count = needed(path, "count", "a count", output.count)?;
-                self.require_spectrum(&format!("{path}.kind"))?;
                 let body = output.body.as_deref();
                 if let Some(name) = body {
                     self.validate_body_output(&format!("{path}.body"), name)?;
@@ -100,19 +99,6 @@ impl<'a> Resolved<'a> {
                 Of::Spectrum(body, count)
             }
         })
-    }
-
-    /// Small motions of rigid bodies that turn in space are not linearized.
-    fn require_spectrum(&self, path: &str) -> Result<(), Error> {
-        let turns = |body: &Body| body.rigid().is_some_and(|rigid| rigid.inertia.is_some());
-        match self.scene.bodies.iter().find(|body| turns(body)) {
-            Some(body) if self.scene.dimension == 3 => {
-                let wanted =
-                    "nothing of frequencies in a scene with rigid bodies that turn in space";
-                Err(expected(path, wanted, quoted(body.name())))
-            }
-            _ => Ok(()),
-        }
     }
 
     pub(super) fn count_angle(&mut self, turning: Turning<'a>) -> Of<'a> {

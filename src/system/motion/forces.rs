@@ -181,7 +181,7 @@ impl<const D: usize> System<D> {
             });
         }
         for frame in self.frames.list() {
-            let [_, block] = Frames::geometric(frame, &work.supply, x);
+            let block = Frames::geometric(frame, &work.supply, x);
             assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
         }
         tangent.hold(assembly, &work.jacobian, &self.multipliers);

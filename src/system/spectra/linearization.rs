@@ -23,9 +23,6 @@ use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::{System, Work};
 
-/// Moment on a rigid body in space, relative to the forces that make it, that is rounding.
-const ROUNDED: f64 = 1e-8;
-
 /// `K` and `R` over the free coordinates, and what constraints make of them: rows and columns of multipliers stand with
 /// `K`.
 #[derive(Clone, Debug)]
@@ -37,6 +34,8 @@ pub(super) struct Linearization<'a, const D: usize> {
     pub elements: Vec<Elastic<D>>,
     pub others: [General<f64>; 2],
     pub border: Border,
+    /// Whether rigid bodies turn in space.
+    pub is_framed: bool,
     /// Whether `R` is not zero.
     pub is_damped: bool,
     /// Whether `K` is symmetric but for loads that follow, and moves no block out of its place.
@@ -82,6 +81,7 @@ impl<const D: usize> System<D> {
             elements: Vec::new(),
             others: [General::zeros(pattern), General::zeros(pattern)],
             border: Border::default(),
+            is_framed: !self.frames.is_empty(),
             is_damped: self.rotation != 0.0,
             is_symmetric: true,
             follower: None,
@@ -93,13 +93,21 @@ impl<const D: usize> System<D> {
         let mut elsewhere = Vec::new();
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             let blocks = self.linearize_constraint(work, (constraint, *lambda), &mut probe);
+            let blocks = blocks.pulled(&self.frames, &work.x);
             let assembly = &self.elimination.assembly;
             blocks.add(assembly, &mut made.stiffness, &mut |r, c, value| {
                 elsewhere.push((r, c, value));
             });
         }
+        for frame in self.frames.list() {
+            // Forces on axes where these turn; without the moment that speeds the body up, which is none in equilibrium.
+            let block = Frames::geometric(frame, &work.supply, &work.x);
+            let node = (frame.node, frame.node);
+            let mut none = |_: usize, _: usize, _: f64| {};
+            let assembly = &self.elimination.assembly;
+            assembly.add_block(node, &block, &mut made.stiffness, &mut none);
+        }
         made.is_symmetric &= elsewhere.is_empty();
-        self.linearize_rotations(work, &mut made);
         made.others = [made.stiffness.clone(), made.damping.clone()];
         self.linearize_chains(work, at_rest, &mut probe, &mut made);
         let mut multipliers = Matrix::zeros(pattern);
@@ -198,7 +206,9 @@ impl<const D: usize> System<D> {
             let pulled = |blocks: Blocks| blocks.pulled(&self.frames, &work.x);
             let blocks = pulled(probe.differentiate(&nodes, false, &force));
             blocks.add(assembly, &mut made.stiffness, &mut none);
-            if !blocks.is_symmetric() {
+            // Of a moment about the axis of a joint in space that is skew which the joint holds.
+            let has_potential = !self.frames.is_empty() && load.is_conservative();
+            if !blocks.is_symmetric() && !has_potential {
                 made.follower.get_or_insert(index);
                 let zeros = || General::zeros(assembly.pattern());
                 blocks.add(assembly, following.get_or_insert_with(zeros), &mut none);
@@ -312,32 +322,7 @@ impl<const D: usize> System<D> {
                 }
             });
         };
-        let blocks = probe.differentiate(&nodes, false, &force);
-        blocks.pulled(&self.frames, &work.x)
-    }
-
-    /// What forces on rigid bodies of space add where these turn.
-    fn linearize_rotations(&self, work: &mut Work<D>, made: &mut Linearization<'_, D>) {
-        if self.frames.is_empty() {
-            return;
-        }
-        self.add_multiplied(work);
-        let assembly = &self.elimination.assembly;
-        let mut none = |_: usize, _: usize, _: f64| {};
-        for frame in self.frames.list() {
-            let node = frame.node;
-            let [whole, half] = Frames::geometric(frame, &work.supply, &work.x);
-            let pairs = whole.as_flattened().iter().zip(half.as_flattened());
-            let entries = pairs.flat_map(|(a, b)| a.as_flattened().iter().zip(b.as_flattened()));
-            let (skew, size) = entries.fold((0.0_f64, 0.0_f64), |(skew, size), (a, b)| {
-                (skew.max((a - b).abs()), size.max(a.abs()))
-            });
-            // In equilibrium no moment is left.
-            let is_balanced = skew <= ROUNDED * size;
-            made.is_symmetric &= is_balanced;
-            let block = if is_balanced { half } else { whole };
-            assembly.add_block((node, node), &block, &mut made.stiffness, &mut none);
-        }
+        probe.differentiate(&nodes, false, &force)
     }
 
     /// What constraints hold, and what their turning adds to `K`.
@@ -404,7 +389,8 @@ impl<const D: usize> System<D> {
             self.constraints[*row]
                 .gradient(&view)
                 .for_each(|node, term| {
-                    let term = map_node(term, |t| t.v1);
+                    let (node, term) = self.frames.pull(node, term, &x);
+                    let term = map_node(&term, |t| t.v1);
                     (self.elimination.assembly).restrict_node(node, &term, &mut rate);
                 });
             self.elimination.project_in_place(&mut rate);

@@ -85,7 +85,7 @@ impl Blocks {
         std::array::from_fn(|r| std::array::from_fn(|c| part(r, c)))
     }
 
-    /// The matrix over the coordinates of bodies, of one over what joints see of them.
+    /// The same over the coordinates of bodies, at this configuration: rotations in place of axes.
     pub(super) fn pulled<const D: usize>(self, frames: &Frames, x: &[Node<D>]) -> Self {
         if frames.is_empty() {
             return self;
@@ -95,17 +95,19 @@ impl Blocks {
         let mut nodes: Vec<usize> = partials.iter().map(|(node, _)| *node).collect();
         nodes.dedup();
         let size = 2 * D;
-        let mut by = DMatrix::zeros(size * self.nodes.len(), size * nodes.len());
-        for (i, (node, partial)) in partials.iter().enumerate() {
-            let j = nodes.iter().position(|other| other == node).unwrap_or(0);
+        let mut change = DMatrix::zeros(size * self.nodes.len(), size * nodes.len());
+        for (i, (owner, partial)) in partials.iter().enumerate() {
+            let j = nodes.iter().position(|node| node == owner).unwrap_or(0);
             for (r, row) in partial.as_flattened().iter().enumerate() {
                 for (c, entry) in row.as_flattened().iter().enumerate() {
-                    by[(size * i + r, size * j + c)] = *entry;
+                    change[(size * i + r, size * j + c)] = *entry;
                 }
             }
         }
-        let whole = by.transpose() * self.whole * by;
-        Self { nodes, whole }
+        Self {
+            whole: change.transpose() * self.whole * change,
+            nodes,
+        }
     }
 
     pub(super) fn is_symmetric(&self) -> bool {

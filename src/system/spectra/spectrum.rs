@@ -39,12 +39,14 @@ pub enum SpectrumError {
          with them (\"rotation\")"
     )]
     Turns(f64),
-    /// A rigid body in space turns at this rate, rad/s.
-    #[error(
-        "expected rigid bodies in space that do not turn at the start, whose gyroscopic forces are not linearized, found \
-         one at {0} rad/s"
-    )]
+    /// A rigid body of space turns at this rate, rad/s.
+    #[error("expected rigid bodies that do not turn in space, found one at {0} rad/s")]
     Spins(f64),
+    /// Rigid bodies turn in space among too many coordinates: most, present.
+    #[error(
+        "expected at most {0} free coordinates beside rigid bodies that turn in space, found {1}"
+    )]
+    Many(usize, usize),
     /// Numbers that are not finite.
     #[error("expected a linearization of finite numbers, found others")]
     NotFinite,
@@ -119,6 +121,7 @@ pub fn natural_frequencies<const D: usize>(
         return Err(SpectrumError::NotConservative(body));
     }
     refuse_turning(system, &linear, state)?;
+    refuse_many(&linear)?;
     let modes = linear.modes();
     if count > modes {
         return Err(SpectrumError::Count(count, modes));
@@ -176,8 +179,14 @@ pub fn eigenvalues<const D: usize>(
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
     let linear = at(system, inputs, work, state);
-    refuse_spinning(system, work)?;
+    // What turning adds where turns do not commute is not in the tangent.
+    let spins = (system.frames.list().iter()).map(|frame| frame.spin(&work.x, &work.v).norm());
+    let spin = spins.fold(0.0, f64::max);
+    if spin > 0.0 {
+        return Err(SpectrumError::Spins(spin));
+    }
     refuse_turning(system, &linear, state)?;
+    refuse_many(&linear)?;
     let mut found = if is_small(&linear, count) {
         all(&linear)?
     } else {
@@ -220,18 +229,6 @@ fn all<const D: usize>(linear: &Linearization<'_, D>) -> Result<Vec<Complex<f64>
     let squares = general(&stiffness).ok_or(SpectrumError::NotFinite)?;
     let noise = noise(squares.iter().map(|k| k.norm()), terms);
     Ok(roots(squares.into_iter(), noise))
-}
-
-/// Refuses rigid bodies in space that turn: their gyroscopic forces are not linearized.
-fn refuse_spinning<const D: usize>(
-    system: &System<D>,
-    work: &Work<D>,
-) -> Result<(), SpectrumError> {
-    let mut spins = work.turns.iter().map(|turn| turn.spin.norm());
-    match spins.find(|spin| !system.frames.is_empty() && *spin != 0.0) {
-        Some(spin) => Err(SpectrumError::Spins(spin)),
-        None => Ok(()),
-    }
 }
 
 /// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an
@@ -291,5 +288,15 @@ fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
 
 fn is_small<const D: usize>(linear: &Linearization<'_, D>, count: usize) -> bool {
     let n = linear.elimination.coordinates();
-    n <= SMALL || (n <= MIDDLE && SHARE * count > n)
+    n <= SMALL || linear.is_framed || (n <= MIDDLE && SHARE * count > n)
+}
+
+/// Refuses more coordinates beside rigid bodies that turn in space than dense matrices are for: the iteration does not
+/// hold their axes.
+fn refuse_many<const D: usize>(linear: &Linearization<'_, D>) -> Result<(), SpectrumError> {
+    let n = linear.elimination.coordinates();
+    match linear.is_framed && n > MIDDLE {
+        true => Err(SpectrumError::Many(MIDDLE, n)),
+        false => Ok(()),
+    }
 }

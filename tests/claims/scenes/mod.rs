@@ -18,6 +18,7 @@ mod slides;
 mod space;
 mod space_bodies;
 mod space_joints;
+mod space_modes;
 mod tables;
 
 use serde_json::{Value, json};
@@ -45,6 +46,7 @@ pub fn all() -> Vec<Specimen> {
         space::all(),
         space_bodies::all(),
         space_joints::all(),
+        space_modes::all(),
     ];
     parts.into_iter().flatten().collect()
 }

@@ -122,8 +122,8 @@ fn stands(mut specimen: Specimen, of: &str, axes: &Matrix3<f64>) -> Specimen {
     specimen
 }
 
-/// Bodies that stand as each description of an orientation says, one with products of inertia, in free flight.
-fn standing() -> Specimen {
+/// Bodies that stand as each description of an orientation says, one with products of inertia, and that.
+fn stood() -> Vec<(Body, Value)> {
     let turned = Vector3::new(0.5, -0.8, 0.3);
     let (cardan, euler) = ([0.4, -0.7, 1.1], [0.6, 0.9, -0.4]);
     let [w, x, y, z] = [1.2, -0.5, 0.8, 0.3];
@@ -153,7 +153,6 @@ fn standing() -> Specimen {
     ];
     let products = Matrix3::new(1.1, 0.2, -0.1, 0.2, 0.9, 0.3, -0.1, 0.3, 1.3);
     let mut bodies = Vec::new();
-    let mut described = Vec::new();
     for (n, (name, axes, orientation)) in stood.into_iter().enumerate() {
         let shift = n as f64;
         let mut body = Body::new(name, [0.5, 0.8 + 0.05 * shift, 1.0]);
@@ -164,9 +163,14 @@ fn standing() -> Specimen {
         body.place = Vector3::new(3.0 * shift, 0.2 - shift, 0.7);
         body.velocity = Vector3::new(0.3, -0.5, 0.1 * shift);
         body.spin = Vector3::new(0.9, 0.4 - 0.3 * shift, -0.7);
-        described.push(body.described(orientation));
-        bodies.push(body);
+        bodies.push((body, orientation));
     }
+    bodies
+}
+
+/// Bodies that stand in every way, in free flight.
+fn standing() -> Specimen {
+    let bodies = stood();
     let gravity = Vector3::new(0.2, 0.5, -9.0);
     let kinds = [
         "orientation",
@@ -177,13 +181,15 @@ fn standing() -> Specimen {
         "angular_velocity",
         "angular_acceleration",
     ];
-    let read = bodies.iter().flat_map(|body| outputs(body.name, &kinds));
+    let read = (bodies.iter()).flat_map(|(body, _)| outputs(body.name, &kinds));
+    let described = (bodies.iter()).map(|(body, orientation)| body.described(orientation.clone()));
+    let described: Vec<Value> = described.collect();
     let whole = ["energy", "momentum"].map(|kind| json!({"kind": kind}));
     let scene = json!({"name": "standing", "dimension": 3, "gravity": array(gravity), "bodies": described,
                        "outputs": read.chain(whole).collect::<Vec<_>>()});
     let mut specimen = Specimen::new("standing in space", scene);
     let (mut kinetic, mut momentum, mut angular) = (0.0, Vector3::zeros(), Vector3::zeros());
-    for body in &bodies {
+    for (body, _) in &bodies {
         let p = format!("{}.p", body.name);
         let (arm, turning) = (body.arm(), body.turning(Vector3::zeros()));
         specimen = stands(specimen, &p, &body.axes);
@@ -313,6 +319,16 @@ enum Acted {
     Set,
 }
 
+/// Angular acceleration of a body, and acceleration of its marker `p`, where a force acts or a moment.
+fn moved_by(pushed: Vector3<f64>, is_force: bool, body: &Body) -> [Vector3<f64>; 2] {
+    let (moment, push) = match is_force {
+        true => (body.arm().cross(&pushed), pushed / body.mass),
+        false => (pushed, Vector3::zeros()),
+    };
+    let turning = body.turning(moment);
+    [turning, push + body.carried(turning, body.arm())]
+}
+
 /// A moment in global axes, one in those of the body, and a force in those of the body at a point of it, on bodies that
 /// turn.
 fn acted(name: &'static str, by: Acted) -> Specimen {
@@ -333,7 +349,7 @@ fn acted(name: &'static str, by: Acted) -> Specimen {
         ("force", false, "force", Vector3::new(0.9, 1.5, -1.2)),
     ];
     let (mut bodies, mut parts, mut read) = (Vec::new(), Vec::new(), Vec::new());
-    let mut specimens: Vec<(String, &str, Vector3<f64>)> = Vec::new();
+    let mut claims: Vec<(String, &str, Vector3<f64>)> = Vec::new();
     let mut settings = Vec::new();
     for ((kind, follower, word, value), name) in acting.into_iter().zip(["a", "b", "d", "e"]) {
         let mut body = Body::new(name, [0.5, 0.8, 1.0]);
@@ -351,22 +367,10 @@ fn acted(name: &'static str, by: Acted) -> Specimen {
             Acted::Started => part["start"] = json!(array(value)),
             Acted::Set => settings.push((format!("{name}.p.{word}"), value)),
         }
-        let is_force = kind == "force";
         let pushed = if follower { body.axes * value } else { value };
-        let moment = if is_force {
-            body.arm().cross(&pushed)
-        } else {
-            pushed
-        };
-        let push = if is_force {
-            pushed / body.mass
-        } else {
-            Vector3::zeros()
-        };
-        let turning = body.turning(moment);
-        specimens.push((format!("{name}.p.angular_acceleration"), "rad/s2", turning));
-        let at = push + body.carried(turning, body.arm());
-        specimens.push((format!("{name}.p.acceleration"), "m/s2", at));
+        let [turning, at] = moved_by(pushed, kind == "force", &body);
+        claims.push((format!("{name}.p.angular_acceleration"), "rad/s2", turning));
+        claims.push((format!("{name}.p.acceleration"), "m/s2", at));
         read.extend(outputs(name, &["acceleration", "angular_acceleration"]));
         bodies.push(body.described(Value::Null));
         parts.push(part);
@@ -384,7 +388,7 @@ fn acted(name: &'static str, by: Acted) -> Specimen {
             specimen = specimen.set(&format!("{of}[{}]", k + 1), value[k]);
         }
     }
-    for (of, unit, value) in specimens {
+    for (of, unit, value) in claims {
         specimen = vector(specimen, &of, unit, value);
     }
     specimen

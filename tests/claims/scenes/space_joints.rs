@@ -27,7 +27,7 @@ pub fn all() -> Vec<Specimen> {
     ]
 }
 
-fn body(name: &'static str) -> Body {
+pub fn body(name: &'static str) -> Body {
     Body::new(name, [0.5, 0.8, 1.0])
 }
 
@@ -39,9 +39,9 @@ fn about_marker(body: &Body) -> Matrix3<f64> {
 }
 
 /// The axis that bodies turn about, not a unit vector, and the unit vector.
-const AXIS: [f64; 3] = [0.8, -0.4, 1.6];
+pub const AXIS: [f64; 3] = [0.8, -0.4, 1.6];
 
-fn axis() -> Vector3<f64> {
+pub fn axis() -> Vector3<f64> {
     Vector3::from(AXIS).normalize()
 }
 
@@ -170,7 +170,7 @@ fn held_on_a_line() -> Specimen {
         ("slider", "d", along, identity),
         ("prismatic", "e", along, Matrix3::zeros()),
     ];
-    let mut specimens: Vec<(String, &str, Vector3<f64>)> = Vec::new();
+    let mut claims: Vec<(String, &str, Vector3<f64>)> = Vec::new();
     let (mut bodies, mut joints, mut loads, mut read) = (vec![], vec![], vec![], vec![]);
     let mut turns = Vec::new();
     for (kind, name, let_go, turned) in kinds {
@@ -193,10 +193,10 @@ fn held_on_a_line() -> Specimen {
             turned * n * (n.dot(&(MOMENT - body.gyroscopic())) / n.dot(&(body.tensor() * n)))
         };
         let moment = body.tensor() * turning + body.gyroscopic() - MOMENT;
-        specimens.push((format!("{name}.c.position"), "m", point - let_go * off));
-        specimens.push((format!("{name}.c.acceleration"), "m/s2", a));
-        specimens.push((format!("{name}.c.angular_acceleration"), "rad/s2", turning));
-        specimens.push((format!("{joint}.reaction"), "N", a * body.mass - FORCE));
+        claims.push((format!("{name}.c.position"), "m", point - let_go * off));
+        claims.push((format!("{name}.c.acceleration"), "m/s2", a));
+        claims.push((format!("{name}.c.angular_acceleration"), "rad/s2", turning));
+        claims.push((format!("{joint}.reaction"), "N", a * body.mass - FORCE));
         read.extend(outputs(
             &["position", "acceleration", "angular_acceleration"],
             "marker",
@@ -204,7 +204,7 @@ fn held_on_a_line() -> Specimen {
         ));
         read.extend(outputs(&["reaction"], "joint", &joint));
         if kind != "slider" {
-            specimens.push((format!("{joint}.reaction_moment"), "N.m", moment));
+            claims.push((format!("{joint}.reaction_moment"), "N.m", moment));
             read.extend(outputs(&["reaction_moment"], "joint", &joint));
         }
         if kind == "cylindrical" {
@@ -218,7 +218,7 @@ fn held_on_a_line() -> Specimen {
     for (k, value) in turns.into_iter().enumerate() {
         specimen = specimen.claim(&format!("on_a.{}", TURNS[k]), RAD[k], value);
     }
-    for (of, unit, value) in specimens {
+    for (of, unit, value) in claims {
         specimen = vector(specimen, &of, unit, value);
     }
     specimen
