@@ -122,7 +122,8 @@ impl<const D: usize> System<D> {
         self.mass().sqrt() * self.size()
     }
 
-    /// Size: the length of the longest cable or rod, or the largest distance of two nodes if that is more, m.
+    /// Size: the length of the longest cable or rod, or the largest distance of two nodes if that is more, m. Where rigid
+    /// bodies turn in space: how far the system reaches.
     pub fn size(&self) -> f64 {
         let cables = self.chains.iter().map(CableChain::length);
         let lengths = cables.chain(self.rods.iter().map(|rod| rod.length));
@@ -130,7 +131,34 @@ impl<const D: usize> System<D> {
         if self.chains.len() + self.rods.len() == 1 && self.bodies.len() == 1 {
             return longest;
         }
-        longest.max(start::placement::extent(&self.reference))
+        longest.max(match self.frames.is_empty() {
+            true => start::placement::extent(&self.reference),
+            false => self.reach(),
+        })
+    }
+
+    /// Largest distance from the first node of what its bodies reach, however they turn: nodes, joints, and the radius of
+    /// gyration of bodies that turn, m.
+    fn reach(&self) -> f64 {
+        let first = Vector::from(self.reference[0][0]);
+        let ends = || self.joints.iter().flat_map(|joint| &joint.ends);
+        let arm = |node: usize| {
+            let on_node = |end: &&End<D>| end.marker().is_some_and(|m| m.nodes[0] == node);
+            let arms = ends().filter(on_node).filter_map(End::marker);
+            arms.map(|marker| marker.arm()).fold(0.0, f64::max)
+        };
+        let reach = |(node, place): (usize, &Node<D>)| {
+            let far = (Vector::from(place[0]) - first).norm();
+            match self.frames.of_node::<D>(node) {
+                Some((_, true)) => 0.0,
+                Some((frame, false)) => far + frame.gyration().max(arm(node)),
+                None => far,
+            }
+        };
+        let on_ground = ends().filter(|end| end.marker().is_none());
+        let far = on_ground.map(|end| (end.position(&self.reference) - first).norm());
+        let nodes = self.reference.iter().enumerate().map(reach);
+        nodes.chain(far).fold(0.0, f64::max)
     }
 
     /// Number of independent coordinates `q`.
