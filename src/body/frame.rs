@@ -133,6 +133,12 @@ impl Frame {
         [b + c - a, c + a - b, a + b - c].map(|twice| 0.5 * twice)
     }
 
+    /// Its largest radius of gyration, m.
+    pub fn gyration(&self) -> f64 {
+        let largest = self.moments.iter().fold(0.0, |m, j| f64::max(m, *j));
+        (largest / self.mass).sqrt()
+    }
+
     /// `f += s M a` over its nodes, with the axes as coordinates.
     pub fn add_inertia<const D: usize>(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
         for (node, part, mass) in self.masses() {

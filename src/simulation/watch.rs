@@ -19,8 +19,8 @@ const LIMIT: f64 = 10.0;
 const EVERY: u64 = 16;
 /// Part of its natural size that an output must reach for its errors to be compared with it.
 const SMALLEST: f64 = 1e-3;
-/// Most components of an output.
-const MOST: usize = 3;
+/// Most components of an output: those of an orientation.
+const MOST: usize = 9;
 
 /// An output, with all its components where it is a vector.
 struct Group {

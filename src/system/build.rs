@@ -115,6 +115,7 @@ impl<const D: usize> System<D> {
                 || parts.tracks_work
                 || !frames.is_empty(),
             frames,
+            reach: 0.0,
             chains: parts.chains,
             lumped_masses: parts.lumped_masses,
             rods: parts.rods,
@@ -145,6 +146,7 @@ impl<const D: usize> System<D> {
         (system.has_breaks, system.is_driven_by_time) = (has_breaks, is_driven_by_time);
         system.move_reference();
         system.find_rotations();
+        system.reach = system.find_reach();
         system.find_weight();
         system.keep(nonlinear, &described);
         system.needs_rates |= !system.constraints.is_empty();
@@ -207,6 +209,28 @@ impl<const D: usize> System<D> {
             }
         }
         self.frames = frames;
+    }
+
+    /// Largest distance from the first node of what its bodies reach, however they turn: nodes, joints, and the radius of
+    /// gyration of bodies that turn, m.
+    fn find_reach(&self) -> f64 {
+        let first = Vector::from(self.reference[0][0]);
+        let ends = || self.joints.iter().flat_map(|joint| &joint.ends);
+        let mut arms = vec![0.0_f64; self.reference.len()];
+        for frame in self.frames.list() {
+            arms[frame.node] = frame.gyration();
+        }
+        for marker in ends().filter_map(End::marker).filter(|m| m.is_framed()) {
+            let arm = &mut arms[marker.nodes[0]];
+            *arm = arm.max(marker.arm());
+        }
+        let far = |place: Vector<D>| (place - first).norm();
+        // The second node of a body stands where the first does.
+        let nodes = self.reference.iter().zip(&arms);
+        let nodes = nodes.map(|(node, arm)| far(node[0].into()) + arm);
+        let on_ground = ends().filter(|end| end.marker().is_none());
+        let on_ground = on_ground.map(|end| far(end.position(&self.reference)));
+        nodes.chain(on_ground).fold(0.0, f64::max)
     }
 
     /// Mass times a sparse nodal vector.

@@ -59,8 +59,9 @@ pub struct System<const D: usize = 2> {
     reference: Vec<Node<D>>,
     chains: Vec<CableChain<D>>,
     lumped_masses: Vec<LumpedMass>,
-    /// Rigid bodies of space that turn.
+    /// Rigid bodies of space that turn, and how far the system reaches where there are any, m.
     frames: Frames,
+    reach: f64,
     /// Rigid bodies whose sections are read.
     rods: Vec<Rod>,
     /// Nodes of every body.
@@ -124,7 +125,8 @@ impl<const D: usize> System<D> {
         self.mass().sqrt() * self.size()
     }
 
-    /// Size: the length of the longest cable or rod, or the largest distance of two nodes if that is more, m.
+    /// Size: the length of the longest cable or rod, or the largest distance of two nodes if that is more, m. Where rigid
+    /// bodies turn in space: how far the system reaches.
     pub fn size(&self) -> f64 {
         let cables = self.chains.iter().map(CableChain::length);
         let lengths = cables.chain(self.rods.iter().map(|rod| rod.length));
@@ -132,7 +134,10 @@ impl<const D: usize> System<D> {
         if self.chains.len() + self.rods.len() == 1 && self.bodies.len() == 1 {
             return longest;
         }
-        longest.max(start::gaps::extent(&self.reference))
+        longest.max(match self.frames.is_empty() {
+            true => start::gaps::extent(&self.reference),
+            false => self.reach,
+        })
     }
 
     /// Number of independent coordinates `q`.

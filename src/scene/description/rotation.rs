@@ -64,8 +64,22 @@ impl Inertia {
     }
 
     /// Principal moments, and principal axes as columns, right-handed; the axes of the frame where these are principal
-    /// already.
+    /// already. A moment that is zero but for rounding is zero: one of 1e-17 would be taken for an inertia.
     pub fn principal(&self) -> ([f64; 3], Matrix3<f64>) {
+        let (moments, axes) = self.eigen();
+        let least = ROUNDOFF * self.tensor().amax();
+        (moments.map(|m| if m.abs() > least { m } else { 0.0 }), axes)
+    }
+
+    /// In the body's frame, the axis of a thin rod, about which there is no moment.
+    pub fn thin(&self) -> Option<Vector3<f64>> {
+        let (moments, axes) = self.principal();
+        let axis = moments.iter().position(|moment| *moment <= 0.0);
+        axis.filter(|_| self.is_some())
+            .map(|axis| axes.column(axis).into_owned())
+    }
+
+    fn eigen(&self) -> ([f64; 3], Matrix3<f64>) {
         let tensor = self.tensor();
         let products = [tensor[(0, 1)], tensor[(0, 2)], tensor[(1, 2)]];
         if products == [0.0; 3] {
@@ -79,6 +93,9 @@ impl Inertia {
         (eigen.eigenvalues.into(), axes)
     }
 }
+
+/// Part of the largest moment that rounding leaves of one that is zero.
+const ROUNDOFF: f64 = 1e-12;
 
 /// How the frame of a body stands.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

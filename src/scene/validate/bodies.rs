@@ -2,13 +2,17 @@
 
 use std::collections::BTreeSet;
 
+use nalgebra::Vector3;
+
 use super::ELEMENTS;
 use super::checks::{
     components, expected, finite, name, not_negative, planar, positive, quoted, vector,
 };
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
-use crate::scene::{Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Spin};
+use crate::scene::{
+    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Spin, Vector,
+};
 
 impl Body {
     pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
@@ -139,6 +143,7 @@ impl RigidBody {
                 };
                 return Err(expected(&place, wanted, format!("{:?}", point.given())));
             }
+            self.validate_thin(&place, dimension, point)?;
         }
         if self.motion.deformation.is_some() {
             return Err(expected(
@@ -208,6 +213,20 @@ impl RigidBody {
                 wanted,
                 format!("the principal moments {moments:?}"),
             ));
+        }
+        Ok(())
+    }
+
+    /// In space a thin rod has no points beside its axis: nothing says how they turn about it.
+    fn validate_thin(&self, place: &str, dimension: usize, point: &Vector) -> Result<(), Error> {
+        let Some(axis) = self.inertia.thin().filter(|_| dimension == 3) else {
+            return Ok(());
+        };
+        let point = Vector3::from(point.full());
+        if axis.cross(&point).norm() > 1e-9 * point.norm() {
+            let wanted =
+                "a point on the axis of a thin rod, about which it has no moment of inertia,";
+            return Err(expected(place, wanted, format!("{:?}", point.as_slice())));
         }
         Ok(())
     }

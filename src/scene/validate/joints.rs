@@ -148,6 +148,7 @@ impl<'a> Resolved<'a> {
         let ends = self.require_pair(path, &joint.markers, joint.point)?;
         if self.scene.dimension == 3 {
             self.require_axes(path, joint, &ends)?;
+            Self::require_moments(path, joint, &ends)?;
             return Ok(ends);
         }
         let turns = |of: &Condition| matches!(of, Condition::Direction | Condition::Spring);
@@ -192,6 +193,48 @@ impl<'a> Resolved<'a> {
             if is_clamped && both {
                 let wanted = "a rigid body or the ground beside a cable, which has no axes";
                 return Err(expected(&format!("{path}.markers"), wanted, "two cables"));
+            }
+        }
+        Ok(())
+    }
+
+    /// In space: a thin rod has no inertia that could follow a joint which turns it about its own axis, and does not turn
+    /// about it. So a joint holds that axis alone, or stands on the ground and turns the rod across it.
+    fn require_moments(path: &str, joint: &Joint, ends: &Ends<'a>) -> Result<(), Error> {
+        let holds = joint.kind.declaration().holds;
+        let first = match ends.first {
+            First::Marker(marker) => Some(marker),
+            First::Ground(_) | First::Cable(_) => None,
+        };
+        let both = [joint.direction, joint.second_direction.or(joint.direction)];
+        let both = both.map(|of| Vector3::from(Self::global(ends, given(of))).normalize());
+        for (side, marker) in [(0, first), (1, Some(ends.second))] {
+            let Some(marker) = marker else {
+                continue;
+            };
+            let Place::Point(rigid, _) = marker.place else {
+                continue;
+            };
+            let Some(axis) = rigid.body.inertia.thin() else {
+                continue;
+            };
+            let axis = Vector3::from(rigid.body.directed(axis.into()));
+            let cosine = both[side].dot(&axis);
+            let (is_along, on_ground) = (1.0 - cosine.abs() < RIGHT, first.is_none());
+            let is_pivot = on_ground && cosine.abs() < RIGHT;
+            let may_hold = |condition: &Condition| match condition {
+                Condition::Axis => joint.direction.is_none() || is_along || is_pivot,
+                Condition::Plane => is_along || is_pivot,
+                Condition::Across => is_along,
+                Condition::Line => side == 1 || is_along,
+                Condition::Direction => on_ground,
+                Condition::Spring => is_pivot,
+                Condition::Position | Condition::Distance | Condition::Curve => true,
+            };
+            if !holds.iter().all(may_hold) {
+                let wanted = "a body with a moment of inertia about every axis, which the joint turns it about,";
+                let place = format!("{path}.markers[{side}]");
+                return Err(expected(&place, wanted, quoted(marker.name)));
             }
         }
         Ok(())

@@ -265,3 +265,35 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
     "#,
     );
 }
+
+fn rods() -> Value {
+    let rod = |name: &str, x: f64| {
+        json!({"name": name, "element": "rigid", "mass": 1, "inertia": [0, 0.1, 0.1], "position": [x, 0, 0],
+            "markers": {"first": [-0.5, 0, 0], "last": [0.5, 0, 0]}})
+    };
+    json!({
+        "name": "rods", "dimension": 3, "bodies": [rod("upper", 0.5), rod("lower", 1.5)],
+        "joints": [
+            {"name": "hook", "kind": "revolute", "markers": ["ground", "upper.first"], "direction": [0, 1, 0]},
+            {"name": "elbow", "kind": "spherical", "markers": ["upper.last", "lower.first"]}
+        ]
+    })
+}
+
+#[test]
+fn thin_rods_are_not_turned_about_their_axes() {
+    check(
+        rods,
+        r#"
+        /name | "net" | accepted
+        /bodies/0/markers/first | [-0.5, 0.1, 0] | bodies[0].markers.first: expected a point on the axis of a thin rod
+        /joints/0/direction | [1, 0, 0] | accepted
+        /joints/0/direction | [1, 1, 0] | joints[0].markers[1]: expected a body with a moment of inertia about every axis
+        /joints/0/kind | "planar" | accepted
+        /joints/1/kind | "weld" | joints[1].markers[0]: expected a body with a moment of inertia about every axis
+        /joints/1 | {"name": "e", "kind": "revolute", "markers": ["upper.last", "lower.first"], "direction": [0, 1, 0]} | joints[1].markers[0]: expected a body with a moment
+        /joints/1 | {"name": "e", "kind": "revolute", "markers": ["upper.last", "lower.first"], "direction": [1, 0, 0]} | accepted
+        /joints/1 | {"name": "e", "kind": "universal", "markers": ["upper.last", "lower.first"], "direction": [1, 0, 0], "second_direction": [0, 1, 0]} | joints[1].markers[1]: expected a body with a moment
+    "#,
+    );
+}
