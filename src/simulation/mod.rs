@@ -32,7 +32,7 @@ use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;
 use dimension::AnyEngine;
 use inputs::Inputs;
-use variables::start_inputs;
+use variables::{set_parameter, start_inputs};
 
 /// Why a simulation cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -405,9 +405,17 @@ impl Simulation {
             Source::Parameter(_) if self.started => {
                 return Err(self.refuse(index, "parameters may be set until initialization ends"));
             }
+            Source::Parameter(parameter) if self.is_one_of_three(parameter) => {
+                if value < 0.0 {
+                    let message = format!("expected zero or a positive number, found {value}");
+                    return Err(self.refuse(index, &message));
+                }
+                self.values[index] = value;
+            }
             Source::Parameter(_) => {
                 self.values[index] = value;
-                if let Err(error) = self.parametrized().resolve() {
+                let scene = self.parametrized_but(|parameter| self.is_one_of_three(parameter));
+                if let Err(error) = scene.resolve() {
                     self.values[index] = before;
                     return Err(self.refuse(index, &error.message));
                 }
@@ -422,12 +430,25 @@ impl Simulation {
 
     /// The scene with the current parameters, to be resolved: their values may make it invalid.
     fn parametrized(&self) -> Scene {
+        self.parametrized_but(|_| false)
+    }
+
+    /// Whether a parameter is a moment of inertia in space, which bounds the other two: they are set one after another and
+    /// checked together when initialization computes the state.
+    fn is_one_of_three(&self, parameter: Parameter) -> bool {
+        self.scene.dimension == 3 && matches!(parameter, Parameter::Inertia(..))
+    }
+
+    /// The same without some of the parameters.
+    fn parametrized_but(&self, is_left: impl Fn(Parameter) -> bool) -> Scene {
         let mut scene = self.scene.clone();
         for (variable, value) in self.variables.iter().zip(&self.values) {
             let Source::Parameter(parameter) = variable.source else {
                 continue;
             };
-            set_parameter(&mut scene, parameter, *value);
+            if !is_left(parameter) {
+                set_parameter(&mut scene, parameter, *value);
+            }
         }
         scene
     }
@@ -453,43 +474,5 @@ impl Simulation {
             name,
             message: message.into(),
         }
-    }
-}
-
-/// Sets the number of an inertia, or its moment about an axis.
-fn set_inertia(inertia: &mut crate::scene::Inertia, axis: usize, value: f64) {
-    use crate::scene::Inertia;
-    match inertia {
-        Inertia::Number(number) => *number = value,
-        Inertia::Moments(moments) => moments[axis] = value,
-        Inertia::Tensor(rows) => rows[axis][axis] = value,
-    }
-}
-
-/// Puts the value of a parameter into the scene that it came from.
-fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
-    use Parameter::*;
-    match parameter {
-        YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = value,
-        Density(id) => scene.cable_mut(id).material.density = value,
-        DampingTime(id) => scene.cable_mut(id).material.damping_time = value,
-        Area(id) => scene.cable_mut(id).section.area = value,
-        SecondMoment(id) => scene.cable_mut(id).section.second_moment = value,
-        Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
-        Mass(id) => scene.rigid_mut(id).mass = value,
-        Inertia(id, axis) => set_inertia(&mut scene.rigid_mut(id).inertia, axis, value),
-        LumpedMass(i) => scene.masses[i].mass = value,
-        HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
-        HingeDamping(i) => scene.joints[i].damping = Some(value),
-        SpringStiffness(i) => scene.loads[i].stiffness = Some(value),
-        SpringDamping(i) => scene.loads[i].damping = Some(value),
-        CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
-        CouplingDamping(i) => scene.ports[i].damping = Some(value),
-        TurningStiffness(i) => scene.ports[i].rotational_stiffness = Some(value),
-        TurningDamping(i) => scene.ports[i].rotational_damping = Some(value),
-        Gravity(axis) => scene.gravity[axis] = value,
-        Rotation => scene.rotation = value,
-        RelativeTolerance => scene.set_relative_tolerance(value),
-        WorkLimit => scene.method.work_limit = value,
     }
 }

@@ -321,3 +321,37 @@ fn a_mesh_that_is_too_coarse_is_told_of_once() {
     assert!(told(64, 0.01, read).is_empty());
     assert!(told(4, 0.01, json!([{"kind": "energy"}])).is_empty());
 }
+
+/// Moments of inertia in space bound each other: a master sets them one after another, and they are checked together.
+#[test]
+fn moments_of_inertia_are_checked_when_all_are_set() {
+    let scene = json!({"name": "three", "dimension": 3,
+        "bodies": [{"element": "rigid", "name": "block", "mass": 1.0, "inertia": [1.0, 1.5, 2.0],
+                    "position": [0.0, 0.0, 0.0], "motion": {"spin": [0.0, 0.0, 3.0]},
+                    "markers": {"c": [0.0, 0.0, 0.0]}}],
+        "outputs": [{"kind": "energy"}]});
+    let scene = Scene::from_json(&scene.to_string()).unwrap_or_else(|error| panic!("{error}"));
+    let set = |simulation: &mut Simulation, name: &str, value: f64| {
+        let place = simulation.variables().iter().position(|v| v.name == name);
+        simulation.set_real(place.expect("a parameter"), value)
+    };
+    let mut simulation = Simulation::new(scene);
+    assert!(set(&mut simulation, "block.inertia[1]", -1.0).is_err());
+    set(&mut simulation, "block.inertia[1]", 10.0).expect("more than the others so far");
+    set(&mut simulation, "block.mass", 2.0).expect("a mass meanwhile");
+    let refused = simulation.initialize(0.0).expect_err("no body has these");
+    assert!(
+        refused.to_string().contains("bodies[0].inertia"),
+        "{refused}"
+    );
+    set(&mut simulation, "block.inertia[2]", 15.0).expect("a moment");
+    set(&mut simulation, "block.inertia[3]", 20.0).expect("a moment");
+    simulation
+        .initialize(0.0)
+        .expect("a body ten times as large");
+    let energy = read(&mut simulation, "energy.kinetic");
+    assert!(
+        (energy - 0.5 * 20.0 * 9.0).abs() < 1e-12 * energy,
+        "{energy}"
+    );
+}

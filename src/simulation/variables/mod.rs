@@ -11,6 +11,7 @@ mod unit;
 
 pub use causality::Causality;
 pub(super) use outputs::sets_springs;
+pub(super) use parameters::set_parameter;
 pub use unit::Unit;
 
 use super::quantities::Quantity;

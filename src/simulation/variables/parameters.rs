@@ -2,7 +2,7 @@
 
 use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
-use crate::scene::{BodyReference, Cable, LoadKind, PortKind, Resolved, Rigid};
+use crate::scene::{BodyReference, Cable, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene};
 
 /// Key, meaning, unit, what it stands for, start value.
 type Row<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
@@ -156,5 +156,42 @@ impl List {
             let row = (key, what, Some(units[i]), parameters[i], starts[i]);
             self.parameters(of, "of", &[row]);
         }
+    }
+}
+
+/// Sets the number of an inertia, or its moment about an axis.
+fn set_inertia(inertia: &mut Inertia, axis: usize, value: f64) {
+    match inertia {
+        Inertia::Number(number) => *number = value,
+        Inertia::Moments(moments) => moments[axis] = value,
+        Inertia::Tensor(rows) => rows[axis][axis] = value,
+    }
+}
+
+/// Puts the value of a parameter into the scene that it came from.
+pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
+    use Parameter::*;
+    match parameter {
+        YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = value,
+        Density(id) => scene.cable_mut(id).material.density = value,
+        DampingTime(id) => scene.cable_mut(id).material.damping_time = value,
+        Area(id) => scene.cable_mut(id).section.area = value,
+        SecondMoment(id) => scene.cable_mut(id).section.second_moment = value,
+        Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
+        Mass(id) => scene.rigid_mut(id).mass = value,
+        Inertia(id, axis) => set_inertia(&mut scene.rigid_mut(id).inertia, axis, value),
+        LumpedMass(i) => scene.masses[i].mass = value,
+        HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
+        HingeDamping(i) => scene.joints[i].damping = Some(value),
+        SpringStiffness(i) => scene.loads[i].stiffness = Some(value),
+        SpringDamping(i) => scene.loads[i].damping = Some(value),
+        CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
+        CouplingDamping(i) => scene.ports[i].damping = Some(value),
+        TurningStiffness(i) => scene.ports[i].rotational_stiffness = Some(value),
+        TurningDamping(i) => scene.ports[i].rotational_damping = Some(value),
+        Gravity(axis) => scene.gravity[axis] = value,
+        Rotation => scene.rotation = value,
+        RelativeTolerance => scene.set_relative_tolerance(value),
+        WorkLimit => scene.method.work_limit = value,
     }
 }
