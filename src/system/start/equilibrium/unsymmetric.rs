@@ -15,7 +15,7 @@ const STEPS: usize = 80;
 const ENOUGH: f64 = 1e-13;
 
 /// Solves `(s^2 I + K) x = f` in place, where the model is linearized; `least` is the shift of the symmetric
-/// factors that stand in where those without are singular. False where no factors are found.
+/// factors that stand in where those without are singular. False where no factors are found, or `s^2 I + K` is zero on `f`.
 pub(super) fn solve<const D: usize>(
     model: &mut Model<'_, D>,
     s: f64,
@@ -74,6 +74,10 @@ pub(super) fn solve<const D: usize>(
             break;
         }
         basis.push(w.iter().map(|w| w / rest).collect());
+    }
+    // A tangent that is zero moves nothing, and that is no equilibrium.
+    if columns.is_empty() {
+        return false;
     }
     for i in (0..columns.len()).rev() {
         let term = |j: usize| columns[j][i] * target[j];
