@@ -181,13 +181,13 @@ impl<'a> Resolved<'a> {
             };
             let is_clamped = holds_direction && is_cable(&marker);
             if needs_frame && is_cable(&marker) || !marker.place.turns() {
-                let wanted = "a marker of a rigid body with inertia, which has axes,";
+                let wanted = "a marker of a rigid body with inertia, which has axes";
                 let place = format!("{path}.markers[{side}]");
                 return Err(expected(&place, wanted, quoted(marker.name)));
             }
             let both = first.is_some_and(|first| is_cable(&first)) && is_cable(&ends.second);
             if is_clamped && both {
-                let wanted = "a rigid body or the ground beside a cable, which has no axes,";
+                let wanted = "a rigid body or the ground beside a cable, which has no axes";
                 return Err(expected(&format!("{path}.markers"), wanted, "two cables"));
             }
         }
@@ -228,7 +228,7 @@ impl<'a> Resolved<'a> {
                 Condition::Position | Condition::Distance | Condition::Curve => true,
             };
             if !holds.iter().all(may_hold) {
-                let wanted = "a body with a moment of inertia about every axis, which the joint turns it about,";
+                let wanted = "a body with a moment of inertia about every axis, which the joint turns it about";
                 let place = format!("{path}.markers[{side}]");
                 return Err(expected(&place, wanted, quoted(marker.name)));
             }
