@@ -15,7 +15,8 @@ const STEPS: usize = 80;
 const ENOUGH: f64 = 1e-13;
 
 /// Solves `(s^2 I + K) x = f` in place, where the model is linearized; `least` is the shift of the symmetric
-/// factors that stand in where those without are singular. False where no factors are found, or `s^2 I + K` is zero on `f`.
+/// factors that stand in where those without are singular. False where no factors are found, or where
+/// `s^2 I + K` is zero on `f`: what moves nothing is no equilibrium.
 pub(super) fn solve<const D: usize>(
     model: &mut Model<'_, D>,
     s: f64,
@@ -75,10 +76,6 @@ pub(super) fn solve<const D: usize>(
         }
         basis.push(w.iter().map(|w| w / rest).collect());
     }
-    // A tangent that is zero moves nothing, and that is no equilibrium.
-    if columns.is_empty() {
-        return false;
-    }
     for i in (0..columns.len()).rev() {
         let term = |j: usize| columns[j][i] * target[j];
         let later: f64 = (i + 1..columns.len()).map(term).sum();
@@ -87,7 +84,7 @@ pub(super) fn solve<const D: usize>(
     for (v, factor) in basis.iter().zip(&target[..columns.len()]) {
         x.iter_mut().zip(v).for_each(|(x, v)| *x += factor * v);
     }
-    x.iter().all(|x| x.is_finite())
+    !columns.is_empty() && x.iter().all(|x| x.is_finite())
 }
 
 /// Solves with the symmetric factors, inside the tangent plane of the constraints.
