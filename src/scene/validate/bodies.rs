@@ -225,7 +225,7 @@ impl RigidBody {
         let point = Vector3::from(point.full());
         if axis.cross(&point).norm() > 1e-9 * point.norm() {
             let wanted =
-                "a point on the axis of a thin rod, about which it has no moment of inertia,";
+                "a point on the axis of a thin rod, about which it has no moment of inertia";
             return Err(expected(place, wanted, format!("{:?}", point.as_slice())));
         }
         Ok(())

@@ -232,7 +232,7 @@ impl<'a> Resolved<'a> {
                 Condition::Position | Condition::Distance | Condition::Curve => true,
             };
             if !holds.iter().all(may_hold) {
-                let wanted = "a body with a moment of inertia about every axis, which the joint turns it about,";
+                let wanted = "a body with a moment of inertia about every axis, which the joint turns it about";
                 let place = format!("{path}.markers[{side}]");
                 return Err(expected(&place, wanted, quoted(marker.name)));
             }

@@ -286,6 +286,7 @@ fn thin_rods_are_not_turned_about_their_axes() {
         rods,
         r#"
         /name | "net" | accepted
+        /outputs | [{"kind": "natural_frequency", "count": 1}] | outputs[0].kind: expected nothing of a spectrum beside a rigid body that turns in space, found "upper"
         /bodies/0/markers/first | [-0.5, 0.1, 0] | bodies[0].markers.first: expected a point on the axis of a thin rod
         /joints/0/direction | [1, 0, 0] | accepted
         /joints/0/direction | [1, 1, 0] | joints[0].markers[1]: expected a body with a moment of inertia about every axis

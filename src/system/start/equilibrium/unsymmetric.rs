@@ -15,7 +15,8 @@ const STEPS: usize = 80;
 const ENOUGH: f64 = 1e-13;
 
 /// Solves `(s^2 I + K) x = f` in place, where the model is linearized; `least` is the shift of the symmetric
-/// factors that stand in where those without are singular. False where no factors are found.
+/// factors that stand in where those without are singular. False where no factors are found, or where
+/// `s^2 I + K` is zero on `f`: what moves nothing is no equilibrium.
 pub(super) fn solve<const D: usize>(
     model: &mut Model<'_, D>,
     s: f64,
@@ -83,7 +84,7 @@ pub(super) fn solve<const D: usize>(
     for (v, factor) in basis.iter().zip(&target[..columns.len()]) {
         x.iter_mut().zip(v).for_each(|(x, v)| *x += factor * v);
     }
-    x.iter().all(|x| x.is_finite())
+    !columns.is_empty() && x.iter().all(|x| x.is_finite())
 }
 
 /// Solves with the symmetric factors, inside the tangent plane of the constraints.
