@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, needed, quoted};
+use crate::scene::Error;
 use crate::scene::description::{Kind as _, Output, ReadAt};
 use crate::scene::resolved::{self, AngleId, Marker, MotionKind, Of, Reaction, Resolved, Turning};
-use crate::scene::{Body, Error, RigidBody};
 
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
@@ -91,7 +91,6 @@ impl<'a> Resolved<'a> {
             ReadAt::Force | ReadAt::Moment => Of::Reaction(self.reaction(path, output)?),
             ReadAt::Scene => Of::Scene,
             ReadAt::Spectrum => {
-                self.require_linear_bodies(path)?;
                 let count = needed(path, "count", "a count", output.count)?;
                 let body = output.body.as_deref();
                 if let Some(name) = body {
@@ -100,23 +99,6 @@ impl<'a> Resolved<'a> {
                 Of::Spectrum(body, count)
             }
         })
-    }
-
-    /// Linearized equations leave out how forces and spins turn with rigid bodies in space.
-    fn require_linear_bodies(&self, path: &str) -> Result<(), Error> {
-        let turns = |body: &&RigidBody| self.scene.dimension == 3 && body.inertia.is_some();
-        let turning = self.scene.bodies.iter().filter_map(Body::rigid).find(turns);
-        match turning {
-            Some(body) => {
-                let wanted = "nothing of a spectrum beside a rigid body that turns in space";
-                Err(expected(
-                    &format!("{path}.kind"),
-                    wanted,
-                    quoted(&body.name),
-                ))
-            }
-            None => Ok(()),
-        }
     }
 
     pub(super) fn count_angle(&mut self, turning: Turning<'a>) -> Of<'a> {
