@@ -26,7 +26,6 @@ use crate::math::space::Vector;
 
 /// What acts.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there are few")]
 pub enum Load<const D: usize = 2> {
     /// A force at a marker, dead or follower.
     Force(Force<D>),
