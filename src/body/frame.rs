@@ -327,12 +327,8 @@ impl Frames {
         let zero = Vector3::from_element(N::of(0.0));
         let [first, second] = force.map(|part| Vector3::from(components(&part.into())));
         let (on_center, on_axes) = match is_second {
-            false => (force[0], [zero, second, zero]),
+            false => (force[0], [second, zero, zero]),
             true => ([N::of(0.0); D], [zero, first, second]),
-        };
-        let on_axes = match is_second {
-            false => [on_axes[1], zero, zero],
-            true => on_axes,
         };
         let moment = Frame::moment(&frame.axes(x), &on_axes);
         (

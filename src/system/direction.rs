@@ -51,6 +51,7 @@ impl<const D: usize> Direction<D> {
 }
 
 impl<const D: usize> AxisTurn<D> {
+    /// Cosine and sine of the angle, times one factor: `n . u` and `m . u`.
     pub(super) fn products<N: Number>(&self, x: &[Node<D, N>]) -> [N; 2] {
         let u = self.of.value(x);
         self.across.map(|across| across.value(x).dot(&u))
@@ -67,12 +68,6 @@ impl<const D: usize> AxisTurn<D> {
         let rate = self.of.rate(v);
         self.across
             .map(|across| N::of(2.0) * across.rate(v).dot(&rate))
-    }
-
-    /// The angle that is nearest to `hint`, rad.
-    pub fn value<N: Number>(&self, x: &[Node<D, N>], hint: N) -> N {
-        let ([along, across], (sin, cos)) = (self.products(x), hint.sin_cos());
-        hint + (cos * across - sin * along).atan2(cos * along + sin * across)
     }
 
     /// Unit vector along the axis.

@@ -132,11 +132,13 @@ pub struct Angle<const D: usize = 2> {
 impl<const D: usize> Angle<D> {
     /// The angle that is nearest to `hint`, rad.
     pub fn value<N: Number>(&self, x: &[Node<D, N>], hint: N) -> N {
-        if let Some(turn) = &self.turn {
-            return turn.value(x, hint);
-        }
-        let [a, b] = self.ends.map(|end| end.lift().direction(x));
-        let (along, across) = (a.dot(&b), cross(&a, &b));
+        let [along, across] = match &self.turn {
+            Some(turn) => turn.products(x),
+            None => {
+                let [a, b] = self.ends.map(|end| end.lift().direction(x));
+                [a.dot(&b), cross(&a, &b)]
+            }
+        };
         let (sin, cos) = hint.sin_cos();
         // A step turns nothing by half a turn.
         hint + (cos * across - sin * along).atan2(cos * along + sin * across)
