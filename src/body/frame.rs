@@ -17,7 +17,7 @@
 //! Multibody System Dynamics 4 (2000) 129-193 (Cayley-Gibbs-Rodrigues parameters); H. Munthe-Kaas, BIT 38 (1998) 92-111
 //! (one-step methods in coordinates that are renewed every step).
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::assembly::{NodeBlock, no_block};
 use super::connectivity::Node;
@@ -189,6 +189,25 @@ impl Frame {
         )
     }
 
+    /// Angular momentum along its axes, N m s.
+    pub fn momentum(&self, spin: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::from(self.moments).component_mul(spin)
+    }
+
+    /// Rate of its inertia over axes that stand still, `w J - J w` with the matrix of the cross product by the spin, N m s.
+    pub fn inertia_rate(&self, spin: &Vector3<f64>) -> Matrix3<f64> {
+        let (inertia, turn) = (
+            Matrix3::from_diagonal(&self.moments.into()),
+            spin.cross_matrix(),
+        );
+        turn * inertia - inertia * turn
+    }
+
+    /// Whether it has no rotation about an axis: a thin rod.
+    pub fn is_thin(&self) -> bool {
+        self.places.iter().any(Option::is_none)
+    }
+
     /// The spin, or rate of it, about axes without inertia, for which the rotation about them stays zero.
     fn complete(&self, turn: &Turn, spin: &mut Vector3<f64>, by_rate: bool) {
         let (p, w) = (turn.rotation, turn.spin);
@@ -202,8 +221,17 @@ impl Frame {
         }
     }
 
+    /// Adds a moment along its axes to forces on the free coordinates.
+    pub fn add_moment(&self, moment: &Vector3<f64>, y: &mut [f64]) {
+        for (place, moment) in self.places.iter().zip(moment) {
+            if let Some((at, _)) = place {
+                y[*at] += moment;
+            }
+        }
+    }
+
     /// What stands in `q` for the rotation about its axes.
-    fn read(&self, q: &[f64]) -> Vector3<f64> {
+    pub fn read(&self, q: &[f64]) -> Vector3<f64> {
         let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| q[at] / scale);
         self.places.map(value).into()
     }
@@ -215,6 +243,15 @@ impl Frame {
             }
         }
     }
+}
+
+/// The block of a node whose second vector stands for a rotation.
+pub fn turning_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {
+    let mut block = no_block();
+    for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
+        block[1][i][1][j] = matrix[(i, j)];
+    }
+    block
 }
 
 /// Parts and axes of a nodal vector.
@@ -419,18 +456,39 @@ impl Frames {
         (frame.node, partial)
     }
 
-    /// Stiffness that forces on the axes of a body add where it turns, along its axes: the symmetric part of
-    /// `sum (E_i.F_i) I - F_i E_i^T`, which is all of it where the forces have no moment.
-    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> NodeBlock<D> {
-        let (axes, forces) = (frame.axes(x), frame.axes(f));
-        let along = |i: usize, j: usize| forces[i].dot(&axes[j]);
-        let trace: f64 = (0..3).map(|k| along(k, k)).sum();
-        let mut block = no_block();
-        for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
-            let diagonal = if i == j { trace } else { 0.0 };
-            block[1][i][1][j] = diagonal - 0.5 * (along(i, j) + along(j, i));
+    /// Derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand: `E_i x v`.
+    pub fn partial_of_rates<const D: usize>(
+        &self,
+        node: usize,
+        x: &[Node<D>],
+        v: &[Node<D>],
+    ) -> (usize, NodeBlock<D>) {
+        let mut partial = no_block();
+        let Some((frame, is_second)) = self.of_node::<D>(node) else {
+            return (node, partial);
+        };
+        let (axes, [a, b, c]) = (frame.axes(x), frame.axes(v));
+        for (turn, about) in axes.iter().enumerate().take(D) {
+            let rates = match is_second {
+                true => [b, c],
+                false => [Vector3::zeros(), a],
+            };
+            for (part, rate) in rates.iter().enumerate() {
+                let change = about.cross(rate);
+                for axis in 0..D {
+                    partial[part][axis][1][turn] = change[axis];
+                }
+            }
         }
-        block
+        (frame.node, partial)
+    }
+
+    /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`,
+    /// symmetric where the forces have no moment.
+    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> Matrix3<f64> {
+        let (axes, forces) = (frame.axes(x), frame.axes(f));
+        let along = Matrix3::from_fn(|i, j| forces[j].dot(&axes[i]));
+        Matrix3::from_diagonal_element(along.trace()) - along
     }
 
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do

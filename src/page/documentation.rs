@@ -6,7 +6,7 @@ use super::number::number;
 use super::parts::parts;
 use super::plan::plan as planned;
 use super::table::{code, row, table};
-use crate::scene::{Body, InitialState, Integrator, Model, Scene, Strain};
+use crate::scene::{Body, InitialState, Integrator, Model, Scene, Spin, Strain};
 use crate::simulation::{Causality, Plan, Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
@@ -57,18 +57,20 @@ pub fn documentation(scene: &Scene, plan: Option<&Plan>, interface: &Interface<'
     )
 }
 
+fn turning(rate: &str) -> String {
+    format!(" The frame turns about the origin at {rate} rad/s; everything is seen from it.")
+}
+
 fn summary(scene: &Scene, standard: &str) -> String {
     let shown = scene.bodies.iter().take(MOST_BODIES).map(body_in_words);
     let mut bodies: Vec<String> = shown.collect();
     if let Some(others @ 1..) = scene.bodies.len().checked_sub(MOST_BODIES) {
         bodies.push(format!("and {others} more"));
     }
-    let frame = match scene.rotation {
-        0.0 => String::new(),
-        rate => format!(
-            " The frame turns about the origin at {} rad/s; everything is seen from it.",
-            number(rate)
-        ),
+    let frame = match (scene.turns(), scene.rotation) {
+        (false, _) => String::new(),
+        (true, Spin::Number(rate)) => turning(&number(rate)),
+        (true, Spin::Vector(rates)) => turning(&format!("[{}]", rates.map(number).join(", "))),
     };
     let (place, axes) = match scene.dimension {
         2 => ("a planar scene", "x to the right and y upwards"),

@@ -90,8 +90,8 @@ pub struct System<const D: usize = 2> {
     gravity: Vector<D>,
     /// Forces of gravity on the nodes, N.
     weight: Vec<Node<D>>,
-    /// Rate at which the frame turns, rad/s.
-    rotation: f64,
+    /// Angular velocity of the frame about its origin, rad/s; in the plane the third component alone.
+    rotation: [f64; 3],
     is_damped: bool,
     /// Whether anything reads rates besides damping.
     needs_rates: bool,
@@ -186,6 +186,11 @@ impl<const D: usize> System<D> {
         let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
         let rigid = self.lumped_masses.len() + self.frames.list().len();
         4 + elements + rigid + self.constraints.len()
+    }
+
+    /// Whether the frame turns that the scene is described in.
+    pub(in crate::system) fn is_turning(&self) -> bool {
+        self.rotation != [0.0; 3]
     }
 
     /// Number of non-linear constraints.

@@ -35,7 +35,13 @@ macro_rules! keys {
                     ("Inertia", place, "kg.m2")
                 }
                 Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
-                Parameter::Rotation => ("Rotation", "/rotation".into(), "rad/s"),
+                Parameter::Rotation(axis) => {
+                    let place = match scene["rotation"].is_array() {
+                        true => format!("/rotation/{axis}"),
+                        false => "/rotation".into(),
+                    };
+                    ("Rotation", place, "rad/s")
+                }
                 Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
                 // Its claim is in `own.rs`: it changes no result.
                 Parameter::WorkLimit => ("WorkLimit", "/method/work_limit".into(), ""),

@@ -30,5 +30,6 @@ mod space;
 mod spatial;
 mod specimen;
 mod spectra;
+mod spinning;
 mod tangents;
 mod whirl;

@@ -141,7 +141,7 @@ impl Resolved<'_> {
             initial_loads: Vec::new(),
             angles: Vec::new(),
             gravity: vector(scene.gravity.full()),
-            rotation: scene.rotation,
+            rotation: scene.rotation.full(),
             tracks_work: self.outputs.iter().any(|o| o.kind == OutputKind::Work),
         }
     }

@@ -50,9 +50,10 @@ pub struct Scene {
     /// Gravitational acceleration, m/s^2; zero by default.
     #[serde(default, skip_serializing_if = "Vector::is_unsaid")]
     pub gravity: Vector,
-    /// Rate of the frame that the scene is described in, about its origin, counter-clockwise, rad/s; 0 in space.
+    /// Angular velocity of the frame that the scene is described in, about its origin, rad/s: a number in the plane,
+    /// counter-clockwise, three components in space. Gravity and the ground turn with the frame.
     #[serde(default)]
-    pub rotation: f64,
+    pub rotation: Spin,
     /// Bodies; at least one.
     pub bodies: Vec<Body>,
     /// Masses lumped at markers.
@@ -98,6 +99,9 @@ impl Scene {
         } else if self.accuracy.relative_tolerance.is_none() {
             self.accuracy.error = Some(self.error());
         }
+        if self.dimension == 3 && self.rotation == Spin::default() {
+            self.rotation = Spin::Vector([0.0; 3]);
+        }
         let motions = self.bodies.iter_mut().map(Body::motion_mut);
         let zeros = motions.map(|motion| {
             if self.dimension == 3 && motion.spin == Spin::default() {
@@ -110,6 +114,11 @@ impl Scene {
                 *vector = Vector::zero(self.dimension.clamp(2, 3));
             }
         }
+    }
+
+    /// Whether the frame turns that it is described in.
+    pub fn turns(&self) -> bool {
+        self.rotation.full() != [0.0; 3]
     }
 
     /// Whether numbers of elements or the tolerance are left to the planner.

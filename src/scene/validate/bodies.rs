@@ -6,12 +6,12 @@ use nalgebra::Vector3;
 
 use super::ELEMENTS;
 use super::checks::{
-    components, expected, finite, name, not_negative, planar, positive, quoted, vector,
+    components, expected, finite, name, not_negative, planar, positive, quoted, spin, vector,
 };
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
 use crate::scene::{
-    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Spin, Vector,
+    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Vector,
 };
 
 impl Body {
@@ -33,17 +33,7 @@ impl Body {
 impl InitialMotion {
     fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         vector(&format!("{path}.velocity"), dimension, &self.velocity)?;
-        let place = format!("{path}.spin");
-        match (&self.spin, dimension) {
-            (Spin::Number(rate), 2) => finite(&place, *rate)?,
-            (Spin::Vector(rates), 3) => vector(&place, dimension, &(*rates).into())?,
-            // What a scene that is changed by hand leaves out.
-            (Spin::Number(0.0), _) => {}
-            (Spin::Number(rate), _) => return Err(expected(&place, "[x, y, z] in space", rate)),
-            (Spin::Vector(_), _) => {
-                return Err(expected(&place, "a number in the plane", "a list"));
-            }
-        }
+        spin(&format!("{path}.spin"), dimension, &self.spin)?;
         let place = format!("{path}.deformation");
         if let Some(field) = &self.deformation {
             components(&place, dimension, field, |_, _| Ok(()))?;

@@ -98,7 +98,7 @@ pub enum Parameter {
     /// Component of gravity.
     Gravity(usize),
     /// Rate of the frame.
-    Rotation,
+    Rotation(usize),
     /// Relative tolerance of the integrator.
     RelativeTolerance,
     /// Most work of one communication step.

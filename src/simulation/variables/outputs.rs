@@ -108,7 +108,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
 #[rustfmt::skip] // a table
 fn energies(resolved: &Resolved<'_>) -> Vec<Row> {
     use Quantity::*;
-    let gravity = if resolved.scene.rotation == 0.0 {
+    let gravity = if !resolved.scene.turns() {
         "Potential energy of gravity, zero at the origin"
     } else {
         "Potential energy of gravity and of the centrifugal force, zero at the origin"

@@ -2,6 +2,7 @@
 
 use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
+use crate::math::space::spins;
 use crate::scene::{BodyReference, Cable, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene};
 
 /// Key, meaning, unit, what it stands for, start value.
@@ -29,10 +30,20 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         let name = component("gravity", axis);
         list.parameter(name, what, unit, parameter, scene.gravity[axis]);
     }
-    if scene.rotation != 0.0 {
-        let what = "Rate of the frame that the scene is described in, about its origin";
-        let (unit, parameter) = (Some(RADIAN_PER_SECOND), Parameter::Rotation);
-        list.parameter("rotation", what, unit, parameter, scene.rotation);
+    if scene.turns() {
+        for axis in spins(scene.dimension) {
+            let what =
+                "Angular velocity of the frame that the scene is described in, about its origin";
+            let (name, what) = match scene.dimension {
+                2 => ("rotation".into(), what.into()),
+                _ => (
+                    component("rotation", axis),
+                    format!("{what}, component {}", AXES[axis]),
+                ),
+            };
+            let (unit, parameter) = (Some(RADIAN_PER_SECOND), Parameter::Rotation(axis));
+            list.parameter(name, what, unit, parameter, scene.rotation.full()[axis]);
+        }
     }
     let what = "Error in time that a step may make, relative to the size of the scene";
     let (parameter, start) = (Parameter::RelativeTolerance, scene.relative_tolerance());
@@ -190,7 +201,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         TurningStiffness(i) => scene.ports[i].rotational_stiffness = Some(value),
         TurningDamping(i) => scene.ports[i].rotational_damping = Some(value),
         Gravity(axis) => scene.gravity[axis] = value,
-        Rotation => scene.rotation = value,
+        Rotation(axis) => scene.rotation.set(axis, value),
         RelativeTolerance => scene.set_relative_tolerance(value),
         WorkLimit => scene.method.work_limit = value,
     }

@@ -233,7 +233,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Kinetic energy, J.
     pub fn kinetic_energy(&self, system: &System<D>) -> N {
-        system.quadratic(&self.v)
+        system.kinetic(&self.v)
     }
 
     /// Strain energy, J.
@@ -257,7 +257,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn gravity_energy(&self, system: &System<D>) -> N {
         let falls = system.weight.iter().zip(&self.x);
         let fall = falls.fold(N::of(0.0), |sum, (w, x)| sum + weighted(w, x));
-        if system.rotation == 0.0 {
+        if !system.is_turning() {
             return -fall;
         }
         -fall - system.centrifugal(&self.x)
