@@ -20,14 +20,14 @@ use serde::Deserialize;
 
 pub use assemble::{Assembled, assemble};
 pub use description::{
-    About, Accuracy, ActionKind, Axial, Body, CableBody, Course, Experiment, Inertia, Initial,
+    About, Accuracy, ActionKind, Along, Axial, Body, CableBody, Course, Experiment, Inertia, Initial,
     InitialMotion, InitialState, InputCourse, Integrator, Interpolation, Material, Method, Model,
     Orientation, OutputKind, RigidBody, Scene, Section, Shape, Spin, Strain, Symbol, Table, Value,
     Vector,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Hold,
-    Holder, HolderId, Input, InputKind, Joint, Load, LoadKind, Marker, MarkerId, Mass, Motion,
+    Holder, HolderId, Incoming, Input, InputKind, Joint, Load, LoadKind, Marker, MarkerId, Mass, Motion,
     MotionKind, Of, On, Output, Pivot, Place, Port, PortKind, Reaction, Resolved, Rigid, RigidId,
     SlideId, Slider, Spring, Turning,
 };
