@@ -29,6 +29,8 @@ fn scenes() -> Vec<PathBuf> {
         "tests/cases/falling_rod/scene.json",
         "tests/fmpy/mechanism.json",
         "tests/fmpy/swing.json",
+        "tests/masters/scenes/inner.json",
+        "tests/masters/scenes/outer.json",
     ];
     found.extend(others.map(|name| root.join(name)));
     found.sort();

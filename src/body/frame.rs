@@ -487,6 +487,10 @@ impl Frames {
 
     /// The place in the list of the body that a node belongs to.
     pub fn index_of(&self, node: usize) -> Option<usize> {
-        self.of_node.get(node).copied().flatten().map(|(index, _)| index)
+        self.of_node
+            .get(node)
+            .copied()
+            .flatten()
+            .map(|(index, _)| index)
     }
 }

@@ -69,9 +69,8 @@ fn members<'a>(
             true => ["_w", "_x", "_y", "_z"],
             false => ["_x", "_y", "_z", ""],
         };
-        let named = |key: String, (k, letter): (usize, &str)| {
-            key.replace(&format!("[{}]", k + 1), letter)
-        };
+        let named =
+            |key: String, (k, letter): (usize, &str)| key.replace(&format!("[{}]", k + 1), letter);
         let member = letters.into_iter().enumerate().fold(key.to_owned(), named);
         (of == port && is_signal).then_some((variable, member))
     })

@@ -28,7 +28,13 @@ pub(super) fn parts(scene: &Scene) -> String {
         row(&[&code(load.name), &acts, &on, &size])
     });
     let ports = resolved.ports.iter();
-    let ports = ports.map(|port| row(&[&code(port.name), &code(port.marker.name), &crosses(port, scene.dimension)]));
+    let ports = ports.map(|port| {
+        row(&[
+            &code(port.name),
+            &code(port.marker.name),
+            &crosses(port, scene.dimension),
+        ])
+    });
     let masses = resolved.masses.iter().map(|mass| {
         let (size, inertia) = (number(mass.mass), number(mass.inertia));
         row(&[&code(mass.marker.name), &size, &inertia])
@@ -76,7 +82,10 @@ fn crosses(port: &Port<'_>, dimension: usize) -> String {
     let given = port.given;
     let (turn, turns) = match (given.turns(), dimension) {
         (true, 2) => (" and moment", ", angle and its rates"),
-        (true, _) => (" and moment", ", quaternion, angular velocity, angular acceleration"),
+        (true, _) => (
+            " and moment",
+            ", quaternion, angular velocity, angular acceleration",
+        ),
         (false, _) => ("", ""),
     };
     match &port.kind {

@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use super::checks::{Key, expected, keys, needed, quoted};
 use crate::scene::Error;
 use crate::scene::description::{Kind as _, Output, ReadAt};
-use crate::scene::resolved::{self, AngleId, First, Marker, MotionKind, Of, Reaction, Resolved, Turning};
+use crate::scene::resolved::{
+    self, AngleId, First, Marker, MotionKind, Of, Reaction, Resolved, Turning,
+};
 
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
@@ -71,7 +73,10 @@ impl<'a> Resolved<'a> {
         let Of::Reaction(reaction) = of else {
             return Ok(());
         };
-        let joint = self.joints.iter().find(|joint| joint.holder == reaction.holder);
+        let joint = self
+            .joints
+            .iter()
+            .find(|joint| joint.holder == reaction.holder);
         match joint.map(|joint| joint.ends.first) {
             Some(First::Ground(_)) => Ok(()),
             Some(First::Marker(marker)) if marker.place.is_framed() => Ok(()),

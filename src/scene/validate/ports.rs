@@ -6,8 +6,8 @@ use super::checks::{Key, expected, keys, not_negative, quoted, spring_damper};
 use crate::scene::Error;
 use crate::scene::description::{ActionKind, Along, Kind as _, OutputKind, Port, PortKind};
 use crate::scene::resolved::{
-    self, Action, Coupling, CouplingId, Incoming, InputKind, Marker, Motion, MotionKind, Of, On, Output,
-    Resolved, Turning,
+    self, Action, Coupling, CouplingId, Incoming, InputKind, Marker, Motion, MotionKind, Of, On,
+    Output, Resolved, Turning,
 };
 use crate::system::Signal;
 
@@ -71,7 +71,8 @@ impl<'a> Resolved<'a> {
                 false => self.require_marker(&place, &port.marker)?,
             };
             if port.drives() && port.turns() && self.scene.dimension == 3 {
-                let wanted = "stiffnesses in space, where an orientation drives nothing but by a spring";
+                let wanted =
+                    "stiffnesses in space, where an orientation drives nothing but by a spring";
                 return Err(expected(&format!("{path}.rotation"), wanted, "true"));
             }
             if port.drives() {

@@ -3,8 +3,8 @@
 use super::unit::*;
 use super::{AXES, List, PARTS, Quantity, Source, Unit, component};
 use crate::scene::{
-    Along, AngleId, HolderId, InputKind, LoadKind, MarkerId, Of, Output, OutputKind, Port, PortKind,
-    Resolved, SlideId, Turning,
+    Along, AngleId, HolderId, InputKind, LoadKind, MarkerId, Of, Output, OutputKind, Port,
+    PortKind, Resolved, SlideId, Turning,
 };
 use crate::simulation::quantities::{Evaluated, needs};
 
@@ -30,7 +30,10 @@ enum Shape {
 enum Read {
     Marker(fn(MarkerId, usize) -> Quantity),
     /// Of a marker, of a joint.
-    Turning(fn(MarkerId, usize, Along) -> Quantity, fn(HolderId) -> Quantity),
+    Turning(
+        fn(MarkerId, usize, Along) -> Quantity,
+        fn(HolderId) -> Quantity,
+    ),
     Counted(fn(AngleId) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
     Holder(fn(HolderId, usize, Along) -> Quantity),
@@ -171,7 +174,10 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         };
         let (name, what) = match output.along {
             Along::Global => (name, what),
-            Along::Body => (format!("{name}_body"), format!("{what}, axes of {}", owner(&output.of))),
+            Along::Body => (
+                format!("{name}_body"),
+                format!("{what}, axes of {}", owner(&output.of)),
+            ),
         };
         let source = |k| source(read, output, k);
         list.shaped((&name, &what), unit, (shape, count), source);
@@ -245,15 +251,23 @@ fn add_port_force(list: &mut List, port: &Port<'_>) {
     match &port.kind {
         PortKind::Force { .. } => {}
         PortKind::Motion { position, angle } => {
-            add(force.0, force.1, Shape::Vector, &|axis| MotionForce(position.holder, axis));
+            add(force.0, force.1, Shape::Vector, &|axis| {
+                MotionForce(position.holder, axis)
+            });
             if let Some(angle) = angle {
-                add(moment.0, moment.1, Shape::Scalar, &|_| MotionMoment(angle.holder));
+                add(moment.0, moment.1, Shape::Scalar, &|_| {
+                    MotionMoment(angle.holder)
+                });
             }
         }
         PortKind::Coupling { position, angle } => {
-            add(force.0, force.1, Shape::Vector, &|axis| CouplingForce(position.id, axis));
+            add(force.0, force.1, Shape::Vector, &|axis| {
+                CouplingForce(position.id, axis)
+            });
             if let Some(angle) = angle {
-                add(moment.0, moment.1, Shape::Turn, &|axis| CouplingMoment(angle.id, axis));
+                add(moment.0, moment.1, Shape::Turn, &|axis| {
+                    CouplingMoment(angle.id, axis)
+                });
             }
         }
     }
