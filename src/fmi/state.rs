@@ -426,7 +426,7 @@ mod tests {
         assert!(reason(other.to_bytes()).contains("expected one of the model"));
         let mut version = bytes.clone();
         version[8] = 1;
-        assert!(reason(version).contains("format version 6, found 1"));
+        assert!(reason(version).contains("format version 7, found 1"));
         let mut mode = bytes.clone();
         mode[50] = 64;
         assert!(reason(mode).contains("lifecycle"));

@@ -115,19 +115,11 @@ pub(super) fn value<const D: usize, N: Number>(
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
         Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
         Angle(angle) => values.angles[angle.index()],
-        Orientation(id, k) => frame(values, assembled, at(id))[k % 3][k / 3],
-        Quaternion(id, k) => {
-            let held = assembled.held(values.held(system, at(id)), at(id).body);
-            rotation::quaternion_near(&frame(values, assembled, at(id)), &held)[k]
-        }
-        RotationVector(id, axis) => {
-            let stance = rotation::quaternion(&frame(values, assembled, at(id)));
-            rotation::rotation_vector(&stance)[axis]
-        }
-        AngularVelocity(id, axis, along) => {
-            let spin = values.spin(system, at(id)).into();
-            component(spin, axis, along, || frame(values, assembled, at(id)))
-        }
+        Orientation(id, ..)
+        | Quaternion(id, ..)
+        | RotationVector(id, ..)
+        | AngularVelocity(id, ..)
+        | AngularAcceleration(id, ..) => turning(quantity, values, assembled, at(id)),
         JointVelocity(joint) if turn(joint).is_some() => {
             let rate = turn(joint).map(|turn| turn.rate(&values.x, &values.v));
             rate.unwrap_or_else(|| N::of(0.0))
@@ -135,10 +127,6 @@ pub(super) fn value<const D: usize, N: Number>(
         JointVelocity(joint) => {
             let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
             b - a
-        }
-        AngularAcceleration(id, axis, along) => {
-            let rate = values.spin_rate(system, at(id)).into();
-            component(rate, axis, along, || frame(values, assembled, at(id)))
         }
         JointAcceleration(joint) if turn(joint).is_some() => {
             let of = [&values.x[..], &values.v, &values.acceleration];
@@ -157,16 +145,8 @@ pub(super) fn value<const D: usize, N: Number>(
         BendingMoment(id, axis) => values.section(system, at(id)).1[axis],
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
         Travel(slide) => values.travel[slide.index()],
-        Reaction(joint, axis, along) => {
-            let (force, _) = values.reaction(system, joint.index());
-            let force = components(&force).into();
-            component(force, axis, along, || first(values, assembled, joint))
-        }
-        ReactionMoment(joint, axis, along) => {
-            let (_, moment) = values.reaction(system, joint.index());
-            component(moment.into(), axis, along, || {
-                first(values, assembled, joint)
-            })
+        Reaction(joint, ..) | ReactionMoment(joint, ..) => {
+            transmitted(quantity, values, assembled, joint)
         }
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
         MotionMoment(joint) => -values.reaction(system, joint.index()).1[2],
@@ -183,6 +163,55 @@ pub(super) fn value<const D: usize, N: Number>(
         CenterOfMass(axis) => values.center_of_mass(system)[axis],
         Resolution => resolution(values, assembled),
         Residual(of) => N::of(values.residuals(system)[of]),
+    }
+}
+
+/// How the rigid body that a marker belongs to stands and turns.
+fn turning<const D: usize, N: Number>(
+    quantity: Quantity,
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    marker: &Marker,
+) -> N {
+    use Quantity::*;
+    let axes = || frame(values, assembled, marker);
+    match quantity {
+        Orientation(_, k) => axes()[k % 3][k / 3],
+        Quaternion(_, k) => {
+            let held = assembled.held(values.held(&assembled.system, marker), marker.body);
+            rotation::quaternion_near(&axes(), &held)[k]
+        }
+        RotationVector(_, axis) => {
+            let stance = rotation::quaternion(&axes());
+            rotation::rotation_vector(&stance)[axis]
+        }
+        AngularVelocity(_, axis, along) => {
+            let spin = values.spin(&assembled.system, marker).into();
+            component(spin, axis, along, axes)
+        }
+        AngularAcceleration(_, axis, along) => {
+            let rate = values.spin_rate(&assembled.system, marker).into();
+            component(rate, axis, along, axes)
+        }
+        _ => unreachable!("what else is read of a body does not turn"),
+    }
+}
+
+/// What a joint or motion transmits to its second end.
+fn transmitted<const D: usize, N: Number>(
+    quantity: Quantity,
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    joint: HolderId,
+) -> N {
+    let (force, moment) = values.reaction(&assembled.system, joint.index());
+    let axes = || first(values, assembled, joint);
+    match quantity {
+        Quantity::Reaction(_, axis, along) => {
+            component(components(&force).into(), axis, along, axes)
+        }
+        Quantity::ReactionMoment(_, axis, along) => component(moment.into(), axis, along, axes),
+        _ => unreachable!("a joint transmits a force and a moment"),
     }
 }
 
