@@ -19,7 +19,7 @@ pub use connectivity::{
     product, tied_with,
 };
 pub use elimination::Elimination;
-pub use frame::{Axes, Frame, Frames, Plain, RENEWED, Turn, combined, turned, turning_block};
+pub use frame::{Axes, Frame, Frames, RENEWED, Turn, combined, turned, turning_block};
 pub use jacobian::{Jacobian, SparseRows};
 pub use marker::{Marker, Partial};
 pub use stages::STAGES;

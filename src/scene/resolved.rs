@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::description::{
-    ActionKind, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
+    ActionKind, Along, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
 };
 use crate::system::{Drive, Signal};
 
@@ -342,6 +342,8 @@ pub struct Output<'a> {
     pub kind: OutputKind,
     /// What it is read at; which of these follows from the kind.
     pub of: Of<'a>,
+    /// Along which axes.
+    pub along: Along,
 }
 
 /// What an output is read at.
@@ -402,15 +404,23 @@ pub enum PortKind<'a> {
     },
 }
 
+/// What comes in through a spring and a damper.
+#[derive(Clone, Debug)]
+pub enum Incoming<'a> {
+    /// Value and rate of every coordinate, which lie side by side.
+    Motion(MotionKind<'a>),
+    /// In space how the frame of a rigid body would stand: a quaternion, scalar first, then the angular velocity.
+    Orientation(Marker<'a>),
+}
+
 /// A spring and a damper between a marker and what comes in.
 #[derive(Clone, Debug)]
 pub struct Coupling<'a> {
     /// Which one.
     pub id: CouplingId,
-    /// What comes in: value and rate of every coordinate.
-    pub motion: MotionKind<'a>,
-    /// Place of its first number among those that the master sets; value and rate of each coordinate
-    /// lie side by side.
+    /// What comes in.
+    pub incoming: Incoming<'a>,
+    /// Place of its first number among those that the master sets.
     pub first: usize,
     /// Stiffness, N/m or N m/rad.
     pub stiffness: f64,

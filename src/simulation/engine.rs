@@ -172,6 +172,7 @@ impl<const D: usize> Engine<D> {
                 }
             }
         }
+        self.assembled.begin(&mut state);
         if !misfits.is_empty() {
             self.remarks.misfits = Some(self.gaps(&misfits));
         }

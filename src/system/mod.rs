@@ -39,15 +39,13 @@ pub use work::Work;
 
 use std::ops::Range;
 
+use crate::math::rotation::NO_TURN;
 use crate::math::space::Vector;
 
-use crate::body::{Chain, Elimination, Frames, Node, Plain};
+use crate::body::{Chain, Elimination, Frames, Node};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
-
-/// The global axes.
-const AXES: Plain = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Flexible bodies of a system.
 pub type CableChain<const D: usize = 2> = Chain<Cable<D>, D>;
@@ -150,6 +148,11 @@ impl<const D: usize> System<D> {
         &self.bodies
     }
 
+    /// Rigid bodies of space that turn.
+    pub fn frames(&self) -> &Frames {
+        &self.frames
+    }
+
     /// Flexible bodies.
     pub fn chains(&self) -> &[CableChain<D>] {
         &self.chains
@@ -227,7 +230,7 @@ impl<const D: usize> System<D> {
             pace: Pace::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
-            frames: vec![AXES; self.frames.list().len()],
+            frames: vec![NO_TURN; self.frames.list().len()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
             driven: vec![[0.0; 5]; self.trajectories().count()],

@@ -79,7 +79,7 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 57] = [
+const INPUTS: [(&str, &str); 67] = [
     ("inputs.force[1]", "N"),
     ("inputs.force[2]", "N"),
     ("inputs.follower_force[1]", "N"),
@@ -122,6 +122,9 @@ const INPUTS: [(&str, &str); 57] = [
     ("ports.force[1]", "N"),
     ("ports.force[2]", "N"),
     ("ports.moment", "N.m"),
+    ("ports.moment[1]", "N.m"),
+    ("ports.moment[2]", "N.m"),
+    ("ports.moment[3]", "N.m"),
     ("ports.position[1]", "m"),
     ("ports.position[2]", "m"),
     ("ports.velocity[1]", "m/s"),
@@ -138,6 +141,13 @@ const INPUTS: [(&str, &str); 57] = [
     ("couplings.velocity[2]", "m/s"),
     ("couplings.angle", "rad"),
     ("couplings.angular_velocity", "rad/s"),
+    ("couplings.quaternion[1]", ""),
+    ("couplings.quaternion[2]", ""),
+    ("couplings.quaternion[3]", ""),
+    ("couplings.quaternion[4]", ""),
+    ("couplings.angular_velocity[1]", "rad/s"),
+    ("couplings.angular_velocity[2]", "rad/s"),
+    ("couplings.angular_velocity[3]", "rad/s"),
 ];
 
 /// Names that are still to be seen, and what is wrong.

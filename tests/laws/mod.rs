@@ -21,6 +21,7 @@ mod moved;
 mod moved_bodies;
 mod pinned;
 mod planar;
+mod ports;
 mod projection;
 mod random;
 mod reactions;

@@ -27,7 +27,7 @@ pub use initial::{Initial, InitialState};
 pub use joint::{Condition, Declaration, Joint, JointKind, Motion, MotionKind, Symbol};
 pub use kinds::{Keys, Kind, tell_apart};
 pub use load::{ActionKind, ActsOn, Input, InputKind, Load, LoadKind};
-pub use output::{Output, OutputKind, ReadAt};
+pub use output::{Along, Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;
 pub use rotation::{Inertia, Orientation};

@@ -119,7 +119,7 @@ impl Variable {
         };
         let reaches = match quantity {
             Quantity::SpringEnergy | Quantity::Input => input.sets_length,
-            Quantity::CouplingForce(place, _) | Quantity::CouplingMoment(place) => {
+            Quantity::CouplingForce(place, _) | Quantity::CouplingMoment(place, _) => {
                 input.coupling == Some(place)
             }
             _ => true,
@@ -174,6 +174,8 @@ fn component(name: &str, axis: usize) -> String {
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+/// Parts of a quaternion.
+const PARTS: [&str; 4] = ["scalar part", "part x", "part y", "part z"];
 
 /// Variables, how many components a vector has, and whether the master sets springs.
 struct List {

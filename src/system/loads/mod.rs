@@ -7,6 +7,7 @@ mod distributed;
 mod force;
 mod hinge;
 mod moment;
+mod orientation_bushing;
 mod spring;
 
 pub use bushing::{Bushing, RotationalBushing};
@@ -15,6 +16,7 @@ pub use distributed::{Distributed, Line};
 pub use force::Force;
 pub use hinge::RotationalSpring;
 pub use moment::Moment;
+pub use orientation_bushing::OrientationBushing;
 pub use spring::Spring;
 
 use super::end::{Add, End};
@@ -43,6 +45,8 @@ pub enum Load<const D: usize = 2> {
     Bushing(Bushing<D>),
     /// A rotational spring with a damper from the direction of a marker to an angle.
     RotationalBushing(RotationalBushing),
+    /// The same in space, between a rigid body and an orientation.
+    OrientationBushing(Box<OrientationBushing>),
 }
 
 impl<const D: usize> Load<D> {
@@ -72,6 +76,7 @@ impl<const D: usize> Load<D> {
             Self::RotationalSpring(load) => load.act(at, call),
             Self::Bushing(load) => load.act(at, call),
             Self::RotationalBushing(load) => load.act(at, call),
+            Self::OrientationBushing(load) => load.act(at, call),
         }
     }
 
@@ -87,6 +92,7 @@ impl<const D: usize> Load<D> {
             Self::RotationalSpring(load) => load.add_tangent(at, stiffness, damping),
             Self::Bushing(load) => load.add_tangent(stiffness, damping),
             Self::RotationalBushing(load) => load.add_tangent(at, stiffness, damping),
+            Self::OrientationBushing(load) => load.add_tangent(at, stiffness, damping),
         }
     }
 
@@ -102,6 +108,7 @@ impl<const D: usize> Load<D> {
             Self::RotationalSpring(load) => [none, load.dissipation(at)],
             Self::Bushing(load) => load.power(at),
             Self::RotationalBushing(load) => load.power(at),
+            Self::OrientationBushing(load) => load.power(at),
         }
     }
 
@@ -112,6 +119,7 @@ impl<const D: usize> Load<D> {
             Self::RotationalSpring(load) => load.energy(at),
             Self::Bushing(load) => load.energy(at),
             Self::RotationalBushing(load) => load.energy(at),
+            Self::OrientationBushing(load) => load.energy(at),
             _ => N::of(0.0),
         }
     }
@@ -126,6 +134,7 @@ impl<const D: usize> Load<D> {
             Self::Distributed(load) => load.work(before, after),
             Self::Bushing(load) => load.work(before, after),
             Self::RotationalBushing(load) => load.work(before, after),
+            Self::OrientationBushing(load) => load.work(before, after),
             Self::Spring(_) | Self::RotationalSpring(_) => self.energy(before) - self.energy(after),
         }
     }
@@ -157,6 +166,10 @@ impl<const D: usize> Load<D> {
                 hold(std::slice::from_mut(&mut load.angle), 1.0);
                 hold(std::slice::from_mut(&mut load.velocity), 1.0);
             }
+            Self::OrientationBushing(load) => {
+                hold(&mut load.quaternion, 1.0);
+                hold(&mut load.velocity, 1.0);
+            }
         }
         held
     }
@@ -176,7 +189,8 @@ impl<const D: usize> Load<D> {
             Self::Moment(_)
             | Self::Couple(_)
             | Self::RotationalSpring(_)
-            | Self::RotationalBushing(_) => true,
+            | Self::RotationalBushing(_)
+            | Self::OrientationBushing(_) => true,
             Self::Force(_) | Self::Distributed(_) | Self::Spring(_) | Self::Bushing(_) => false,
         }
     }
@@ -188,6 +202,7 @@ impl<const D: usize> Load<D> {
             Self::RotationalSpring(load) => load.damping > 0.0,
             Self::Bushing(load) => load.damping > 0.0,
             Self::RotationalBushing(load) => load.damping > 0.0,
+            Self::OrientationBushing(load) => load.damping > 0.0,
             _ => false,
         }
     }
@@ -203,6 +218,7 @@ impl<const D: usize> Load<D> {
             Self::Couple(_) | Self::RotationalSpring(_) => (&[], &[]),
             Self::Bushing(load) => (&load.position, &load.velocity),
             Self::RotationalBushing(load) => (one(&load.angle), one(&load.velocity)),
+            Self::OrientationBushing(load) => (&load.quaternion, &load.velocity),
         };
         let parts = match self {
             Self::Couple(load) => &load.parts[..],
@@ -222,6 +238,7 @@ impl<const D: usize> Load<D> {
             Self::RotationalSpring(load) => load.ends.to_vec(),
             Self::Bushing(load) => vec![End::Body(load.marker)],
             Self::RotationalBushing(load) => vec![End::Body(load.marker)],
+            Self::OrientationBushing(load) => vec![End::Body(load.axes[0])],
         }
     }
 }

@@ -172,6 +172,7 @@ impl<const D: usize> Derivatives<D> {
     /// Angles and slides follow the coordinates.
     fn follow(&mut self, system: &System<D>, plain: &Evaluation<D>) {
         let values = &mut self.values;
+        values.frames.copy_from_slice(&plain.frames);
         for ((set, angle), now) in (values.angles.iter_mut().zip(&system.angles)).zip(&plain.angles)
         {
             *set = angle.value(&values.x, Jet::from_re(*now));

@@ -200,10 +200,8 @@ impl<const D: usize> System<D> {
             let modes = reduced.symmetric_eigen();
             let mut rest = Vec::new();
             for (k, size) in modes.eigenvalues.iter().enumerate() {
-                let parts = free
-                    .iter()
-                    .zip(modes.eigenvectors.column(k).into_owned().iter());
-                let way: DVector<f64> = parts.map(|(free, part)| free * *part).sum();
+                let parts = (0..n).map(|j| &free[j] * modes.eigenvectors[(j, k)]);
+                let way: DVector<f64> = parts.sum();
                 if *size > FREE * norm.amax() {
                     found += &way * (way.dot(&missing) / size);
                 } else {

@@ -19,6 +19,7 @@ mod space;
 mod space_bodies;
 mod space_joints;
 mod space_modes;
+mod space_ports;
 mod tables;
 
 use serde_json::{Value, json};
@@ -47,6 +48,7 @@ pub fn all() -> Vec<Specimen> {
         space_bodies::all(),
         space_joints::all(),
         space_modes::all(),
+        space_ports::all(),
     ];
     parts.into_iter().flatten().collect()
 }

@@ -109,7 +109,7 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /outputs/0 | {"kind": "orientation", "marker": "load.eye"} | outputs[0].marker: expected a marker of a rigid body with inertia
         /outputs/1 | {"kind": "reaction_moment", "joint": "clamp"} | accepted
         /outputs/1 | {"kind": "reaction_moment", "joint": "knot"} | outputs[1].joint: expected a joint that transmits a moment, found "knot"
-        /ports/0/rotation | true | ports[0].marker: expected nothing that has an angle
+        /ports/0/rotation | true | ports[0].marker: expected a marker of a rigid body with inertia; a cable without torsion
     "#,
     );
 }
@@ -263,6 +263,16 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /outputs/4/joint | "ball" | outputs[4].joint: expected a joint that transmits a moment, found "ball"
         /outputs/4/joint | "track" | outputs[4].joint: expected a joint that transmits a moment, found "track"
         /outputs/6/joint | "guide" | outputs[6].joint: expected a joint that transmits a force, found "guide"
+        /outputs/0 | {"kind": "quaternion", "marker": "rope.tip"} | outputs[0].marker: expected a marker of a rigid body with inertia
+        /outputs/0 | {"kind": "rotation_vector", "marker": "a.in"} | accepted
+        /outputs/0 | {"kind": "angular_velocity", "marker": "a.in", "axes": "body"} | accepted
+        /outputs/0 | {"kind": "angular_velocity", "joint": "elbow", "axes": "body"} | outputs[0].axes: expected nothing for this kind of output, found axes
+        /outputs/0 | {"kind": "velocity", "marker": "a.in", "axes": "body"} | outputs[0].axes: expected nothing for this kind of output, found axes
+        /outputs/0 | {"kind": "reaction", "joint": "elbow", "axes": "body"} | accepted
+        /outputs/0 | {"kind": "reaction", "joint": "elbow", "axes": "joint"} | outputs[0].axes: expected "
+        /ports | [{"name": "plug", "marker": "a.in", "kind": "force", "rotation": true}] | accepted
+        /ports | [{"name": "plug", "marker": "b.in", "kind": "motion", "stiffness": 1, "rotational_stiffness": 1}] | accepted
+        /ports | [{"name": "plug", "marker": "b.in", "kind": "motion", "rotation": true}] | ports[0].rotation: expected stiffnesses in space, where an orientation drives nothing but by a spring, found true
     "#,
     );
 }
