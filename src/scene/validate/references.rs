@@ -46,7 +46,9 @@ impl<'a> Resolved<'a> {
             }
         };
         match marker.place {
-            Place::Point(rigid, _) if self.scene.dimension == 3 && rigid.body.inertia.is_some() => {
+            Place::Point(rigid, _)
+                if self.scene.dimension == 3 && rigid.body.inertia().is_some() =>
+            {
                 Ok(marker)
             }
             _ => Err(expected(path, wanted, quoted(name))),

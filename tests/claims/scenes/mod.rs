@@ -14,6 +14,7 @@ mod ports;
 mod rigid;
 mod rods;
 mod sections;
+mod shapes;
 mod slides;
 mod space;
 mod space_bodies;
@@ -47,6 +48,7 @@ pub fn all() -> Vec<Specimen> {
         space_bodies::all(),
         space_joints::all(),
         space_modes::all(),
+        shapes::all(),
     ];
     parts.into_iter().flatten().collect()
 }
