@@ -119,12 +119,12 @@ fn body_in_words(body: &Body) -> String {
             format!("the flexible body <em>{name}</em>, {length} m long, of {elements}")
         }
         Body::Rigid(rigid) => {
-            let kind = if rigid.inertia.is_some() {
+            let kind = if rigid.inertia().is_some() {
                 "rigid body"
             } else {
                 "particle"
             };
-            format!("the {kind} <em>{name}</em> of {} kg", number(rigid.mass))
+            format!("the {kind} <em>{name}</em> of {} kg", number(rigid.mass()))
         }
     }
 }

@@ -163,7 +163,7 @@ impl<'a> Place<'a> {
     pub(super) fn turns(self) -> bool {
         match self {
             Self::Along(..) => true,
-            Self::Point(rigid, _) => rigid.body.inertia.is_some(),
+            Self::Point(rigid, _) => rigid.body.inertia().is_some(),
         }
     }
 

@@ -22,8 +22,8 @@ pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, CableBody, Course, Experiment, Inertia,
     Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, Material, Method,
-    Model, Orientation, OutputKind, RigidBody, Scene, Section, Shape, Spin, Strain, Symbol, Table,
-    Value, Vector,
+    Model, Orientation, OutputKind, RigidBody, Scene, Section, Shape, Solid, Spin, Strain, Symbol,
+    Table, Value, Vector,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Hold,

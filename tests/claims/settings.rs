@@ -62,6 +62,7 @@ fn part(scene: &Value, list: &str, variable: &str) -> usize {
 keys! {
     YoungsModulus => "bodies", "/material/youngs_modulus", "Pa";
     Density => "bodies", "/material/density", "kg/m3";
+    SolidDensity => "bodies", "/density", "kg/m3";
     DampingTime => "bodies", "/material/damping_time", "s";
     Area => "bodies", "/section/area", "m2";
     SecondMoment => "bodies", "/section/second_moment", "m4";

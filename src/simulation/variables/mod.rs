@@ -75,6 +75,8 @@ pub enum Parameter {
     Elements(CableId),
     /// Mass of a rigid body.
     Mass(RigidId),
+    /// Density of a rigid body that has a shape.
+    SolidDensity(RigidId),
     /// Moment of inertia of a rigid body.
     Inertia(RigidId, usize),
     /// Mass lumped at a marker.

@@ -77,21 +77,21 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
 
 fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
     let (i, body) = (rigid.id, rigid.body);
-    let row = (
-        "mass",
-        "Mass",
-        Some(KILOGRAM),
-        Parameter::Mass(i),
-        body.mass,
-    );
+    if let Some(density) = body.density {
+        let parameter = Parameter::SolidDensity(i);
+        let row = ("density", "Density", Some(DENSITY), parameter, density);
+        return list.parameters(&body.name, "of", &[row]);
+    }
+    let (parameter, mass) = (Parameter::Mass(i), body.mass());
+    let row = ("mass", "Mass", Some(KILOGRAM), parameter, mass);
     list.parameters(&body.name, "of", &[row]);
     let about = "Moment of inertia about the centre of mass";
     if dimension == 2 {
-        let (inertia, start) = (Parameter::Inertia(i, 0), body.inertia.number());
+        let (inertia, start) = (Parameter::Inertia(i, 0), body.inertia().number());
         let row = ("inertia", about, Some(INERTIA), inertia, start);
         list.parameters(&body.name, "of", &[row]);
-    } else if body.inertia.is_some() {
-        let tensor = body.inertia.tensor();
+    } else if body.inertia().is_some() {
+        let tensor = body.inertia().tensor();
         for (axis, name) in AXES.iter().enumerate() {
             let what = format!("{about} of {} and the {name} axis of its frame", body.name);
             let parameter = Parameter::Inertia(i, axis);
@@ -189,8 +189,12 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         Area(id) => scene.cable_mut(id).section.area = value,
         SecondMoment(id) => scene.cable_mut(id).section.second_moment = value,
         Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
-        Mass(id) => scene.rigid_mut(id).mass = value,
-        Inertia(id, axis) => set_inertia(&mut scene.rigid_mut(id).inertia, axis, value),
+        Mass(id) => scene.rigid_mut(id).mass = Some(value),
+        SolidDensity(id) => scene.rigid_mut(id).density = Some(value),
+        Inertia(id, axis) => {
+            let inertia = &mut scene.rigid_mut(id).inertia;
+            set_inertia(inertia.get_or_insert_default(), axis, value);
+        }
         LumpedMass(i) => scene.masses[i].mass = value,
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),

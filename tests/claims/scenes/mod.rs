@@ -14,6 +14,7 @@ mod ports;
 mod rigid;
 mod rods;
 mod sections;
+mod shapes;
 mod slides;
 mod space;
 mod space_bodies;
@@ -49,6 +50,7 @@ pub fn all() -> Vec<Specimen> {
         space_joints::all(),
         space_modes::all(),
         space_ports::all(),
+        shapes::all(),
     ];
     parts.into_iter().flatten().collect()
 }

@@ -171,6 +171,49 @@ fn a_mechanism_is_valid_and_survives_being_written() {
     assert_eq!(Scene::from_json(&read.to_json()), Ok(read));
 }
 
+/// The mechanism with a body of a shape.
+fn shaped() -> Value {
+    let mut scene = mechanism();
+    let body = scene["bodies"][0].as_object_mut().expect("a body");
+    body.remove("mass");
+    body.remove("inertia");
+    body.insert("density".into(), json!(7850));
+    body.insert("shape".into(), json!({"box": {"size": [0.1, 0.2, 0.3]}}));
+    scene
+}
+
+#[test]
+fn shapes_are_what_bodies_can_be() {
+    check(
+        shaped,
+        r#"
+        /bodies/0/shape | {"sphere": {"radius": 0.2}} | accepted
+        /bodies/0/shape | {"cylinder": {"radius": 0.2, "length": 1}} | accepted
+        /bodies/0/shape | {"tube": {"radius": 0.2, "inner_radius": 0.1, "length": 1, "axis": [0, 3, 4]}} | accepted
+        /bodies/0/shape | null | bodies[0].shape: expected `shape` beside `density`, or `mass` instead of both, found nothing
+        /bodies/0/density | null | bodies[0].density: expected a positive number (kg/m^3) beside `shape`, found nothing
+        /bodies/0/density | 0 | bodies[0].density: expected a positive number (kg/m^3), found 0
+        /bodies/0/mass | 1 | bodies[0].mass: expected nothing beside `shape` and `density`, from which it follows, found a value
+        /bodies/0/inertia | [1, 1, 1] | bodies[0].inertia: expected nothing beside `shape` and `density`, from which it follows, found a value
+        /bodies/0/shape/box/size/1 | 0 | bodies[0].shape.box.size[1]: expected a positive number (m), found 0
+        /bodies/0/shape/box/size | [1, 2] | bodies[0].shape.box.size: expected a list of 3, found 2
+        /bodies/0/shape | {"ball": {}} | bodies[0].shape: expected "box" or "cylinder" or "sphere" or "tube", found "ball"
+        /bodies/0/shape | {"sphere": {"radius": -1}} | bodies[0].shape.sphere.radius: expected a positive number (m), found -1
+        /bodies/0/shape | {"sphere": {"radius": 1e103}} | bodies[0].shape: expected a shape and a density whose mass (kg) and inertia are numbers of the machine
+        /bodies/0/shape | {"cylinder": {"radius": 1, "length": 1, "axis": [0, 0, 0]}} | bodies[0].shape.cylinder.axis: expected three finite numbers, not all zero, found [0.0, 0.0, 0.0]
+        /bodies/0/shape | {"tube": {"radius": 1, "inner_radius": 1, "length": 1}} | bodies[0].shape.tube.inner_radius: expected less than the outer radius (1 m), found 1
+        /bodies/0/shape | {"tube": {"radius": 1, "length": 1}} | bodies[0].shape.tube.inner_radius: expected a value, found nothing
+    "#,
+    );
+    check(
+        mechanism,
+        r#"
+        /bodies/0/mass | null | bodies[0].mass: expected a positive number (kg), or `shape` and `density`, found nothing
+        /bodies/0/density | 1 | bodies[0].shape: expected `shape` beside `density`, or `mass` instead of both, found nothing
+    "#,
+    );
+}
+
 #[test]
 fn rigid_bodies_are_what_bodies_can_be() {
     check(
