@@ -140,7 +140,7 @@ mod tests {
             [0.48, -0.6, 0.64],
             [-0.36, 0.48, -0.8],
         ];
-        let angles = [0.0, 1e-9, 1e-3, 0.1, 0.19, 0.21, 1.0, 2.0, 3.0, 3.14];
+        let angles = [0.0, 1e-9, 1e-3, 0.1, 0.19, 0.21, 1.0, 2.0, 3.0, 3.1];
         let all = ways.iter().flat_map(|way| angles.map(|angle| (way, angle)));
         all.map(|(way, angle)| {
             let vector = Vector3::from(*way) * angle;

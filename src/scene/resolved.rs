@@ -391,16 +391,16 @@ pub enum PortKind<'a> {
     /// A motion that drives the marker in; what it takes out.
     Motion {
         /// The position.
-        position: Motion<'a>,
+        position: Box<Motion<'a>>,
         /// The angle, if it turns.
-        angle: Option<Motion<'a>>,
+        angle: Option<Box<Motion<'a>>>,
     },
     /// A motion in, through a spring and a damper; their force out.
     Coupling {
         /// Between positions.
-        position: Coupling<'a>,
+        position: Box<Coupling<'a>>,
         /// Between directions, if it turns.
-        angle: Option<Coupling<'a>>,
+        angle: Option<Box<Coupling<'a>>>,
     },
 }
 
@@ -408,7 +408,7 @@ pub enum PortKind<'a> {
 #[derive(Clone, Debug)]
 pub enum Incoming<'a> {
     /// Value and rate of every coordinate, which lie side by side.
-    Motion(MotionKind<'a>),
+    Motion(Box<MotionKind<'a>>),
     /// In space how the frame of a rigid body would stand: a quaternion, scalar first, then the angular velocity.
     Orientation(Marker<'a>),
 }

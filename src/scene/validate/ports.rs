@@ -172,29 +172,29 @@ impl<'a> Resolved<'a> {
             values: &[],
         };
         resolved::PortKind::Motion {
-            position: motion(position),
-            angle: angle.map(motion),
+            position: Box::new(motion(position)),
+            angle: angle.map(|angle| Box::new(motion(angle))),
         }
     }
 
     fn coupling_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
         let coupling = |resolved: &mut Self, incoming, first, stiffness, damping| {
             resolved.couplings += 1;
-            Coupling {
+            Box::new(Coupling {
                 id: CouplingId(resolved.couplings - 1),
                 incoming,
                 first,
                 stiffness: Option::unwrap_or_default(stiffness),
                 damping: Option::unwrap_or_default(damping),
-            }
+            })
         };
         let first = self.numbers;
-        let motion = Incoming::Motion(self.position(marker, 1));
+        let motion = Incoming::Motion(Box::new(self.position(marker, 1)));
         let position = coupling(self, motion, first, port.stiffness, port.damping);
         let angle = port.turns().then(|| {
             let first = self.numbers;
             let turn = match self.scene.dimension {
-                2 => Incoming::Motion(self.angle(marker, 1)),
+                2 => Incoming::Motion(Box::new(self.angle(marker, 1))),
                 _ => {
                     self.place(4 + 3);
                     Incoming::Orientation(marker)
