@@ -33,9 +33,6 @@ const CLOSING: f64 = 1.0 / 8.0;
 /// Bending stiffness, relative to `EA L^2`, of ropes while joints are closed: they bend rather than fold.
 const BENT: f64 = 1e-4;
 
-/// Stiffness that rounding leaves, relative to forces over the size of the system.
-const ROUNDED: f64 = 1e-12;
-
 /// Why no equilibrium was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
@@ -252,8 +249,7 @@ impl Path<'_> {
 }
 
 /// Root of the smallest multiple of the mass that regularizes the tangent: a part of the stiffest mode that is at
-/// the edge of roundoff; without stiffness but what rounding of the forces leaves, what lets these move the system by a part
-/// of its size.
+/// the edge of roundoff; without stiffness, what lets the forces there are move the system by a part of its size.
 fn smallest_shift<const D: usize>(
     system: &System<D>,
     inputs: &[f64],
@@ -262,12 +258,11 @@ fn smallest_shift<const D: usize>(
 ) -> f64 {
     let mut model = Model::new(system, inputs, work, state);
     let stiffest = stiffest(&mut model, state);
+    if stiffest > 0.0 {
+        return 1e-8 * stiffest.sqrt();
+    }
     let n = state.coordinates.len();
     let (rest, mut force) = (vec![0.0; n], vec![0.0; n]);
     model.acceleration(state.time, &state.coordinates, &rest, &mut force);
-    let by_forces = norm(&force) / system.scale();
-    match stiffest > ROUNDED * by_forces {
-        true => 1e-8 * stiffest.sqrt(),
-        false => by_forces.sqrt(),
-    }
+    (norm(&force) / system.scale()).sqrt()
 }
