@@ -27,7 +27,7 @@ macro_rules! numbers {
 numbers! {
     /// A marker among those of all bodies.
     MarkerId;
-    /// What holds something in the system: joints, then motions, then what ports drive.
+    /// What holds something in the system: joints, then gears, then motions, then what ports drive.
     HolderId;
     /// A joint of kind `along` among those of its kind.
     SlideId;
@@ -141,15 +141,41 @@ pub struct Pivot<'a> {
     pub axis: Option<[f64; 3]>,
 }
 
-/// A joint that holds a marker on a line through a point of the ground.
+/// A joint that holds a marker on a line of the ground or of a rigid body.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider<'a> {
     /// Name of the joint.
     pub name: &'a str,
-    /// The ground and what it holds.
+    /// Which holder it is.
+    pub joint: HolderId,
+    /// What it joins.
     pub ends: Ends<'a>,
-    /// Direction of the line, of any length.
+    /// Direction of the line as [`Hold::Line`] has it.
     pub direction: [f64; 3],
+    /// The same at the start, in global axes, a unit vector.
+    pub along: [f64; 3],
+}
+
+/// A coordinate of a joint.
+#[derive(Clone, Copy, Debug)]
+pub enum JointCoordinate<'a> {
+    /// The way along its line, m.
+    Displacement(Slider<'a>),
+    /// The angle about its axis, rad.
+    Angle(Pivot<'a>),
+}
+
+/// A gear between two joints.
+#[derive(Clone, Debug)]
+pub struct Gear<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Which holder it is.
+    pub holder: HolderId,
+    /// What it couples.
+    pub coordinates: [JointCoordinate<'a>; 2],
+    /// Change of the second by that of the first.
+    pub ratio: f64,
 }
 
 /// What has a direction: a marker, or a joint between two.
@@ -181,6 +207,8 @@ pub struct Joint<'a> {
     pub holder: HolderId,
     /// As described.
     pub(super) kind: JointKind,
+    /// Whether the scene is one of the plane.
+    pub(super) is_planar: bool,
     /// What it joins.
     pub ends: Ends<'a>,
     /// What it holds.
@@ -202,6 +230,8 @@ pub enum Hold {
     Across([f64; 3], [f64; 3]),
     /// The position in a plane through the first end: the direction across it at the start, in global axes.
     Plane([f64; 3]),
+    /// The way along the line that it is on, in proportion to the angle about it: way a full turn, m.
+    Screw(f64),
     /// The distance.
     Distance(Option<f64>),
     /// The position on the curve of a cable that bends, by its place among the chains, and which slide that is.
@@ -237,7 +267,7 @@ pub enum MotionKind<'a> {
     Angle(Turning<'a>, Drive),
     /// The position of a marker, m.
     Position(Marker<'a>, Vec<Drive>),
-    /// The way along a slider from its point, m.
+    /// The way along a line, m.
     Displacement(Slider<'a>, Drive),
 }
 
@@ -262,6 +292,65 @@ pub enum LoadKind<'a> {
     },
     /// A spring and a damper side by side.
     Spring(Spring<'a>),
+    /// A spring and a damper on a coordinate of a joint.
+    JointSpring {
+        /// What they act on.
+        on: JointCoordinate<'a>,
+        /// Stiffness (N/m or N m/rad) and damping (N s/m or N m s/rad).
+        sizes: [f64; 2],
+        /// Coordinate at rest; that at the start if there is none.
+        rest: Option<f64>,
+    },
+    /// Springs and dampers along and about three axes.
+    Bushing(Bushing<'a>),
+    /// Stops of a coordinate of a joint.
+    Stop {
+        /// What they limit.
+        on: JointCoordinate<'a>,
+        /// Stiffness (N/m or N m/rad) and damping (s/m or s/rad).
+        sizes: [f64; 2],
+        /// Limits below and above.
+        limits: [Option<f64>; 2],
+    },
+}
+
+/// Springs and dampers along and about the axes of the first end's body.
+#[derive(Clone, Copy, Debug)]
+pub struct Bushing<'a> {
+    /// What they are fixed to.
+    pub ends: Ends<'a>,
+    /// Stiffness along (N/m) and about (N m/rad) the axes.
+    pub stiffness: [[f64; 3]; 2],
+    /// Damping along (N s/m) and about (N m s/rad) the axes.
+    pub damping: [[f64; 3]; 2],
+}
+
+impl<'a> LoadKind<'a> {
+    /// What springs between two points are fixed to.
+    pub fn between(&self) -> Option<Ends<'a>> {
+        match self {
+            Self::Spring(spring) => Some(spring.ends),
+            Self::Bushing(bushing) => Some(bushing.ends),
+            Self::Action { .. } | Self::JointSpring { .. } | Self::Stop { .. } => None,
+        }
+    }
+
+    /// Its largest stiffness against ways (N/m) and against turns (N m/rad).
+    pub fn stiffness(&self) -> [f64; 2] {
+        match self {
+            Self::Action { .. } => [0.0; 2],
+            Self::Spring(spring) => [spring.stiffness, 0.0],
+            Self::Bushing(bushing) => bushing
+                .stiffness
+                .map(|axes| axes.into_iter().fold(0.0, f64::max)),
+            Self::JointSpring { on, sizes, .. } | Self::Stop { on, sizes, .. } => {
+                match on.is_angle() {
+                    true => [0.0, sizes[0]],
+                    false => [sizes[0], 0.0],
+                }
+            }
+        }
+    }
 }
 
 /// A spring and a damper between two ends.
@@ -357,6 +446,10 @@ pub enum Of<'a> {
     Slide(&'a str, SlideId),
     /// A joint or a motion.
     Reaction(Reaction<'a>),
+    /// A joint along a line.
+    Sliding(Slider<'a>),
+    /// A gear of this name.
+    Gear(&'a str, HolderId),
     /// The scene.
     Scene,
     /// The spectrum of the scene: the body whose name those of the variables begin with, and how many there are.
@@ -440,6 +533,8 @@ pub struct Resolved<'a> {
     pub masses: Vec<Mass<'a>>,
     /// Joints.
     pub joints: Vec<Joint<'a>>,
+    /// Gears.
+    pub gears: Vec<Gear<'a>>,
     /// Motions, without those of ports.
     pub motions: Vec<Motion<'a>>,
     /// Loads.

@@ -7,7 +7,7 @@ use crate::body::Marker;
 use crate::integrators::Tolerance;
 use crate::math::jet::Number;
 use crate::scene::{AngleId, Assembled, CouplingId, HolderId, MarkerId, SlideId};
-use crate::system::{End, Evaluation, System};
+use crate::system::{End, Evaluation, System, Way};
 
 /// Outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +48,16 @@ pub enum Quantity {
     Reaction(HolderId, usize),
     /// Component of the moment of a joint or motion; in the plane the third.
     ReactionMoment(HolderId, usize),
+    /// Displacement of a joint along a line.
+    Displacement(HolderId),
+    /// Its rate.
+    SlidingVelocity(HolderId),
+    /// The rate of that.
+    SlidingAcceleration(HolderId),
+    /// Force of a gear on the displacement of its second joint.
+    GearForce(HolderId),
+    /// Torque of a gear on the angle of its second joint.
+    GearTorque(HolderId),
     /// Component of the force on what drives a marker: opposite to the reaction.
     MotionForce(HolderId, usize),
     /// Moment on what turns a marker.
@@ -100,6 +110,10 @@ pub(super) fn value<const D: usize, N: Number>(
     let on = |id: MarkerId| -> Marker<N> { assembled.marker(id).lift() };
     let at = |id: MarkerId| assembled.marker(id);
     let ends = |joint: HolderId| system.joints()[joint.index()].ends;
+    let way = |joint: HolderId, of: &dyn Fn(&Way<D>) -> N| {
+        let way = system.joints()[joint.index()].way.as_ref();
+        way.map_or_else(|| N::of(0.0), of)
+    };
     let turn = |joint: HolderId| system.joints()[joint.index()].turn;
     match quantity {
         Position(id, axis) => on(id).position(&values.x)[axis],
@@ -141,6 +155,12 @@ pub(super) fn value<const D: usize, N: Number>(
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, axis) => values.reaction(system, joint.index()).0[axis],
         ReactionMoment(joint, axis) => values.reaction(system, joint.index()).1[axis],
+        Displacement(joint) => way(joint, &|way| way.value(&values.x)),
+        SlidingVelocity(joint) => way(joint, &|way| way.gradient(&values.x).along(&values.v)),
+        SlidingAcceleration(joint) => way(joint, &|way| {
+            way.bend(&values.v) + way.gradient(&values.x).along(&values.acceleration)
+        }),
+        GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
         MotionMoment(joint) => -values.reaction(system, joint.index()).1[2],
         CouplingForce(id, axis) => values.coupling(system, assembled.coupling(id)).0[axis],
@@ -172,17 +192,21 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
     use Evaluated::*;
     use Quantity::*;
     match quantity {
-        Position(..) | CenterOfMass(_) | Travel(_) => (Kinematics, |by| Some(by.size)),
-        Velocity(..) => (Kinematics, |by| Some(by.size * by.rate)),
-        Acceleration(..) => (Dynamics, |by| Some(by.size * by.rate * by.rate)),
+        Position(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => {
+            (Kinematics, |by| Some(by.size))
+        }
+        Velocity(..) | SlidingVelocity(_) => (Kinematics, |by| Some(by.size * by.rate)),
+        Acceleration(..) | SlidingAcceleration(_) => {
+            (Dynamics, |by| Some(by.size * by.rate * by.rate))
+        }
         Direction(..) | Angle(_) | Orientation(..) => (Kinematics, |_| Some(1.0)),
         AngularVelocity(..) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
         AngularAcceleration(..) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
         Strain(_) | Curvature(_) => (Kinematics, |_| Some(0.0)),
-        AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) => {
+        AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) | GearForce(_) => {
             (Dynamics, |by| Some(by.force))
         }
-        BendingMoment(..) | ReactionMoment(..) | MotionMoment(_) => {
+        BendingMoment(..) | ReactionMoment(..) | MotionMoment(_) | GearTorque(_) => {
             (Dynamics, |by| Some(by.force * by.size))
         }
         CouplingForce(..) => (Kinematics, |by| Some(by.force)),

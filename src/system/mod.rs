@@ -2,6 +2,7 @@
 //! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
 
 mod build;
+mod coordinate;
 mod direction;
 mod end;
 mod instant;
@@ -17,8 +18,9 @@ mod state;
 mod work;
 
 pub use build::{BuildError, LumpedMass, Parts};
+pub use coordinate::{Coordinate, Way};
 pub use direction::{AxisTurn, Direction};
-pub use end::{Angle, End};
+pub use end::{Angle, End, reach};
 pub use instant::Instant;
 pub use motion::breaks::Follower;
 pub use motion::dynamics::{Accepted, Dynamics, Model};

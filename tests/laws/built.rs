@@ -88,6 +88,7 @@ impl Mechanism {
             ends: hold.ends.map(|end| self.product_end(end)),
             spring: None,
             turn: None,
+            way: None,
         }
     }
 

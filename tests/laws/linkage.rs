@@ -372,6 +372,7 @@ impl Mechanism {
             ends,
             spring: None,
             turn: None,
+            way: None,
         }
     }
 

@@ -101,12 +101,26 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
         }
     }
     for (i, load) in resolved.loads.iter().enumerate() {
-        if let LoadKind::Spring(spring) = &load.kind {
-            let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
-            let parameters = [SpringStiffness(i), SpringDamping(i)];
-            let starts = [spring.stiffness, spring.damping];
-            list.damper(load.name, units, parameters, starts);
-        }
+        let (starts, units) = match &load.kind {
+            LoadKind::Action { .. } | LoadKind::Bushing(_) => continue,
+            LoadKind::Spring(spring) => {
+                let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
+                ([spring.stiffness, spring.damping], units)
+            }
+            LoadKind::JointSpring { on, sizes, .. } => match on.is_angle() {
+                true => (
+                    *sizes,
+                    [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN],
+                ),
+                false => (*sizes, [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE]),
+            },
+            LoadKind::Stop { on, sizes, .. } => match on.is_angle() {
+                true => (*sizes, [NEWTON_METRE_PER_RADIAN, SECOND_PER_RADIAN]),
+                false => (*sizes, [NEWTON_PER_METRE, SECOND_PER_METRE]),
+            },
+        };
+        let parameters = [SpringStiffness(i), SpringDamping(i)];
+        list.damper(load.name, units, parameters, starts);
     }
     for (i, port) in resolved.ports.iter().enumerate() {
         let PortKind::Coupling { position, angle } = &port.kind else {

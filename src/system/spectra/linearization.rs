@@ -292,6 +292,7 @@ impl<const D: usize> System<D> {
     ) -> Blocks {
         let lift = |x: &f64| Jet::from_re(*x);
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
+        let angles: Vec<Jet> = work.angles.iter().map(lift).collect();
         let mut nodes = constraint.nodes(&self.chains);
         if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
             let chain = &self.chains[along.chain];
@@ -314,8 +315,9 @@ impl<const D: usize> System<D> {
                 drives: &drives,
                 chains: &self.chains,
                 travel: &travel,
+                angles: &angles,
             };
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 let f = f[node].as_flattened_mut().iter_mut();
                 for (f, term) in f.zip(term.as_flattened()) {
                     *f -= *term * Jet::of(lambda);
@@ -377,22 +379,22 @@ impl<const D: usize> System<D> {
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(lift).collect();
         let mut travel: Vec<Jet> = work.travel.iter().map(|s| Jet::from_re(*s)).collect();
         self.find_travel(&x, &mut travel);
+        let angles: Vec<Jet> = work.angles.iter().map(|a| Jet::from_re(*a)).collect();
         let view = View {
             x: &x,
             v: &v,
             drives: &drives,
             chains: &self.chains,
             travel: &travel,
+            angles: &angles,
         };
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];
-            self.constraints[*row]
-                .gradient(&view)
-                .for_each(|node, term| {
-                    let (node, term) = self.frames.pull(node, term, &x);
-                    let term = map_node(&term, |t| t.v1);
-                    (self.elimination.assembly).restrict_node(node, &term, &mut rate);
-                });
+            self.constraints[*row].for_each(&view, |node, term| {
+                let (node, term) = self.frames.pull(node, term, &x);
+                let term = map_node(&term, |t| t.v1);
+                (self.elimination.assembly).restrict_node(node, &term, &mut rate);
+            });
             self.elimination.project_in_place(&mut rate);
             rate
         });

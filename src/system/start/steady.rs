@@ -122,7 +122,7 @@ impl<const D: usize> System<D> {
         let view = self.view(work);
         for constraint in &self.constraints {
             let mut row = [0.0; 3];
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 for (sum, field) in row.iter_mut().zip(fields) {
                     *sum += product(term, &field[node]);
                 }
