@@ -33,6 +33,8 @@ named! { label, LABELS, Quantity:
     Strain(_) => "strain", Curvature(_) => "curvature", AxialForce(_) => "axial force",
     BendingMoment(_, 0) => "bending moment x", BendingMoment(_, 1) => "bending moment y", BendingMoment(..) => "bending moment",
     ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(_, 1) => "connectivity force y", ConnectivityForce(..) => "connectivity force z",
+    Displacement(_) => "displacement", SlidingVelocity(_) => "sliding velocity", SlidingAcceleration(_) => "sliding acceleration",
+    GearForce(_) => "gear force", GearTorque(_) => "gear torque",
     Travel(_) => "travel", Reaction(_, 0) => "reaction x", Reaction(_, 1) => "reaction y", Reaction(..) => "reaction z",
     ReactionMoment(_, 0) => "reaction moment x", ReactionMoment(_, 1) => "reaction moment y", ReactionMoment(..) => "reaction moment",
     MotionForce(_, 0) => "motion force x", MotionForce(_, 1) => "motion force y", MotionForce(..) => "motion force z",

@@ -30,5 +30,6 @@ mod space;
 mod spatial;
 mod specimen;
 mod spectra;
+mod sprung;
 mod tangents;
 mod whirl;

@@ -10,19 +10,29 @@ use flexbody::system::{
 };
 use nalgebra::{DMatrix, DVector};
 
-use crate::laws::linkage::{Chance, Kind, Mechanism, V};
+use crate::laws::linkage::{Chance, Held, Kind, Mechanism, V};
+use crate::laws::sprung::Sprung;
 
 #[test]
 fn accelerations_are_those_of_newton_and_euler() {
     let mut chance = Chance(1);
     for run in 0..600 {
-        let mechanism = Mechanism::random(&mut chance);
+        let mut mechanism = Mechanism::random(&mut chance);
+        if run % 2 == 0 {
+            mechanism.spring(&mut chance, run % 4 == 0);
+        }
         let (system, state, mut work) = mechanism.started();
         let mut evaluation = Evaluation::new(&system);
         evaluation.kinematics(&system, &state, &mut work);
         evaluation.dynamics(&system, &state, &[], &mut work);
         let wanted = mechanism.accelerations();
         let size = wanted.amax() + mechanism.twists().amax() + mechanism.gravity.norm();
+        let stored = mechanism.sprung_forces().1;
+        let miss = (evaluation.spring_energy(&system) - stored).abs();
+        assert!(
+            miss < 1e-10 * (1.0 + stored),
+            "{run}: {miss:e} of {stored} J"
+        );
         for (i, body) in mechanism.bodies.iter().enumerate() {
             let part = |k: usize| V::from_fn(|j, _| wanted[6 * i + k + j]);
             let node = |of: &[Node<3>]| {
@@ -61,7 +71,9 @@ fn accelerations_are_those_of_newton_and_euler() {
 fn invariants(system: &System<3>, state: &State, work: &mut Work<3>) -> [f64; 7] {
     let mut values = Evaluation::new(system);
     values.kinematics(system, state, work);
-    let energy = values.kinetic_energy(system) + values.gravity_energy(system);
+    let energy = values.kinetic_energy(system)
+        + values.gravity_energy(system)
+        + values.spring_energy(system);
     let ([a, b, c], [d, e, f]) = {
         let (linear, angular) = values.momentum(system);
         (<[f64; 3]>::from(linear), angular)
@@ -92,15 +104,19 @@ fn free_mechanisms_keep_energy_momentum_and_angular_momentum() {
     let mut runs = 0;
     while runs < 40 {
         let mut mechanism = Mechanism::random(&mut chance);
-        if mechanism
-            .joints
-            .iter()
-            .any(|joint| joint.bodies[0].is_none())
-        {
+        let is_grounded = |joint: &Held| joint.bodies[0].is_none();
+        if mechanism.joints.iter().any(is_grounded) || mechanism.is_driven() {
             continue;
         }
         mechanism.gravity = V::zeros();
         runs += 1;
+        if runs % 2 == 0 {
+            mechanism.spring(&mut chance, false);
+            mechanism.sprung.retain(|sprung| match sprung {
+                Sprung::Bushing(bushing) => bushing.bodies[0].is_some(),
+                _ => true,
+            });
+        }
         let (system, start, mut work) = mechanism.started();
         let n = system.coordinates();
         let before = invariants(&system, &start, &mut work);
@@ -130,7 +146,10 @@ fn free_mechanisms_keep_energy_momentum_and_angular_momentum() {
 fn derivatives_in_time_are_those_of_the_motion() {
     let mut chance = Chance(3);
     for run in 0..100 {
-        let mechanism = Mechanism::random(&mut chance);
+        let mut mechanism = Mechanism::random(&mut chance);
+        if run % 2 == 0 {
+            mechanism.spring(&mut chance, true);
+        }
         let (system, start, mut work) = mechanism.started();
         let mut accelerations = Vec::new();
         const STEP: f64 = 2e-3;
@@ -175,6 +194,12 @@ fn the_stiffness_is_the_derivative_of_forces() {
     let mut chance = Chance(11);
     for run in 0..60 {
         let mut mechanism = Mechanism::random(&mut chance);
+        if mechanism.is_driven() {
+            continue;
+        }
+        if run % 2 == 0 {
+            mechanism.spring(&mut chance, false);
+        }
         mechanism.bodies.iter_mut().for_each(|body| {
             (body.velocity, body.spin) = (V::zeros(), V::zeros());
         });

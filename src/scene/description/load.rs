@@ -28,7 +28,7 @@ pub struct Load {
     /// `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub markers: Option<[String; 2]>,
-    /// `spring_damper`, `bushing` from `ground` only: where on the ground, m; where the second marker is at the
+    /// `spring_damper` from `ground` only: where on the ground, m; where the second marker is at the
     /// start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vector>,
@@ -156,7 +156,6 @@ impl Kind for LoadKind {
             Self::Bushing => &[(
                 &["markers"],
                 &[
-                    "point",
                     "translational_stiffness",
                     "translational_damping",
                     "rotational_stiffness",

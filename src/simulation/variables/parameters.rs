@@ -101,25 +101,29 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
         }
     }
     for (i, load) in resolved.loads.iter().enumerate() {
-        let (starts, units) = match &load.kind {
+        let along = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
+        let about = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
+        let (starts, units, parameters) = match &load.kind {
             LoadKind::Action { .. } | LoadKind::Bushing(_) => continue,
             LoadKind::Spring(spring) => {
-                let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
-                ([spring.stiffness, spring.damping], units)
+                let starts = [spring.stiffness, spring.damping];
+                (starts, along, [SpringStiffness(i), SpringDamping(i)])
             }
             LoadKind::JointSpring { on, sizes, .. } => match on.is_angle() {
-                true => (
-                    *sizes,
-                    [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN],
-                ),
-                false => (*sizes, [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE]),
+                true => (*sizes, about, [TorsionStiffness(i), TorsionDamping(i)]),
+                false => (*sizes, along, [SpringStiffness(i), SpringDamping(i)]),
             },
             LoadKind::Stop { on, sizes, .. } => match on.is_angle() {
-                true => (*sizes, [NEWTON_METRE_PER_RADIAN, SECOND_PER_RADIAN]),
-                false => (*sizes, [NEWTON_PER_METRE, SECOND_PER_METRE]),
+                true => {
+                    let parameters = [TorsionStiffness(i), TorsionStopDamping(i)];
+                    (*sizes, [about[0], SECOND_PER_RADIAN], parameters)
+                }
+                false => {
+                    let parameters = [SpringStiffness(i), StopDamping(i)];
+                    (*sizes, [along[0], SECOND_PER_METRE], parameters)
+                }
             },
         };
-        let parameters = [SpringStiffness(i), SpringDamping(i)];
         list.damper(load.name, units, parameters, starts);
     }
     for (i, port) in resolved.ports.iter().enumerate() {
@@ -197,8 +201,10 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         LumpedMass(i) => scene.masses[i].mass = value,
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),
-        SpringStiffness(i) => scene.loads[i].stiffness = Some(value),
-        SpringDamping(i) => scene.loads[i].damping = Some(value),
+        SpringStiffness(i) | TorsionStiffness(i) => scene.loads[i].stiffness = Some(value),
+        SpringDamping(i) | TorsionDamping(i) | StopDamping(i) | TorsionStopDamping(i) => {
+            scene.loads[i].damping = Some(value);
+        }
         CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
         CouplingDamping(i) => scene.ports[i].damping = Some(value),
         TurningStiffness(i) => scene.ports[i].rotational_stiffness = Some(value),

@@ -2,6 +2,7 @@
 //! closed forms are those of the scene, written once more where a test must not compute them.
 
 mod cables;
+mod coordinates;
 mod frames;
 mod initial;
 mod inputs;
@@ -47,6 +48,7 @@ pub fn all() -> Vec<Specimen> {
         space_bodies::all(),
         space_joints::all(),
         space_modes::all(),
+        coordinates::all(),
     ];
     parts.into_iter().flatten().collect()
 }
