@@ -304,17 +304,16 @@ impl<'a> Joint<'a> {
 
     /// As a joint with an angle: its ends turn about one point.
     pub(super) fn pivot(&self) -> Option<Pivot<'a>> {
+        if self.holds.iter().any(|hold| matches!(hold, Hold::Plane(_))) {
+            return None;
+        }
         let axis = self.holds.iter().find_map(|hold| match hold {
             Hold::Axis(axis) => Some(*axis),
             _ => None,
         });
-        if axis.is_none()
-            && !matches!(
-                self.holds[..],
-                [Hold::Position] | [Hold::Position, Hold::Spring { .. }]
-            )
-        {
-            return None;
+        match (axis, &self.holds[..]) {
+            (None, [Hold::Position] | [Hold::Position, Hold::Spring { .. }]) | (Some(_), _) => {}
+            (None, _) => return None,
         }
         Some(Pivot {
             name: self.name,

@@ -375,11 +375,13 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
     for joint in &parts.joints {
         for hold in &joint.holds {
             match hold {
-                Primitive::Direction(_)
-                | Primitive::Clamped(_)
-                | Primitive::DrivenDirection(_)
-                | Primitive::Related(_) => {
+                Primitive::Direction(_) | Primitive::Clamped(_) | Primitive::DrivenDirection(_) => {
                     joint.ends.iter().for_each(&mut take);
+                }
+                Primitive::Related(related) => {
+                    let angles = related.terms.iter().filter(|(_, of)| of.is_angle());
+                    let ends = angles.flat_map(|(_, of)| of.ends());
+                    ends.for_each(|end| take(&end));
                 }
                 // A line that turns with the first end is pushed at a distance from it.
                 Primitive::Line(_) => take(&joint.ends[0]),

@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 
 use super::direction::Direction;
 use super::end::{Add, Angle, End, bilinear, coupling};
-use super::joints::Gradient;
+use super::gradient::Gradient;
 use crate::body::Node;
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis, cross, turned};

@@ -5,7 +5,7 @@ use crate::body::{Marker, Node};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::end::End;
-use crate::system::joints::Gradient;
+use crate::system::gradient::Gradient;
 
 /// A direction: of a marker, or fixed in space.
 #[derive(Clone, Copy, Debug, PartialEq)]

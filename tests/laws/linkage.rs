@@ -212,11 +212,6 @@ impl Mechanism {
             Kind::Planar => axes.column(0) * chance.number() + axes.column(1) * chance.number(),
             _ => V::zeros(),
         };
-        // A universal joint that is bent.
-        let bent = match kind {
-            Kind::Universal => Rotation3::new(V::new(0.0, 0.0, chance.number())).into_inner(),
-            _ => Matrix3::identity(),
-        };
         // What may turn.
         let turned = match kind {
             Kind::Spherical | Kind::Distance => Rotation3::new(chance.vector()).into_inner(),
@@ -237,7 +232,6 @@ impl Mechanism {
             }
             _ => turned,
         };
-        let _ = bent;
         let ends = [
             (first, place, axes),
             (Some(second), place + way, axes * turned),
@@ -336,6 +330,12 @@ impl Mechanism {
             let missing = self.driven(1) - &jacobian * &twists;
             let svd = jacobian.svd(true, true);
             twists += svd.solve(&missing, 1e-7).expect("asked for");
+            let left = (self.driven(1) - self.jacobian() * &twists).norm();
+            if self.is_driven() && (left > 1e-7 || twists.amax() > 10.0) {
+                // A loop holds what would be driven, or nearly.
+                self.release_drives();
+                return self.start(chance);
+            }
         }
         for (i, body) in self.bodies.iter_mut().enumerate() {
             body.velocity = V::from_fn(|j, _| twists[6 * i + j]);

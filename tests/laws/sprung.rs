@@ -11,6 +11,7 @@ use nalgebra::{DVector, Matrix3, Rotation3};
 use crate::laws::linkage::{Body, Chance, DRIVE, Held, Kind, Mechanism, Of, THREAD, V};
 
 /// What acts beside gravity.
+#[derive(Debug)]
 pub enum Sprung {
     /// On the angle of a joint, or on its way: stiffness, damping, value at rest.
     Spring(Of, [f64; 3]),
@@ -20,6 +21,7 @@ pub enum Sprung {
     Bushing(Box<Bushing>),
 }
 
+#[derive(Debug)]
 pub struct Bushing {
     pub bodies: [Option<usize>; 2],
     pub points: [V; 2],
@@ -223,7 +225,8 @@ impl Mechanism {
                 1 => None,
                 _ => Some(chance.below(self.bodies.len())).filter(|first| *first != second),
             };
-            self.mount(first, second, chance, [18.0, damping(chance)]);
+            let damped = damping(chance);
+            self.mount(first, second, chance, [18.0, damped]);
         }
     }
 
@@ -325,6 +328,15 @@ impl Mechanism {
             spring: None,
             turn: None,
             way: None,
+        }
+    }
+
+    /// Drives nothing.
+    pub fn release_drives(&mut self) {
+        for joint in &mut self.joints {
+            if joint.kind == Kind::DrivenCylindrical {
+                joint.kind = Kind::Cylindrical;
+            }
         }
     }
 

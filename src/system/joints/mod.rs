@@ -10,7 +10,6 @@ mod motion;
 mod perpendicular;
 mod point_on_curve;
 mod related;
-mod terms;
 mod unit;
 
 pub use direction::AngleBetween;
@@ -21,13 +20,13 @@ pub use line::PointOnLine;
 pub use perpendicular::{Across, Perpendicular};
 pub use point_on_curve::PointOnCurve;
 pub use related::Related;
-pub use terms::Terms;
 pub use unit::UnitLength;
 
 use super::CableChain;
 use super::coordinate::Way;
 use super::direction::AxisTurn;
 use super::end::{Add, End};
+use super::gradient::Gradient;
 use crate::body::{Node, Row};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
@@ -336,45 +335,6 @@ impl<const D: usize> Constraint<D> {
     /// Whether it ties to the ground.
     pub fn is_grounded(&self) -> bool {
         self.ends().iter().any(|end| end.marker().is_none())
-    }
-}
-
-/// Derivatives of a constraint by position and direction of two ends.
-#[derive(Clone, Copy, Debug)]
-pub struct Gradient<const D: usize, N: Number = f64> {
-    /// The ends and, for each, the derivatives by position and direction.
-    pub ends: [(End<D, N>, [Vector<D, N>; 2]); 2],
-}
-
-impl<const D: usize, N: Number> Gradient<D, N> {
-    /// The derivative along a nodal vector.
-    pub fn along(&self, v: &[Node<D, N>]) -> N {
-        let of = |(end, [position, direction]): &(End<D, N>, [Vector<D, N>; 2])| {
-            position.dot(&end.velocity(v)) + direction.dot(&end.direction_rate(v))
-        };
-        of(&self.ends[0]) + of(&self.ends[1])
-    }
-
-    /// The same times a factor.
-    pub fn scaled(mut self, factor: N) -> Self {
-        for (_, [position, direction]) in &mut self.ends {
-            *position *= factor;
-            *direction *= factor;
-        }
-        self
-    }
-
-    /// Terms over the nodes.
-    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<D, N>)) {
-        for (end, [position, direction]) in &self.ends {
-            if let End::Body(marker) = end {
-                let [a, b] = marker.forces(*position, *direction);
-                term(a.0, &a.1);
-                if b.1 != [[N::of(0.0); D]; 2] {
-                    term(b.0, &b.1);
-                }
-            }
-        }
     }
 }
 

@@ -193,10 +193,10 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Moment(_)
             | Self::Couple(_)
-            | Self::JointSpring(_)
-            | Self::Stop(_)
             | Self::SixBushing(_)
             | Self::RotationalBushing(_) => true,
+            Self::JointSpring(load) => load.coordinate.is_angle(),
+            Self::Stop(load) => load.coordinate.is_angle(),
             Self::Force(_) | Self::Distributed(_) | Self::Spring(_) | Self::Bushing(_) => false,
         }
     }

@@ -16,7 +16,7 @@ use crate::math::space::Vector;
 use crate::system::coordinate::Way;
 use crate::system::direction::Direction;
 use crate::system::end::{End, bilinear};
-use crate::system::joints::Terms;
+use crate::system::gradient::Terms;
 
 /// Where series take over from formulas that lose digits.
 const SERIES: f64 = 0.1;

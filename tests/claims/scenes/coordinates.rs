@@ -1,5 +1,4 @@
-//! Coordinates of joints: read, driven between bodies, sprung, stopped, coupled by screws and gears; bushings; joints by what they
-//! let go.
+//! Coordinates of joints: read, driven between bodies, sprung, stopped, coupled by screws and gears; joints by what they let go.
 
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
@@ -31,12 +30,15 @@ pub fn all() -> Vec<Specimen> {
         driven_in_the_plane(),
         driven_in_space(),
         screw(),
+        screw_between(),
         gears(),
         rack(),
-        modes(),
-        dampers(),
         let_go(),
     ]
+}
+
+fn joined<const N: usize>(parts: [Vec<Value>; N]) -> Vec<Value> {
+    parts.concat()
 }
 
 /// What is read of a coordinate, value and two derivatives.
@@ -79,15 +81,17 @@ fn sprung() -> Specimen {
                   {"name": "as_it_starts", "kind": "joint_spring", "joint": "guide", "stiffness": 3.0},
                   {"name": "torsion", "kind": "joint_spring", "joint": "guide", "coordinate": "angle",
                    "stiffness": turning_k, "damping": turning_c, "rest": turning_rest},
-                  {"name": "damper", "kind": "joint_spring", "joint": "guide", "coordinate": "angle", "damping": 0.2}],
-        "outputs": [read(WAY, "guide"), read(TURN, "guide"), vec![json!({"kind": "energy"})]].concat()});
-    let force = -k * (0.3 - rest) - c * speed;
+                  {"name": "plain", "kind": "joint_spring", "joint": "guide", "stiffness": 2.0, "rest": 0.2},
+                  {"name": "damper", "kind": "joint_spring", "joint": "guide", "coordinate": "angle", "damping": 0.2, "rest": 0.5}],
+        "outputs": joined([read(WAY, "guide"), read(TURN, "guide"), vec![json!({"kind": "energy"})]])});
+    let force = -k * (0.3 - rest) - c * speed - 2.0 * (0.3 - 0.2);
     let torque = turning_k * turning_rest - (turning_c + 0.2) * rate;
     let inertia = n.dot(&(bar.tensor() * n));
     let mut specimen = Specimen::new("sprung", scene);
     specimen = claimed(specimen, WAY, "guide", [0.3, speed, force / bar.mass]);
     specimen = claimed(specimen, TURN, "guide", [0.0, rate, torque / inertia]);
-    let stored = k * (0.3 - rest) * (0.3 - rest) + turning_k * turning_rest * turning_rest;
+    let stored =
+        k * (0.3 - rest) * (0.3 - rest) + 2.0 * 0.01 + turning_k * turning_rest * turning_rest;
     specimen.claim("energy.spring", "J", 0.5 * stored)
 }
 
@@ -102,19 +106,26 @@ fn stopped() -> Specimen {
         stop.as_object_mut().expect("keys").extend(given);
         stop
     };
-    let scene = json!({"name": "stopped", "dimension": 3, "bodies": [bar.described(Value::Null)],
-        "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point}],
+    // It rests between two stops.
+    let idle = body("idle");
+    let mut far = stop("far", json!({"lower": 0.1, "stiffness": 7.0}));
+    far["joint"] = json!("other");
+    let scene = json!({"name": "stopped", "dimension": 3, "bodies": [bar.described(Value::Null), idle.described(Value::Null)],
+        "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point},
+                   {"name": "other", "kind": "cylindrical", "markers": ["ground", "idle.c"], "direction": AXIS,
+                    "point": array(idle.place - n * 0.6)}],
         "loads": [stop("above", json!({"upper": upper, "stiffness": k, "damping": a, "coordinate": "displacement"})),
                   stop("open", json!({"lower": 0.1, "stiffness": 7.0})),
                   stop("left", json!({"lower": 0.4, "stiffness": 9.0, "damping": 2.0})),
                   stop("pressed", json!({"lower": 0.45, "stiffness": 4.0})),
                   stop("about", json!({"coordinate": "angle", "lower": lower, "stiffness": turning_k, "damping": turning_a})),
-                  stop("wide", json!({"coordinate": "angle", "upper": 1.0, "stiffness": turning_k}))],
-        "outputs": [read(WAY, "guide"), read(TURN, "guide"), vec![json!({"kind": "energy"})]].concat()});
+                  stop("wide", json!({"coordinate": "angle", "upper": 1.0, "stiffness": turning_k})), far],
+        "outputs": joined([read(WAY, "other"), read(WAY, "guide"), read(TURN, "guide"), vec![json!({"kind": "energy"})]])});
     let force = -k * (0.3 - upper) * (1.0 + a * speed) + 4.0 * 0.15;
     let torque = turning_k * lower * (1.0 - turning_a * rate);
     let inertia = n.dot(&(bar.tensor() * n));
     let mut specimen = Specimen::new("stopped", scene);
+    specimen = claimed(specimen, WAY, "other", [0.6, 0.0, 0.0]);
     specimen = claimed(specimen, WAY, "guide", [0.3, speed, force / bar.mass]);
     specimen = claimed(specimen, TURN, "guide", [0.0, rate, torque / inertia]);
     let stored = k * 0.01 + 9.0 * 0.01 + 4.0 * 0.15 * 0.15 + turning_k * lower * lower;
@@ -145,14 +156,17 @@ fn in_bar() -> [f64; 2] {
 /// In the plane: springs between two free bodies, along a line of the first, and about a revolute joint.
 fn planar() -> Specimen {
     let masses = [0.8, 1.3];
-    let (bodies, _) = bar_and_block(masses);
+    let (mut bodies, _) = bar_and_block(masses);
+    let rotor = json!({"element": "rigid", "name": "rotor", "mass": 0.7, "inertia": 0.2, "position": [3.1, 2.3],
+                       "angle": 1.1, "markers": {"a": [0.1, 0.05]}});
+    bodies.as_array_mut().expect("a list").push(rotor);
     let [k, rest] = [6.0, 0.15];
     let scene = json!({"name": "flat", "dimension": 2, "bodies": bodies,
         "joints": [{"name": "rail", "kind": "prismatic", "markers": ["bar.c", "block.c"], "direction": in_bar()},
-                   {"name": "pin", "kind": "revolute", "markers": ["ground", "extra.a"]}],
+                   {"name": "pin", "kind": "revolute", "markers": ["ground", "rotor.a"]}],
         "loads": [{"name": "spring", "kind": "joint_spring", "joint": "rail", "stiffness": k, "rest": rest},
                   {"name": "torsion", "kind": "joint_spring", "joint": "pin", "stiffness": 2.0, "rest": 0.3}],
-        "outputs": [read(WAY, "rail"), read(TURN, "pin")].concat()});
+        "outputs": joined([read(WAY, "rail"), read(TURN, "pin")])});
     let force = -k * (0.4 - rest);
     let relative = force / masses[0] + force / masses[1];
     let specimen = Specimen::new("springs in the plane", scene);
@@ -162,7 +176,7 @@ fn planar() -> Specimen {
         specimen,
         TURN,
         "pin",
-        [1.1, -0.6, -2.0 * (1.1 - 0.3) / inertia],
+        [1.1, 0.0, -2.0 * (1.1 - 0.3) / inertia],
     )
 }
 
@@ -173,7 +187,7 @@ fn driven_in_the_plane() -> Specimen {
     let scene = json!({"name": "moved", "dimension": 2, "bodies": bodies,
         "joints": [{"name": "rail", "kind": "prismatic", "markers": ["bar.c", "block.c"], "direction": in_bar()}],
         "motions": [{"name": "drive", "kind": "displacement", "joint": "rail", "value": "0.4+0.9*t^2"}],
-        "outputs": [read(WAY, "rail"), vec![json!({"kind": "reaction", "motion": "drive"})]].concat()});
+        "outputs": joined([read(WAY, "rail"), vec![json!({"kind": "reaction", "motion": "drive"})]])});
     // Both about their centre of mass, which rests.
     let force = 1.8 * masses[0] * masses[1] / (masses[0] + masses[1]);
     let specimen = Specimen::new("driven between bodies", scene);
@@ -195,7 +209,7 @@ fn driven_in_space() -> Specimen {
         "bodies": [first.described(Value::Null), second.described(Value::Null)],
         "joints": [{"name": "rail", "kind": "cylindrical", "markers": ["u.c", "v.c"], "direction": direction}],
         "motions": [{"name": "drive", "kind": "displacement", "joint": "rail", "value": "0.4+0.9*t^2"}],
-        "outputs": [read(WAY, "rail"), vec![json!({"kind": "reaction", "motion": "drive"})]].concat()});
+        "outputs": joined([read(WAY, "rail"), vec![json!({"kind": "reaction", "motion": "drive"})]])});
     let force = 1.8 * first.mass * second.mass / (first.mass + second.mass);
     let specimen = Specimen::new("driven between bodies in space", scene);
     let specimen = claimed(specimen, WAY, "rail", [0.4, 0.0, 1.8]);
@@ -212,8 +226,8 @@ fn screw() -> Specimen {
         "joints": [{"name": "thread", "kind": "screw", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point,
                     "pitch": pitch}],
         "loads": [{"name": "push", "kind": "force", "marker": "bar.c", "value": array(FORCE)}, load("moment", MOMENT)],
-        "outputs": [read(WAY, "thread"), read(TURN, "thread"),
-                    ["reaction", "reaction_moment"].map(|kind| json!({"kind": kind, "joint": "thread"})).to_vec()].concat()});
+        "outputs": joined([read(WAY, "thread"), read(TURN, "thread"),
+                    ["reaction", "reaction_moment"].map(|kind| json!({"kind": kind, "joint": "thread"})).to_vec()])});
     let inertia = n.dot(&(bar.tensor() * n));
     let second = (FORCE.dot(&n) + turns * MOMENT.dot(&n)) / (bar.mass + inertia * turns * turns);
     let mut specimen = Specimen::new("screw", scene);
@@ -234,6 +248,25 @@ fn screw() -> Specimen {
     vector(specimen, "thread.reaction_moment", "N.m", needed - MOMENT)
 }
 
+/// A screw between two free bodies, along a principal axis of both, a moment on one: the force `f` along it comes with the moment
+/// `-k f` about it, `k` the way per angle.
+fn screw_between() -> Specimen {
+    let (k, moment) = (0.2, 1.3);
+    let (first, mut second) = (body("u"), Body::new("v", [0.7, 0.6, 0.9]));
+    (second.mass, second.axes) = (0.6, first.axes);
+    let n = first.axes.column(1).into_owned();
+    let scene = json!({"name": "screws", "dimension": 3,
+        "bodies": [first.described(Value::Null), second.described(Value::Null)],
+        "joints": [{"name": "thread", "kind": "screw", "markers": ["u.c", "v.c"], "direction": [0.0, 3.0, 0.0],
+                    "pitch": k * std::f64::consts::TAU}],
+        "loads": [{"name": "moment", "kind": "moment", "marker": "v.c", "value": array(n * moment)}],
+        "outputs": read(WAY, "thread")});
+    let by_force = 1.0 / first.mass + 1.0 / second.mass;
+    let force = k * moment / 0.6 / (by_force + k * k * (1.0 / 0.8 + 1.0 / 0.6));
+    let specimen = Specimen::new("screw between bodies", scene);
+    claimed(specimen, WAY, "thread", [0.0, 0.0, force * by_force])
+}
+
 /// Two rotors on axes of no symmetry and a torque on the first: `(J1 + r^2 J2) a = M`.
 fn gears() -> Specimen {
     let (ratio, torque, rate, n) = (-1.7, 0.9, 0.4, axis());
@@ -241,12 +274,18 @@ fn gears() -> Specimen {
     let other = Vector3::new(0.6, 0.0, -0.8);
     second.place = Vector3::new(2.0, 0.1, 0.3);
     (first.spin, second.spin) = (n * rate, other * (ratio * rate));
-    let scene = json!({"name": "gears", "dimension": 3, "bodies": [first.described(Value::Null), second.described(Value::Null)],
+    // Another pair at rest.
+    let [mut third, mut fourth] = ["w", "x"].map(|name| Body::new(name, [0.4, 0.6, 0.7]));
+    (third.place.y, fourth.place.y) = (3.0, 5.0);
+    let bodies = [&first, &second, &third, &fourth].map(|body| body.described(Value::Null));
+    let scene = json!({"name": "gears", "dimension": 3, "bodies": bodies,
         "joints": [{"name": "a", "kind": "revolute", "markers": ["ground", "u.c"], "direction": AXIS},
-                   {"name": "b", "kind": "revolute", "markers": ["ground", "v.c"], "direction": array(other)}],
-        "gears": [{"name": "pair", "joints": ["a", "b"], "ratio": ratio}],
+                   {"name": "b", "kind": "revolute", "markers": ["ground", "v.c"], "direction": array(other)},
+                   {"name": "d", "kind": "revolute", "markers": ["ground", "w.c"], "direction": AXIS},
+                   {"name": "e", "kind": "revolute", "markers": ["ground", "x.c"], "direction": AXIS}],
+        "gears": [{"name": "pair", "joints": ["a", "b"], "ratio": ratio}, {"name": "idle", "joints": ["d", "e"], "ratio": 2.0}],
         "loads": [{"name": "motor", "kind": "torque", "joint": "a", "value": torque}],
-        "outputs": [read(TURN, "a"), read(TURN, "b"), vec![json!({"kind": "gear_torque", "gear": "pair"})]].concat()});
+        "outputs": joined([read(TURN, "a"), read(TURN, "b"), vec![json!({"kind": "gear_torque", "gear": "pair"})]])});
     let about = |body: &Body, n: Vector3<f64>| n.dot(&(body.tensor() * n));
     let [j1, j2] = [about(&first, n), about(&second, other)];
     let turning = torque / (j1 + ratio * ratio * j2);
@@ -261,15 +300,23 @@ fn rack() -> Specimen {
     let (ratio, weight, rate) = (0.35, 9.0, 8.0);
     let [inertia, mass] = [0.2, 1.4];
     let scene = json!({"name": "rack", "dimension": 2, "gravity": [0.0, -weight],
+        "accuracy": {"relative_tolerance": 1e-11},
         "bodies": [{"element": "rigid", "name": "pinion", "mass": 0.6, "inertia": inertia, "position": [0.0, 0.0], "angle": 0.5,
                     "motion": {"spin": rate}, "markers": {"c": [0.0, 0.0]}},
                    {"element": "rigid", "name": "rack", "mass": mass, "inertia": 0.1, "position": [0.35, 0.4],
-                    "motion": {"velocity": [0.0, ratio * rate]}, "markers": {"c": [0.0, 0.0]}}, extra()],
+                    "motion": {"velocity": [0.0, ratio * rate]}, "markers": {"c": [0.0, 0.0]}},
+                   {"element": "rigid", "name": "wheel", "mass": 0.6, "inertia": inertia, "position": [4.0, 0.0],
+                    "markers": {"c": [0.0, 0.0]}},
+                   {"element": "rigid", "name": "bar", "mass": 0.9, "inertia": 0.1, "position": [5.0, 0.0],
+                    "markers": {"c": [0.0, 0.0]}}, extra()],
         "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "pinion.c"]},
                    {"name": "guide", "kind": "prismatic", "markers": ["ground", "rack.c"], "direction": [0.0, 1.0],
-                    "point": [0.35, 0.1]}],
-        "gears": [{"name": "teeth", "joints": ["pin", "guide"], "ratio": ratio}],
-        "outputs": [read(TURN, "pin"), read(WAY, "guide"), vec![json!({"kind": "gear_force", "gear": "teeth"})]].concat()});
+                    "point": [0.35, 0.1]},
+                   {"name": "hub", "kind": "revolute", "markers": ["ground", "wheel.c"]},
+                   {"name": "level", "kind": "prismatic", "markers": ["ground", "bar.c"], "direction": [1.0, 0.0]}],
+        "gears": [{"name": "teeth", "joints": ["pin", "guide"], "ratio": ratio},
+                  {"name": "idle", "joints": ["hub", "level"], "ratio": 0.2}],
+        "outputs": joined([read(TURN, "pin"), read(WAY, "guide"), vec![json!({"kind": "gear_force", "gear": "teeth"})]])});
     let second = -mass * weight * ratio * ratio / (inertia + mass * ratio * ratio);
     let force = mass * (second + weight);
     let mut specimen = Specimen::new("rack", scene);
@@ -278,66 +325,14 @@ fn rack() -> Specimen {
         let velocity = ratio * rate + second * time;
         let turned = [0.5 + way / ratio, velocity / ratio, second / ratio];
         specimen = specimen.at(time);
-        specimen = claimed(specimen, TURN, "pin", turned);
-        specimen = claimed(specimen, WAY, "guide", [0.3 + way, velocity, second]);
-        specimen = specimen.claim("teeth.gear_force", "N", force);
-    }
-    specimen
-}
-
-/// Small motions of a body on a bushing: `sqrt(k / m)` along the axes of the ground, and about those of a body in them.
-fn modes() -> Specimen {
-    let mut block = body("block");
-    block.axes = Matrix3::identity();
-    let (along, about) = ([3.0, 5.0, 8.0], [4.0, 20.0, 41.0]);
-    let scene = json!({"name": "mounted", "dimension": 3, "bodies": [block.described(Value::Null)],
-        "loads": [{"name": "mount", "kind": "bushing", "markers": ["ground", "block.c"],
-                   "translational_stiffness": along, "rotational_stiffness": about}],
-        "outputs": [{"kind": "natural_frequency", "count": 6}]});
-    let mut frequencies: Vec<f64> = along.iter().map(|k| (k / block.mass).sqrt()).collect();
-    let moments = block.inertia.diagonal();
-    frequencies.extend(
-        about
-            .iter()
-            .zip(moments.iter())
-            .map(|(k, j)| (k / j).sqrt()),
-    );
-    frequencies.sort_by(f64::total_cmp);
-    let mut specimen = Specimen::new("bushing", scene);
-    for (k, value) in frequencies.into_iter().enumerate() {
-        specimen = specimen.claim(&format!("natural_frequency[{}]", k + 1), "rad/s", value);
-    }
-    specimen
-}
-
-/// Dampers along and about the axes of a body that stands obliquely: of what another moves past it.
-fn dampers() -> Specimen {
-    let ([first, mut second], along, about) =
-        (["u", "v"].map(body), [0.3, 0.5, 0.8], [0.4, 0.2, 0.7]);
-    second.velocity = Vector3::new(0.7, -0.2, 0.5);
-    second.spin = Vector3::new(0.9, 0.4, -0.7);
-    let scene = json!({"name": "damped", "dimension": 3, "bodies": [first.described(Value::Null), second.described(Value::Null)],
-        "loads": [{"name": "mount", "kind": "bushing", "markers": ["u.c", "v.c"],
-                   "translational_damping": along, "rotational_damping": about}],
-        "outputs": ["u.c", "v.c"].map(|marker| ["acceleration", "angular_acceleration"]
-            .map(|kind| json!({"kind": kind, "marker": marker}))).concat()});
-    let damping =
-        |of: [f64; 3]| first.axes * Matrix3::from_diagonal(&of.into()) * first.axes.transpose();
-    let force = -damping(along) * second.velocity;
-    // Forces stand at one point: none turns the bodies.
-    let moment = -damping(about) * second.spin;
-    let mut specimen = Specimen::new("dampers", scene);
-    for (body, sign) in [(&first, -1.0), (&second, 1.0)] {
-        let name = body.name;
-        let a = force * (sign / body.mass);
-        specimen = vector(specimen, &format!("{name}.c.acceleration"), "m/s2", a);
-        let turning = body.turning(moment * sign);
-        specimen = vector(
-            specimen,
-            &format!("{name}.c.angular_acceleration"),
-            "rad/s2",
-            turning,
-        );
+        let ways = [0.3 + way, velocity, second];
+        for (joint, names, values) in [("pin", TURN, turned), ("guide", WAY, ways)] {
+            for ((kind, unit), value) in names.into_iter().zip(values) {
+                let of = format!("{joint}.{kind}");
+                specimen = specimen.claim_within(&of, unit, value, 1e-8);
+            }
+        }
+        specimen = specimen.claim_within("teeth.gear_force", "N", force, 1e-8);
     }
     specimen
 }
@@ -396,6 +391,21 @@ fn let_go() -> Specimen {
         let mut turning = system.try_inverse().expect("regular") * MOMENT;
         held.iter().for_each(|k| turning[*k] = 0.0);
         claims.push((format!("{marker}.angular_acceleration"), "rad/s2", turning));
+    }
+    // Between two bodies whose centres of mass are at one place.
+    let [first, mut second] = ["f", "g"].map(body);
+    second.mass = 0.6;
+    let n = first.axes.column(0).into_owned();
+    bodies.extend([first.described(Value::Null), second.described(Value::Null)]);
+    joints.push(
+        json!({"name": "between", "kind": "generic", "markers": ["f.c", "g.c"], "free": ["x"]}),
+    );
+    loads.push(json!({"name": "pull", "kind": "force", "marker": "g.c", "value": array(FORCE)}));
+    let along = n * n.dot(&FORCE);
+    let together = (FORCE - along) / (first.mass + second.mass);
+    for (name, a) in [("f.c", together), ("g.c", together + along / second.mass)] {
+        outputs.push(json!({"kind": "acceleration", "marker": name}));
+        claims.push((format!("{name}.acceleration"), "m/s2", a));
     }
     let scene = json!({"name": "let_go", "dimension": 3, "bodies": bodies, "joints": joints, "loads": loads, "outputs": outputs});
     let mut specimen = Specimen::new("let go", scene);

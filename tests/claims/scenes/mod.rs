@@ -1,6 +1,7 @@
 //! The specimens: scenes of a body or a few, and what must come of them in closed form. Numbers of the
 //! closed forms are those of the scene, written once more where a test must not compute them.
 
+mod bushings;
 mod cables;
 mod coordinates;
 mod frames;
@@ -49,6 +50,7 @@ pub fn all() -> Vec<Specimen> {
         space_joints::all(),
         space_modes::all(),
         coordinates::all(),
+        bushings::all(),
     ];
     parts.into_iter().flatten().collect()
 }

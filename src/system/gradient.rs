@@ -1,9 +1,48 @@
-//! Derivatives of a function of two ends, over the nodes, and their squares.
+//! Derivatives of a function of two ends, such as a constraint or a coordinate of a joint: forces on both, and over the nodes.
 
-use super::Gradient;
+use super::end::{Add, End};
 use crate::body::{Node, add_node, no_node};
+use crate::math::jet::Number;
 use crate::math::space::Vector;
-use crate::system::end::{Add, End};
+
+/// Derivatives by position and direction of two ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Gradient<const D: usize, N: Number = f64> {
+    /// The ends and, for each, the derivatives by position and direction.
+    pub ends: [(End<D, N>, [Vector<D, N>; 2]); 2],
+}
+
+impl<const D: usize, N: Number> Gradient<D, N> {
+    /// The derivative along a nodal vector.
+    pub fn along(&self, v: &[Node<D, N>]) -> N {
+        let of = |(end, [position, direction]): &(End<D, N>, [Vector<D, N>; 2])| {
+            position.dot(&end.velocity(v)) + direction.dot(&end.direction_rate(v))
+        };
+        of(&self.ends[0]) + of(&self.ends[1])
+    }
+
+    /// The same times a factor.
+    pub fn scaled(mut self, factor: N) -> Self {
+        for (_, [position, direction]) in &mut self.ends {
+            *position *= factor;
+            *direction *= factor;
+        }
+        self
+    }
+
+    /// Terms over the nodes.
+    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<D, N>)) {
+        for (end, [position, direction]) in &self.ends {
+            if let End::Body(marker) = end {
+                let [a, b] = marker.forces(*position, *direction);
+                term(a.0, &a.1);
+                if b.1 != [[N::of(0.0); D]; 2] {
+                    term(b.0, &b.1);
+                }
+            }
+        }
+    }
+}
 
 /// Derivatives by the coordinates of up to four nodes.
 #[derive(Clone, Copy, Debug)]
