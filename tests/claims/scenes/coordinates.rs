@@ -316,10 +316,11 @@ fn rack() -> Specimen {
                    {"name": "level", "kind": "prismatic", "markers": ["ground", "bar.c"], "direction": [1.0, 0.0]}],
         "gears": [{"name": "teeth", "joints": ["pin", "guide"], "ratio": ratio},
                   {"name": "idle", "joints": ["hub", "level"], "ratio": 0.2}],
-        "outputs": joined([read(TURN, "pin"), read(WAY, "guide"), vec![json!({"kind": "gear_force", "gear": "teeth"})]])});
+        "outputs": joined([read(TURN, "pin"), read(WAY, "level"), read(WAY, "guide"), vec![json!({"kind": "gear_force", "gear": "teeth"})]])});
     let second = -mass * weight * ratio * ratio / (inertia + mass * ratio * ratio);
     let force = mass * (second + weight);
     let mut specimen = Specimen::new("rack", scene);
+    specimen = claimed(specimen, WAY, "level", [0.0; 3]);
     for time in [0.0, 1.0] {
         let way = ratio * rate * time + 0.5 * second * time * time;
         let velocity = ratio * rate + second * time;
