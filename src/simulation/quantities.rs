@@ -110,10 +110,6 @@ pub(super) fn value<const D: usize, N: Number>(
     let on = |id: MarkerId| -> Marker<N> { assembled.marker(id).lift() };
     let at = |id: MarkerId| assembled.marker(id);
     let ends = |joint: HolderId| system.joints()[joint.index()].ends;
-    let way = |joint: HolderId, of: &dyn Fn(&Way<D>) -> N| {
-        let way = system.joints()[joint.index()].way.as_ref();
-        way.map_or_else(|| N::of(0.0), of)
-    };
     let turn = |joint: HolderId| system.joints()[joint.index()].turn;
     match quantity {
         Position(id, axis) => on(id).position(&values.x)[axis],
@@ -155,11 +151,10 @@ pub(super) fn value<const D: usize, N: Number>(
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, axis) => values.reaction(system, joint.index()).0[axis],
         ReactionMoment(joint, axis) => values.reaction(system, joint.index()).1[axis],
-        Displacement(joint) => way(joint, &|way| way.value(&values.x)),
-        SlidingVelocity(joint) => way(joint, &|way| way.gradient(&values.x).along(&values.v)),
-        SlidingAcceleration(joint) => way(joint, &|way| {
-            way.bend(&values.v) + way.gradient(&values.x).along(&values.acceleration)
-        }),
+        Displacement(joint) | SlidingVelocity(joint) | SlidingAcceleration(joint) => {
+            let way = system.joints()[joint.index()].way.as_ref();
+            way.map_or_else(|| N::of(0.0), |way| sliding(quantity, way, values))
+        }
         GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
         MotionMoment(joint) => -values.reaction(system, joint.index()).1[2],
@@ -176,6 +171,20 @@ pub(super) fn value<const D: usize, N: Number>(
         CenterOfMass(axis) => values.center_of_mass(system)[axis],
         Resolution => resolution(values, assembled),
         Residual(of) => N::of(values.residuals(system)[of]),
+    }
+}
+
+/// The way along a joint, its rate or the rate of that.
+fn sliding<const D: usize, N: Number>(
+    quantity: Quantity,
+    way: &Way<D>,
+    values: &Evaluation<D, N>,
+) -> N {
+    let (x, v) = (&values.x, &values.v);
+    match quantity {
+        Quantity::Displacement(_) => way.value(x),
+        Quantity::SlidingVelocity(_) => way.gradient(x).along(v),
+        _ => way.bend(v) + way.gradient(x).along(&values.acceleration),
     }
 }
 

@@ -6,7 +6,7 @@ use flexbody::math::function::Function;
 use flexbody::math::jet::Jet;
 use flexbody::system::loads::{Load, Spring};
 use flexbody::system::{
-    Derivatives, Dynamics, End, Evaluation, Model, Signal, State, System, Work,
+    Derivatives, Dynamics, End, Evaluation, Model, Parts, Signal, State, System, Work,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -218,6 +218,23 @@ fn derivatives_in_time_are_those_of_the_motion() {
     }
 }
 
+/// Its parts, with springs from every body to the ground.
+fn tethered(mechanism: &Mechanism, chance: &mut Chance) -> Parts<3> {
+    let mut parts = mechanism.parts();
+    for (body, sign) in (0..mechanism.bodies.len()).flat_map(|body| [(body, 1.0), (body, -1.0)]) {
+        let at = chance.vector();
+        let marker = Marker::framed(body, 2 * body, at.into(), [1.0, 0.0, 0.0]);
+        let point = mechanism.bodies[body].point(&at) + chance.vector() + V::new(sign, 0.0, 0.0);
+        parts.loads.push(Load::Spring(Spring {
+            ends: [End::Ground(point), End::Body(marker)],
+            stiffness: 50.0,
+            damping: 0.0,
+            length: Signal::Function(Function::constant(0.4)),
+        }));
+    }
+    parts
+}
+
 #[test]
 fn the_stiffness_is_the_derivative_of_forces() {
     let mut chance = Chance(11);
@@ -232,20 +249,7 @@ fn the_stiffness_is_the_derivative_of_forces() {
         mechanism.bodies.iter_mut().for_each(|body| {
             (body.velocity, body.spin) = (V::zeros(), V::zeros());
         });
-        let mut parts = mechanism.parts();
-        for (body, sign) in (0..mechanism.bodies.len()).flat_map(|body| [(body, 1.0), (body, -1.0)])
-        {
-            let at = chance.vector();
-            let marker = Marker::framed(body, 2 * body, at.into(), [1.0, 0.0, 0.0]);
-            let point =
-                mechanism.bodies[body].point(&at) + chance.vector() + V::new(sign, 0.0, 0.0);
-            parts.loads.push(Load::Spring(Spring {
-                ends: [End::Ground(point), End::Body(marker)],
-                stiffness: 50.0,
-                damping: 0.0,
-                length: Signal::Function(Function::constant(0.4)),
-            }));
-        }
+        let parts = tethered(&mechanism, &mut chance);
         let system = System::new(parts).expect("a system");
         let (mut state, mut work) = mechanism.state_of(&system);
         state.rates.fill(0.0);

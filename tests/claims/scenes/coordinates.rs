@@ -34,6 +34,7 @@ pub fn all() -> Vec<Specimen> {
         gears(),
         rack(),
         let_go(),
+        let_go_between(),
     ]
 }
 
@@ -74,8 +75,11 @@ fn sprung() -> Specimen {
     let (bar, point) = on_axis(speed, rate);
     let [k, c, rest] = [5.0, 0.4, 0.1];
     let [turning_k, turning_c, turning_rest] = [2.0, 0.3, -0.2];
-    let scene = json!({"name": "sprung", "dimension": 3, "bodies": [bar.described(Value::Null)],
-        "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point}],
+    // Of its joint nothing is read.
+    let idle = body("idle");
+    let scene = json!({"name": "sprung", "dimension": 3, "bodies": [bar.described(Value::Null), idle.described(Value::Null)],
+        "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point},
+                   {"name": "other", "kind": "cylindrical", "markers": ["ground", "idle.c"], "direction": AXIS}],
         "loads": [{"name": "spring", "kind": "joint_spring", "joint": "guide", "coordinate": "displacement",
                    "stiffness": k, "damping": c, "rest": rest},
                   {"name": "as_it_starts", "kind": "joint_spring", "joint": "guide", "stiffness": 3.0},
@@ -393,25 +397,29 @@ fn let_go() -> Specimen {
         held.iter().for_each(|k| turning[*k] = 0.0);
         claims.push((format!("{marker}.angular_acceleration"), "rad/s2", turning));
     }
-    // Between two bodies whose centres of mass are at one place.
-    let [first, mut second] = ["f", "g"].map(body);
-    second.mass = 0.6;
-    let n = first.axes.column(0).into_owned();
-    bodies.extend([first.described(Value::Null), second.described(Value::Null)]);
-    joints.push(
-        json!({"name": "between", "kind": "generic", "markers": ["f.c", "g.c"], "free": ["x"]}),
-    );
-    loads.push(json!({"name": "pull", "kind": "force", "marker": "g.c", "value": array(FORCE)}));
-    let along = n * n.dot(&FORCE);
-    let together = (FORCE - along) / (first.mass + second.mass);
-    for (name, a) in [("f.c", together), ("g.c", together + along / second.mass)] {
-        outputs.push(json!({"kind": "acceleration", "marker": name}));
-        claims.push((format!("{name}.acceleration"), "m/s2", a));
-    }
     let scene = json!({"name": "let_go", "dimension": 3, "bodies": bodies, "joints": joints, "loads": loads, "outputs": outputs});
     let mut specimen = Specimen::new("let go", scene);
     for (of, unit, value) in claims {
         specimen = vector(specimen, &of, unit, value);
     }
     specimen
+}
+
+/// Two bodies at rest whose centres of mass are at one place: along what is let go a force moves the second alone, across it both.
+fn let_go_between() -> Specimen {
+    let [first, mut second] = ["f", "g"].map(body);
+    second.mass = 0.6;
+    let n = first.axes.column(0).into_owned();
+    let acceleration = |marker: &str| json!({"kind": "acceleration", "marker": marker});
+    let scene = json!({"name": "between", "dimension": 3,
+        "bodies": [first.described(Value::Null), second.described(Value::Null)],
+        "joints": [{"name": "between", "kind": "generic", "markers": ["f.c", "g.c"], "free": ["x"]}],
+        "loads": [{"name": "pull", "kind": "force", "marker": "g.c", "value": array(FORCE)}],
+        "outputs": [acceleration("f.c"), acceleration("g.c")]});
+    let along = n * n.dot(&FORCE);
+    let together = (FORCE - along) / (first.mass + second.mass);
+    let specimen = Specimen::new("let go between", scene);
+    let specimen = vector(specimen, "f.c.acceleration", "m/s2", together);
+    let apart = together + along / second.mass;
+    vector(specimen, "g.c.acceleration", "m/s2", apart)
 }
