@@ -13,6 +13,7 @@ use crate::math::space::{Vector, axis, cross, turned};
 
 /// A coordinate of a joint.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there are few")]
 pub enum Coordinate<const D: usize> {
     /// A way, m.
     Way(Way<D>),
