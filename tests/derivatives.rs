@@ -29,6 +29,8 @@ fn scenes() -> Vec<PathBuf> {
         "tests/cases/falling_rod/scene.json",
         "tests/fmpy/mechanism.json",
         "tests/fmpy/swing.json",
+        "tests/masters/scenes/inner.json",
+        "tests/masters/scenes/outer.json",
     ];
     found.extend(others.map(|name| root.join(name)));
     found.sort();
@@ -259,9 +261,10 @@ fn derivatives_by_inputs_are_what_outputs_do_when_inputs_jump() {
                 moving.simulation.restore(&before).expect("its own state");
                 values
             };
-            let (low, high) = (side(-1.0), side(1.0));
+            // Of order 4: outputs follow quaternions by more than squares.
+            let [lower, low, high, higher] = [-2.0, -1.0, 1.0, 2.0].map(&mut side);
             for (i, output) in outputs.iter().enumerate() {
-                let slope = (high[i] - low[i]) / (2.0 * way);
+                let slope = (8.0 * (high[i] - low[i]) - (higher[i] - lower[i])) / (12.0 * way);
                 let size = (high[i].abs() + 1.0) / way;
                 let place = format!(
                     "{} {} by {}",

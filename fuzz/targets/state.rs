@@ -10,8 +10,12 @@ use libfuzzer_sys::fuzz_target;
 use sha2::{Digest, Sha256};
 use support::{Instance, Status, Unit, call};
 
-/// A flexible pendulum; rigid bodies with constraints, and a trolley that inputs drive.
-const SCENES: [&str; 2] = [support::SCENE, include_str!("crane.json")];
+/// A flexible pendulum; rigid bodies with constraints, and a trolley that inputs drive; rigid bodies of space.
+const SCENES: [&str; 3] = [
+    support::SCENE,
+    include_str!("crane.json"),
+    include_str!("arm.json"),
+];
 
 /// Bytes of what says whose state it is: magic, version, GUID.
 const HEADER: usize = 8 + 4 + 38;

@@ -66,7 +66,7 @@ pub fn accelerate(arguments: &Accelerate) -> Result<(), String> {
 }
 
 /// CPU time of a call, s: the median over batches.
-fn median(batches: usize, mut call: impl FnMut()) -> f64 {
+pub fn median(batches: usize, mut call: impl FnMut()) -> f64 {
     let mut batch = |calls: u32| {
         let started = ThreadTime::now();
         (0..calls).for_each(|_| call());

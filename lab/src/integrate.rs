@@ -231,7 +231,9 @@ fn rate(start: &mut Start) -> f64 {
     let (size, mass) = (system.size(), system.mass());
     let motion = (2.0 * kinetic / mass).sqrt() / size;
     let gravity = (system.gravity().norm() / size).sqrt();
-    let rate = motion.max(gravity).max(start.scene.rotation.abs());
+    let rate = motion
+        .max(gravity)
+        .max(start.scene.rotation.full()[2].abs());
     if rate > 0.0 {
         return rate;
     }

@@ -4,6 +4,7 @@
 mod accelerate;
 #[cfg(test)]
 mod cases;
+mod dynamics;
 mod elements;
 mod failures;
 mod formulations;
@@ -33,6 +34,8 @@ struct Arguments {
 enum Command {
     /// Times one acceleration of a chain in a named formulation.
     Accelerate(accelerate::Accelerate),
+    /// Times one acceleration of a scene in space in the product.
+    Dynamics(dynamics::Dynamics),
     /// Measures where methods fail and what the product does there.
     Failures(failures::Failures),
     /// Integrates a scene with a named method.
@@ -53,6 +56,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Swing(arguments) => swing::swing(&arguments),
         Command::Accelerate(arguments) => accelerate::accelerate(&arguments),
+        Command::Dynamics(arguments) => dynamics::dynamics(&arguments),
         Command::Failures(arguments) => failures::failures(&arguments),
         Command::Integrate(arguments) => integrate::integrate(&arguments),
         Command::Rivals(arguments) => rivals::rivals(&arguments),

@@ -23,6 +23,7 @@ impl Outputs {
                 Output {
                     kind: OutputKind::Position,
                     of: Of::Marker(marker),
+                    ..
                 } => Some(*marker),
                 _ => None,
             })

@@ -233,16 +233,22 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         }
     }
 
-    /// Adds the mass to that of the system.
-    pub fn add_mass(&self, assembly: &Assembly<D>, matrix: &mut Matrix<f64>) {
+    /// Adds the mass, times a matrix over the axes, to a matrix of the system.
+    pub fn add_mass(
+        &self,
+        axes: &SMatrix<f64, D, D>,
+        assembly: &Assembly<D>,
+        matrix: &mut Matrix<f64>,
+    ) {
         for (j, element) in self.elements.iter().enumerate() {
             let m = element.mass();
             let [a, b] = self.nodes(j);
             for (row, column, at) in [(a, a, (0, 0)), (b, a, (2, 0)), (b, b, (2, 2))] {
                 let mut block: NodeBlock<D> = no_block();
                 for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    for d in 0..D {
-                        block[p][d][q][d] = m[(at.0 + p, at.1 + q)];
+                    let part = axes * m[(at.0 + p, at.1 + q)];
+                    for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
+                        block[p][r][q][c] = part[(r, c)];
                     }
                 }
                 assembly.add(row, column, &block, matrix);

@@ -11,7 +11,7 @@
 use nalgebra::DMatrix;
 
 use crate::math::householder::{reflect, reflector};
-use crate::math::space::perpendicular;
+use crate::math::space::carried;
 use crate::math::vector::{dot, norm};
 
 /// Coordinates of a node in `D` dimensions: position, then direction (the slope of a cable, the unit vector of a
@@ -36,9 +36,9 @@ pub fn add_node<const D: usize>(to: &mut Node<D>, factor: f64, node: &Node<D>) {
     }
 }
 
-/// A nodal vector turned left by a right angle, in the plane.
-pub fn perpendicular_node<const D: usize>(node: &Node<D>) -> Node<D> {
-    node.map(|vector| perpendicular(vector.into()).into())
+/// [`carried`] of both vectors of a node.
+pub fn carried_node<const D: usize>(rate: [f64; 3], x: &Node<D>, v: &Node<D>) -> Node<D> {
+    [0, 1].map(|part| carried(rate, x[part].into(), v[part].into()).into())
 }
 
 /// A nodal vector of numbers made one by one.

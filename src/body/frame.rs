@@ -9,7 +9,7 @@
 //! `m c'' = F`, `J w' = sum e_i x f_i - w x J w`, `e_i' = w x e_i`,
 //!
 //! with `f_i` the force on the axis `e_i`. The rotation is the vector of Rodrigues, twice the tangent of half the angle
-//! along the axis: `R = R0 (I + ([p] + [p]^2 / 2) / (1 + p.p / 4))`, `p' = w + p x w / 2 + p (p.w) / 4`. It begins at zero
+//! along the axis: `R = R0 (I + ([p] + [p]^2 / 2) / (1 + p.p / 4))`, as a quaternion `q0 (1, p / 2)` but for its length, `p' = w + p x w / 2 + p (p.w) / 4`. It begins at zero
 //! anew before it is large ([`RENEWED`]), so that it is nowhere singular and nearly the angle.
 //!
 //! Source: J. Garcia de Jalon, E. Bayo, Kinematic and Dynamic Simulation of Multibody Systems (1994), section 2.2 (natural
@@ -17,11 +17,12 @@
 //! Multibody System Dynamics 4 (2000) 129-193 (Cayley-Gibbs-Rodrigues parameters); H. Munthe-Kaas, BIT 38 (1998) 92-111
 //! (one-step methods in coordinates that are renewed every step).
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::assembly::{NodeBlock, no_block};
 use super::connectivity::Node;
 use crate::math::jet::Number;
+use crate::math::rotation::{Quaternion, axes, normalized, product, quaternion};
 use crate::math::space::{components, vector};
 
 /// Size of the rotation `p` from which on the frame that the state holds is renewed.
@@ -29,9 +30,6 @@ pub const RENEWED: f64 = 0.5;
 
 /// The principal axes of a body, in global components.
 pub type Axes<N = f64> = [Vector3<N>; 3];
-
-/// Axes as plain numbers, one after another.
-pub type Plain = [[f64; 3]; 3];
 
 /// A rigid body of space.
 #[derive(Clone, Debug)]
@@ -59,17 +57,10 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// The axes, from those where the rotation is zero.
-    fn axes(&self, from: &Axes) -> Axes {
-        let p = self.rotation;
-        let scale = 1.0 / (1.0 + 0.25 * p.norm_squared());
-        // Columns of I + ([p] + [p]^2 / 2) / (1 + p.p / 4), in the axes before.
-        std::array::from_fn(|k| {
-            let unit = Vector3::ith(k, 1.0);
-            let once = p.cross(&unit);
-            let in_axes = unit + (once + p.cross(&once) * 0.5) * scale;
-            combined(from, &in_axes)
-        })
+    /// The quaternion, of any length, from that where the rotation is zero: on the same side of it, however far the body turned.
+    fn quaternion(&self, from: &Quaternion) -> Quaternion {
+        let half = self.rotation * 0.5;
+        product(from, &[1.0, half.x, half.y, half.z])
     }
 
     /// Angular velocity along the body's axes at this rate.
@@ -104,13 +95,6 @@ pub fn turned<N: Number>([a, b, c]: &Axes<N>, spin: &Vector3<N>) -> Axes<N> {
         c * spin[0] - a * spin[2],
         a * spin[1] - b * spin[0],
     ]
-}
-
-/// Axes made orthonormal again.
-fn orthonormal([a, b, _]: &Axes) -> Axes {
-    let a = a.normalize();
-    let b = (b - a * a.dot(b)).normalize();
-    [a, b, a.cross(&b)]
 }
 
 impl Frame {
@@ -189,6 +173,25 @@ impl Frame {
         )
     }
 
+    /// Angular momentum along its axes, N m s.
+    pub fn momentum(&self, spin: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::from(self.moments).component_mul(spin)
+    }
+
+    /// Rate of its inertia over axes that stand still, `w J - J w` with the matrix of the cross product by the spin, N m s.
+    pub fn inertia_rate(&self, spin: &Vector3<f64>) -> Matrix3<f64> {
+        let (inertia, turn) = (
+            Matrix3::from_diagonal(&self.moments.into()),
+            spin.cross_matrix(),
+        );
+        turn * inertia - inertia * turn
+    }
+
+    /// Whether it has no rotation about an axis: a thin rod.
+    pub fn is_thin(&self) -> bool {
+        self.places.iter().any(Option::is_none)
+    }
+
     /// The spin, or rate of it, about axes without inertia, for which the rotation about them stays zero.
     fn complete(&self, turn: &Turn, spin: &mut Vector3<f64>, by_rate: bool) {
         let (p, w) = (turn.rotation, turn.spin);
@@ -202,10 +205,27 @@ impl Frame {
         }
     }
 
+    /// Adds a moment along its axes to forces on the free coordinates.
+    pub fn add_moment(&self, moment: &Vector3<f64>, y: &mut [f64]) {
+        for (place, moment) in self.places.iter().zip(moment) {
+            if let Some((at, _)) = place {
+                y[*at] += moment;
+            }
+        }
+    }
+
     /// What stands in `q` for the rotation about its axes.
-    fn read(&self, q: &[f64]) -> Vector3<f64> {
+    pub fn read(&self, q: &[f64]) -> Vector3<f64> {
         let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| q[at] / scale);
         self.places.map(value).into()
+    }
+
+    /// How it has turned at these coordinates.
+    fn turn(&self, q: &[f64]) -> Turn {
+        Turn {
+            rotation: self.read(q),
+            ..Turn::default()
+        }
     }
 
     fn write(&self, rotation: &Vector3<f64>, q: &mut [f64]) {
@@ -215,6 +235,15 @@ impl Frame {
             }
         }
     }
+}
+
+/// The block of a node whose second vector stands for a rotation.
+pub fn turning_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {
+    let mut block = no_block();
+    for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
+        block[1][i][1][j] = matrix[(i, j)];
+    }
+    block
 }
 
 /// Parts and axes of a nodal vector.
@@ -266,10 +295,15 @@ impl Frames {
     }
 
     /// Axes at coordinates over the nodes, which hold rotations before.
-    pub fn place<const D: usize>(&self, from: &[Plain], turns: &mut [Turn], x: &mut [Node<D>]) {
+    pub fn place<const D: usize>(
+        &self,
+        from: &[Quaternion],
+        turns: &mut [Turn],
+        x: &mut [Node<D>],
+    ) {
         for ((frame, from), turn) in self.list.iter().zip(from).zip(turns) {
             turn.rotation = components(&x[frame.node][1].into()).into();
-            frame.set_axes(&turn.axes(&from.map(Vector3::from)), x);
+            frame.set_axes(&axes(&turn.quaternion(from)), x);
         }
     }
 
@@ -419,18 +453,39 @@ impl Frames {
         (frame.node, partial)
     }
 
-    /// Stiffness that forces on the axes of a body add where it turns, along its axes: the symmetric part of
-    /// `sum (E_i.F_i) I - F_i E_i^T`, which is all of it where the forces have no moment.
-    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> NodeBlock<D> {
-        let (axes, forces) = (frame.axes(x), frame.axes(f));
-        let along = |i: usize, j: usize| forces[i].dot(&axes[j]);
-        let trace: f64 = (0..3).map(|k| along(k, k)).sum();
-        let mut block = no_block();
-        for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
-            let diagonal = if i == j { trace } else { 0.0 };
-            block[1][i][1][j] = diagonal - 0.5 * (along(i, j) + along(j, i));
+    /// Derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand: `E_i x v`.
+    pub fn partial_of_rates<const D: usize>(
+        &self,
+        node: usize,
+        x: &[Node<D>],
+        v: &[Node<D>],
+    ) -> (usize, NodeBlock<D>) {
+        let mut partial = no_block();
+        let Some((frame, is_second)) = self.of_node::<D>(node) else {
+            return (node, partial);
+        };
+        let (axes, [a, b, c]) = (frame.axes(x), frame.axes(v));
+        for (turn, about) in axes.iter().enumerate().take(D) {
+            let rates = match is_second {
+                true => [b, c],
+                false => [Vector3::zeros(), a],
+            };
+            for (part, rate) in rates.iter().enumerate() {
+                let change = about.cross(rate);
+                for axis in 0..D {
+                    partial[part][axis][1][turn] = change[axis];
+                }
+            }
         }
-        block
+        (frame.node, partial)
+    }
+
+    /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`,
+    /// symmetric where the forces have no moment.
+    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> Matrix3<f64> {
+        let (axes, forces) = (frame.axes(x), frame.axes(f));
+        let along = Matrix3::from_fn(|i, j| forces[j].dot(&axes[i]));
+        Matrix3::from_diagonal_element(along.trace()) - along
     }
 
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
@@ -458,24 +513,42 @@ impl Frames {
         sizes.fold(0.0, f64::max)
     }
 
-    /// Rotations begin at zero anew: the frames become what they are, made orthonormal, and rates spins.
-    pub fn renew(&self, frames: &mut [Plain], q: &mut [f64], v: &mut [f64]) {
-        for (frame, axes) in self.list.iter().zip(frames) {
-            let mut turn = Turn {
-                rotation: frame.read(q),
-                ..Turn::default()
-            };
+    /// Rotations begin at zero anew: the frames become what they are, of unit length, and rates spins.
+    pub fn renew(&self, frames: &mut [Quaternion], q: &mut [f64], v: &mut [f64]) {
+        for (frame, from) in self.list.iter().zip(frames) {
+            let mut turn = frame.turn(q);
             turn.spin = turn.spin_of(&frame.read(v));
-            *axes = orthonormal(&turn.axes(&axes.map(Vector3::from))).map(<[f64; 3]>::from);
+            *from = normalized(turn.quaternion(from));
             frame.write(&Vector3::zeros(), q);
             frame.write(&turn.spin, v);
         }
     }
 
     /// Frames at nodal coordinates.
-    pub fn frames_at<const D: usize>(&self, x: &[Node<D>], frames: &mut [Plain]) {
-        for (frame, axes) in self.list.iter().zip(frames) {
-            *axes = orthonormal(&frame.axes(x)).map(<[f64; 3]>::from);
+    pub fn frames_at<const D: usize>(&self, x: &[Node<D>], frames: &mut [Quaternion]) {
+        for (frame, at) in self.list.iter().zip(frames) {
+            *at = normalized(quaternion(&frame.axes(x)));
         }
+    }
+
+    /// For every body its first node, its frame, and the quaternion at coordinates on the same side of it.
+    pub fn quaternions<'a>(
+        &'a self,
+        frames: &'a mut [Quaternion],
+        q: &'a [f64],
+    ) -> impl Iterator<Item = (usize, &'a mut Quaternion, Quaternion)> {
+        (self.list.iter().zip(frames)).map(|(frame, from)| {
+            let now = normalized(frame.turn(q).quaternion(from));
+            (frame.node, from, now)
+        })
+    }
+
+    /// The place in the list of the body that a node belongs to.
+    pub fn index_of(&self, node: usize) -> Option<usize> {
+        self.of_node
+            .get(node)
+            .copied()
+            .flatten()
+            .map(|(index, _)| index)
     }
 }

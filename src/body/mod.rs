@@ -15,11 +15,11 @@ mod tangent;
 pub use assembly::{Assembly, Links, NodeBlock, no_block};
 pub use chain::Chain;
 pub use connectivity::{
-    Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, map_node, no_node, perpendicular_node,
+    Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, carried_node, map_node, no_node,
     product, tied_with,
 };
 pub use elimination::Elimination;
-pub use frame::{Axes, Frame, Frames, Plain, RENEWED, Turn, combined, turned};
+pub use frame::{Axes, Frame, Frames, RENEWED, Turn, combined, turned, turning_block};
 pub use jacobian::{Jacobian, SparseRows};
 pub use marker::{Marker, Partial};
 pub use stages::STAGES;

@@ -15,7 +15,7 @@ use crate::simulation::{Snapshot, Spectra};
 use crate::system::{DenseStep, Pace, State};
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 const GUID_BYTES: usize = 38;
 const HASH_BYTES: usize = 32;
 const ARRAYS: usize = 12;
@@ -145,16 +145,18 @@ impl SavedState {
         let (driven, rest) = driven.as_chunks::<DRIVEN>();
         let (slopes, none) = slopes.as_chunks();
         let (eigenvalues, half) = eigenvalues.as_chunks();
-        let is_whole = [rest, none, half].iter().all(|rest| rest.is_empty());
-        let frames = whole_frames(&frames).filter(|_| is_whole);
-        let frames = frames.ok_or_else(|| refused(PARTS))?;
+        let (frames, quarter) = frames.as_chunks();
+        let parts: [&[f64]; 4] = [rest, none, half, quarter];
+        if parts.iter().any(|part| !part.is_empty()) {
+            return Err(refused(PARTS));
+        }
         let state = State {
             time,
             step,
             pace,
             coordinates,
             rates,
-            frames,
+            frames: frames.to_vec(),
             angles,
             travel,
             driven: driven.to_vec(),
@@ -198,7 +200,7 @@ impl SavedState {
             spectra.eigenvalues.as_flattened(),
             &state.coordinates,
             &state.rates,
-            state.frames.as_flattened().as_flattened(),
+            state.frames.as_flattened(),
             &state.angles,
             &state.travel,
             state.driven.as_flattened(),
@@ -214,13 +216,6 @@ impl SavedState {
 
 /// What is wrong with arrays of a length that they cannot have.
 const PARTS: &str = "holds a part of a driven motion, of an input, of an eigenvalue or of a frame";
-
-/// Frames of rigid bodies from their numbers, nothing where one is not whole.
-fn whole_frames(numbers: &[f64]) -> Option<Vec<[[f64; 3]; 3]>> {
-    let (axes, rest) = numbers.as_chunks::<3>();
-    let (frames, part) = axes.as_chunks::<3>();
-    (rest.is_empty() && part.is_empty()).then(|| frames.to_vec())
-}
 
 /// Where an instance stood: its lifecycle state, whether it was initialized, whether it was started.
 fn stage(mode: u8, flags: u8) -> Result<(lifecycle::State, bool, bool), Fault> {
@@ -362,7 +357,7 @@ mod tests {
                     pace: Pace::from_numbers([1.0, 0.0, 120.0, 0.1, 60.0, 1e-4, 2e-3, 1e3]),
                     coordinates: vec![0.1, 0.2],
                     rates: vec![0.3, 0.4],
-                    frames: vec![[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]],
+                    frames: vec![[1.0, 0.0, 0.0, 0.0]],
                     angles: vec![7.0],
                     travel: vec![0.5],
                     driven: vec![[1.0, 2.0, 3.0, 4.0, 5.0]],
@@ -431,7 +426,7 @@ mod tests {
         assert!(reason(other.to_bytes()).contains("expected one of the model"));
         let mut version = bytes.clone();
         version[8] = 1;
-        assert!(reason(version).contains("format version 6, found 1"));
+        assert!(reason(version).contains("format version 7, found 1"));
         let mut mode = bytes.clone();
         mode[50] = 64;
         assert!(reason(mode).contains("lifecycle"));

@@ -65,9 +65,13 @@ fn members<'a>(
             Causality::of(variable),
             Causality::Input | Causality::Output
         );
-        let axes = [("[1]", "_x"), ("[2]", "_y"), ("[3]", "_z")];
-        let named = |key: String, (axis, letter): (&str, &str)| key.replace(axis, letter);
-        let member = axes.into_iter().fold(key.to_owned(), named);
+        let letters = match key.starts_with("quaternion") {
+            true => ["_w", "_x", "_y", "_z"],
+            false => ["_x", "_y", "_z", ""],
+        };
+        let named =
+            |key: String, (k, letter): (usize, &str)| key.replace(&format!("[{}]", k + 1), letter);
+        let member = letters.into_iter().enumerate().fold(key.to_owned(), named);
         (of == port && is_signal).then_some((variable, member))
     })
 }

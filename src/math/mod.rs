@@ -14,6 +14,7 @@ pub mod lanes;
 pub mod quadrature;
 pub mod radau;
 pub mod recent;
+pub mod rotation;
 pub mod row_space;
 pub mod space;
 pub mod sparse;

@@ -70,9 +70,31 @@ pub fn rotated<const D: usize>(v: Vector<D>, turn: [f64; 3]) -> Vector<D> {
 }
 
 /// `spin x v`; in the plane the third component of the spin alone counts.
-pub fn spun<const D: usize>(spin: [f64; 3], v: &[f64; D]) -> [f64; D] {
-    let v = Vector::<3>::from(components(&Vector::from(*v)));
-    vector::<D, f64>(moment(&Vector::<3>::from(spin), &v)).into()
+#[inline(always)]
+pub fn spun<const D: usize, N: Number>(spin: [f64; 3], v: Vector<D, N>) -> Vector<D, N> {
+    if D == 2 {
+        return perpendicular(v) * N::of(spin[2]);
+    }
+    let ([a, b, c], [x, y, z]) = (spin.map(N::of), components(&v));
+    vector([b * z - c * y, c * x - a * z, a * y - b * x])
+}
+
+/// [`spun`] as a matrix.
+pub fn spin_matrix<const D: usize>(spin: [f64; 3]) -> SMatrix<f64, D, D> {
+    SMatrix::from_fn(|r, c| spun(spin, axis::<D, f64>(c))[r])
+}
+
+/// Centripetal and Coriolis acceleration `W x (W x r) + 2 W x v` of a point that is at `r` and moves at `v` in a frame that
+/// turns about the origin at the constant rate `W`: what its acceleration is more than that seen in the frame.
+///
+/// Source: A. A. Shabana, Dynamics of Multibody Systems, 5th ed., section 2.5.
+#[inline(always)]
+pub fn carried<const D: usize, N: Number>(
+    rate: [f64; 3],
+    r: Vector<D, N>,
+    v: Vector<D, N>,
+) -> Vector<D, N> {
+    spun(rate, spun(rate, r) + v * N::of(2.0))
 }
 
 /// Unit vectors perpendicular to a unit vector and to each other, as many as there are; the first is that to the left in
@@ -131,7 +153,8 @@ mod tests {
             Vector::<3>::new(-2.0, 0.5, 4.0),
         );
         assert_eq!(moment(&a, &b), <[f64; 3]>::from(a.cross(&b)));
-        assert_eq!(spun(a.into(), &b.into()), <[f64; 3]>::from(a.cross(&b)));
+        assert_eq!(spun(a.into(), b), a.cross(&b));
+        assert_eq!(spin_matrix::<3>(a.into()) * b, a.cross(&b));
         let (a, b) = (Vector::<2>::new(1.0, 2.0), Vector::<2>::new(-2.0, 0.5));
         assert_eq!(moment(&a, &b), [0.0, 0.0, cross(&a, &b)]);
         assert_eq!(cross(&a, &b), perpendicular(a).dot(&b));

@@ -6,7 +6,7 @@ use super::number::number;
 use super::parts::parts;
 use super::plan::plan as planned;
 use super::table::{code, row, table};
-use crate::scene::{Body, InitialState, Integrator, Model, Scene, Strain};
+use crate::scene::{Body, InitialState, Integrator, Model, Scene, Spin, Strain};
 use crate::simulation::{Causality, Plan, Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
@@ -57,18 +57,20 @@ pub fn documentation(scene: &Scene, plan: Option<&Plan>, interface: &Interface<'
     )
 }
 
+fn turning(rate: &str) -> String {
+    format!(" The frame turns about the origin at {rate} rad/s; everything is seen from it.")
+}
+
 fn summary(scene: &Scene, standard: &str) -> String {
     let shown = scene.bodies.iter().take(MOST_BODIES).map(body_in_words);
     let mut bodies: Vec<String> = shown.collect();
     if let Some(others @ 1..) = scene.bodies.len().checked_sub(MOST_BODIES) {
         bodies.push(format!("and {others} more"));
     }
-    let frame = match scene.rotation {
-        0.0 => String::new(),
-        rate => format!(
-            " The frame turns about the origin at {} rad/s; everything is seen from it.",
-            number(rate)
-        ),
+    let frame = match (scene.turns(), scene.rotation) {
+        (false, _) => String::new(),
+        (true, Spin::Number(rate)) => turning(&number(rate)),
+        (true, Spin::Vector(rates)) => turning(&format!("[{}]", rates.map(number).join(", "))),
     };
     let (place, axes) = match scene.dimension {
         2 => ("a planar scene", "x to the right and y upwards"),
@@ -117,12 +119,12 @@ fn body_in_words(body: &Body) -> String {
             format!("the flexible body <em>{name}</em>, {length} m long, of {elements}")
         }
         Body::Rigid(rigid) => {
-            let kind = if rigid.inertia.is_some() {
+            let kind = if rigid.inertia().is_some() {
                 "rigid body"
             } else {
                 "particle"
             };
-            format!("the {kind} <em>{name}</em> of {} kg", number(rigid.mass))
+            format!("the {kind} <em>{name}</em> of {} kg", number(rigid.mass()))
         }
     }
 }

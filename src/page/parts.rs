@@ -34,7 +34,13 @@ pub(super) fn parts(scene: &Scene) -> String {
         row(&[&code(load.name), &acts, &on, &size])
     });
     let ports = resolved.ports.iter();
-    let ports = ports.map(|port| row(&[&code(port.name), &code(port.marker.name), &crosses(port)]));
+    let ports = ports.map(|port| {
+        row(&[
+            &code(port.name),
+            &code(port.marker.name),
+            &crosses(port, scene.dimension),
+        ])
+    });
     let masses = resolved.masses.iter().map(|mass| {
         let (size, inertia) = (number(mass.mass), number(mass.inertia));
         row(&[&code(mass.marker.name), &size, &inertia])
@@ -84,11 +90,15 @@ const PORTS: &str = "<p>Connect a port that forces come into with one that motio
     not the communication step; without one, give accelerations too, and step short.</p>\n";
 
 /// What comes in and what goes out.
-fn crosses(port: &Port<'_>) -> String {
+fn crosses(port: &Port<'_>, dimension: usize) -> String {
     let given = port.given;
-    let (turn, turns) = match given.turns() {
-        true => (" and moment", ", angle and its rates"),
-        false => ("", ""),
+    let (turn, turns) = match (given.turns(), dimension) {
+        (true, 2) => (" and moment", ", angle and its rates"),
+        (true, _) => (
+            " and moment",
+            ", quaternion, angular velocity, angular acceleration",
+        ),
+        (false, _) => ("", ""),
     };
     match &port.kind {
         PortKind::Force { .. } => {
@@ -109,10 +119,10 @@ fn crosses(port: &Port<'_>) -> String {
                 Some(format!("{} {unit}", number(size)))
             });
             let sizes: Vec<String> = sizes.collect();
-            let turns = if given.turns() {
-                ", angle and its rate"
-            } else {
-                ""
+            let turns = match (given.turns(), dimension) {
+                (true, 2) => ", angle and its rate",
+                (true, _) => ", quaternion, angular velocity",
+                (false, _) => "",
             };
             format!(
                 "position, velocity{turns} in, through {}; force{turn} on the outside out",

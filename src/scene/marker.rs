@@ -8,6 +8,7 @@ use super::resolved::{
     MarkerId, MotionKind, On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
 };
 use super::{Body, CableBody, Model, RigidBody, Scene};
+use crate::math::rotation::{NO_TURN, Quaternion, quaternion};
 use crate::math::vector::{dot, norm};
 use crate::system::Drive;
 
@@ -163,8 +164,22 @@ impl<'a> Place<'a> {
     pub(super) fn turns(self) -> bool {
         match self {
             Self::Along(..) => true,
-            Self::Point(rigid, _) => rigid.body.inertia.is_some(),
+            Self::Point(rigid, _) => rigid.body.inertia().is_some(),
         }
+    }
+
+    /// Whether it has axes, in space: on a rigid body that has inertia.
+    pub(super) fn is_framed(self) -> bool {
+        matches!(self, Self::Point(..)) && self.turns()
+    }
+
+    /// Quaternion of the frame of a rigid body of space as described, scalar first and not negative.
+    pub fn quaternion(self) -> Quaternion {
+        let Self::Point(rigid, _) = self else {
+            return NO_TURN;
+        };
+        let axes = rigid.body.axes();
+        quaternion(&std::array::from_fn(|k| axes.column(k).into_owned()))
     }
 
     /// Where it is as described, m.

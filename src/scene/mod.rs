@@ -20,16 +20,16 @@ use serde::Deserialize;
 
 pub use assemble::{Assembled, assemble};
 pub use description::{
-    About, Accuracy, ActionKind, Axial, Body, CableBody, Course, Experiment, Inertia, Initial,
-    InitialMotion, InitialState, InputCourse, Integrator, Interpolation, Material, Method, Model,
-    Orientation, OutputKind, RigidBody, Scene, Section, Shape, Spin, Strain, Symbol, Table, Value,
-    Vector,
+    About, Accuracy, ActionKind, Along, Axial, Body, CableBody, Course, Experiment, Inertia,
+    Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, Material, Method,
+    Model, Orientation, OutputKind, RigidBody, Scene, Section, Shape, Solid, Spin, Strain, Symbol,
+    Table, Value, Vector,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First,
-    Gear, Hold, Holder, HolderId, Input, InputKind, Joint, JointCoordinate, Load, LoadKind, Marker,
-    MarkerId, Mass, Motion, MotionKind, Of, On, Output, Pivot, Place, Port, PortKind, Reaction,
-    Resolved, Rigid, RigidId, SlideId, Slider, Spring, Turning,
+    Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
+    LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output, Pivot, Place, Port,
+    PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider, Spring, Turning,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};

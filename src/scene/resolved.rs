@@ -6,7 +6,7 @@ mod loads;
 use std::collections::BTreeMap;
 
 use super::description::{
-    CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
+    Along, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
 };
 use crate::system::Drive;
 pub use loads::{Action, Bushing, Load, LoadKind, On, Spring};
@@ -313,6 +313,8 @@ pub struct Output<'a> {
     pub kind: OutputKind,
     /// What it is read at; which of these follows from the kind.
     pub of: Of<'a>,
+    /// Along which axes.
+    pub along: Along,
 }
 
 /// What an output is read at.
@@ -364,17 +366,26 @@ pub enum PortKind<'a> {
     /// A motion that drives the marker in; what it takes out.
     Motion {
         /// The position.
-        position: Motion<'a>,
+        position: Box<Motion<'a>>,
         /// The angle, if it turns.
-        angle: Option<Motion<'a>>,
+        angle: Option<Box<Motion<'a>>>,
     },
     /// A motion in, through a spring and a damper; their force out.
     Coupling {
         /// Between positions.
-        position: Coupling<'a>,
+        position: Box<Coupling<'a>>,
         /// Between directions, if it turns.
-        angle: Option<Coupling<'a>>,
+        angle: Option<Box<Coupling<'a>>>,
     },
+}
+
+/// What comes in through a spring and a damper.
+#[derive(Clone, Debug)]
+pub enum Incoming<'a> {
+    /// Value and rate of every coordinate, which lie side by side.
+    Motion(Box<MotionKind<'a>>),
+    /// In space how the frame of a rigid body would stand: a quaternion, scalar first, then the angular velocity.
+    Orientation(Marker<'a>),
 }
 
 /// A spring and a damper between a marker and what comes in.
@@ -382,10 +393,9 @@ pub enum PortKind<'a> {
 pub struct Coupling<'a> {
     /// Which one.
     pub id: CouplingId,
-    /// What comes in: value and rate of every coordinate.
-    pub motion: MotionKind<'a>,
-    /// Place of its first number among those that the master sets; value and rate of each coordinate
-    /// lie side by side.
+    /// What comes in.
+    pub incoming: Incoming<'a>,
+    /// Place of its first number among those that the master sets.
     pub first: usize,
     /// Stiffness, N/m or N m/rad.
     pub stiffness: f64,

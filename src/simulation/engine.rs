@@ -162,7 +162,8 @@ impl<const D: usize> Engine<D> {
             self.remarks.is_unstable = !found.is_stable;
             if steady.is_some() || !motions.is_none() {
                 let x = system.nodes_of(&state, &mut self.work);
-                let rates = steady.map_or_else(|| motions.rates(&x), |steady| steady.rates(&x));
+                let rates =
+                    steady.map_or_else(|| motions.rates(&x), |steady| system.field(&steady, &x));
                 if !system.start_moving(&rates, inputs, &mut self.work, &mut state) {
                     let gaps = Vec::new();
                     return Err(Error::NotAssembled(
@@ -171,6 +172,7 @@ impl<const D: usize> Engine<D> {
                 }
             }
         }
+        self.assembled.begin(&mut state);
         if !misfits.is_empty() {
             self.remarks.misfits = Some(self.gaps(&misfits));
         }

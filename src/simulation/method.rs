@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::integrators::{Method, Methods, Nystrom, RKN43, RKN64, Radau, Rk4, Tolerance, VERLET};
+use crate::math::vector::norm;
 use crate::scene::{Error, Integrator, LoadKind, Resolved};
 use crate::system::{State, System, Work, fastest};
 
@@ -102,7 +103,9 @@ fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kin
     let (size, mass) = (system.size(), system.mass());
     let by_motion = (2.0 * kinetic / mass).sqrt() / size;
     let by_gravity = (system.gravity().norm() / size).sqrt();
-    let rate = by_motion.max(by_gravity).max(resolved.scene.rotation.abs());
+    let rate = by_motion
+        .max(by_gravity)
+        .max(norm(&resolved.scene.rotation.full()));
     let slow = [
         rate,
         elastic_rate(resolved),

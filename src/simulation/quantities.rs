@@ -1,12 +1,16 @@
 //! Quantities that are read of a simulation: their values, of numbers of any kind, from an evaluated state; what
 //! they are computed from; how large they naturally are.
 
+use nalgebra::Vector3;
+
 use super::engine::Engine;
 use super::mesh::resolution;
-use crate::body::Marker;
+use crate::body::{Marker, combined};
 use crate::integrators::Tolerance;
 use crate::math::jet::Number;
-use crate::scene::{AngleId, Assembled, CouplingId, HolderId, MarkerId, SlideId};
+use crate::math::rotation;
+use crate::math::space::{axis, components};
+use crate::scene::{Along, AngleId, Assembled, CouplingId, HolderId, MarkerId, SlideId};
 use crate::system::{End, Evaluation, System, Way};
 
 /// Outputs.
@@ -24,12 +28,16 @@ pub enum Quantity {
     Angle(AngleId),
     /// Entry of the matrix whose columns are the axes of a rigid body's frame, by rows.
     Orientation(MarkerId, usize),
+    /// Part of the unit quaternion of a rigid body's frame, scalar first.
+    Quaternion(MarkerId, usize),
+    /// Component of the rotation vector of a rigid body's frame.
+    RotationVector(MarkerId, usize),
     /// Component of the angular velocity at a marker; in the plane the third.
-    AngularVelocity(MarkerId, usize),
+    AngularVelocity(MarkerId, usize, Along),
     /// Angular velocity of the second marker of a joint less that of its first.
     JointVelocity(HolderId),
     /// Component of the angular acceleration at a marker; in the plane the third.
-    AngularAcceleration(MarkerId, usize),
+    AngularAcceleration(MarkerId, usize, Along),
     /// Angular acceleration of the second marker of a joint less that of its first.
     JointAcceleration(HolderId),
     /// Axial strain at a marker.
@@ -45,9 +53,9 @@ pub enum Quantity {
     /// Where a slide is on its cable.
     Travel(SlideId),
     /// Component of the force of a joint or motion.
-    Reaction(HolderId, usize),
+    Reaction(HolderId, usize, Along),
     /// Component of the moment of a joint or motion; in the plane the third.
-    ReactionMoment(HolderId, usize),
+    ReactionMoment(HolderId, usize, Along),
     /// Displacement of a joint along a line.
     Displacement(HolderId),
     /// Its rate.
@@ -64,8 +72,8 @@ pub enum Quantity {
     MotionMoment(HolderId),
     /// Component of the force of a coupling on what it couples to.
     CouplingForce(CouplingId, usize),
-    /// Moment of a coupling on what it couples to.
-    CouplingMoment(CouplingId),
+    /// Component of the moment of a coupling on what it couples to; in the plane the third.
+    CouplingMoment(CouplingId, usize),
     /// Kinetic energy.
     KineticEnergy,
     /// Strain energy.
@@ -117,12 +125,11 @@ pub(super) fn value<const D: usize, N: Number>(
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
         Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
         Angle(angle) => values.angles[angle.index()],
-        Orientation(id, k) => {
-            let axes = values.axes(system, at(id));
-            let frame = assembled.frame(at(id).body).row(k % 3);
-            (0..3).fold(N::of(0.0), |sum, j| sum + axes[j][k / 3] * N::of(frame[j]))
-        }
-        AngularVelocity(id, axis) => values.spin(system, at(id))[axis],
+        Orientation(id, ..)
+        | Quaternion(id, ..)
+        | RotationVector(id, ..)
+        | AngularVelocity(id, ..)
+        | AngularAcceleration(id, ..) => turning(quantity, values, assembled, at(id)),
         JointVelocity(joint) if turn(joint).is_some() => {
             let rate = turn(joint).map(|turn| turn.rate(&values.x, &values.v));
             rate.unwrap_or_else(|| N::of(0.0))
@@ -131,7 +138,6 @@ pub(super) fn value<const D: usize, N: Number>(
             let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
             b - a
         }
-        AngularAcceleration(id, axis) => values.spin_rate(system, at(id))[axis],
         JointAcceleration(joint) if turn(joint).is_some() => {
             let of = [&values.x[..], &values.v, &values.acceleration];
             let second = turn(joint).map(|turn| turn.second(of));
@@ -149,8 +155,9 @@ pub(super) fn value<const D: usize, N: Number>(
         BendingMoment(id, axis) => values.section(system, at(id)).1[axis],
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
         Travel(slide) => values.travel[slide.index()],
-        Reaction(joint, axis) => values.reaction(system, joint.index()).0[axis],
-        ReactionMoment(joint, axis) => values.reaction(system, joint.index()).1[axis],
+        Reaction(joint, ..) | ReactionMoment(joint, ..) => {
+            transmitted(quantity, values, assembled, joint)
+        }
         Displacement(joint) | SlidingVelocity(joint) | SlidingAcceleration(joint) => {
             let way = system.joints()[joint.index()].way.as_ref();
             way.map_or_else(|| N::of(0.0), |way| sliding(quantity, way, values))
@@ -159,7 +166,7 @@ pub(super) fn value<const D: usize, N: Number>(
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
         MotionMoment(joint) => -values.reaction(system, joint.index()).1[2],
         CouplingForce(id, axis) => values.coupling(system, assembled.coupling(id)).0[axis],
-        CouplingMoment(id) => values.coupling(system, assembled.coupling(id)).1,
+        CouplingMoment(id, axis) => values.coupling(system, assembled.coupling(id)).1[axis],
         KineticEnergy => values.kinetic_energy(system),
         StrainEnergy => values.strain_energy(system),
         GravityEnergy => values.gravity_energy(system),
@@ -188,6 +195,92 @@ fn sliding<const D: usize, N: Number>(
     }
 }
 
+/// How the rigid body that a marker belongs to stands and turns.
+fn turning<const D: usize, N: Number>(
+    quantity: Quantity,
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    marker: &Marker,
+) -> N {
+    use Quantity::*;
+    let axes = || frame(values, assembled, marker);
+    match quantity {
+        Orientation(_, k) => axes()[k % 3][k / 3],
+        Quaternion(_, k) => {
+            let held = assembled.held(values.held(&assembled.system, marker), marker.body);
+            rotation::quaternion_near(&axes(), &held)[k]
+        }
+        RotationVector(_, axis) => {
+            let stance = rotation::quaternion(&axes());
+            rotation::rotation_vector(&stance)[axis]
+        }
+        AngularVelocity(_, axis, along) => {
+            let spin = values.spin(&assembled.system, marker).into();
+            component(spin, axis, along, axes)
+        }
+        AngularAcceleration(_, axis, along) => {
+            let rate = values.spin_rate(&assembled.system, marker).into();
+            component(rate, axis, along, axes)
+        }
+        _ => unreachable!("what else is read of a body does not turn"),
+    }
+}
+
+/// What a joint or motion transmits to its second end.
+fn transmitted<const D: usize, N: Number>(
+    quantity: Quantity,
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    joint: HolderId,
+) -> N {
+    let (force, moment) = values.reaction(&assembled.system, joint.index());
+    let axes = || first(values, assembled, joint);
+    match quantity {
+        Quantity::Reaction(_, axis, along) => {
+            component(components(&force).into(), axis, along, axes)
+        }
+        Quantity::ReactionMoment(_, axis, along) => component(moment.into(), axis, along, axes),
+        _ => unreachable!("a joint transmits a force and a moment"),
+    }
+}
+
+/// The axes of the frame of the rigid body that a marker belongs to, in global components; the global ones of none.
+fn frame<const D: usize, N: Number>(
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    marker: &Marker,
+) -> [Vector3<N>; 3] {
+    let principal = values.axes(&assembled.system, marker).map(Vector3::from);
+    let within = assembled.frame(marker.body);
+    std::array::from_fn(|k| combined(&principal, &within.row(k).transpose().map(N::of)))
+}
+
+/// The same of the first end of a joint.
+fn first<const D: usize, N: Number>(
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    joint: HolderId,
+) -> [Vector3<N>; 3] {
+    let [end, _] = &assembled.system.joints()[joint.index()].ends;
+    match end {
+        End::Body(marker) => frame(values, assembled, marker),
+        End::Ground(_) => std::array::from_fn(|k| axis(k)),
+    }
+}
+
+/// A component of a vector along global axes, or along these.
+fn component<N: Number>(
+    vector: Vector3<N>,
+    axis: usize,
+    along: Along,
+    axes: impl FnOnce() -> [Vector3<N>; 3],
+) -> N {
+    match along {
+        Along::Global => vector[axis],
+        Along::Body => axes()[axis].dot(&vector),
+    }
+}
+
 /// What quantities are measured by: length, rate and force at which the scene moves by nature, m, 1/s, N.
 struct Scale {
     size: f64,
@@ -208,7 +301,9 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         Acceleration(..) | SlidingAcceleration(_) => {
             (Dynamics, |by| Some(by.size * by.rate * by.rate))
         }
-        Direction(..) | Angle(_) | Orientation(..) => (Kinematics, |_| Some(1.0)),
+        Direction(..) | Angle(_) | Orientation(..) | Quaternion(..) | RotationVector(..) => {
+            (Kinematics, |_| Some(1.0))
+        }
         AngularVelocity(..) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
         AngularAcceleration(..) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
         Strain(_) | Curvature(_) => (Kinematics, |_| Some(0.0)),
@@ -219,7 +314,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
             (Dynamics, |by| Some(by.force * by.size))
         }
         CouplingForce(..) => (Kinematics, |by| Some(by.force)),
-        CouplingMoment(_) | KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => {
+        CouplingMoment(..) | KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => {
             (Kinematics, |by| Some(by.force * by.size))
         }
         Momentum(_) | AngularMomentum(_) | Resolution | Residual(_) => (Kinematics, |_| None),

@@ -164,7 +164,7 @@ fn check_numbers(snapshot: &Snapshot) -> Result<(), Error> {
         snapshot.spectra.eigenvalues.as_flattened(),
         &state.coordinates,
         &state.rates,
-        state.frames.as_flattened().as_flattened(),
+        state.frames.as_flattened(),
         &state.angles,
         &state.travel,
         state.driven.as_flattened(),

@@ -7,9 +7,10 @@ use std::ops::Range;
 
 use nalgebra::SMatrix;
 
-use super::end::{Angle, End, coupling};
+use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Primitive, Target, View};
 use super::loads::Load;
+use super::motion::forces::add_mass;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
@@ -64,8 +65,8 @@ pub struct Parts<const D: usize = 2> {
     pub angles: Vec<Angle<D>>,
     /// Gravitational acceleration, m/s^2.
     pub gravity: Vector<D>,
-    /// Rate at which the frame turns about the origin, rad/s.
-    pub rotation: f64,
+    /// Angular velocity of the frame about its origin, rad/s; in the plane the third component alone.
+    pub rotation: [f64; 3],
     /// Whether work is to be integrated.
     pub tracks_work: bool,
 }
@@ -111,7 +112,7 @@ impl<const D: usize> System<D> {
             takes_moments,
             is_damped: chains_damped || loads_damped,
             needs_rates: loads_damped
-                || parts.rotation != 0.0
+                || parts.rotation != [0.0; 3]
                 || parts.tracks_work
                 || !frames.is_empty(),
             frames,
@@ -340,23 +341,8 @@ fn redundant<const D: usize>(
 
 fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64> {
     let mut mass = Matrix::zeros(assembly.pattern());
-    for chain in &parts.chains {
-        chain.add_mass(assembly, &mut mass);
-    }
-    for lump in &parts.lumped_masses {
-        let ends = [End::Body(lump.marker), End::Ground(Vector::zeros())];
-        for (part, size) in [lump.mass, lump.inertia].into_iter().enumerate() {
-            let (k, zero) = (SMatrix::identity() * size, SMatrix::zeros());
-            coupling(
-                &ends,
-                [[k, zero], [zero, zero]],
-                part,
-                &mut |a, b, block| {
-                    assembly.add(a, b, block, &mut mass);
-                },
-            );
-        }
-    }
+    let linear = (&parts.chains[..], &parts.lumped_masses[..]);
+    add_mass(linear, &SMatrix::identity(), assembly, &mut mass);
     for frame in &parts.frames {
         let mut block = no_block();
         for axis in 0..D {
@@ -402,7 +388,7 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
 
 /// Nodes that something besides rows ties to the ground.
 fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Vec<usize> {
-    if parts.rotation != 0.0 {
+    if parts.rotation != [0.0; 3] {
         return parts.bodies.iter().map(|nodes| nodes.start).collect();
     }
     let mut nodes = Vec::new();

@@ -43,15 +43,13 @@ pub use work::Work;
 
 use std::ops::Range;
 
+use crate::math::rotation::NO_TURN;
 use crate::math::space::Vector;
 
-use crate::body::{Chain, Elimination, Frames, Node, Plain};
+use crate::body::{Chain, Elimination, Frames, Node};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
-
-/// The global axes.
-const AXES: Plain = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Flexible bodies of a system.
 pub type CableChain<const D: usize = 2> = Chain<Cable<D>, D>;
@@ -94,8 +92,8 @@ pub struct System<const D: usize = 2> {
     gravity: Vector<D>,
     /// Forces of gravity on the nodes, N.
     weight: Vec<Node<D>>,
-    /// Rate at which the frame turns, rad/s.
-    rotation: f64,
+    /// Angular velocity of the frame about its origin, rad/s; in the plane the third component alone.
+    rotation: [f64; 3],
     is_damped: bool,
     /// Whether anything reads rates besides damping.
     needs_rates: bool,
@@ -154,6 +152,11 @@ impl<const D: usize> System<D> {
         &self.bodies
     }
 
+    /// Rigid bodies of space that turn.
+    pub fn frames(&self) -> &Frames {
+        &self.frames
+    }
+
     /// Flexible bodies.
     pub fn chains(&self) -> &[CableChain<D>] {
         &self.chains
@@ -192,6 +195,11 @@ impl<const D: usize> System<D> {
         4 + elements + rigid + self.constraints.len()
     }
 
+    /// Whether the frame turns that the scene is described in.
+    pub(in crate::system) fn is_turning(&self) -> bool {
+        self.rotation != [0.0; 3]
+    }
+
     /// Number of non-linear constraints.
     pub fn constraints(&self) -> usize {
         self.constraints.len()
@@ -226,7 +234,7 @@ impl<const D: usize> System<D> {
             pace: Pace::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
-            frames: vec![AXES; self.frames.list().len()],
+            frames: vec![NO_TURN; self.frames.list().len()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
             driven: vec![[0.0; 5]; self.trajectories().count()],

@@ -1,6 +1,6 @@
 //! The state of a system: plain numbers. A clone of it is all that a rollback needs.
 
-use crate::body::Plain;
+use crate::math::rotation::Quaternion;
 
 /// What the integrators in use got for their operations so far: plain numbers, so that a restored state goes on with
 /// the same methods (`integrators/selection.rs`).
@@ -227,8 +227,9 @@ pub struct State {
     pub coordinates: Vec<f64>,
     /// Their rates, m sqrt(kg) / s.
     pub rates: Vec<f64>,
-    /// Frames of rigid bodies in space, from which their rotations among the coordinates are counted.
-    pub frames: Vec<Plain>,
+    /// Frames of rigid bodies in space, from which their rotations among the coordinates are counted: unit quaternions of their
+    /// principal axes, whose signs go on over full turns.
+    pub frames: Vec<Quaternion>,
     /// Angles that are counted on over full turns, rad.
     pub angles: Vec<f64>,
     /// Where slides are on their cables, m.

@@ -1,9 +1,10 @@
 //! Scratch of a system: nothing allocates in a step.
 
 use super::signal::Trajectory;
-use super::{AXES, State, System};
-use crate::body::{Jacobian, Node, Plain, Tangent, Turn, no_node};
+use super::{State, System};
+use crate::body::{Jacobian, Node, Tangent, Turn, no_node};
 use crate::math::recent::Recent;
+use crate::math::rotation::{NO_TURN, Quaternion};
 
 /// Scratch, and what of a state is needed beside `q`: hints where to look for angles and slides.
 #[derive(Clone, Debug)]
@@ -36,7 +37,7 @@ pub struct Work<const D: usize = 2> {
     pub(super) angles: Vec<f64>,
     pub(super) travel: Vec<f64>,
     /// Frames that rotations are counted from, and how bodies have turned from there.
-    pub(super) frames: Vec<Plain>,
+    pub(super) frames: Vec<Quaternion>,
     pub(super) turns: Vec<Turn>,
     /// The state accepted last, to go back to from a step that leaves a cable.
     pub(super) before: State,
@@ -102,7 +103,7 @@ impl<const D: usize> Work<D> {
             input_rates: Vec::new(),
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
-            frames: vec![AXES; system.frames.list().len()],
+            frames: vec![NO_TURN; system.frames.list().len()],
             turns: vec![Turn::default(); system.frames.list().len()],
             before: system.blank_state(0.0),
             right: lambda.clone(),

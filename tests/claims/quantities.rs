@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use flexbody::scene::Scene;
+use flexbody::scene::{Along, Scene};
 use flexbody::simulation::{Quantity, Simulation, Source};
 
 use crate::scenes;
@@ -28,19 +28,27 @@ named! { label, LABELS, Quantity:
     Velocity(_, 0) => "velocity x", Velocity(_, 1) => "velocity y", Velocity(..) => "velocity z",
     Acceleration(_, 0) => "acceleration x", Acceleration(_, 1) => "acceleration y", Acceleration(..) => "acceleration z",
     Direction(_, 0) => "direction x", Direction(_, 1) => "direction y", Direction(..) => "direction z",
-    Orientation(..) => "orientation", Angle(_) => "angle", AngularVelocity(_, 0) => "angular velocity x", AngularVelocity(_, 1) => "angular velocity y", AngularVelocity(..) => "angular velocity", JointVelocity(_) => "joint velocity",
-    AngularAcceleration(_, 0) => "angular acceleration x", AngularAcceleration(_, 1) => "angular acceleration y", AngularAcceleration(..) => "angular acceleration", JointAcceleration(_) => "joint acceleration",
+    Quaternion(_, 0) => "quaternion w", Quaternion(_, 1) => "quaternion x", Quaternion(_, 2) => "quaternion y", Quaternion(..) => "quaternion z",
+    RotationVector(_, 0) => "rotation vector x", RotationVector(_, 1) => "rotation vector y", RotationVector(..) => "rotation vector z",
+    Orientation(..) => "orientation", Angle(_) => "angle",
+    AngularVelocity(_, 0, Along::Global) => "angular velocity x", AngularVelocity(_, 1, Along::Global) => "angular velocity y", AngularVelocity(_, _, Along::Global) => "angular velocity",
+    AngularVelocity(_, 0, Along::Body) => "angular velocity x along the body", AngularVelocity(_, 1, Along::Body) => "angular velocity y along the body", AngularVelocity(_, _, Along::Body) => "angular velocity along the body",
+     JointVelocity(_) => "joint velocity",
+    AngularAcceleration(_, 0, Along::Global) => "angular acceleration x", AngularAcceleration(_, 1, Along::Global) => "angular acceleration y", AngularAcceleration(_, _, Along::Global) => "angular acceleration",
+    AngularAcceleration(_, 0, Along::Body) => "angular acceleration x along the body", AngularAcceleration(_, 1, Along::Body) => "angular acceleration y along the body", AngularAcceleration(_, _, Along::Body) => "angular acceleration along the body", JointAcceleration(_) => "joint acceleration",
     Strain(_) => "strain", Curvature(_) => "curvature", AxialForce(_) => "axial force",
     BendingMoment(_, 0) => "bending moment x", BendingMoment(_, 1) => "bending moment y", BendingMoment(..) => "bending moment",
     ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(_, 1) => "connectivity force y", ConnectivityForce(..) => "connectivity force z",
     Displacement(_) => "displacement", SlidingVelocity(_) => "sliding velocity", SlidingAcceleration(_) => "sliding acceleration",
     GearForce(_) => "gear force", GearTorque(_) => "gear torque",
-    Travel(_) => "travel", Reaction(_, 0) => "reaction x", Reaction(_, 1) => "reaction y", Reaction(..) => "reaction z",
-    ReactionMoment(_, 0) => "reaction moment x", ReactionMoment(_, 1) => "reaction moment y", ReactionMoment(..) => "reaction moment",
+    Travel(_) => "travel", Reaction(_, 0, Along::Global) => "reaction x", Reaction(_, 1, Along::Global) => "reaction y", Reaction(_, _, Along::Global) => "reaction z",
+    Reaction(_, 0, Along::Body) => "reaction x along the body", Reaction(_, 1, Along::Body) => "reaction y along the body", Reaction(_, _, Along::Body) => "reaction z along the body",
+    ReactionMoment(_, 0, Along::Global) => "reaction moment x", ReactionMoment(_, 1, Along::Global) => "reaction moment y", ReactionMoment(_, _, Along::Global) => "reaction moment",
+    ReactionMoment(_, 0, Along::Body) => "reaction moment x along the body", ReactionMoment(_, 1, Along::Body) => "reaction moment y along the body", ReactionMoment(_, _, Along::Body) => "reaction moment along the body",
     MotionForce(_, 0) => "motion force x", MotionForce(_, 1) => "motion force y", MotionForce(..) => "motion force z",
     MotionMoment(_) => "motion moment",
     CouplingForce(_, 0) => "coupling force x", CouplingForce(_, 1) => "coupling force y", CouplingForce(..) => "coupling force z",
-    CouplingMoment(_) => "coupling moment",
+    CouplingMoment(_, 0) => "coupling moment x", CouplingMoment(_, 1) => "coupling moment y", CouplingMoment(..) => "coupling moment",
     KineticEnergy => "kinetic energy", StrainEnergy => "strain energy", GravityEnergy => "gravity energy",
     SpringEnergy => "spring energy", Input => "input", Dissipated => "dissipated",
     Momentum(0) => "momentum x", Momentum(1) => "momentum y", Momentum(_) => "momentum z", AngularMomentum(0) => "angular momentum x", AngularMomentum(1) => "angular momentum y", AngularMomentum(_) => "angular momentum",

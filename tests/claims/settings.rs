@@ -35,7 +35,13 @@ macro_rules! keys {
                     ("Inertia", place, "kg.m2")
                 }
                 Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
-                Parameter::Rotation => ("Rotation", "/rotation".into(), "rad/s"),
+                Parameter::Rotation(axis) => {
+                    let place = match scene["rotation"].is_array() {
+                        true => format!("/rotation/{axis}"),
+                        false => "/rotation".into(),
+                    };
+                    ("Rotation", place, "rad/s")
+                }
                 Parameter::RelativeTolerance => ("RelativeTolerance", "/accuracy/relative_tolerance".into(), ""),
                 // Its claim is in `own.rs`: it changes no result.
                 Parameter::WorkLimit => ("WorkLimit", "/method/work_limit".into(), ""),
@@ -56,6 +62,7 @@ fn part(scene: &Value, list: &str, variable: &str) -> usize {
 keys! {
     YoungsModulus => "bodies", "/material/youngs_modulus", "Pa";
     Density => "bodies", "/material/density", "kg/m3";
+    SolidDensity => "bodies", "/density", "kg/m3";
     DampingTime => "bodies", "/material/damping_time", "s";
     Area => "bodies", "/section/area", "m2";
     SecondMoment => "bodies", "/section/second_moment", "m4";
@@ -77,7 +84,7 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 57] = [
+const INPUTS: [(&str, &str); 67] = [
     ("inputs.force[1]", "N"),
     ("inputs.force[2]", "N"),
     ("inputs.follower_force[1]", "N"),
@@ -120,6 +127,9 @@ const INPUTS: [(&str, &str); 57] = [
     ("ports.force[1]", "N"),
     ("ports.force[2]", "N"),
     ("ports.moment", "N.m"),
+    ("ports.moment[1]", "N.m"),
+    ("ports.moment[2]", "N.m"),
+    ("ports.moment[3]", "N.m"),
     ("ports.position[1]", "m"),
     ("ports.position[2]", "m"),
     ("ports.velocity[1]", "m/s"),
@@ -136,6 +146,13 @@ const INPUTS: [(&str, &str); 57] = [
     ("couplings.velocity[2]", "m/s"),
     ("couplings.angle", "rad"),
     ("couplings.angular_velocity", "rad/s"),
+    ("couplings.quaternion[1]", ""),
+    ("couplings.quaternion[2]", ""),
+    ("couplings.quaternion[3]", ""),
+    ("couplings.quaternion[4]", ""),
+    ("couplings.angular_velocity[1]", "rad/s"),
+    ("couplings.angular_velocity[2]", "rad/s"),
+    ("couplings.angular_velocity[3]", "rad/s"),
 ];
 
 /// Names that are still to be seen, and what is wrong.

@@ -187,7 +187,7 @@ impl Mechanism {
             initial_loads: Vec::new(),
             angles,
             gravity: self.gravity,
-            rotation: self.rotation,
+            rotation: [0.0, 0.0, self.rotation],
             tracks_work: true,
         }
     }

@@ -183,7 +183,7 @@ impl Chain {
             initial_loads: Vec::new(),
             angles: Vec::new(),
             gravity: Vector2::zeros(),
-            rotation: 0.0,
+            rotation: [0.0; 3],
             tracks_work: false,
         }
     }

@@ -75,6 +75,7 @@ pub const KINDS: [Kind; 10] = [
 ];
 
 /// A joint: the first body (none is the ground), the second, points and axes fixed in both.
+#[derive(Clone)]
 pub struct Held {
     pub kind: Kind,
     pub bodies: [Option<usize>; 2],
@@ -461,7 +462,7 @@ impl Mechanism {
             initial_loads: Vec::new(),
             angles: Vec::new(),
             gravity: self.gravity,
-            rotation: 0.0,
+            rotation: [0.0; 3],
             tracks_work: false,
         };
         self.couple(&mut parts);

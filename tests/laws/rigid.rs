@@ -250,49 +250,54 @@ fn the_stiffness_is_the_derivative_of_forces() {
             (body.velocity, body.spin) = (V::zeros(), V::zeros());
         });
         let parts = tethered(&mechanism, &mut chance);
-        let system = System::new(parts).expect("a system");
-        let (mut state, mut work) = mechanism.state_of(&system);
-        state.rates.fill(0.0);
-        let n = system.coordinates();
-        let rest = vec![0.0; n];
-        let mut model = Model::new(&system, &[], &mut work, &state);
-        model.renew_beyond(&mut state, 0.0);
-        let mut tangents = Vec::new();
-        for k in 0..n {
-            let mut unit = vec![0.0; n];
-            unit[k] = 1.0;
-            model.linearize(0.0, &state.coordinates, &rest);
-            model.apply_stiffness(&mut unit);
-            tangents.push(unit);
-        }
-        let at = |model: &mut Model<'_, 3>, k: usize, h: f64| {
-            let mut q = state.coordinates.clone();
-            let mut way = vec![0.0; n];
-            way[k] = 1.0;
-            model.linearize(0.0, &state.coordinates, &rest);
-            model.take_out_normal(&mut way);
-            q.iter_mut().zip(&way).for_each(|(q, way)| *q += h * way);
-            let mut moved = State {
-                coordinates: q,
-                ..state.clone()
-            };
-            model.project(&mut moved);
-            let mut a = vec![0.0; n];
-            model.accelerate(0.0, &moved.coordinates, &rest, &mut a);
-            model.linearize(0.0, &state.coordinates, &rest);
-            model.take_out_normal(&mut a);
-            a
-        };
-        const STEP: f64 = 1e-4;
-        let columns = (0..n).map(|k| {
-            let [a, b] = [at(&mut model, k, STEP), at(&mut model, k, -STEP)];
-            DVector::from_fn(n, |j, _| (b[j] - a[j]) / (2.0 * STEP))
-        });
-        let wanted = DMatrix::from_columns(&columns.collect::<Vec<_>>());
-        let symmetric = (&wanted + wanted.transpose()) * 0.5;
-        let found = DMatrix::from_fn(n, n, |i, j| tangents[j][i]);
-        // Where nothing is free, both are zero.
-        let miss = (&symmetric - &found).amax() / found.amax().max(1.0);
-        assert!(miss < 1e-5, "{run}: {miss:e}");
+        stiffness_is_the_derivative(run, &mechanism, parts);
     }
+}
+
+/// Of a mechanism at rest with loads, but for what is not symmetric.
+pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Parts<3>) {
+    let system = System::new(parts).expect("a system");
+    let (mut state, mut work) = mechanism.state_of(&system);
+    state.rates.fill(0.0);
+    let n = system.coordinates();
+    let rest = vec![0.0; n];
+    let mut model = Model::new(&system, &[], &mut work, &state);
+    model.renew_beyond(&mut state, 0.0);
+    let mut tangents = Vec::new();
+    for k in 0..n {
+        let mut unit = vec![0.0; n];
+        unit[k] = 1.0;
+        model.linearize(0.0, &state.coordinates, &rest);
+        model.apply_stiffness(&mut unit);
+        tangents.push(unit);
+    }
+    let at = |model: &mut Model<'_, 3>, k: usize, h: f64| {
+        let mut q = state.coordinates.clone();
+        let mut way = vec![0.0; n];
+        way[k] = 1.0;
+        model.linearize(0.0, &state.coordinates, &rest);
+        model.take_out_normal(&mut way);
+        q.iter_mut().zip(&way).for_each(|(q, way)| *q += h * way);
+        let mut moved = State {
+            coordinates: q,
+            ..state.clone()
+        };
+        model.project(&mut moved);
+        let mut a = vec![0.0; n];
+        model.accelerate(0.0, &moved.coordinates, &rest, &mut a);
+        model.linearize(0.0, &state.coordinates, &rest);
+        model.take_out_normal(&mut a);
+        a
+    };
+    const STEP: f64 = 1e-4;
+    let columns = (0..n).map(|k| {
+        let [a, b] = [at(&mut model, k, STEP), at(&mut model, k, -STEP)];
+        DVector::from_fn(n, |j, _| (b[j] - a[j]) / (2.0 * STEP))
+    });
+    let wanted = DMatrix::from_columns(&columns.collect::<Vec<_>>());
+    let symmetric = (&wanted + wanted.transpose()) * 0.5;
+    let found = DMatrix::from_fn(n, n, |i, j| tangents[j][i]);
+    // Where nothing is free, both are zero.
+    let miss = (&symmetric - &found).amax() / found.amax().max(1.0);
+    assert!(miss < 1e-5, "{run}: {miss:e}");
 }

@@ -4,7 +4,7 @@ use flexbody::body::{Assembly, Chain, Elimination, Jacobian, Links, Node, Row, T
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
 use flexbody::elements::{Element, Nodal, Strain};
 use flexbody::math::sparse::Matrix;
-use nalgebra::{Complex, DMatrix, DVector, Rotation3, Vector3};
+use nalgebra::{Complex, DMatrix, DVector, Rotation3, SMatrix, Vector3};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -88,7 +88,7 @@ fn case((elements, joints, noise): Numbers) -> Case {
     };
     let (assembly, _) = Assembly::new(chain.node_count(), &rows, &links);
     let mut mass = Matrix::zeros(assembly.pattern());
-    chain.add_mass(&assembly, &mut mass);
+    chain.add_mass(&SMatrix::identity(), &assembly, &mut mass);
     Case {
         elimination: Elimination::new(assembly, mass).expect("a chain with mass"),
         chain,

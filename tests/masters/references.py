@@ -109,3 +109,72 @@ def cut_pendulum(
         d = rates(state + step * c)
         state = state + step / 6 * (a + 2 * b + 2 * c + d)
     return state[4:6] + 0.5 * along(state[2])
+
+
+def after(a, b):
+    """The quaternion of the turn `a` after the turn `b`, scalar first."""
+    vector = a[0] * b[1:] + b[0] * a[1:] + np.cross(a[1:], b[1:])
+    return np.concatenate([[a[0] * b[0] - a[1:] @ b[1:]], vector])
+
+
+def turned(q, v):
+    """A vector turned by a unit quaternion."""
+    return v + 2.0 * np.cross(q[1:], q[0] * v + np.cross(q[1:], v))
+
+
+def cut_top(
+    *,
+    length,
+    mass,
+    moments,
+    gravity,
+    spin,
+    stiffness,
+    damping,
+    rotational_stiffness,
+    rotational_damping,
+    stop,
+    steps=3000,
+):
+    """Tip and quaternion of the second of two equal bars, the first on a ball joint, that lie along x and turn as one; a spring and
+    a damper join their ends, others their frames, along the rotation vector between these: Newton-Euler
+    equations with quaternions, by Runge-Kutta steps of order 4."""
+    moments, half = np.array(moments), np.array([0.5 * length, 0.0, 0.0])
+    weight = np.array([0.0, 0.0, -mass * gravity])
+    # About the ball joint.
+    pivot = moments + mass * np.array([0.0, half[0] ** 2, half[0] ** 2])
+
+    def vector(q):
+        size = np.linalg.norm(q[1:])
+        return 2.0 * np.arctan2(size, q[0]) * q[1:] / size if size > 0.0 else np.zeros(3)
+
+    def turn(q, w, inertia, moment):
+        """Rates of a quaternion and of an angular velocity along the axes of its body, by a moment in global axes."""
+        back = np.concatenate([q[:1], -q[1:]])
+        euler = (turned(back, moment) - np.cross(w, inertia * w)) / inertia
+        return 0.5 * after(q, np.concatenate([[0.0], w])), euler
+
+    def rates(state):
+        p, u, q, w, centre, speed = np.split(state, [4, 7, 11, 14, 17])
+        p, q = p / np.linalg.norm(p), q / np.linalg.norm(q)
+        arms, spins = [turned(p, half), turned(q, half)], [turned(p, u), turned(q, w)]
+        gap = 2.0 * arms[0] + arms[1] - centre
+        gap_rate = 2.0 * np.cross(spins[0], arms[0]) + np.cross(spins[1], arms[1]) - speed
+        force = stiffness * gap + damping * gap_rate
+        between = after(p, np.concatenate([q[:1], -q[1:]]))
+        moment = rotational_stiffness * vector(between) + rotational_damping * (spins[0] - spins[1])
+        inner = turn(p, u, pivot, np.cross(arms[0], weight) - np.cross(2.0 * arms[0], force) - moment)
+        outer = turn(q, w, moments, np.cross(-arms[1], force) + moment)
+        return np.concatenate([*inner, *outer, speed, (force + weight) / mass])
+
+    spin, upright = np.array(spin), np.array([1.0, 0.0, 0.0, 0.0])
+    state = np.concatenate([upright, spin, upright, spin, 3.0 * half, np.cross(spin, 3.0 * half)])
+    step = stop / steps
+    for _ in range(steps):
+        a = rates(state)
+        b = rates(state + 0.5 * step * a)
+        c = rates(state + 0.5 * step * b)
+        d = rates(state + step * c)
+        state = state + step / 6 * (a + 2 * b + 2 * c + d)
+    q = state[7:11] / np.linalg.norm(state[7:11])
+    return np.concatenate([state[14:17] + turned(q, half), q])

@@ -71,7 +71,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         initial_loads: Vec::new(),
         angles: Vec::new(),
         gravity: Vector2::new(0.0, -1.0),
-        rotation: 0.0,
+        rotation: [0.0; 3],
         tracks_work: false,
     });
     let system = system.map_err(|error| format!("{error:?}"))?;

@@ -3,6 +3,8 @@
 use flexbody::body::{Assembly, Elimination, Links, Row};
 use flexbody::math::sparse::Matrix;
 
+use nalgebra::SMatrix;
+
 use super::Transformation;
 use super::rod::{Node, Rod};
 
@@ -30,7 +32,8 @@ pub fn new(rod: &Rod) -> Option<Product> {
         &links,
     );
     let mut mass = Matrix::zeros(assembly.pattern());
-    rod.chain.add_mass(&assembly, &mut mass);
+    rod.chain
+        .add_mass(&SMatrix::identity(), &assembly, &mut mass);
     let elimination = Elimination::new(assembly, mass)?;
     let y = vec![0.0; elimination.scratch()];
     Some(Product { elimination, y })

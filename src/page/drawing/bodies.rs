@@ -9,7 +9,7 @@ const PARTS: u32 = 96;
 /// With more elements than this, nodes would only blacken the line.
 const MOST_NODES: u32 = 64;
 
-/// Points along a cable, of a rigid one its ends; corners around a rigid body's markers and its centre, m.
+/// Points along a cable, of a rigid one its ends; corners of a rigid body, m.
 pub(super) fn outline(body: BodyReference<'_>, dimension: usize) -> Vec<[f64; 3]> {
     match body {
         BodyReference::Cable(cable) if cable.is_rigid() => {
@@ -26,8 +26,12 @@ fn cable_outline(cable: &CableBody) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// Corners, as it is seen, around a rigid body's markers and its centre, m.
+/// Corners, as it is seen, of a rigid body's shape; where it has none, around its markers and its centre, m.
 pub(super) fn rigid_outline(rigid: &RigidBody, dimension: usize) -> Vec<[f64; 3]> {
+    if let Some(shape) = rigid.shape {
+        let points = shape.points().into_iter();
+        return hull(dimension, points.map(|point| rigid.point(point)).collect());
+    }
     let markers = rigid.markers.values();
     let points = markers.map(|point| rigid.point(point.full()));
     hull(dimension, points.chain([rigid.position.full()]).collect())

@@ -54,7 +54,7 @@ impl Resolved<'_> {
             ends_of(joint.ends, &mut hold);
         }
         let of_ports = self.ports.iter().filter_map(|port| match &port.kind {
-            PortKind::Motion { position, .. } => Some(position),
+            PortKind::Motion { position, .. } => Some(&**position),
             PortKind::Force { .. } | PortKind::Coupling { .. } => None,
         });
         for motion in self.motions.iter().chain(of_ports) {

@@ -28,7 +28,7 @@ impl<const D: usize> Builder<'_, D> {
                 Form::Rod(_) => arm[0] = self.rod(index, cable.body),
             },
             BodyReference::Rigid(rigid) => {
-                if D == 3 && rigid.body.inertia.is_some() {
+                if D == 3 && rigid.body.inertia().is_some() {
                     arm = self.frame(rigid);
                 } else {
                     self.particle(index, rigid.body);
@@ -60,8 +60,8 @@ impl<const D: usize> Builder<'_, D> {
             &Lump {
                 position: rigid.position.full(),
                 angle: rigid.angle,
-                mass: rigid.mass,
-                inertia: rigid.inertia.number(),
+                mass: rigid.mass(),
+                inertia: rigid.inertia().number(),
             },
         );
     }
@@ -92,7 +92,7 @@ impl<const D: usize> Builder<'_, D> {
     pub(super) fn point(&self, rigid: Rigid<'_>, point: [f64; 3]) -> Marker {
         let (index, body) = (rigid.id.index(), rigid.body);
         let node = self.parts.bodies[index].start;
-        if D == 2 || !body.inertia.is_some() {
+        if D == 2 || !body.inertia().is_some() {
             return Marker::rigid(index, node, [point[0], point[1]]);
         }
         let solid = self.resolved.solid(rigid);

@@ -101,12 +101,12 @@ impl<const D: usize> Motions<D> {
             let of_body = rates[nodes.clone()].iter_mut().zip(&x[nodes.clone()]);
             for (index, (rate, x)) in of_body.enumerate() {
                 if *has_frame && index == 1 {
-                    *rate = x.map(|axis| spun(*spin, &axis));
+                    *rate = x.map(|axis| spun(*spin, axis.into()).into());
                     continue;
                 }
                 let way = std::array::from_fn(|k| x[0][k] - origin[k]);
-                let moved = velocity + Vector::from(spun(*spin, &way));
-                add_node(rate, 1.0, &[moved.into(), spun(*spin, &x[1])]);
+                let moved = velocity + spun(*spin, way.into());
+                add_node(rate, 1.0, &[moved.into(), spun(*spin, x[1].into()).into()]);
             }
         }
         rates

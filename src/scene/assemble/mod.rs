@@ -20,11 +20,12 @@ use super::resolved::{
 use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
 use crate::math::function::Function;
+use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{Joint, Primitive};
 use crate::system::loads::{self, Load};
 use crate::system::{
-    Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, Signal, System,
+    Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, Signal, State, System,
 };
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
@@ -47,6 +48,8 @@ pub struct Assembled<const D: usize = 2> {
     markers: Vec<Marker>,
     /// For every body, its principal axes in its frame, as columns.
     frames: Vec<Matrix3<f64>>,
+    /// Quaternions back from these.
+    stances: Vec<Quaternion>,
     /// For every coupling, its place among the loads of the system.
     couplings: Vec<usize>,
 }
@@ -65,6 +68,27 @@ impl<const D: usize> Assembled<D> {
     /// Principal axes of a rigid body of space in its frame, as columns.
     pub fn frame(&self, body: usize) -> &Matrix3<f64> {
         &self.frames[body]
+    }
+
+    /// Quaternion of the frame of a rigid body of space, from that of its principal axes.
+    pub fn held(&self, principal: Quaternion, body: usize) -> Quaternion {
+        product(&principal, &self.stances[body])
+    }
+
+    /// Of both quaternions of each body's frame a run begins with that whose scalar part is not negative.
+    pub fn begin(&self, state: &mut State) {
+        let State {
+            frames,
+            coordinates,
+            ..
+        } = state;
+        let system = &self.system;
+        for (node, held, now) in system.frames().quaternions(frames, coordinates) {
+            let body = system.bodies().iter().position(|nodes| nodes.start == node);
+            if body.is_some_and(|body| self.held(now, body)[0] < 0.0) {
+                *held = held.map(|part| -part);
+            }
+        }
     }
 
     /// Place among the loads of the system of a coupling.
@@ -111,6 +135,8 @@ impl Resolved<'_> {
         builder.inputs();
         builder.ports();
         let nodes = builder.parts.nodes.clone();
+        let frames = self.bodies.iter().map(|body| self.principal(body));
+        let frames: Vec<Matrix3<f64>> = frames.collect();
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
         Ok(Assembled {
             system,
@@ -119,11 +145,8 @@ impl Resolved<'_> {
             motions: builder.motions,
             nodes,
             markers: builder.markers,
-            frames: self
-                .bodies
-                .iter()
-                .map(|body| self.principal(body))
-                .collect(),
+            stances: frames.iter().map(back).collect(),
+            frames,
             couplings: builder.couplings,
         })
     }
@@ -145,7 +168,7 @@ impl Resolved<'_> {
             initial_loads: Vec::new(),
             angles: Vec::new(),
             gravity: vector(scene.gravity.full()),
-            rotation: scene.rotation,
+            rotation: scene.rotation.full(),
             tracks_work: self.outputs.iter().any(|o| o.kind == OutputKind::Work),
         }
     }
@@ -451,6 +474,12 @@ impl<const D: usize> Builder<'_, D> {
             self.parts.loads.push(built);
         }
     }
+}
+
+/// Quaternion of the rotation from a frame's principal axes, as columns, to it.
+fn back(principal: &Matrix3<f64>) -> Quaternion {
+    let columns = std::array::from_fn(|k| principal.column(k).into_owned());
+    inverse(quaternion(&columns))
 }
 
 /// The direction as a unit vector.

@@ -3,7 +3,7 @@
 use super::Builder;
 use crate::scene::resolved::{Coupling, Port, PortKind};
 use crate::system::Signal;
-use crate::system::loads::{self, Load, RotationalBushing};
+use crate::system::loads::{self, Load, OrientationBushing, RotationalBushing};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn ports(&mut self) {
@@ -15,8 +15,10 @@ impl<const D: usize> Builder<'_, D> {
                 PortKind::Motion { .. } => {}
                 PortKind::Coupling { position, angle } => {
                     self.couple_position(port, position);
-                    if let Some(angle) = angle {
-                        self.couple_angle(port, angle);
+                    match angle {
+                        Some(angle) if D == 2 => self.couple_angle(port, angle),
+                        Some(angle) => self.couple_orientation(port, angle),
+                        None => {}
                     }
                 }
             }
@@ -44,6 +46,19 @@ impl<const D: usize> Builder<'_, D> {
             angle: Signal::Input(coupling.first),
             velocity: Signal::Input(coupling.first + 1),
         }));
+    }
+
+    fn couple_orientation(&mut self, port: &Port<'_>, coupling: &Coupling<'_>) {
+        let signal = |k| Signal::Input(coupling.first + k);
+        let axes = self.frame_axes(port.marker);
+        let bushing = OrientationBushing {
+            axes: std::array::from_fn(|k| axes[k]),
+            stiffness: coupling.stiffness,
+            damping: coupling.damping,
+            quaternion: std::array::from_fn(signal),
+            velocity: std::array::from_fn(|k| signal(4 + k)),
+        };
+        self.couple(Load::OrientationBushing(Box::new(bushing)));
     }
 
     fn couple(&mut self, load: Load<D>) {

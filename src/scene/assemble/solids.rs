@@ -46,12 +46,12 @@ impl Resolved<'_> {
             })
             .collect();
         let moments = lumped.iter().map(|(mass, point)| point * *mass);
-        let mass = body.mass + lumped.iter().map(|(mass, _)| mass).sum::<f64>();
+        let mass = body.mass() + lumped.iter().map(|(mass, _)| mass).sum::<f64>();
         let center = moments.sum::<Vector3<f64>>() / mass;
         let inertia = match lumped.is_empty() {
-            true => body.inertia,
+            true => body.inertia(),
             false => {
-                let own = body.inertia.tensor() + parallel(body.mass, &center);
+                let own = body.inertia().tensor() + parallel(body.mass(), &center);
                 let tensor = (lumped.iter()).fold(own, |sum, (mass, point)| {
                     sum + parallel(*mass, &(point - center))
                 });

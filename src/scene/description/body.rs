@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::accuracy::elements;
 use super::strict::{Strict, at, typed};
-use super::{Inertia, Orientation, Spin, Vector};
+use super::{Inertia, Orientation, Solid, Spin, Vector};
 
 /// A body; `element` says of which kind.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -76,13 +76,21 @@ pub enum Model {
 pub struct RigidBody {
     /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
     pub name: String,
-    /// Mass, kg.
+    /// Mass, kg; or `shape` and `density`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub mass: f64,
+    pub mass: Option<f64>,
     /// Inertia about the centre of mass, kg m^2: a number in the plane; in space the moments about the axes of the body's
     /// frame, or the whole tensor. Zero (and where nothing is said) is a particle, which does not turn.
-    #[serde(default)]
-    pub inertia: Inertia,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<Inertia>,
+    /// Shape of a body of uniform density, instead of `mass` and `inertia`, which follow.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<Solid>,
+    /// Density of that shape, kg/m^3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub density: Option<f64>,
     /// Centre of mass at the start, m.
     pub position: Vector,
     /// Direction of the body's frame at the start, counter-clockwise, rad.
@@ -230,6 +238,24 @@ impl<'de> Deserialize<'de> for Body {
             Some("cable") => typed(value).map(Self::Cable),
             Some("rigid") => typed(value).map(Self::Rigid),
             _ => Err(wrong(&element.to_string())),
+        }
+    }
+}
+
+impl RigidBody {
+    /// Mass as said or of its shape, kg.
+    pub fn mass(&self) -> f64 {
+        match (self.shape, self.density) {
+            (Some(shape), Some(density)) => density * shape.volume(),
+            _ => self.mass.unwrap_or_default(),
+        }
+    }
+
+    /// Inertia about the centre of mass as said or of its shape.
+    pub fn inertia(&self) -> Inertia {
+        match self.shape {
+            Some(shape) => shape.inertia(self.mass()),
+            None => self.inertia.unwrap_or_default(),
         }
     }
 }

@@ -11,6 +11,7 @@ mod output;
 mod port;
 mod reader;
 mod rotation;
+mod solid;
 mod strict;
 mod value;
 mod vector;
@@ -29,10 +30,11 @@ pub use joint::{
 };
 pub use kinds::{Keys, Kind, tell_apart};
 pub use load::{ActionKind, ActsOn, Input, InputKind, Load, LoadKind};
-pub use output::{Output, OutputKind, ReadAt};
+pub use output::{Along, Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;
 pub use rotation::{Inertia, Orientation};
+pub use solid::Solid;
 pub use strict::Strict;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};
 pub use vector::{Spin, Vector};
@@ -52,9 +54,10 @@ pub struct Scene {
     /// Gravitational acceleration, m/s^2; zero by default.
     #[serde(default, skip_serializing_if = "Vector::is_unsaid")]
     pub gravity: Vector,
-    /// Rate of the frame that the scene is described in, about its origin, counter-clockwise, rad/s; 0 in space.
+    /// Angular velocity of the frame that the scene is described in, about its origin, rad/s: a number in the plane,
+    /// counter-clockwise, three components in space. Gravity and the ground turn with the frame.
     #[serde(default)]
-    pub rotation: f64,
+    pub rotation: Spin,
     /// Bodies; at least one.
     pub bodies: Vec<Body>,
     /// Masses lumped at markers.
@@ -103,6 +106,9 @@ impl Scene {
         } else if self.accuracy.relative_tolerance.is_none() {
             self.accuracy.error = Some(self.error());
         }
+        if self.dimension == 3 && self.rotation == Spin::default() {
+            self.rotation = Spin::Vector([0.0; 3]);
+        }
         let motions = self.bodies.iter_mut().map(Body::motion_mut);
         let zeros = motions.map(|motion| {
             if self.dimension == 3 && motion.spin == Spin::default() {
@@ -115,6 +121,11 @@ impl Scene {
                 *vector = Vector::zero(self.dimension.clamp(2, 3));
             }
         }
+    }
+
+    /// Whether the frame turns that it is described in.
+    pub fn turns(&self) -> bool {
+        self.rotation.full() != [0.0; 3]
     }
 
     /// Whether numbers of elements or the tolerance are left to the planner.

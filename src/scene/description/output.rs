@@ -23,6 +23,10 @@ pub struct Output {
     /// Name of a motion, for what drives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<String>,
+    /// In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
+    /// joint: along which axes components are.
+    #[serde(default, skip_serializing_if = "Along::is_global")]
+    pub axes: Along,
     /// `natural_frequency` and `eigenvalue` of a scene with one body only: its name, which then begins those of the
     /// variables.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -31,6 +35,25 @@ pub struct Output {
     /// the scene has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u32>,
+}
+
+/// Axes along which components of an output are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Along {
+    /// Those of the scene.
+    #[default]
+    Global,
+    /// Those of the frame of the rigid body; of a joint, of the first body that it joins. Names of such variables end in
+    /// `_body`, so that both can be read.
+    Body,
+}
+
+impl Along {
+    /// Whether they are those of the scene.
+    pub fn is_global(&self) -> bool {
+        *self == Self::Global
+    }
 }
 
 /// Outputs by name.
@@ -54,7 +77,13 @@ pub enum OutputKind {
     Angle,
     /// How a rigid body in space stands: the matrix whose columns are the axes of its frame in global components, by rows.
     Orientation,
-    /// Rate of the angle, rad/s; in space the angular velocity of a rigid body, global axes.
+    /// The same as a unit quaternion, scalar first: `w >= 0` at the start, and from there on without jumps, so that it changes
+    /// its sign with every full turn.
+    Quaternion,
+    /// The same as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body turns on beyond,
+    /// the vector jumps to its opposite.
+    RotationVector,
+    /// Rate of the angle, rad/s; in space the angular velocity of a rigid body (`axes`).
     AngularVelocity,
     /// Rate of the angular velocity, rad/s^2.
     AngularAcceleration,
@@ -72,9 +101,9 @@ pub enum OutputKind {
     ConnectivityForce,
     /// Where along the cable a joint of kind `along` stands: length from the first end, m.
     Travel,
-    /// Force of a joint on its second marker, or of a motion, global axes, N.
+    /// Force of a joint on its second marker, or of a motion, N (`axes`).
     Reaction,
-    /// Moment of a joint on its second marker, or of a motion, N m.
+    /// Moment of a joint on its second marker, or of a motion, N m (`axes`).
     ReactionMoment,
     /// Force of a gear on the displacement of its second joint, N; on the coordinate of the first acts minus the ratio times that.
     GearForce,
@@ -104,7 +133,7 @@ pub enum OutputKind {
     /// conjugate pairs once, real ones (`frequency` 0) each by itself. With dampers, gyroscopic forces and forces that
     /// follow, inputs held. Of a state in motion or out of equilibrium they are those of the equations of motion at
     /// that instant, as seen from the frame of the scene; cables that turn initially are refused: describe them in a frame
-    /// that turns with them (`rotation`); so are rigid bodies that turn initially in space.
+    /// that turns with them (`rotation`); so are thin rods of space that turn initially.
     Eigenvalue,
 }
 
@@ -154,7 +183,7 @@ impl OutputKind {
             Self::Displacement => ReadAt::Sliding,
             Self::GearForce | Self::GearTorque => ReadAt::Gear,
             Self::Direction => ReadAt::Directed,
-            Self::Orientation => ReadAt::Standing,
+            Self::Orientation | Self::Quaternion | Self::RotationVector => ReadAt::Standing,
             Self::Strain | Self::Curvature => ReadAt::Flexible,
             Self::AxialForce | Self::BendingMoment => ReadAt::Cable,
             Self::ConnectivityForce => ReadAt::Node,
@@ -185,12 +214,11 @@ impl Kind for OutputKind {
             | ReadAt::Cable
             | ReadAt::Flexible
             | ReadAt::Node => &[(&["marker"], &[])],
-            ReadAt::Turning | ReadAt::Angle | ReadAt::Moving => {
-                &[(&["joint"], &[]), (&["marker"], &[])]
-            }
+            ReadAt::Angle | ReadAt::Moving => &[(&["joint"], &[]), (&["marker"], &[])],
+            ReadAt::Turning => &[(&["joint"], &[]), (&["marker"], &["axes"])],
             ReadAt::Gear => &[(&["gear"], &[])],
             ReadAt::Slide | ReadAt::Sliding => &[(&["joint"], &[])],
-            ReadAt::Force | ReadAt::Moment => &[(&["motion"], &[]), (&["joint"], &[])],
+            ReadAt::Force | ReadAt::Moment => &[(&["motion"], &[]), (&["joint"], &["axes"])],
             ReadAt::Scene => &[(&[], &[])],
             ReadAt::Spectrum => &[(&[], &["body", "count"])],
         }

@@ -37,11 +37,12 @@ impl<'de> Deserialize<'de> for Inertia {
 }
 
 impl Inertia {
-    /// The number that stands for it in the plane.
+    /// The number that stands for it in the plane: about the third axis.
     pub fn number(&self) -> f64 {
         match *self {
             Self::Number(number) => number,
-            Self::Moments(_) | Self::Tensor(_) => 0.0,
+            Self::Moments(moments) => moments[2],
+            Self::Tensor(rows) => rows[2][2],
         }
     }
 

@@ -134,6 +134,14 @@ impl Spin {
             Self::Vector(components) => components,
         }
     }
+
+    /// Sets the component about an axis, in the plane the third.
+    pub fn set(&mut self, axis: usize, value: f64) {
+        match self {
+            Self::Number(rate) => *rate = value,
+            Self::Vector(components) => components[axis] = value,
+        }
+    }
 }
 
 impl<'de> Deserialize<'de> for Spin {

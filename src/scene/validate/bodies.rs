@@ -6,12 +6,13 @@ use nalgebra::Vector3;
 
 use super::ELEMENTS;
 use super::checks::{
-    components, expected, finite, name, not_negative, planar, positive, quoted, vector,
+    components, expected, finite, name, needed, not_negative, planar, positive, quoted, spin,
+    vector,
 };
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
 use crate::scene::{
-    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Spin, Vector,
+    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Solid, Vector,
 };
 
 impl Body {
@@ -33,17 +34,7 @@ impl Body {
 impl InitialMotion {
     fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         vector(&format!("{path}.velocity"), dimension, &self.velocity)?;
-        let place = format!("{path}.spin");
-        match (&self.spin, dimension) {
-            (Spin::Number(rate), 2) => finite(&place, *rate)?,
-            (Spin::Vector(rates), 3) => vector(&place, dimension, &(*rates).into())?,
-            // What a scene that is changed by hand leaves out.
-            (Spin::Number(0.0), _) => {}
-            (Spin::Number(rate), _) => return Err(expected(&place, "[x, y, z] in space", rate)),
-            (Spin::Vector(_), _) => {
-                return Err(expected(&place, "a number in the plane", "a list"));
-            }
-        }
+        spin(&format!("{path}.spin"), dimension, &self.spin)?;
         let place = format!("{path}.deformation");
         if let Some(field) = &self.deformation {
             components(&place, dimension, field, |_, _| Ok(()))?;
@@ -124,8 +115,7 @@ impl CableBody {
 impl RigidBody {
     fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
-        positive(&at("mass"), "kg", self.mass)?;
-        self.validate_inertia(&at("inertia"), dimension)?;
+        self.validate_substance(path, dimension)?;
         vector(&at("position"), dimension, &self.position)?;
         finite(&at("angle"), self.angle)?;
         if self.angle != 0.0 {
@@ -136,7 +126,7 @@ impl RigidBody {
         for (marker, point) in &self.markers {
             let place = at(&format!("markers.{marker}"));
             vector(&place, dimension, point)?;
-            if !self.inertia.is_some() && point.full() != [0.0; 3] {
+            if !self.inertia().is_some() && point.full() != [0.0; 3] {
                 let wanted = match dimension {
                     2 => "[0, 0] in a body without inertia, which does not turn",
                     _ => "[0, 0, 0] in a body without inertia, which does not turn",
@@ -153,7 +143,7 @@ impl RigidBody {
             ));
         }
         let spin = self.motion.spin.full();
-        if !self.inertia.is_some() && spin != [0.0; 3] {
+        if !self.inertia().is_some() && spin != [0.0; 3] {
             let wanted = "0 in a body without inertia, which does not turn";
             let found = match dimension {
                 2 => spin[2].to_string(),
@@ -166,9 +156,50 @@ impl RigidBody {
 }
 
 impl RigidBody {
+    /// Mass and inertia, or a shape and its density.
+    fn validate_substance(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        let instead = "or `shape` and `density`";
+        let Some(shape) = &self.shape else {
+            if self.density.is_some() {
+                let wanted = "`shape` beside `density`, or `mass` instead of both";
+                return Err(expected(&at("shape"), wanted, "nothing"));
+            }
+            let what = format!("a positive number (kg), {instead}");
+            let mass = needed(path, "mass", &what, self.mass)?;
+            positive(&at("mass"), "kg", mass)?;
+            return self.validate_inertia(&at("inertia"), dimension);
+        };
+        let said = [
+            ("mass", self.mass.is_some()),
+            ("inertia", self.inertia.is_some()),
+        ];
+        if let Some((key, _)) = said.into_iter().find(|(_, is_said)| *is_said) {
+            let wanted = "nothing beside `shape` and `density`, from which it follows";
+            return Err(expected(&at(key), wanted, "a value"));
+        }
+        let what = "a positive number (kg/m^3) beside `shape`";
+        let density = needed(path, "density", what, self.density)?;
+        positive(&at("density"), "kg/m^3", density)?;
+        shape.validate(&at("shape"))?;
+        let mass = self.mass();
+        if !mass.is_normal()
+            || !self
+                .inertia()
+                .tensor()
+                .iter()
+                .all(|entry| entry.is_finite())
+        {
+            let wanted =
+                "a shape and a density whose mass (kg) and inertia are numbers of the machine";
+            return Err(expected(&at("shape"), wanted, mass));
+        }
+        Ok(())
+    }
+
     /// A number in the plane; moments that a body can have in space.
     fn validate_inertia(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        let (shown, is_number) = match self.inertia {
+        let (shown, is_number) = match self.inertia() {
             Inertia::Number(number) => {
                 not_negative(path, "kg m^2", number)?;
                 (number.to_string(), true)
@@ -179,7 +210,7 @@ impl RigidBody {
         match (dimension, is_number) {
             (2, true) => return Ok(()),
             (2, false) => return Err(expected(path, "a number in the plane", shown)),
-            (_, true) if !self.inertia.is_some() => return Ok(()),
+            (_, true) if !self.inertia().is_some() => return Ok(()),
             (_, true) => {
                 let wanted =
                     "three moments of inertia or a tensor of a body in space (0 of a particle)";
@@ -187,7 +218,7 @@ impl RigidBody {
             }
             (_, false) => {}
         }
-        let tensor = self.inertia.tensor();
+        let tensor = self.inertia().tensor();
         if tensor.iter().any(|entry| !entry.is_finite()) {
             return Err(expected(path, "finite numbers", shown));
         }
@@ -195,7 +226,7 @@ impl RigidBody {
         if (tensor - tensor.transpose()).amax() > 1e-9 * largest {
             return Err(expected(path, "a symmetric tensor", shown));
         }
-        let mut moments = self.inertia.principal().0;
+        let mut moments = self.inertia().principal().0;
         moments.sort_by(f64::total_cmp);
         let [a, b, c] = moments;
         if b <= 0.0 || a < -1e-9 * c {
@@ -219,7 +250,7 @@ impl RigidBody {
 
     /// In space a thin rod has no points beside its axis: nothing says how they turn about it.
     fn validate_thin(&self, place: &str, dimension: usize, point: &Vector) -> Result<(), Error> {
-        let Some(axis) = self.inertia.thin().filter(|_| dimension == 3) else {
+        let Some(axis) = self.inertia().thin().filter(|_| dimension == 3) else {
             return Ok(());
         };
         let point = Vector3::from(point.full());
@@ -242,7 +273,7 @@ impl RigidBody {
                 "an orientation",
             ));
         }
-        if !self.inertia.is_some() {
+        if !self.inertia().is_some() {
             let wanted = "nothing of a body without inertia, which does not turn";
             return Err(expected(path, wanted, "an orientation"));
         }
@@ -254,6 +285,40 @@ impl RigidBody {
                 Err(expected(path, wanted, format!("{numbers:?}")))
             }
         }
+    }
+}
+
+impl Solid {
+    fn validate(&self, path: &str) -> Result<(), Error> {
+        for (key, length) in self.lengths() {
+            positive(&format!("{path}.{key}"), "m", length)?;
+        }
+        if let Self::Tube {
+            radius,
+            inner_radius,
+            ..
+        } = *self
+            && inner_radius >= radius
+        {
+            let wanted = format!("less than the outer radius ({radius} m)");
+            return Err(expected(
+                &format!("{path}.tube.inner_radius"),
+                &wanted,
+                inner_radius,
+            ));
+        }
+        if let Some((key, axis)) = self.axis() {
+            let norm = Vector3::from(axis).norm();
+            if !norm.is_normal() {
+                let wanted = "three finite numbers, not all zero";
+                return Err(expected(
+                    &format!("{path}.{key}"),
+                    wanted,
+                    format!("{axis:?}"),
+                ));
+            }
+        }
+        Ok(())
     }
 }
 

@@ -6,7 +6,7 @@ use std::fmt::Display;
 use crate::math::function::Function;
 use crate::scene::Error;
 use crate::scene::description::Keys;
-use crate::scene::description::{Value, Vector};
+use crate::scene::description::{Spin, Value, Vector};
 use crate::scene::marker::GROUND;
 
 /// Words that begin variable names of the scene itself, or stand for something else.
@@ -126,6 +126,18 @@ pub fn planar(path: &str, dimension: usize, instead: &str, found: &str) -> Resul
         return Ok(());
     }
     Err(expected(path, &format!("{instead} in space"), found))
+}
+
+/// Checks an angular velocity: a number in the plane, a vector in space.
+pub fn spin(path: &str, dimension: usize, value: &Spin) -> Result<(), Error> {
+    match (value, dimension) {
+        (Spin::Number(rate), 2) => finite(path, *rate),
+        (Spin::Vector(rates), 3) => vector(path, dimension, &(*rates).into()),
+        // What a scene that is changed by hand leaves out.
+        (Spin::Number(0.0), _) => Ok(()),
+        (Spin::Number(rate), _) => Err(expected(path, "[x, y, z] in space", rate)),
+        (Spin::Vector(_), _) => Err(expected(path, "a number in the plane", "a list")),
+    }
 }
 
 /// Checks that a quantity is positive.

@@ -271,7 +271,7 @@ impl<'a> Resolved<'a> {
             let Place::Point(rigid, _) = marker.place else {
                 continue;
             };
-            let Some(axis) = rigid.body.inertia.thin() else {
+            let Some(axis) = rigid.body.inertia().thin() else {
                 continue;
             };
             let axis = Vector3::from(rigid.body.directed(axis.into()));

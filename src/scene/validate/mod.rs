@@ -19,7 +19,7 @@ use std::ops::RangeInclusive;
 
 use super::resolved::{Holder, HolderId, Resolved};
 use super::{Error, InitialState, Scene};
-use checks::{expected, finite, name, planar, positive, scene_name, sentence, vector};
+use checks::{expected, name, positive, scene_name, sentence, spin, vector};
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
 pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
@@ -45,11 +45,7 @@ impl Scene {
             return Err(expected("dimension", wanted, self.dimension));
         }
         vector("gravity", self.dimension, &self.gravity)?;
-        finite("rotation", self.rotation)?;
-        if self.rotation != 0.0 {
-            let found = self.rotation.to_string();
-            planar("rotation", self.dimension, "0", &found)?;
-        }
+        spin("rotation", self.dimension, &self.rotation)?;
         self.validate_names()?;
         self.validate_bodies()?;
         let mut resolved = Resolved::bare(self);
@@ -159,13 +155,13 @@ impl<'a> Resolved<'a> {
             let wanted = "a state that loads act on, static_equilibrium or steady";
             return Err(expected("initial.state", wanted, "as_shaped"));
         }
-        if state == InitialState::Steady {
-            let instead = "as_shaped or static_equilibrium";
-            planar("initial", scene.dimension, instead, "steady")?;
-        }
-        if state == InitialState::Steady && scene.rotation != 0.0 {
+        if state == InitialState::Steady && scene.turns() {
             let wanted = "0 where the initial state is steady";
-            return Err(expected("rotation", wanted, scene.rotation));
+            return Err(expected(
+                "rotation",
+                wanted,
+                format!("{:?}", scene.rotation.full()),
+            ));
         }
         self.resolve_initial_loads()
     }

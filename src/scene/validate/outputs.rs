@@ -5,18 +5,21 @@ use std::collections::BTreeSet;
 use super::checks::{Key, expected, keys, needed, quoted};
 use crate::scene::Error;
 use crate::scene::description::{Kind as _, Output, OutputKind, ReadAt};
-use crate::scene::resolved::{self, AngleId, Marker, MotionKind, Of, Reaction, Resolved, Turning};
+use crate::scene::resolved::{
+    self, AngleId, First, Marker, MotionKind, Of, Reaction, Resolved, Turning,
+};
 
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
 
 impl Output {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 6] = [
+        let all: [Key; 7] = [
             ("marker", self.marker.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
             ("gear", self.gear.is_some(), "a name"),
             ("motion", self.motion.is_some(), "a name"),
+            ("axes", !self.axes.is_global(), "axes"),
             ("body", self.body.is_some(), "a name"),
             ("count", self.count.is_some(), "a count"),
         ];
@@ -48,6 +51,7 @@ impl<'a> Resolved<'a> {
             output.validate_keys(&path)?;
             output.validate_count(&path)?;
             let of = self.resolve_output(&path, output)?;
+            self.validate_axes(&format!("{path}.axes"), output, &of)?;
             let named = [
                 &output.marker,
                 &output.joint,
@@ -55,13 +59,39 @@ impl<'a> Resolved<'a> {
                 &output.motion,
                 &output.body,
             ];
-            if !seen.insert((output.kind as u8, named)) {
+            if !seen.insert((output.kind as u8, output.axes as u8, named)) {
                 return Err(expected(&path, "an output not declared before", "it again"));
             }
-            let kind = output.kind;
-            self.outputs.push(resolved::Output { kind, of });
+            let (kind, along) = (output.kind, output.axes);
+            self.outputs.push(resolved::Output { kind, of, along });
         }
         Ok(())
+    }
+
+    /// Axes of a body are those of a rigid body in space that turns.
+    fn validate_axes(&self, path: &str, output: &Output, of: &Of<'_>) -> Result<(), Error> {
+        if output.axes.is_global() {
+            return Ok(());
+        }
+        let found = "axes of a body";
+        if self.scene.dimension == 2 {
+            return Err(expected(path, "nothing in the plane", found));
+        }
+        let Of::Reaction(reaction) = of else {
+            return Ok(());
+        };
+        let joint = self
+            .joints
+            .iter()
+            .find(|joint| joint.holder == reaction.holder);
+        match joint.map(|joint| joint.ends.first) {
+            Some(First::Ground(_)) => Ok(()),
+            Some(First::Marker(marker)) if marker.place.is_framed() => Ok(()),
+            _ => {
+                let wanted = "a joint whose first marker is one of a rigid body with inertia, or of the ground";
+                Err(expected(path, wanted, quoted(reaction.name)))
+            }
+        }
     }
 
     fn resolve_output(&mut self, path: &str, output: &'a Output) -> Result<Of<'a>, Error> {

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, not_negative, quoted, spring_damper};
 use crate::scene::Error;
-use crate::scene::description::{ActionKind, Kind as _, OutputKind, Port, PortKind};
+use crate::scene::description::{ActionKind, Along, Kind as _, OutputKind, Port, PortKind};
 use crate::scene::resolved::{
-    self, Action, Coupling, CouplingId, InputKind, Marker, Motion, MotionKind, Of, On, Output,
-    Resolved, Turning,
+    self, Action, Coupling, CouplingId, Incoming, InputKind, Marker, Motion, MotionKind, Of, On,
+    Output, Resolved, Turning,
 };
 use crate::system::Signal;
 
@@ -67,9 +67,14 @@ impl<'a> Resolved<'a> {
             port.validate_keys(&path)?;
             port.validate_springs(&path)?;
             let marker = match port.turns() {
-                true => self.require_turning(&place, &port.marker)?,
+                true => self.require_spinning(&place, &port.marker)?,
                 false => self.require_marker(&place, &port.marker)?,
             };
+            if port.drives() && port.turns() && self.scene.dimension == 3 {
+                let wanted =
+                    "stiffnesses in space, where an orientation drives nothing but by a spring";
+                return Err(expected(&format!("{path}.rotation"), wanted, "true"));
+            }
             if port.drives() {
                 for is_angle in [false, true]
                     .into_iter()
@@ -107,15 +112,20 @@ impl<'a> Resolved<'a> {
         if port.turns() {
             inputs.push(self.action_input(ActionKind::Moment, marker));
             let turning = Turning::Marker(marker);
-            let (angle, of) = (self.count_angle(turning), Of::Turning(turning));
-            outputs.extend([
-                (Angle, angle),
-                (AngularVelocity, of),
-                (AngularAcceleration, of),
-            ]);
+            let stands = match self.scene.dimension {
+                2 => (Angle, self.count_angle(turning)),
+                _ => (Quaternion, of),
+            };
+            let of = Of::Turning(turning);
+            outputs.extend([stands, (AngularVelocity, of), (AngularAcceleration, of)]);
         }
         let outputs = outputs.into_iter();
-        let outputs = outputs.map(|(kind, of)| Output { kind, of }).collect();
+        let outputs = outputs.map(|(kind, of)| Output {
+            kind,
+            of,
+            along: Along::Global,
+        });
+        let outputs = outputs.collect();
         resolved::PortKind::Force { inputs, outputs }
     }
 
@@ -162,30 +172,36 @@ impl<'a> Resolved<'a> {
             values: &[],
         };
         resolved::PortKind::Motion {
-            position: motion(position),
-            angle: angle.map(motion),
+            position: Box::new(motion(position)),
+            angle: angle.map(|angle| Box::new(motion(angle))),
         }
     }
 
     fn coupling_port(&mut self, port: &'a Port, marker: Marker<'a>) -> resolved::PortKind<'a> {
-        let coupling = |resolved: &mut Self, motion, first, stiffness, damping| {
+        let coupling = |resolved: &mut Self, incoming, first, stiffness, damping| {
             resolved.couplings += 1;
-            Coupling {
+            Box::new(Coupling {
                 id: CouplingId(resolved.couplings - 1),
-                motion,
+                incoming,
                 first,
                 stiffness: Option::unwrap_or_default(stiffness),
                 damping: Option::unwrap_or_default(damping),
-            }
+            })
         };
         let first = self.numbers;
-        let motion = self.position(marker, 1);
+        let motion = Incoming::Motion(Box::new(self.position(marker, 1)));
         let position = coupling(self, motion, first, port.stiffness, port.damping);
         let angle = port.turns().then(|| {
             let first = self.numbers;
-            let motion = self.angle(marker, 1);
+            let turn = match self.scene.dimension {
+                2 => Incoming::Motion(Box::new(self.angle(marker, 1))),
+                _ => {
+                    self.place(4 + 3);
+                    Incoming::Orientation(marker)
+                }
+            };
             let (stiffness, damping) = (port.rotational_stiffness, port.rotational_damping);
-            coupling(self, motion, first, stiffness, damping)
+            coupling(self, turn, first, stiffness, damping)
         });
         resolved::PortKind::Coupling { position, angle }
     }

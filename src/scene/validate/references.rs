@@ -47,11 +47,9 @@ impl<'a> Resolved<'a> {
                 "a marker of a rigid body with inertia; a cable without torsion has a direction alone"
             }
         };
-        match marker.place {
-            Place::Point(rigid, _) if self.scene.dimension == 3 && rigid.body.inertia.is_some() => {
-                Ok(marker)
-            }
-            _ => Err(expected(path, wanted, quoted(name))),
+        match self.scene.dimension == 3 && marker.place.is_framed() {
+            true => Ok(marker),
+            false => Err(expected(path, wanted, quoted(name))),
         }
     }
 

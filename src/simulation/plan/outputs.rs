@@ -112,7 +112,7 @@ fn nature(source: Source) -> Option<(Measure, bool, bool)> {
     };
     let measure = match quantity {
         Position(..) | CenterOfMass(_) | Travel(_) => Measure::Size,
-        Angle(_) | Direction(..) => Measure::Unit,
+        Angle(_) | Direction(..) | Quaternion(..) | RotationVector(..) => Measure::Unit,
         _ => Measure::Largest,
     };
     let counts = !matches!(
@@ -146,7 +146,7 @@ fn is_force(source: Source) -> bool {
             | MotionForce(..)
             | MotionMoment(_)
             | CouplingForce(..)
-            | CouplingMoment(_)
+            | CouplingMoment(..)
     )
 }
 

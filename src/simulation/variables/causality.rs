@@ -47,7 +47,7 @@ impl Variable {
             return (None, None);
         };
         match parameter {
-            Parameter::Gravity(_) | Parameter::Rotation => (None, None),
+            Parameter::Gravity(_) | Parameter::Rotation(_) => (None, None),
             Parameter::Elements(_) => (
                 Some(f64::from(*ELEMENTS.start())),
                 Some(f64::from(*ELEMENTS.end())),

@@ -1,8 +1,10 @@
 //! Inputs: loads, then driven motions, then what comes into ports.
 
 use super::unit::*;
-use super::{AXES, List, Source, Unit, component};
-use crate::scene::{ActionKind, Coupling, Input, InputKind, MotionKind, PortKind, Resolved};
+use super::{AXES, List, PARTS, Source, Unit, component};
+use crate::scene::{
+    ActionKind, Coupling, Incoming, Input, InputKind, Marker, MotionKind, PortKind, Resolved,
+};
 use crate::system::Drive;
 
 /// Adds the inputs of a scene.
@@ -37,13 +39,37 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
 /// What comes in through a spring and a damper, which feel it at once.
 fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
     let before = list.variables.len();
-    add_motion(list, &coupling.motion, (port, "pulls"));
-    list.mark_direct(before);
     // Coordinates come first, then their rates.
-    let coordinates = coupling.motion.drives().len();
+    let coordinates = match &coupling.incoming {
+        Incoming::Motion(motion) => {
+            add_motion(list, motion, (port, "pulls"));
+            motion.drives().len()
+        }
+        Incoming::Orientation(marker) => {
+            add_orientation(list, coupling.first, (port, marker));
+            4
+        }
+    };
+    list.mark_direct(before);
     for (i, variable) in list.variables[before..].iter_mut().enumerate() {
         variable.coupling = Some(coupling.id);
         variable.sets_length = i < coordinates;
+    }
+}
+
+/// How the frame of a rigid body would stand without the spring, and how it would turn.
+fn add_orientation(list: &mut List, first: usize, (port, marker): (&str, &Marker<'_>)) {
+    let what = format!("to which {port} pulls {}", marker.name);
+    for (k, start) in marker.place.quaternion().into_iter().enumerate() {
+        let name = component(&format!("{port}.quaternion"), k);
+        let what = format!("Quaternion {what}, {}", PARTS[k]);
+        list.add(name, what, None, Source::Input(first + k), Some(start));
+    }
+    for (k, axis) in AXES.iter().enumerate() {
+        let name = component(&format!("{port}.angular_velocity"), k);
+        let what = format!("Angular velocity {what}, component {axis}");
+        let source = Source::Input(first + 4 + k);
+        list.add(name, what, Some(RADIAN_PER_SECOND), source, Some(0.0));
     }
 }
 

@@ -75,6 +75,8 @@ pub enum Parameter {
     Elements(CableId),
     /// Mass of a rigid body.
     Mass(RigidId),
+    /// Density of a rigid body that has a shape.
+    SolidDensity(RigidId),
     /// Moment of inertia of a rigid body.
     Inertia(RigidId, usize),
     /// Mass lumped at a marker.
@@ -106,7 +108,7 @@ pub enum Parameter {
     /// Component of gravity.
     Gravity(usize),
     /// Rate of the frame.
-    Rotation,
+    Rotation(usize),
     /// Relative tolerance of the integrator.
     RelativeTolerance,
     /// Most work of one communication step.
@@ -127,7 +129,7 @@ impl Variable {
         };
         let reaches = match quantity {
             Quantity::SpringEnergy | Quantity::Input => input.sets_length,
-            Quantity::CouplingForce(place, _) | Quantity::CouplingMoment(place) => {
+            Quantity::CouplingForce(place, _) | Quantity::CouplingMoment(place, _) => {
                 input.coupling == Some(place)
             }
             _ => true,
@@ -182,6 +184,8 @@ fn component(name: &str, axis: usize) -> String {
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+/// Parts of a quaternion.
+const PARTS: [&str; 4] = ["scalar part", "part x", "part y", "part z"];
 
 /// Variables, how many components a vector has, and whether the master sets springs.
 struct List {

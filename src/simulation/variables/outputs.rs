@@ -1,10 +1,10 @@
 //! Outputs, natural frequencies, eigenvalues, and what goes out of ports.
 
 use super::unit::*;
-use super::{AXES, List, Quantity, Source, Unit, component};
+use super::{AXES, List, PARTS, Quantity, Source, Unit, component};
 use crate::scene::{
-    AngleId, HolderId, InputKind, MarkerId, Of, Output, OutputKind, Port, PortKind, Resolved,
-    SlideId, Turning,
+    Along, AngleId, HolderId, InputKind, MarkerId, Of, Output, OutputKind, Port, PortKind,
+    Resolved, SlideId, Turning,
 };
 use crate::simulation::quantities::{Evaluated, needs};
 
@@ -19,6 +19,8 @@ enum Shape {
     Turn,
     /// Three by three, by rows.
     Matrix,
+    /// A scalar part and one an axis.
+    Quaternion,
     /// As many as are asked for; in its meaning, `{}` is the number from 1 on.
     List,
 }
@@ -28,14 +30,17 @@ enum Shape {
 enum Read {
     Marker(fn(MarkerId, usize) -> Quantity),
     /// Of a marker, of a joint.
-    Turning(fn(MarkerId, usize) -> Quantity, fn(HolderId) -> Quantity),
+    Turning(
+        fn(MarkerId, usize, Along) -> Quantity,
+        fn(HolderId) -> Quantity,
+    ),
     /// Of a marker, of a joint along a line.
     Moving(fn(MarkerId, usize) -> Quantity, fn(HolderId) -> Quantity),
     /// One number of a joint or a gear.
     Joint(fn(HolderId) -> Quantity),
     Counted(fn(AngleId) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
-    Holder(fn(HolderId, usize) -> Quantity),
+    Holder(fn(HolderId, usize, Along) -> Quantity),
     Scene(fn(usize) -> Quantity),
     Spectrum(fn(usize) -> Source),
 }
@@ -48,7 +53,7 @@ type Row = (&'static str, &'static str, Option<Unit>, Shape, Read);
 fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
     use OutputKind as Kind;
     use Quantity::*;
-    use Shape::{List, Matrix, Scalar, Turn, Vector};
+    use Shape::{List, Matrix, Quaternion as Four, Scalar, Turn, Vector};
     match kind {
         Kind::Position => vec![("position", "Position of {}", Some(METRE), Vector, Read::Marker(Position))],
         Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Moving(Velocity, SlidingVelocity))],
@@ -59,6 +64,12 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
         Kind::Orientation => vec![
             ("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation)),
+        ],
+        Kind::Quaternion => vec![
+            ("quaternion", "Unit quaternion of the frame at {}", None, Four, Read::Marker(Quaternion)),
+        ],
+        Kind::RotationVector => vec![
+            ("rotation_vector", "Rotation vector of the frame at {}, at most half a turn long", Some(RADIAN), Vector, Read::Marker(RotationVector)),
         ],
         Kind::Angle => vec![("angle", "Direction {}, counted on over full turns", Some(RADIAN), Scalar, Read::Counted(Angle))],
         Kind::AngularVelocity => vec![
@@ -115,7 +126,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
 #[rustfmt::skip] // a table
 fn energies(resolved: &Resolved<'_>) -> Vec<Row> {
     use Quantity::*;
-    let gravity = if resolved.scene.rotation == 0.0 {
+    let gravity = if !resolved.scene.turns() {
         "Potential energy of gravity, zero at the origin"
     } else {
         "Potential energy of gravity and of the centrifugal force, zero at the origin"
@@ -169,7 +180,14 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             (Shape::Vector, Of::Sliding(_)) => Shape::Scalar,
             _ => shape,
         };
-        let source = |k| source(read, &output.of, k);
+        let (name, what) = match output.along {
+            Along::Global => (name, what),
+            Along::Body => (
+                format!("{name}_body"),
+                format!("{what}, axes of {}", owner(&output.of)),
+            ),
+        };
+        let source = |k| source(read, output, k);
         list.shaped((&name, &what), unit, (shape, count), source);
     }
 }
@@ -203,11 +221,20 @@ fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
     }
 }
 
-fn source(read: Read, of: &Of<'_>, k: usize) -> Source {
-    Source::Output(match (read, of) {
+/// The body along whose axes components are.
+fn owner(of: &Of<'_>) -> String {
+    match of {
+        Of::Reaction(reaction) => format!("the first body of {}", reaction.name),
+        _ => "its body".into(),
+    }
+}
+
+fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
+    let along = output.along;
+    Source::Output(match (read, &output.of) {
         (Read::Marker(quantity), Of::Marker(marker)) => quantity(marker.id, k),
         (Read::Turning(quantity, _), Of::Turning(Turning::Marker(marker))) => {
-            quantity(marker.id, k)
+            quantity(marker.id, k, along)
         }
         (Read::Turning(_, quantity), Of::Turning(Turning::Pivot(pivot))) => quantity(pivot.joint),
         (Read::Moving(quantity, _), Of::Marker(marker)) => quantity(marker.id, k),
@@ -217,7 +244,7 @@ fn source(read: Read, of: &Of<'_>, k: usize) -> Source {
         (Read::Joint(quantity), Of::Gear(_, holder)) => quantity(*holder),
         (Read::Counted(quantity), Of::Angle(_, angle)) => quantity(*angle),
         (Read::Slide(quantity), Of::Slide(_, slide)) => quantity(*slide),
-        (Read::Holder(quantity), Of::Reaction(reaction)) => quantity(reaction.holder, k),
+        (Read::Holder(quantity), Of::Reaction(reaction)) => quantity(reaction.holder, k, along),
         (Read::Scene(quantity), Of::Scene) => quantity(k),
         (Read::Spectrum(source), Of::Spectrum(..)) => return source(k),
         _ => unreachable!("what an output is read at follows from its kind"),
@@ -231,26 +258,36 @@ fn add_port_force(list: &mut List, port: &Port<'_>) {
         "of {} on what {} couples it to",
         port.marker.name, port.name
     );
-    let (force, force_what) = (format!("{}.force", port.name), format!("Force {what}"));
-    let mut vector = |quantity: &dyn Fn(usize) -> Quantity| {
+    let dimension = list.dimension;
+    let mut add = |key: &str, unit: Unit, shape: Shape, quantity: &dyn Fn(usize) -> Quantity| {
+        let name = format!("{}.{}", port.name, key.to_lowercase());
+        let what = format!("{key} {what}");
         let source = |axis| Source::Output(quantity(axis));
-        let shape = (Shape::Vector, list.dimension);
-        list.shaped((&force, &force_what), Some(NEWTON), shape, source);
+        list.shaped((&name, &what), Some(unit), (shape, dimension), source);
     };
-    let moment = match &port.kind {
-        PortKind::Force { .. } => return,
+    let (force, moment) = (("Force", NEWTON), ("Moment", NEWTON_METRE));
+    match &port.kind {
+        PortKind::Force { .. } => {}
         PortKind::Motion { position, angle } => {
-            vector(&|axis| MotionForce(position.holder, axis));
-            angle.as_ref().map(|angle| MotionMoment(angle.holder))
+            add(force.0, force.1, Shape::Vector, &|axis| {
+                MotionForce(position.holder, axis)
+            });
+            if let Some(angle) = angle {
+                add(moment.0, moment.1, Shape::Scalar, &|_| {
+                    MotionMoment(angle.holder)
+                });
+            }
         }
         PortKind::Coupling { position, angle } => {
-            vector(&|axis| CouplingForce(position.id, axis));
-            angle.as_ref().map(|angle| CouplingMoment(angle.id))
+            add(force.0, force.1, Shape::Vector, &|axis| {
+                CouplingForce(position.id, axis)
+            });
+            if let Some(angle) = angle {
+                add(moment.0, moment.1, Shape::Turn, &|axis| {
+                    CouplingMoment(angle.id, axis)
+                });
+            }
         }
-    };
-    if let Some(quantity) = moment {
-        let (name, what) = (format!("{}.moment", port.name), format!("Moment {what}"));
-        list.output(name, what, Some(NEWTON_METRE), Source::Output(quantity));
     }
 }
 
@@ -293,6 +330,10 @@ impl List {
                 let what = format!("{what}, {} of the {} axis", AXES[k / 3], AXES[k % 3]);
                 self.output(component(name, k), what, unit, source(k));
             }),
+            (Shape::Quaternion, _) => (0..4).for_each(|k| {
+                let what = format!("{what}, {}", PARTS[k]);
+                self.output(component(name, k), what, unit, source(k));
+            }),
             _ => (0..count).for_each(|k| {
                 let what = match shape {
                     Shape::List => what.replace("{}", &(k + 1).to_string()),
@@ -310,7 +351,7 @@ impl List {
         if let (Some(variable), Source::Output(quantity)) = (self.variables.last_mut(), source) {
             let of_springs = matches!(
                 quantity,
-                SpringEnergy | Input | CouplingForce(..) | CouplingMoment(_)
+                SpringEnergy | Input | CouplingForce(..) | CouplingMoment(..)
             );
             variable.is_direct =
                 needs(quantity) == Evaluated::Dynamics || (self.sets_springs && of_springs);

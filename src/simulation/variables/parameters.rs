@@ -2,6 +2,7 @@
 
 use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
+use crate::math::space::spins;
 use crate::scene::{BodyReference, Cable, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene};
 
 /// Key, meaning, unit, what it stands for, start value.
@@ -29,10 +30,20 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         let name = component("gravity", axis);
         list.parameter(name, what, unit, parameter, scene.gravity[axis]);
     }
-    if scene.rotation != 0.0 {
-        let what = "Rate of the frame that the scene is described in, about its origin";
-        let (unit, parameter) = (Some(RADIAN_PER_SECOND), Parameter::Rotation);
-        list.parameter("rotation", what, unit, parameter, scene.rotation);
+    if scene.turns() {
+        for axis in spins(scene.dimension) {
+            let what =
+                "Angular velocity of the frame that the scene is described in, about its origin";
+            let (name, what) = match scene.dimension {
+                2 => ("rotation".into(), what.into()),
+                _ => (
+                    component("rotation", axis),
+                    format!("{what}, component {}", AXES[axis]),
+                ),
+            };
+            let (unit, parameter) = (Some(RADIAN_PER_SECOND), Parameter::Rotation(axis));
+            list.parameter(name, what, unit, parameter, scene.rotation.full()[axis]);
+        }
     }
     let what = "Error in time that a step may make, relative to the size of the scene";
     let (parameter, start) = (Parameter::RelativeTolerance, scene.relative_tolerance());
@@ -66,21 +77,21 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
 
 fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
     let (i, body) = (rigid.id, rigid.body);
-    let row = (
-        "mass",
-        "Mass",
-        Some(KILOGRAM),
-        Parameter::Mass(i),
-        body.mass,
-    );
+    if let Some(density) = body.density {
+        let parameter = Parameter::SolidDensity(i);
+        let row = ("density", "Density", Some(DENSITY), parameter, density);
+        return list.parameters(&body.name, "of", &[row]);
+    }
+    let (parameter, mass) = (Parameter::Mass(i), body.mass());
+    let row = ("mass", "Mass", Some(KILOGRAM), parameter, mass);
     list.parameters(&body.name, "of", &[row]);
     let about = "Moment of inertia about the centre of mass";
     if dimension == 2 {
-        let (inertia, start) = (Parameter::Inertia(i, 0), body.inertia.number());
+        let (inertia, start) = (Parameter::Inertia(i, 0), body.inertia().number());
         let row = ("inertia", about, Some(INERTIA), inertia, start);
         list.parameters(&body.name, "of", &[row]);
-    } else if body.inertia.is_some() {
-        let tensor = body.inertia.tensor();
+    } else if body.inertia().is_some() {
+        let tensor = body.inertia().tensor();
         for (axis, name) in AXES.iter().enumerate() {
             let what = format!("{about} of {} and the {name} axis of its frame", body.name);
             let parameter = Parameter::Inertia(i, axis);
@@ -196,8 +207,12 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         Area(id) => scene.cable_mut(id).section.area = value,
         SecondMoment(id) => scene.cable_mut(id).section.second_moment = value,
         Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
-        Mass(id) => scene.rigid_mut(id).mass = value,
-        Inertia(id, axis) => set_inertia(&mut scene.rigid_mut(id).inertia, axis, value),
+        Mass(id) => scene.rigid_mut(id).mass = Some(value),
+        SolidDensity(id) => scene.rigid_mut(id).density = Some(value),
+        Inertia(id, axis) => {
+            let inertia = &mut scene.rigid_mut(id).inertia;
+            set_inertia(inertia.get_or_insert_default(), axis, value);
+        }
         LumpedMass(i) => scene.masses[i].mass = value,
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),
@@ -210,7 +225,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         TurningStiffness(i) => scene.ports[i].rotational_stiffness = Some(value),
         TurningDamping(i) => scene.ports[i].rotational_damping = Some(value),
         Gravity(axis) => scene.gravity[axis] = value,
-        Rotation => scene.rotation = value,
+        Rotation(axis) => scene.rotation.set(axis, value),
         RelativeTolerance => scene.set_relative_tolerance(value),
         WorkLimit => scene.method.work_limit = value,
     }

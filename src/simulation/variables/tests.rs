@@ -1,6 +1,7 @@
 //! What a scene with driven motions, springs and hinges lists.
 
 use super::*;
+use crate::scene::Spin;
 
 /// A scene with driven motions of every kind, springs, hinges and masses.
 fn scene() -> Scene {
@@ -98,7 +99,7 @@ fn parameters_are_those_of_bodies_masses_hinges_and_springs() {
     }
     assert_eq!(of("rotation"), None);
     let mut turning = scene();
-    turning.rotation = 3.0;
+    turning.rotation = Spin::Number(3.0);
     assert!(variables(&turning).iter().any(|v| v.name == "rotation"));
 }
 

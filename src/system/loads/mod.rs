@@ -7,6 +7,7 @@ mod distributed;
 mod force;
 mod joint_spring;
 mod moment;
+mod orientation_bushing;
 mod six_bushing;
 mod spring;
 mod stop;
@@ -17,6 +18,7 @@ pub use distributed::{Distributed, Line};
 pub use force::Force;
 pub use joint_spring::JointSpring;
 pub use moment::Moment;
+pub use orientation_bushing::OrientationBushing;
 pub use six_bushing::SixBushing;
 pub use spring::Spring;
 pub use stop::Stop;
@@ -51,6 +53,8 @@ pub enum Load<const D: usize = 2> {
     Bushing(Bushing<D>),
     /// A rotational spring with a damper from the direction of a marker to an angle.
     RotationalBushing(RotationalBushing),
+    /// The same in space, between a rigid body and an orientation.
+    OrientationBushing(Box<OrientationBushing>),
 }
 
 impl<const D: usize> Load<D> {
@@ -82,6 +86,7 @@ impl<const D: usize> Load<D> {
             Self::SixBushing(load) => load.act(at, call),
             Self::Bushing(load) => load.act(at, call),
             Self::RotationalBushing(load) => load.act(at, call),
+            Self::OrientationBushing(load) => load.act(at, call),
         }
     }
 
@@ -99,6 +104,7 @@ impl<const D: usize> Load<D> {
             Self::SixBushing(load) => load.add_tangent(at, stiffness, damping),
             Self::Bushing(load) => load.add_tangent(stiffness, damping),
             Self::RotationalBushing(load) => load.add_tangent(at, stiffness, damping),
+            Self::OrientationBushing(load) => load.add_tangent(at, stiffness, damping),
         }
     }
 
@@ -116,6 +122,7 @@ impl<const D: usize> Load<D> {
             Self::SixBushing(load) => [none, load.dissipation(at)],
             Self::Bushing(load) => load.power(at),
             Self::RotationalBushing(load) => load.power(at),
+            Self::OrientationBushing(load) => load.power(at),
         }
     }
 
@@ -128,6 +135,7 @@ impl<const D: usize> Load<D> {
             Self::SixBushing(load) => load.energy(at),
             Self::Bushing(load) => load.energy(at),
             Self::RotationalBushing(load) => load.energy(at),
+            Self::OrientationBushing(load) => load.energy(at),
             _ => N::of(0.0),
         }
     }
@@ -142,6 +150,7 @@ impl<const D: usize> Load<D> {
             Self::Distributed(load) => load.work(before, after),
             Self::Bushing(load) => load.work(before, after),
             Self::RotationalBushing(load) => load.work(before, after),
+            Self::OrientationBushing(load) => load.work(before, after),
             Self::Spring(_) | Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {
                 self.energy(before) - self.energy(after)
             }
@@ -175,6 +184,10 @@ impl<const D: usize> Load<D> {
                 hold(std::slice::from_mut(&mut load.angle), 1.0);
                 hold(std::slice::from_mut(&mut load.velocity), 1.0);
             }
+            Self::OrientationBushing(load) => {
+                hold(&mut load.quaternion, 1.0);
+                hold(&mut load.velocity, 1.0);
+            }
         }
         held
     }
@@ -194,7 +207,8 @@ impl<const D: usize> Load<D> {
             Self::Moment(_)
             | Self::Couple(_)
             | Self::SixBushing(_)
-            | Self::RotationalBushing(_) => true,
+            | Self::RotationalBushing(_)
+            | Self::OrientationBushing(_) => true,
             Self::JointSpring(load) => load.coordinate.is_angle(),
             Self::Stop(load) => load.coordinate.is_angle(),
             Self::Force(_) | Self::Distributed(_) | Self::Spring(_) | Self::Bushing(_) => false,
@@ -210,6 +224,7 @@ impl<const D: usize> Load<D> {
             Self::SixBushing(load) => load.is_damped(),
             Self::Bushing(load) => load.damping > 0.0,
             Self::RotationalBushing(load) => load.damping > 0.0,
+            Self::OrientationBushing(load) => load.damping > 0.0,
             _ => false,
         }
     }
@@ -227,6 +242,7 @@ impl<const D: usize> Load<D> {
             }
             Self::Bushing(load) => (&load.position, &load.velocity),
             Self::RotationalBushing(load) => (one(&load.angle), one(&load.velocity)),
+            Self::OrientationBushing(load) => (&load.quaternion, &load.velocity),
         };
         let parts = match self {
             Self::Couple(load) => &load.parts[..],
@@ -248,6 +264,7 @@ impl<const D: usize> Load<D> {
             Self::SixBushing(load) => load.ends().to_vec(),
             Self::Bushing(load) => vec![End::Body(load.marker)],
             Self::RotationalBushing(load) => vec![End::Body(load.marker)],
+            Self::OrientationBushing(load) => vec![End::Body(load.axes[0])],
         }
     }
 }

@@ -276,7 +276,7 @@ impl<'a, const D: usize> Model<'a, D> {
             let work = load.work(start, end);
             add(-work, work.abs());
         }
-        if system.rotation != 0.0 {
+        if system.is_turning() {
             let difference = system.centrifugal(after) - system.centrifugal(before);
             add(-difference, difference.abs());
         }

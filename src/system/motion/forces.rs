@@ -1,14 +1,20 @@
 //! Configuration, forces and tangent of a system at a state, over its nodes.
 
-use crate::body::{Frame, Frames, Node, NodeBlock, add_node, map_node, perpendicular_node};
+use nalgebra::SMatrix;
+
+use crate::body::{
+    Assembly, Frame, Frames, Node, NodeBlock, add_node, carried_node, map_node, no_block,
+    turning_block,
+};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
-use crate::math::space::Vector;
+use crate::math::space::{Vector, spin_matrix, spun};
 use crate::math::sparse::Matrix;
+use crate::system::end::{End, coupling};
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::signal::Drive;
-use crate::system::{System, Work};
+use crate::system::{CableChain, LumpedMass, System, Work};
 
 impl<const D: usize> System<D> {
     /// Puts the nodal coordinates and, if given, rates of a state into `work`.
@@ -100,13 +106,11 @@ impl<const D: usize> System<D> {
         for load in &self.loads {
             load.add_force(at, &mut force);
         }
-        if self.rotation != 0.0 {
-            let rate = self.rotation;
-            self.add_inertia(rate * rate, &work.x, &mut force);
-            for (turned, v) in work.other.iter_mut().zip(&work.v) {
-                *turned = perpendicular_node(v);
+        if self.is_turning() {
+            for (carried, (x, v)) in work.other.iter_mut().zip(work.x.iter().zip(&work.v)) {
+                *carried = carried_node(self.rotation, x, v);
             }
-            self.add_inertia(-2.0 * rate, &work.other, &mut force);
+            self.add_inertia(-1.0, &work.other, &mut force);
         }
         work.f = force;
     }
@@ -160,13 +164,8 @@ impl<const D: usize> System<D> {
                 &mut |a, b, block| self.add_block((a, b), block, x, damping),
             );
         }
-        if self.rotation != 0.0 {
-            let square = self.rotation * self.rotation;
-            let pairs = stiffness
-                .values
-                .iter_mut()
-                .zip(&self.elimination.mass.values);
-            pairs.for_each(|(k, m)| *k -= square * m);
+        if self.is_turning() {
+            self.add_centrifugal(x, stiffness);
         }
         let view = View {
             x,
@@ -182,7 +181,8 @@ impl<const D: usize> System<D> {
             });
         }
         for frame in self.frames.list() {
-            let block = Frames::geometric(frame, &work.supply, x);
+            let turned = Frames::geometric(frame, &work.supply, x);
+            let block = turning_block(&((turned + turned.transpose()) * 0.5));
             assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
         }
         tangent.hold(assembly, &work.jacobian, &self.multipliers);
@@ -285,29 +285,81 @@ impl<const D: usize> System<D> {
         power
     }
 
-    /// Energy of the centrifugal force in a turning frame, negative, J.
-    pub(in crate::system) fn centrifugal<N: Number>(&self, x: &[Node<D, N>]) -> N {
-        N::of(self.rotation * self.rotation) * self.quadratic(x)
+    /// Adds the stiffness of the centrifugal force, `[W]^2` times the mass.
+    pub(in crate::system) fn add_centrifugal(&self, x: &[Node<D>], matrix: &mut Matrix<f64>) {
+        let spin = spin_matrix::<D>(self.rotation);
+        let (axes, assembly) = (spin * spin, &self.elimination.assembly);
+        let linear = (&self.chains[..], &self.lumped_masses[..]);
+        add_mass(linear, &axes, assembly, matrix);
+        for (node, part, mass) in self.frames.list().iter().flat_map(Frame::masses) {
+            let mut block = no_block();
+            for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
+                block[part][r][part][c] = mass * axes[(r, c)];
+            }
+            self.add_block((node, node), &block, x, matrix);
+        }
     }
 
-    /// `x^T M x / 2`.
-    pub(in crate::system) fn quadratic<N: Number>(&self, x: &[Node<D, N>]) -> N {
+    /// Energy of the centrifugal force in a turning frame, with the other sign, J: that of the velocities `W x r`.
+    pub(in crate::system) fn centrifugal<N: Number>(&self, x: &[Node<D, N>]) -> N {
+        self.quadratic(x, |v| spun(self.rotation, v))
+    }
+
+    /// Kinetic energy at rates `v`, J.
+    pub(in crate::system) fn kinetic<N: Number>(&self, v: &[Node<D, N>]) -> N {
+        self.quadratic(v, |v| v)
+    }
+
+    /// `x^T M x / 2` of vectors that are mapped one by one.
+    fn quadratic<N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        map: impl Fn(Vector<D, N>) -> Vector<D, N>,
+    ) -> N {
         let mut sum = N::of(0.0);
         for chain in &self.chains {
             for (j, element) in chain.elements().iter().enumerate() {
                 let e: Nodal<D, N> = chain.element(j, x);
+                let e = Nodal::from_columns(&[0, 1, 2, 3].map(|k| map(e.column(k).into())));
                 sum += (e * element.mass().map(N::of)).dot(&e);
             }
         }
         for lump in &self.lumped_masses {
             let marker = lump.marker.lift();
-            let (at, on): (Vector<D, N>, Vector<D, N>) = (marker.position(x), marker.direction(x));
+            let (at, on) = (map(marker.position(x)), map(marker.direction(x)));
             sum += at.norm_squared() * N::of(lump.mass) + on.norm_squared() * N::of(lump.inertia);
         }
         for (node, part, mass) in self.frames.list().iter().flat_map(Frame::masses) {
-            sum += Vector::from(x[node][part]).norm_squared() * N::of(mass);
+            sum += map(x[node][part].into()).norm_squared() * N::of(mass);
         }
         N::of(0.5) * sum
+    }
+}
+
+/// Adds the mass of cables and of what is lumped at points, times a matrix over the axes, to a matrix over the free
+/// coordinates.
+pub(in crate::system) fn add_mass<const D: usize>(
+    (chains, lumped_masses): (&[CableChain<D>], &[LumpedMass]),
+    axes: &SMatrix<f64, D, D>,
+    assembly: &Assembly<D>,
+    matrix: &mut Matrix<f64>,
+) {
+    for chain in chains {
+        chain.add_mass(axes, assembly, matrix);
+    }
+    for lump in lumped_masses {
+        let ends = [End::Body(lump.marker), End::Ground(Vector::zeros())];
+        for (part, size) in [lump.mass, lump.inertia].into_iter().enumerate() {
+            let (k, zero) = (axes * size, SMatrix::zeros());
+            coupling(
+                &ends,
+                [[k, zero], [zero, zero]],
+                part,
+                &mut |a, b, block| {
+                    assembly.add(a, b, block, matrix);
+                },
+            );
+        }
     }
 }
 

@@ -11,7 +11,7 @@
 
 use nalgebra::Vector3;
 
-use crate::body::{Node, add_node, map_node, no_node, perpendicular_node, product, turned};
+use crate::body::{Node, add_node, carried_node, map_node, no_node, product, turned};
 use crate::math::jet::{Jet, Number, part, set_part};
 use crate::system::signal::Drive;
 use crate::system::{Evaluation, State, System, Work};
@@ -172,6 +172,7 @@ impl<const D: usize> Derivatives<D> {
     /// Angles and slides follow the coordinates.
     fn follow(&mut self, system: &System<D>, plain: &Evaluation<D>) {
         let values = &mut self.values;
+        values.frames.copy_from_slice(&plain.frames);
         for ((set, angle), now) in (values.angles.iter_mut().zip(&system.angles)).zip(&plain.angles)
         {
             *set = angle.value(&values.x, Jet::from_re(*now));
@@ -197,17 +198,15 @@ impl<const D: usize> Derivatives<D> {
         for load in &system.loads {
             load.add_force(at, &mut self.f);
         }
-        if system.rotation != 0.0 {
-            let rate = system.rotation;
+        if system.is_turning() {
             for order in 0..3 {
                 take(&values.x, order, &mut self.one);
-                self.other.fill(no_node());
-                system.add_inertia(rate * rate, &self.one, &mut self.other);
-                take(&values.v, order, &mut self.one);
-                for v in &mut self.one {
-                    *v = perpendicular_node(v);
+                take(&values.v, order, &mut self.other);
+                for (x, v) in self.one.iter_mut().zip(&self.other) {
+                    *x = carried_node(system.rotation, x, v);
                 }
-                system.add_inertia(-2.0 * rate, &self.one, &mut self.other);
+                self.other.fill(no_node());
+                system.add_inertia(-1.0, &self.one, &mut self.other);
                 add_order(&self.other, order, &mut self.f);
             }
         }

@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 use crate::body::{Frame, Marker, Node, combined};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, moment};
+use crate::math::rotation::{NO_TURN, Quaternion};
+use crate::math::space::{Vector, axis, moment};
 use crate::system::instant::Instant;
 use crate::system::joints::View;
 use crate::system::loads::Load;
@@ -34,6 +35,8 @@ pub struct Evaluation<const D: usize = 2, N = f64> {
     /// Where slides are, m.
     pub travel: Vec<N>,
     pub(in crate::system) drives: Vec<[N; 3]>,
+    /// Frames that the state holds of rigid bodies of space.
+    pub(in crate::system) frames: Vec<Quaternion>,
 }
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -53,6 +56,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             angles: vec![zero; system.angles.len()],
             travel: vec![zero; system.slides.len()],
             drives: vec![[zero; 3]; system.drives.len()],
+            frames: vec![NO_TURN; system.frames.list().len()],
         }
     }
 }
@@ -76,6 +80,7 @@ impl<const D: usize> Evaluation<D> {
         self.angles.copy_from_slice(&work.angles);
         self.travel.copy_from_slice(&work.travel);
         self.drives.copy_from_slice(&work.drives);
+        self.frames.copy_from_slice(&state.frames);
     }
 
     /// Computes accelerations and what constraints supply.
@@ -117,8 +122,15 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn axes(&self, system: &System<D>, marker: &Marker) -> [[N; 3]; 3] {
         match system.frames.of_node::<D>(marker.nodes[0]) {
             Some((frame, _)) => frame.axes(&self.x).map(<[N; 3]>::from),
-            None => crate::system::AXES.map(|axis| axis.map(N::of)),
+            None => std::array::from_fn(|k| axis::<3, N>(k).into()),
         }
+    }
+
+    /// Quaternion of the principal axes that the state holds of the body that a marker belongs to: less than half a turn from
+    /// the one now.
+    pub fn held(&self, system: &System<D>, marker: &Marker) -> Quaternion {
+        let index = system.frames.index_of(marker.nodes[0]);
+        index.map_or(NO_TURN, |index| self.frames[index])
     }
 
     /// Angular velocity at a marker, rad/s: in the plane, its third component, that of the direction; in space that of the rigid
@@ -188,13 +200,16 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         own.next().map_or(N::of(0.0), |(_, lambda)| -*lambda)
     }
 
-    /// Force (N) and moment (N m) of a coupling on what it couples to.
-    pub fn coupling(&self, system: &System<D>, load: usize) -> (Vector<D, N>, N) {
-        let at = self.instant(system);
+    /// Force (N) and moment (N m), in the plane its third component, of a coupling on what it couples to.
+    pub fn coupling(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
+        let (at, zero) = (self.instant(system), N::of(0.0));
         match &system.loads[load] {
-            Load::Bushing(coupling) => (coupling.force(at), N::of(0.0)),
-            Load::RotationalBushing(coupling) => (Vector::zeros(), coupling.moment(at)),
-            _ => (Vector::zeros(), N::of(0.0)),
+            Load::Bushing(coupling) => (coupling.force(at), [zero; 3]),
+            Load::RotationalBushing(coupling) => {
+                (Vector::zeros(), [zero, zero, coupling.moment(at)])
+            }
+            Load::OrientationBushing(coupling) => (Vector::zeros(), coupling.moment(at).into()),
+            _ => (Vector::zeros(), [zero; 3]),
         }
     }
 
@@ -242,7 +257,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Kinetic energy, J.
     pub fn kinetic_energy(&self, system: &System<D>) -> N {
-        system.quadratic(&self.v)
+        system.kinetic(&self.v)
     }
 
     /// Strain energy, J.
@@ -266,7 +281,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn gravity_energy(&self, system: &System<D>) -> N {
         let falls = system.weight.iter().zip(&self.x);
         let fall = falls.fold(N::of(0.0), |sum, (w, x)| sum + weighted(w, x));
-        if system.rotation == 0.0 {
+        if !system.is_turning() {
             return -fall;
         }
         -fall - system.centrifugal(&self.x)

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::evaluation::Evaluation;
 use crate::body::Marker;
 use crate::math::jet::Number;
-use crate::math::space::{Vector, moment, perpendicular};
+use crate::math::space::{Vector, carried, moment};
 use crate::system::end::End;
 use crate::system::{Rod, System};
 
@@ -124,9 +124,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Absolute accelerations of position and direction of a marker, in the axes of the frame.
     fn inertia_at(&self, system: &System<D>, marker: &Marker<N>) -> Forces<D, N> {
-        let (rate, turn) = (N::of(system.rotation), N::of(2.0 * system.rotation));
-        let absolute =
-            |[x, v, a]: [Vector<D, N>; 3]| a + perpendicular(v) * turn - x * (rate * rate);
+        let absolute = |[x, v, a]: [Vector<D, N>; 3]| a + carried(system.rotation, x, v);
         let orders = [&self.x, &self.v, &self.acceleration];
         [
             absolute(orders.map(|order| marker.position(order))),

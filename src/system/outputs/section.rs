@@ -18,7 +18,7 @@ use crate::elements::cable::Cable;
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_3;
-use crate::math::space::{Vector, moment, perpendicular};
+use crate::math::space::{Vector, carried, moment};
 use crate::system::loads::Load;
 use crate::system::{CableChain, System};
 
@@ -116,8 +116,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     fn inertia(&self, system: &System<D>, (chain, j): (&CableChain<D>, usize)) -> Nodal<D, N> {
         let (e, v) = (chain.element(j, &self.x), chain.element(j, &self.v));
         let rate = system.rotation;
-        let turned = Nodal::from_columns(&[0, 1, 2, 3].map(|k| perpendicular(v.column(k).into())));
-        chain.element(j, &self.acceleration) + turned * N::of(2.0 * rate) - e * N::of(rate * rate)
+        let of = |k: usize| carried(rate, e.column(k).into(), v.column(k).into());
+        chain.element(j, &self.acceleration) + Nodal::from_columns(&[0, 1, 2, 3].map(of))
     }
 
     /// Sum of the distributed loads on the body with this first node, N/m.

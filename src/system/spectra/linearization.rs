@@ -5,18 +5,23 @@
 //! Loads, constraints and damped elements are differentiated one by one on numbers that carry derivatives; the rest
 //! is assembled as solves use it. While constraints turn, small motions are measured along with their tangent plane
 //! (parallel transport in the mass norm): with `D = Q'` the rates of the orthonormal rows `Q`, velocities follow
-//! displacements `d` by `-Q^T D d`, and `K` becomes `P (K - R Q^T D - D^T D) P`, `P = I - Q^T Q`. So what turns freely and steadily
-//! has the eigenvalue 0 whatever its coordinates are.
+//! displacements `d` by `-Q^T D d`, and `K` becomes `P (K - (R - M') Q^T D - D^T D) P`, `P = I - Q^T Q`, with the rate `M'` of the
+//! mass over axes that stand still, which rigid bodies of space have that turn. So what turns freely and steadily has the
+//! eigenvalue 0 whatever its coordinates are.
 //!
 //! Sources: A. Griewank, A. Walther, Evaluating Derivatives, 2nd ed. (2008), section 3.1; J. M. Lee, Introduction to
 //! Riemannian Manifolds, 2nd ed. (2018), proposition 10.4 (variation of motions on a manifold).
 
+use nalgebra::{DMatrix, Vector3};
+
 use super::probe::{Blocks, Nodes, Probe, SKEW};
-use crate::body::{Elimination, Frames, Node, map_node, no_block, no_node, perpendicular_node};
+use crate::body::{
+    Elimination, Frames, Node, add_node, map_node, no_block, no_node, turning_block,
+};
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number, moving};
 use crate::math::row_space::RowSpace;
-use crate::math::space::Vector;
+use crate::math::space::{Vector, components, spin_matrix, spun, vector};
 use crate::math::sparse::{General, Matrix};
 use crate::system::end::End;
 use crate::system::instant::Instant;
@@ -82,14 +87,14 @@ impl<const D: usize> System<D> {
             others: [General::zeros(pattern), General::zeros(pattern)],
             border: Border::default(),
             is_framed: !self.frames.is_empty(),
-            is_damped: self.rotation != 0.0,
+            is_damped: self.is_turning(),
             is_symmetric: true,
             follower: None,
             units: Vec::new(),
         };
         let mut probe = Probe::new(&work.x, &work.v);
         self.linearize_loads(time, work, at_rest, &mut probe, &mut made);
-        self.linearize_frame(&mut made);
+        self.linearize_rotation(work, &mut made);
         let mut elsewhere = Vec::new();
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             let blocks = self.linearize_constraint(work, (constraint, *lambda), &mut probe);
@@ -99,14 +104,7 @@ impl<const D: usize> System<D> {
                 elsewhere.push((r, c, value));
             });
         }
-        for frame in self.frames.list() {
-            // Forces on axes where these turn; without the moment that speeds the body up, which is none in equilibrium.
-            let block = Frames::geometric(frame, &work.supply, &work.x);
-            let node = (frame.node, frame.node);
-            let mut none = |_: usize, _: usize, _: f64| {};
-            let assembly = &self.elimination.assembly;
-            assembly.add_block(node, &block, &mut made.stiffness, &mut none);
-        }
+        self.linearize_frames(work, &mut made);
         made.is_symmetric &= elsewhere.is_empty();
         made.others = [made.stiffness.clone(), made.damping.clone()];
         self.linearize_chains(work, at_rest, &mut probe, &mut made);
@@ -203,9 +201,8 @@ impl<const D: usize> System<D> {
                 };
                 load.add_force(at, f);
             };
-            let pulled = |blocks: Blocks| blocks.pulled(&self.frames, &work.x);
-            let blocks = pulled(probe.differentiate(&nodes, false, &force));
-            blocks.add(assembly, &mut made.stiffness, &mut none);
+            let blocks = probe.differentiate(&nodes, false, &force);
+            let mut blocks = blocks.pulled(&self.frames, &work.x);
             // Of a moment about the axis of a joint in space that is skew which the joint holds.
             let has_potential = !self.frames.is_empty() && load.is_conservative();
             if !blocks.is_symmetric() && !has_potential {
@@ -215,9 +212,13 @@ impl<const D: usize> System<D> {
             }
             if load.is_damped() && !at_rest {
                 made.is_damped = true;
-                let blocks = pulled(probe.differentiate(&nodes, true, &force));
-                blocks.add(assembly, &mut made.damping, &mut none);
+                let by_rates = probe.differentiate(&nodes, true, &force);
+                // Axes that turn change their rates where they are turned.
+                blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
+                let by_rates = by_rates.pulled(&self.frames, &work.x);
+                by_rates.add(assembly, &mut made.damping, &mut none);
             }
+            blocks.add(assembly, &mut made.stiffness, &mut none);
         }
         // What joints hold does no work.
         let skew = following.is_some_and(|matrix| {
@@ -228,16 +229,69 @@ impl<const D: usize> System<D> {
         made.follower = made.follower.filter(|_| skew);
     }
 
-    /// Forces of a turning frame.
-    fn linearize_frame(&self, made: &mut Linearization<'_, D>) {
-        let rate = self.rotation;
-        if rate == 0.0 {
-            return;
-        }
+    /// What rigid bodies of space add that turn: where forces on their axes turn them, and gyroscopic moments. Small
+    /// rotations are measured about axes that stand still in the frame of the scene, those in which the body's lie at the
+    /// instant. With a body's angular momentum `L = J w` its moment is `J p'' + (w J - J w - L) p'`, every vector as the
+    /// matrix of its cross product.
+    fn linearize_frames(&self, work: &Work<D>, made: &mut Linearization<'_, D>) {
         let assembly = &self.elimination.assembly;
         let mut none = |_: usize, _: usize, _: f64| {};
-        made.stiffness
-            .add_symmetric(-rate * rate, &self.elimination.mass);
+        for frame in self.frames.list() {
+            let node = (frame.node, frame.node);
+            let spin = frame.spin(&work.x, &work.v);
+            let turned = Frames::geometric(frame, &work.supply, &work.x);
+            // At rest without the moment that speeds the body up, which is none in equilibrium.
+            let turned = match spin == Vector3::zeros() {
+                true => (turned + turned.transpose()) * 0.5,
+                false => turned,
+            };
+            assembly.add_block(
+                node,
+                &turning_block(&turned),
+                &mut made.stiffness,
+                &mut none,
+            );
+            if spin != Vector3::zeros() {
+                (made.is_damped, made.is_symmetric) = (true, false);
+                let momentum = frame.momentum(&spin).cross_matrix();
+                let gyroscopic = frame.inertia_rate(&spin) - momentum;
+                assembly.add_block(
+                    node,
+                    &turning_block(&gyroscopic),
+                    &mut made.damping,
+                    &mut none,
+                );
+            }
+        }
+    }
+
+    /// Forces of a turning frame.
+    fn linearize_rotation(&self, work: &Work<D>, made: &mut Linearization<'_, D>) {
+        if !self.is_turning() {
+            return;
+        }
+        let (assembly, spin) = (&self.elimination.assembly, self.rotation);
+        let mut none = |_: usize, _: usize, _: f64| {};
+        let mut centrifugal = Matrix::zeros(assembly.pattern());
+        self.add_centrifugal(&work.x, &mut centrifugal);
+        made.stiffness.add_symmetric(1.0, &centrifugal);
+        let coriolis = spin_matrix::<D>(spin) * 2.0;
+        for frame in self.frames.list() {
+            let nodes = [frame.node, frame.node + 1];
+            let mut whole = DMatrix::zeros(4 * D, 4 * D);
+            for (node, part, mass) in frame.masses() {
+                let at = 2 * D * (node - nodes[0]) + D * part;
+                whole
+                    .fixed_view_mut::<D, D>(at, at)
+                    .copy_from(&(coriolis * mass));
+            }
+            let by_rates = Blocks::new(&nodes, whole);
+            let mut blocks = Blocks::new(&[frame.node], DMatrix::zeros(2 * D, 2 * D));
+            blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
+            blocks.add(assembly, &mut made.stiffness, &mut none);
+            let by_rates = by_rates.pulled(&self.frames, &work.x);
+            by_rates.add(assembly, &mut made.damping, &mut none);
+        }
         let mut add = |nodes: &[usize], mass: &dyn Fn(Node<D>, usize, usize) -> Node<D>| {
             for a in nodes {
                 for b in nodes {
@@ -245,9 +299,13 @@ impl<const D: usize> System<D> {
                     for (q, c) in [0, 1].into_iter().flat_map(|q| (0..D).map(move |c| (q, c))) {
                         let mut unit = no_node();
                         unit[q][c] = 1.0;
-                        let force = mass(perpendicular_node(&unit), *a, *b);
+                        let force = mass(
+                            unit.map(|v| spun(spin, Vector::<D>::from(v)).into()),
+                            *a,
+                            *b,
+                        );
                         for (p, r) in [0, 1].into_iter().flat_map(|p| (0..D).map(move |r| (p, r))) {
-                            block[p][r][q][c] = 2.0 * rate * force[p][r];
+                            block[p][r][q][c] = 2.0 * force[p][r];
                         }
                     }
                     assembly.add_block((*a, *b), &block, &mut made.damping, &mut none);
@@ -350,13 +408,17 @@ impl<const D: usize> System<D> {
         let padded = vec![0.0; elimination.assembly.pattern().len()];
         let (mut y, mut x, mut sum) = (vec![0.0; n], padded.clone(), padded);
         for (unit, mut rate) in made.units.iter().zip(rates) {
-            // - (R Q^T + D^T) D
+            // - ((R - M') Q^T + D^T) D
             elimination.forces(&mut rate);
             elimination.displacements(unit, &mut y);
             let assembly = &elimination.assembly;
             assembly.put(&y, &mut x);
             made.damping.multiply(assembly.pattern(), &x, &mut sum);
             assembly.take(&sum, &mut y);
+            for frame in self.frames.list() {
+                let spin = frame.spin(&work.x, &work.v);
+                frame.add_moment(&-(frame.inertia_rate(&spin) * frame.read(unit)), &mut y);
+            }
             let column = rate.iter().zip(&y).map(|(rate, damped)| -(rate + damped));
             made.border.columns.push(column.collect());
             made.border.rows.push(rate);
@@ -391,9 +453,18 @@ impl<const D: usize> System<D> {
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];
             self.constraints[*row].for_each(&view, |node, term| {
+                let spin = self.frames.of_node::<D>(node).map(|(frame, _)| frame);
+                let spin = spin.map(|frame| frame.spin(&work.x, &work.v));
                 let (node, term) = self.frames.pull(node, term, &x);
-                let term = map_node(&term, |t| t.v1);
-                (self.elimination.assembly).restrict_node(node, &term, &mut rate);
+                let mut change = map_node(&term, |t| t.v1);
+                if let Some(spin) = spin {
+                    // Of rotations about axes that stand still.
+                    let moment = components(&term[1].map(|t| t.re).into());
+                    let along = Vector3::from(moment).cross(&spin);
+                    let turned: Vector<D> = vector(along.into());
+                    add_node(&mut change, -1.0, &[[0.0; D], turned.into()]);
+                }
+                (self.elimination.assembly).restrict_node(node, &change, &mut rate);
             });
             self.elimination.project_in_place(&mut rate);
             rate

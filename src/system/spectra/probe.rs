@@ -85,13 +85,47 @@ impl Blocks {
         std::array::from_fn(|r| std::array::from_fn(|c| part(r, c)))
     }
 
+    /// Over nodes.
+    pub(super) fn new(nodes: &[usize], whole: DMatrix<f64>) -> Self {
+        let nodes = nodes.to_vec();
+        Self { nodes, whole }
+    }
+
     /// The same over the coordinates of bodies, at this configuration: rotations in place of axes.
     pub(super) fn pulled<const D: usize>(self, frames: &Frames, x: &[Node<D>]) -> Self {
         if frames.is_empty() {
             return self;
         }
-        let partials = self.nodes.iter().map(|node| frames.partial(*node, x));
-        let partials: Vec<(usize, NodeBlock<D>)> = partials.collect();
+        let (nodes, change) = self.changes(|node| frames.partial(node, x));
+        Self {
+            whole: change.transpose() * self.whole * change,
+            nodes,
+        }
+    }
+
+    /// Adds, over the coordinates of bodies, what derivatives by rates make of those that small rotations change: the axes of a
+    /// body that is turned by `p` have the rates `p x e'`.
+    pub(super) fn add_turned<const D: usize>(
+        &mut self,
+        by_rates: &Self,
+        frames: &Frames,
+        (x, v): (&[Node<D>], &[Node<D>]),
+    ) {
+        if frames.is_empty() {
+            return;
+        }
+        let (nodes, change) = by_rates.changes(|node| frames.partial(node, x));
+        let (_, turned) = by_rates.changes(|node| frames.partial_of_rates(node, x, v));
+        debug_assert_eq!(nodes, self.nodes);
+        self.whole += change.transpose() * &by_rates.whole * turned;
+    }
+
+    /// Nodes that stand for bodies, and derivatives of all vectors by their coordinates.
+    fn changes<const D: usize>(
+        &self,
+        partial: impl Fn(usize) -> (usize, NodeBlock<D>),
+    ) -> (Vec<usize>, DMatrix<f64>) {
+        let partials: Vec<_> = self.nodes.iter().map(|node| partial(*node)).collect();
         let mut nodes: Vec<usize> = partials.iter().map(|(node, _)| *node).collect();
         nodes.dedup();
         let size = 2 * D;
@@ -104,10 +138,7 @@ impl Blocks {
                 }
             }
         }
-        Self {
-            whole: change.transpose() * self.whole * change,
-            nodes,
-        }
+        (nodes, change)
     }
 
     pub(super) fn is_symmetric(&self) -> bool {

@@ -39,8 +39,8 @@ pub enum SpectrumError {
          with them (\"rotation\")"
     )]
     Turns(f64),
-    /// A rigid body of space turns at this rate, rad/s.
-    #[error("expected rigid bodies that do not turn in space, found one at {0} rad/s")]
+    /// A thin rod of space turns at this rate, rad/s.
+    #[error("expected thin rods that do not turn in space, found one at {0} rad/s")]
     Spins(f64),
     /// Rigid bodies turn in space among too many coordinates: most, present.
     #[error(
@@ -127,7 +127,7 @@ pub fn natural_frequencies<const D: usize>(
         return Err(SpectrumError::Count(count, modes));
     }
     let signed = |square: &f64| square.abs().sqrt().copysign(*square);
-    if system.rotation == 0.0 {
+    if !system.is_turning() {
         let squares = match &linear {
             linear if is_small(linear, count) => {
                 symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
@@ -179,8 +179,9 @@ pub fn eigenvalues<const D: usize>(
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
     let linear = at(system, inputs, work, state);
-    // What turning adds where turns do not commute is not in the tangent.
-    let spins = (system.frames.list().iter()).map(|frame| frame.spin(&work.x, &work.v).norm());
+    // How a thin rod turns about itself nobody knows.
+    let thin = system.frames.list().iter().filter(|frame| frame.is_thin());
+    let spins = thin.map(|frame| frame.spin(&work.x, &work.v).norm());
     let spin = spins.fold(0.0, f64::max);
     if spin > 0.0 {
         return Err(SpectrumError::Spins(spin));

@@ -3,7 +3,7 @@
 
 use crate::body::{Node, add_node, no_node};
 use crate::math::function::Function;
-use crate::math::space::Vector;
+use crate::math::space::{Vector, carried};
 use crate::system::signal::Drive;
 use crate::system::{Instant, System, Work};
 
@@ -53,21 +53,26 @@ impl<const D: usize> System<D> {
         for weight in self.weight.iter_mut().flatten().flatten() {
             *weight *= fraction;
         }
-        self.rotation *= fraction.sqrt();
+        self.rotation = self.rotation.map(|rate| rate * fraction.sqrt());
     }
 
     /// Takes all loads, springs, gravity and rotation away.
     pub(in crate::system) fn unload(&mut self) {
         self.loads.clear();
         self.weight.fill(no_node());
-        self.rotation = 0.0;
+        self.rotation = [0.0; 3];
     }
 
-    /// Turns about a point at a rate, rad/s, beside what the frame does: loads get the centrifugal force.
-    pub(in crate::system) fn turn(&mut self, rate: f64, center: Vector<D>) {
-        let arm = vec![[center.into(), [0.0; D]]; self.reference.len()];
+    /// Turns about a point at a rate, rad/s: loads get the centrifugal force.
+    pub(in crate::system) fn turn(&mut self, rate: [f64; 3], center: Vector<D>) {
+        let arm = carried(rate, center, Vector::zeros());
+        let mut arms = vec![[arm.into(), [0.0; D]]; self.reference.len()];
+        for frame in self.frames.list() {
+            // Its second node holds axes alone.
+            arms[frame.node + 1] = no_node();
+        }
         let mut weight = std::mem::take(&mut self.weight);
-        self.add_inertia(-rate * rate, &arm, &mut weight);
+        self.add_inertia(1.0, &arms, &mut weight);
         self.weight = weight;
         self.rotation = rate;
         // The Coriolis force is that of the rates at rest, not of those that the scratch still holds.

@@ -1,13 +1,14 @@
-//! Steady motions: all bodies turn together about one point at a constant rate, or move on together.
+//! Steady motions: all bodies turn together about one point, in space about one axis, at a constant rate, or move on
+//! together.
 //!
-//! The velocity field `V + omega J x` is the one that motions and joints ask for, in the least-squares sense, and
+//! The velocity field `V + omega x r` is the one that motions and joints ask for, in the least-squares sense, and
 //! where they leave it free the one that comes closest to the rates of the bodies in the mass norm.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::Turning;
-use crate::body::{Node, add_node, no_node, product};
-use crate::math::space::{Vector, axis, perpendicular};
+use crate::body::{Node, add_node, carried_node, no_node, product};
+use crate::math::space::{Vector, spins, spun};
 use crate::system::{State, System, Work};
 
 /// Part of the largest singular value below which motions and joints leave a field free.
@@ -20,8 +21,8 @@ const MISSED: f64 = 1e-9;
 pub struct Steady<const D: usize = 2> {
     /// Velocity of the origin, m/s.
     pub velocity: Vector<D>,
-    /// Angular velocity, rad/s.
-    pub rate: f64,
+    /// Angular velocity, rad/s; in the plane the third component alone.
+    pub rate: [f64; 3],
 }
 
 /// Why there is none.
@@ -40,18 +41,29 @@ pub enum NotSteady {
 impl<const D: usize> Steady<D> {
     /// Its field over nodes at these coordinates.
     pub fn rates(&self, x: &[Node<D>]) -> Vec<Node<D>> {
-        let turned = |v: [f64; D]| perpendicular(v.into()) * self.rate;
+        let turned = |v: [f64; D]| spun(self.rate, Vector::from(v));
         let rate = |[p, d]: &Node<D>| [(self.velocity + turned(*p)).into(), turned(*d).into()];
         x.iter().map(rate).collect()
     }
 
     /// What it is seen from the turning frame: nothing where it does not turn.
     pub fn turning(&self) -> Option<Turning<D>> {
-        let center = perpendicular(self.velocity) / self.rate;
-        (self.rate != 0.0).then_some(Turning {
+        let square: f64 = self.rate.iter().map(|rate| rate * rate).sum();
+        (square != 0.0).then(|| Turning {
             rate: self.rate,
-            center,
+            center: spun(self.rate, self.velocity) / square,
         })
+    }
+
+    /// One of the motions that all others are combined of: translations along the axes, then turns that move a point at
+    /// this distance (m) from their axis by 1.
+    fn unit(k: usize, size: f64) -> Self {
+        let (mut velocity, mut rate) = (Vector::zeros(), [0.0; 3]);
+        match k.checked_sub(D) {
+            Some(turn) => rate[spins(D).start + turn] = 1.0 / size,
+            None => velocity[k] = 1.0,
+        }
+        Self { velocity, rate }
     }
 }
 
@@ -68,15 +80,9 @@ impl<const D: usize> System<D> {
     ) -> Result<Steady<D>, NotSteady> {
         let x = self.nodes_of(state, work);
         let size = self.size();
-        // UnitLength translations, and the turn that moves a point at the distance of the size by 1.
-        let field = |k: usize| -> Vec<Node<D>> {
-            let (velocity, rate) = match k {
-                2 => (Vector::zeros(), 1.0 / size),
-                k => (axis(k), 0.0),
-            };
-            Steady { velocity, rate }.rates(&x)
-        };
-        let fields = [field(0), field(1), field(2)];
+        let count = D + spins(D).len();
+        let units: Vec<Steady<D>> = (0..count).map(|k| Steady::unit(k, size)).collect();
+        let fields: Vec<Vec<Node<D>>> = units.iter().map(|unit| self.field(unit, &x)).collect();
         let (rows, targets) = self.velocity_rows(work, &fields);
         let scale = targets.amax();
         let svd = rows.clone().svd(true, true);
@@ -84,29 +90,42 @@ impl<const D: usize> System<D> {
         let least = FREE * largest;
         let solved = svd
             .solve(&targets, least)
-            .unwrap_or_else(|_| DVector::zeros(3));
+            .unwrap_or_else(|_| DVector::zeros(count));
         if (&rows * &solved - &targets).amax() > MISSED * scale {
             return Err(NotSteady::Apart);
         }
-        let mut p = Vector3::new(solved[0], solved[1], solved[2]);
-        p += self.free_part(&rows, &fields, rates, p, least);
-        let steady = Steady {
-            velocity: axis(0) * p[0] + axis(1) * p[1],
-            rate: p[2] / size,
+        let free = self.free_part(&rows, &fields, rates, &solved, least);
+        let mut steady = Steady {
+            velocity: Vector::zeros(),
+            rate: [0.0; 3],
         };
+        for (unit, part) in units.iter().zip((solved + free).iter()) {
+            steady.velocity += unit.velocity * *part;
+            (steady.rate.iter_mut().zip(unit.rate)).for_each(|(sum, rate)| *sum += part * rate);
+        }
         match self.keeps(&steady, &x, work) {
             true => Ok(steady),
             false => Err(NotSteady::Accelerates),
         }
     }
 
-    /// What rows and constraints see of three fields, and what they ask for.
+    /// The rates of nodes in a steady motion. The second node of a rigid body of space holds axes alone.
+    pub fn field(&self, steady: &Steady<D>, x: &[Node<D>]) -> Vec<Node<D>> {
+        let mut rates = steady.rates(x);
+        for frame in self.frames.list() {
+            let second = &mut rates[frame.node + 1];
+            *second = x[frame.node + 1].map(|axis| spun(steady.rate, axis.into()).into());
+        }
+        rates
+    }
+
+    /// What rows and constraints see of fields, and what they ask for.
     fn velocity_rows(
         &self,
         work: &Work<D>,
-        fields: &[Vec<Node<D>>; 3],
+        fields: &[Vec<Node<D>>],
     ) -> (DMatrix<f64>, DVector<f64>) {
-        let mut rows: Vec<([f64; 3], f64)> = Vec::new();
+        let mut rows: Vec<(Vec<f64>, f64)> = Vec::new();
         for linear in &self.linear {
             let of = |field: &Vec<Node<D>>| -> f64 {
                 linear
@@ -116,12 +135,15 @@ impl<const D: usize> System<D> {
                     .map(|(node, c)| product(c, &field[*node]))
                     .sum()
             };
-            let target = linear.target.derivatives(&work.drives)[1];
-            rows.push((fields.each_ref().map(of), target));
+            // What is no coordinate of a node turns along.
+            if linear.joint.is_some() {
+                let target = linear.target.derivatives(&work.drives)[1];
+                rows.push((fields.iter().map(of).collect(), target));
+            }
         }
         let view = self.view(work);
         for constraint in &self.constraints {
-            let mut row = [0.0; 3];
+            let mut row = vec![0.0; fields.len()];
             constraint.for_each(&view, |node, term| {
                 for (sum, field) in row.iter_mut().zip(fields) {
                     *sum += product(term, &field[node]);
@@ -131,52 +153,69 @@ impl<const D: usize> System<D> {
         }
         // A row of zeros keeps the decomposition of no rows defined.
         let count = rows.len().max(1);
-        let matrix = DMatrix::from_fn(count, 3, |i, k| rows.get(i).map_or(0.0, |row| row.0[k]));
+        let entry = |i: usize, k: usize| rows.get(i).map_or(0.0, |row| row.0[k]);
+        let matrix = DMatrix::from_fn(count, fields.len(), entry);
         let target = DVector::from_fn(count, |i, _| rows.get(i).map_or(0.0, |row| row.1));
         (matrix, target)
     }
 
-    /// The part that rows leave free, closest to given rates in the mass norm.
+    /// The part that rows leave free, closest to given rates in the mass norm, and where that does not tell, as how a thin
+    /// rod turns about itself, in the sum of squares.
     fn free_part(
         &self,
         rows: &DMatrix<f64>,
-        fields: &[Vec<Node<D>>; 3],
+        fields: &[Vec<Node<D>>],
         rates: &[Node<D>],
-        p: Vector3<f64>,
+        p: &DVector<f64>,
         least: f64,
-    ) -> Vector3<f64> {
-        let normal = rows.transpose() * rows;
-        let normal = Matrix3::from_fn(|i, j| normal[(i, j)]).symmetric_eigen();
-        let momenta = fields.each_ref().map(|field| {
-            let mut momentum = vec![no_node(); field.len()];
-            self.add_inertia(1.0, field, &mut momentum);
-            momentum
-        });
-        let inner = |a: &[Node<D>], b: &[Node<D>]| -> f64 {
-            a.iter().zip(b).map(|(a, b)| product(a, b)).sum()
-        };
-        let mass = Matrix3::from_fn(|i, j| inner(&momenta[i], &fields[j]));
-        let given = Vector3::from_fn(|i, _| inner(&momenta[i], rates)) - mass * p;
-        let free: Vec<Vector3<f64>> = (0..3)
+    ) -> DVector<f64> {
+        let count = fields.len();
+        let normal = (rows.transpose() * rows).symmetric_eigen();
+        let mut free: Vec<DVector<f64>> = (0..count)
             .filter(|k| normal.eigenvalues[*k] <= least * least)
             .map(|k| normal.eigenvectors.column(k).into_owned())
             .collect();
-        let n = free.len();
-        if n == 0 {
-            return Vector3::zeros();
+        let inner = |a: &[Node<D>], b: &[Node<D>]| -> f64 {
+            a.iter().zip(b).map(|(a, b)| product(a, b)).sum()
+        };
+        let mut found = DVector::zeros(count);
+        for is_weighted in [true, false] {
+            let weigh = |field: &Vec<Node<D>>| match is_weighted {
+                true => {
+                    let mut momentum = vec![no_node(); field.len()];
+                    self.add_inertia(1.0, field, &mut momentum);
+                    momentum
+                }
+                false => field.clone(),
+            };
+            let weighted: Vec<Vec<Node<D>>> = fields.iter().map(weigh).collect();
+            let norm = DMatrix::from_fn(count, count, |i, j| inner(&weighted[i], &fields[j]));
+            let given = DVector::from_fn(count, |i, _| inner(&weighted[i], rates));
+            let missing = given - &norm * (p + &found);
+            let n = free.len();
+            if n == 0 {
+                break;
+            }
+            let reduced = DMatrix::from_fn(n, n, |i, j| free[i].dot(&(&norm * &free[j])));
+            let modes = reduced.symmetric_eigen();
+            let mut rest = Vec::new();
+            for (k, size) in modes.eigenvalues.iter().enumerate() {
+                let parts = (0..n).map(|j| &free[j] * modes.eigenvectors[(j, k)]);
+                let way: DVector<f64> = parts.sum();
+                if *size > FREE * norm.amax() {
+                    found += &way * (way.dot(&missing) / size);
+                } else {
+                    rest.push(way);
+                }
+            }
+            free = rest;
         }
-        let reduced = DMatrix::from_fn(n, n, |i, j| free[i].dot(&(mass * free[j])));
-        let right = DVector::from_fn(n, |i, _| free[i].dot(&given));
-        let z = reduced
-            .lu()
-            .solve(&right)
-            .unwrap_or_else(|| DVector::zeros(n));
-        free.iter().zip(z.iter()).map(|(free, z)| free * *z).sum()
+        found
     }
 
     /// Whether motions ask for the accelerations that a steady motion has.
     fn keeps(&self, steady: &Steady<D>, x: &[Node<D>], work: &Work<D>) -> bool {
-        let square = steady.rate * steady.rate;
+        let square: f64 = steady.rate.iter().map(|rate| rate * rate).sum();
         let center = steady
             .turning()
             .map_or(Vector::zeros(), |turning| turning.center);
@@ -189,7 +228,7 @@ impl<const D: usize> System<D> {
                 let of = |(node, c): &(usize, Node<D>)| {
                     let mut arm = x[*node];
                     add_node(&mut arm, -1.0, &[center.into(), [0.0; D]]);
-                    -square * product(c, &arm)
+                    product(c, &carried_node(steady.rate, &arm, &no_node()))
                 };
                 let has: f64 = linear.row.terms.iter().map(of).sum();
                 let wants = linear.target.derivatives(&work.drives)[2];

@@ -1,12 +1,14 @@
 //! Frames that turn, and geometry of cables in free flight.
 
+use nalgebra::Vector3;
 use serde_json::json;
 
+use super::space::{array, vector};
 use super::{cross, dot, left, sum, times, turned};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    vec![turning(), line(), arc()]
+    vec![turning(), turning_in_space(), line(), arc()]
 }
 
 /// A particle in a turning frame: Coriolis and centrifugal force.
@@ -23,6 +25,27 @@ fn turning() -> Specimen {
         .vector("bead.c.acceleration", "m/s2", sum(g, inertial))
         .claim("energy.kinetic", "J", 0.5 * m * dot(speed, speed))
         .claim("energy.gravity", "J", potential)
+}
+
+/// A particle in a frame that turns about an axis of space.
+fn turning_in_space() -> Specimen {
+    let (m, rate, place) = (1.7, [0.4, -0.7, 0.9], [0.6, -0.4, 0.8]);
+    let [w, r, v, g] = [rate, place, [0.5, 1.2, -0.3], [0.3, -2.0, -8.0]].map(Vector3::from);
+    let scene = json!({
+        "name": "turning_in_space", "dimension": 3, "gravity": array(g), "rotation": rate,
+        "bodies": [{"element": "rigid", "name": "bead", "mass": m, "position": place,
+                    "motion": {"velocity": array(v)}, "markers": {"c": [0.0, 0.0, 0.0]}}],
+        "outputs": [{"kind": "acceleration", "marker": "bead.c"}, {"kind": "energy"}]});
+    let acceleration = g - w.cross(&v) * 2.0 - w.cross(&w.cross(&r));
+    let potential = -m * g.dot(&r) - 0.5 * m * w.cross(&r).norm_squared();
+    vector(
+        Specimen::new("turning in space", scene),
+        "bead.c.acceleration",
+        "m/s2",
+        acceleration,
+    )
+    .claim("energy.kinetic", "J", 0.5 * m * v.norm_squared())
+    .claim("energy.gravity", "J", potential)
 }
 
 /// A straight cable in free flight that turns.

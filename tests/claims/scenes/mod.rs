@@ -16,11 +16,13 @@ mod ports;
 mod rigid;
 mod rods;
 mod sections;
+mod shapes;
 mod slides;
 mod space;
 mod space_bodies;
 mod space_joints;
 mod space_modes;
+mod space_ports;
 mod tables;
 
 use serde_json::{Value, json};
@@ -51,6 +53,8 @@ pub fn all() -> Vec<Specimen> {
         space_modes::all(),
         coordinates::all(),
         bushings::all(),
+        space_ports::all(),
+        shapes::all(),
     ];
     parts.into_iter().flatten().collect()
 }

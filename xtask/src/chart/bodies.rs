@@ -7,8 +7,8 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, REPEATS, Run};
 use super::csv::Csv;
-use super::exudyn::Exudyn;
 use super::numbers::{distance, median};
+use super::server::{EXUDYN, Server};
 
 const TOLERANCE: f64 = 1e-4;
 /// Simulated time, s.
@@ -180,7 +180,7 @@ pub fn measure(bench: &Bench) -> Result<()> {
 
 /// Runs the loops in both programs in turns.
 fn peers(bench: &Bench) -> Result<()> {
-    let mut exudyn = Exudyn::start(bench.workspace())?;
+    let mut exudyn = Server::start(bench.workspace(), EXUDYN)?;
     let (_, family, _) = FAMILIES[FAMILIES.len() - 1];
     let header = "loops,own_step_s,own_steps,exudyn_step_s,exudyn_steps,distance_m";
     let mut csv = Csv::new(bench, "bodies_peers", header);

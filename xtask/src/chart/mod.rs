@@ -17,7 +17,6 @@ mod coupling;
 mod csv;
 mod economy;
 mod energies;
-mod exudyn;
 mod failures;
 mod formulations;
 mod machine;
@@ -28,8 +27,10 @@ mod overhead;
 mod peers;
 mod planned;
 mod rivals;
+mod server;
 mod space;
 mod tolerances;
+mod trees;
 
 use bench::Bench;
 
@@ -38,7 +39,7 @@ type Chart = (&'static str, &'static str, fn(&Bench) -> Result<()>);
 
 /// All charts, in the order of the page.
 #[rustfmt::skip]
-const CHARTS: [Chart; 17] = [
+const CHARTS: [Chart; 18] = [
     ("mesh", "Error against the number of elements", mesh::measure),
     ("space", "Shape functions, meshes, quadratures and masses", space::measure),
     ("methods", "Integrators: error in time against CPU time", methods::measure),
@@ -52,6 +53,7 @@ const CHARTS: [Chart; 17] = [
     ("constraints", "Projection and partitioning: error against CPU time", constraints::measure),
     ("energies", "Energy and residuals of mechanisms over a minute", energies::energies),
     ("peers", "Exudyn at its best and the product as it plans: error against CPU time", peers::measure),
+    ("trees", "Trees of bodies in space beside MuJoCo, Pinocchio and Exudyn", trees::measure),
     ("failures", "Where methods fail, and what the product does there", failures::measure),
     ("formulations", "Coordinates and how accelerations follow from forces", formulations::measure),
     ("rivals", "Floating frames, incremental methods, rotation vectors and the product", rivals::measure),

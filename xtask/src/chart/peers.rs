@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, Ran};
 use super::csv::Csv;
-use super::exudyn::Exudyn;
 use super::numbers::{Path, largest_distance, median, number, numbers, text};
 use super::planned::{self, Case, Choice, ERRORS, SETTINGS, chosen};
+use super::server::{EXUDYN, Server};
 use crate::table::Table;
 
 /// Rounds of timed runs.
@@ -30,7 +30,7 @@ struct Timed {
 
 /// Measures.
 pub fn measure(bench: &Bench) -> Result<()> {
-    let mut exudyn = Exudyn::start(bench.workspace())?;
+    let mut exudyn = Server::start(bench.workspace(), EXUDYN)?;
     let header = "scene,program,model,elements,settings,wanted,tolerance,method,error,cpu_time_s";
     let mut csv = Csv::new(bench, "peers", header);
     let header = "scene,file,marker,stop_time_s,every_s,length_m,reference,confirmed,sweep_runs";
@@ -103,7 +103,7 @@ impl Peers {
     }
 
     /// Runs all points of Exudyn and all plans in rounds. Of a plan, the error wanted is all that is given.
-    fn measure(&self, bench: &Bench, exudyn: &mut Exudyn, csv: &mut Csv) -> Result<()> {
+    fn measure(&self, bench: &Bench, exudyn: &mut Server, csv: &mut Csv) -> Result<()> {
         let points = self.setting["points"].as_array();
         let points = points.context("expected points")?;
         let choices = ERRORS.map(|wanted| chosen(&self.case.plan(bench, wanted)?));

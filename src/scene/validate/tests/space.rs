@@ -73,8 +73,9 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
     check(
         scene,
         r#"
-        /rotation | 1 | rotation: expected 0 in space, found 1
-        /initial | "steady" | initial: expected as_shaped or static_equilibrium in space, found steady
+        /rotation | 1 | rotation: expected [x, y, z] in space, found 1
+        /rotation | [0, 0, 1] | accepted
+        /initial | "steady" | accepted
         /bodies/2/inertia | 0 | accepted
         /bodies/2/inertia | [0, 0, 0] | bodies[2].inertia: expected moments of inertia that are positive, one of them 0 at most
         /bodies/2/orientation | {"cardan": [0, 0, 1]} | bodies[2].orientation: expected nothing of a body without inertia
@@ -108,7 +109,7 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /outputs/0 | {"kind": "orientation", "marker": "load.eye"} | outputs[0].marker: expected a marker of a rigid body with inertia
         /outputs/1 | {"kind": "reaction_moment", "joint": "clamp"} | accepted
         /outputs/1 | {"kind": "reaction_moment", "joint": "knot"} | outputs[1].joint: expected a joint that transmits a moment, found "knot"
-        /ports/0/rotation | true | ports[0].marker: expected nothing that has an angle
+        /ports/0/rotation | true | ports[0].marker: expected a marker of a rigid body with inertia; a cable without torsion
     "#,
     );
 }
@@ -168,6 +169,49 @@ fn mechanism() -> Value {
 fn a_mechanism_is_valid_and_survives_being_written() {
     let read = Scene::from_json(&mechanism().to_string()).expect("a valid scene");
     assert_eq!(Scene::from_json(&read.to_json()), Ok(read));
+}
+
+/// The mechanism with a body of a shape.
+fn shaped() -> Value {
+    let mut scene = mechanism();
+    let body = scene["bodies"][0].as_object_mut().expect("a body");
+    body.remove("mass");
+    body.remove("inertia");
+    body.insert("density".into(), json!(7850));
+    body.insert("shape".into(), json!({"box": {"size": [0.1, 0.2, 0.3]}}));
+    scene
+}
+
+#[test]
+fn shapes_are_what_bodies_can_be() {
+    check(
+        shaped,
+        r#"
+        /bodies/0/shape | {"sphere": {"radius": 0.2}} | accepted
+        /bodies/0/shape | {"cylinder": {"radius": 0.2, "length": 1}} | accepted
+        /bodies/0/shape | {"tube": {"radius": 0.2, "inner_radius": 0.1, "length": 1, "axis": [0, 3, 4]}} | accepted
+        /bodies/0/shape | null | bodies[0].shape: expected `shape` beside `density`, or `mass` instead of both, found nothing
+        /bodies/0/density | null | bodies[0].density: expected a positive number (kg/m^3) beside `shape`, found nothing
+        /bodies/0/density | 0 | bodies[0].density: expected a positive number (kg/m^3), found 0
+        /bodies/0/mass | 1 | bodies[0].mass: expected nothing beside `shape` and `density`, from which it follows, found a value
+        /bodies/0/inertia | [1, 1, 1] | bodies[0].inertia: expected nothing beside `shape` and `density`, from which it follows, found a value
+        /bodies/0/shape/box/size/1 | 0 | bodies[0].shape.box.size[1]: expected a positive number (m), found 0
+        /bodies/0/shape/box/size | [1, 2] | bodies[0].shape.box.size: expected a list of 3, found 2
+        /bodies/0/shape | {"ball": {}} | bodies[0].shape: expected "box" or "cylinder" or "sphere" or "tube", found "ball"
+        /bodies/0/shape | {"sphere": {"radius": -1}} | bodies[0].shape.sphere.radius: expected a positive number (m), found -1
+        /bodies/0/shape | {"sphere": {"radius": 1e103}} | bodies[0].shape: expected a shape and a density whose mass (kg) and inertia are numbers of the machine
+        /bodies/0/shape | {"cylinder": {"radius": 1, "length": 1, "axis": [0, 0, 0]}} | bodies[0].shape.cylinder.axis: expected three finite numbers, not all zero, found [0.0, 0.0, 0.0]
+        /bodies/0/shape | {"tube": {"radius": 1, "inner_radius": 1, "length": 1}} | bodies[0].shape.tube.inner_radius: expected less than the outer radius (1 m), found 1
+        /bodies/0/shape | {"tube": {"radius": 1, "length": 1}} | bodies[0].shape.tube.inner_radius: expected a value, found nothing
+    "#,
+    );
+    check(
+        mechanism,
+        r#"
+        /bodies/0/mass | null | bodies[0].mass: expected a positive number (kg), or `shape` and `density`, found nothing
+        /bodies/0/density | 1 | bodies[0].shape: expected `shape` beside `density`, or `mass` instead of both, found nothing
+    "#,
+    );
 }
 
 #[test]
@@ -287,6 +331,16 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /outputs/4/joint | "ball" | outputs[4].joint: expected a joint that transmits a moment, found "ball"
         /outputs/4/joint | "track" | outputs[4].joint: expected a joint that transmits a moment, found "track"
         /outputs/6/joint | "guide" | outputs[6].joint: expected a joint that transmits a force, found "guide"
+        /outputs/0 | {"kind": "quaternion", "marker": "rope.tip"} | outputs[0].marker: expected a marker of a rigid body with inertia
+        /outputs/0 | {"kind": "rotation_vector", "marker": "a.in"} | accepted
+        /outputs/0 | {"kind": "angular_velocity", "marker": "a.in", "axes": "body"} | accepted
+        /outputs/0 | {"kind": "angular_velocity", "joint": "elbow", "axes": "body"} | outputs[0].axes: expected nothing for this kind of output, found axes
+        /outputs/0 | {"kind": "velocity", "marker": "a.in", "axes": "body"} | outputs[0].axes: expected nothing for this kind of output, found axes
+        /outputs/0 | {"kind": "reaction", "joint": "elbow", "axes": "body"} | accepted
+        /outputs/0 | {"kind": "reaction", "joint": "elbow", "axes": "joint"} | outputs[0].axes: expected "
+        /ports | [{"name": "plug", "marker": "a.in", "kind": "force", "rotation": true}] | accepted
+        /ports | [{"name": "plug", "marker": "b.in", "kind": "motion", "stiffness": 1, "rotational_stiffness": 1}] | accepted
+        /ports | [{"name": "plug", "marker": "b.in", "kind": "motion", "rotation": true}] | ports[0].rotation: expected stiffnesses in space, where an orientation drives nothing but by a spring, found true
     "#,
     );
 }

@@ -57,8 +57,8 @@ pub struct Found {
 /// A steady turn of all bodies about one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turning<const D: usize = 2> {
-    /// Rate, counter-clockwise, rad/s.
-    pub rate: f64,
+    /// Angular velocity, rad/s; in the plane the third component alone.
+    pub rate: [f64; 3],
     /// The point, m.
     pub center: Vector<D>,
 }
@@ -97,7 +97,7 @@ pub fn find<const D: usize>(
         // A turn that nothing drives is neutral, and the tangent singular.
         Some(Turning { rate, .. }) if found.is_err() => {
             state.copy_from(&before);
-            let kept = rate.abs();
+            let kept = norm(&rate);
             Path { kept, ..path }.follow(way, work, state)
         }
         _ => found,

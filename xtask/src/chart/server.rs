@@ -1,4 +1,4 @@
-//! Exudyn, run by `lab/exudyn/run.py --serve`: one process that stays warm, a line in for a line out.
+//! Programs of others, run by a Python file with `--serve`: one process that stays warm, a line in for a line out.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Stdio};
@@ -11,10 +11,13 @@ use crate::python::Python;
 
 use super::numbers::{Path, number, path};
 
-const SERVER: &str = "lab/exudyn/run.py";
+/// Exudyn for scenes of the plane.
+pub const EXUDYN: &str = "lab/exudyn/run.py";
+/// MuJoCo, Pinocchio and Exudyn for trees in space.
+pub const TREES: &str = "lab/trees/run.py";
 
 /// The running program.
-pub struct Exudyn {
+pub struct Server {
     child: Child,
     input: ChildStdin,
     output: BufReader<ChildStdout>,
@@ -28,17 +31,17 @@ pub struct Answer {
     pub cpu_time: f64,
 }
 
-impl Exudyn {
-    /// Starts it, in an environment of its own with its pinned version.
-    pub fn start(workspace: &Workspace) -> Result<Self> {
+impl Server {
+    /// Starts a file of the project, in an environment of its own with pinned versions.
+    pub fn start(workspace: &Workspace, file: &str) -> Result<Self> {
         let python = Python::prepare_peers(workspace)?;
-        let mut command = python.script(&workspace.path(SERVER));
+        let mut command = python.script(&workspace.path(file));
         command.arg("--serve");
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command
             .stderr(Stdio::null())
             .spawn()
-            .context("cannot start Exudyn")?;
+            .with_context(|| format!("cannot start {file}"))?;
         let input = child.stdin.take().context("expected a standard input")?;
         let output = child.stdout.take().context("expected a standard output")?;
         Ok(Self {
@@ -50,28 +53,33 @@ impl Exudyn {
 
     /// One run with options as `run.py` has them.
     pub fn run(&mut self, options: &Value) -> Result<Answer> {
-        writeln!(self.input, "{options}").context("Exudyn has stopped")?;
-        let answer = loop {
-            let mut line = String::new();
-            if self.output.read_line(&mut line)? == 0 {
-                bail!("Exudyn stopped in the run {options}");
-            }
-            // It greets and warns in words.
-            if line.starts_with('{') {
-                break serde_json::from_str::<Value>(&line)?;
-            }
-        };
+        let answer = self.ask(options)?;
         if answer["good"] != Value::Bool(true) {
-            bail!("Exudyn failed in the run {options}: {}", answer["failure"]);
+            bail!("a run failed: {options}: {}", answer["failure"]);
         }
         Ok(Answer {
             path: path(&answer["path"])?,
             cpu_time: number(&answer["cpu_time"])?,
         })
     }
+
+    /// The answer to options, whatever it says.
+    pub fn ask(&mut self, options: &Value) -> Result<Value> {
+        writeln!(self.input, "{options}").context("the program has stopped")?;
+        loop {
+            let mut line = String::new();
+            if self.output.read_line(&mut line)? == 0 {
+                bail!("the program stopped in the run {options}");
+            }
+            // Programs greet and warn in words.
+            if line.starts_with('{') {
+                return Ok(serde_json::from_str(&line)?);
+            }
+        }
+    }
 }
 
-impl Drop for Exudyn {
+impl Drop for Server {
     fn drop(&mut self) {
         // It may have ended by itself.
         let _ = self.child.kill();

@@ -1,0 +1,187 @@
+//! Rigid bodies of space that turn: their small motions against differences of Newton's and Euler's equations, and what
+//! is seen from a frame that turns.
+
+use flexbody::system::{Evaluation, System, linearized};
+use nalgebra::{DMatrix, DVector, Matrix3};
+
+use crate::laws::linkage::{Chance, Mechanism, V};
+
+/// Displacements and rotations of all bodies, in global components, of vectors of `q` (columns).
+fn twists(mechanism: &Mechanism, system: &System<3>, columns: &DMatrix<f64>) -> DMatrix<f64> {
+    let elimination = system.elimination();
+    let mut found = DMatrix::zeros(6 * mechanism.bodies.len(), columns.ncols());
+    let mut y = vec![0.0; elimination.scratch()];
+    let mut x = vec![[[0.0; 3]; 2]; 2 * mechanism.bodies.len()];
+    for (k, column) in columns.column_iter().enumerate() {
+        elimination.expand(column.into_owned().as_slice(), &mut y, &mut x);
+        for (i, body) in mechanism.bodies.iter().enumerate() {
+            let [center, rotation] = x[2 * i].map(V::from);
+            found.fixed_view_mut::<3, 1>(6 * i, k).copy_from(&center);
+            let rotation = body.axes * rotation;
+            found
+                .fixed_view_mut::<3, 1>(6 * i + 3, k)
+                .copy_from(&rotation);
+        }
+    }
+    found
+}
+
+/// Mass over global axes, and its rate.
+fn mass(mechanism: &Mechanism) -> [DMatrix<f64>; 2] {
+    let n = 6 * mechanism.bodies.len();
+    let mut made = [DMatrix::zeros(n, n), DMatrix::zeros(n, n)];
+    for (i, body) in mechanism.bodies.iter().enumerate() {
+        let inertia = body.axes * Matrix3::from_diagonal(&body.moments) * body.axes.transpose();
+        let turn = body.spin.cross_matrix();
+        for j in 0..3 {
+            made[0][(6 * i + j, 6 * i + j)] = body.mass;
+        }
+        let at = (6 * i + 3, 6 * i + 3);
+        made[0]
+            .fixed_view_mut::<3, 3>(at.0, at.1)
+            .copy_from(&inertia);
+        let rate = turn * inertia - inertia * turn;
+        made[1].fixed_view_mut::<3, 3>(at.0, at.1).copy_from(&rate);
+    }
+    made
+}
+
+/// The same mechanism with its bodies displaced and turned, and with other velocities and spins.
+fn disturbed(
+    mechanism: &Mechanism,
+    way: &DVector<f64>,
+    rate: &DVector<f64>,
+    size: f64,
+) -> Mechanism {
+    let mut bodies = mechanism.twisted(way, size);
+    for (i, body) in bodies.iter_mut().enumerate() {
+        let part = |of: &DVector<f64>, k: usize| V::from_fn(|j, _| of[6 * i + k + j]);
+        let spin = mechanism.bodies[i].spin;
+        body.velocity += part(rate, 0) * size;
+        body.spin = spin + (part(rate, 3) + part(way, 3).cross(&spin)) * size;
+    }
+    let joints = mechanism.joints.clone();
+    Mechanism {
+        bodies,
+        joints,
+        gravity: mechanism.gravity,
+    }
+}
+
+/// `a'' + R a' + K a = 0` for motions `N a`, with a basis `N` that is carried along so that `N^T M N' = 0`.
+#[test]
+fn small_motions_about_turning_bodies_are_those_of_newton_and_euler() {
+    let mut chance = Chance(29);
+    let mut compared = 0;
+    for run in 0..120 {
+        let mechanism = Mechanism::random(&mut chance);
+        let (system, state, mut work) = mechanism.started();
+        let [basis, stiffness, damping] = linearized(&system, &[], &mut work, &state);
+        let n = basis.ncols();
+        let rows = mechanism.jacobian();
+        let is_redundant = !mechanism.joints.is_empty() && {
+            let sizes = rows.clone().svd(false, false).singular_values;
+            sizes.min() < 1e-3 * sizes.max()
+        };
+        if n == 0 || is_redundant {
+            continue;
+        }
+        compared += 1;
+        let basis = twists(&mechanism, &system, &basis);
+        let [mass, mass_rate] = mass(&mechanism);
+        let one = basis.transpose() * &mass * &basis;
+        assert!((&one - DMatrix::identity(n, n)).amax() < 1e-9, "{run}");
+        let mut carried = DMatrix::zeros(basis.nrows(), n);
+        if !mechanism.joints.is_empty() {
+            assert!((&rows * &basis).amax() < 1e-7, "{run}");
+            let moving = mechanism.twists();
+            let at = |h: f64| Mechanism {
+                bodies: mechanism.twisted(&moving, h),
+                joints: mechanism.joints.clone(),
+                gravity: mechanism.gravity,
+            };
+            const STEP: f64 = 1e-4;
+            let rates = (at(STEP).jacobian() - at(-STEP).jacobian()) / (2.0 * STEP);
+            let inverse = mass.clone().cholesky().expect("positive").inverse();
+            let schur = &rows * &inverse * rows.transpose();
+            let least = schur.cholesky().expect("independent rows").inverse();
+            carried = -&inverse * rows.transpose() * least * rates * &basis;
+        }
+        let a = DVector::from_fn(n, |_, _| chance.number());
+        let rate = DVector::from_fn(n, |_, _| chance.number());
+        let (way, change) = (&basis * &a, &basis * &rate + &carried * &a);
+        const STEP: f64 = 1e-4;
+        let at = |h: f64| disturbed(&mechanism, &way, &change, h).accelerations();
+        let mut second = (at(STEP) - at(-STEP)) / (2.0 * STEP);
+        let now = mechanism.accelerations();
+        for (i, body) in mechanism.bodies.iter().enumerate() {
+            let part = |of: &DVector<f64>| V::from_fn(|j, _| of[6 * i + 3 + j]);
+            let turned = part(&change).cross(&body.spin) + part(&way).cross(&part(&now));
+            let mut rows = second.fixed_rows_mut::<3>(6 * i + 3);
+            rows -= turned;
+        }
+        let still =
+            carried.transpose() * &mass * &carried + basis.transpose() * mass_rate * &carried;
+        let wanted = basis.transpose() * mass * second + still * &a;
+        let found = -(&damping * &rate + &stiffness * &a);
+        let size = wanted.amax() + stiffness.amax() + damping.amax() + 0.1;
+        let miss = (&wanted - &found).amax() / size;
+        assert!(miss < 1e-5, "{run}: {miss:e}, {wanted} for {found}");
+    }
+    assert!(compared > 60, "{compared}");
+}
+
+/// What is free of the ground moves in a frame that turns as it does outside: with `W` the frame's rate,
+/// `v' = v - W x r`, `a' = a - 2 W x v' - W x (W x r)`, and angular velocities and accelerations likewise.
+#[test]
+fn a_turning_frame_changes_what_is_seen_alone() {
+    let mut chance = Chance(31);
+    let mut compared = 0;
+    while compared < 60 {
+        let mut mechanism = Mechanism::random(&mut chance);
+        if mechanism
+            .joints
+            .iter()
+            .any(|joint| joint.bodies[0].is_none())
+        {
+            continue;
+        }
+        compared += 1;
+        mechanism.gravity = V::zeros();
+        let outside = mechanism.accelerations();
+        let rate = chance.vector() * 2.0;
+        let spins: Vec<V> = mechanism.bodies.iter().map(|body| body.spin).collect();
+        for body in &mut mechanism.bodies {
+            body.velocity -= rate.cross(&body.center);
+            body.spin -= rate;
+        }
+        let mut parts = mechanism.parts();
+        parts.rotation = rate.into();
+        let system = System::new(parts).expect("a system");
+        let (state, mut work) = mechanism.state_of(&system);
+        let mut evaluation = Evaluation::new(&system);
+        evaluation.kinematics(&system, &state, &mut work);
+        evaluation.dynamics(&system, &state, &[], &mut work);
+        let size = outside.amax() + rate.norm_squared() + 1.0;
+        for (i, body) in mechanism.bodies.iter().enumerate() {
+            let part = |k: usize| V::from_fn(|j, _| outside[6 * i + k + j]);
+            let carried = rate.cross(&body.velocity) * 2.0 + rate.cross(&rate.cross(&body.center));
+            let found = V::from(evaluation.acceleration[2 * i][0]);
+            let miss = (found - (part(0) - carried)).norm();
+            assert!(
+                miss < 1e-6 * size,
+                "{compared} body {i}: {miss:e} of {size:e}"
+            );
+            // Angular accelerations: of the first axis.
+            let turn = part(3) - rate.cross(&spins[i]);
+            let axis = body.axes.column(0).into_owned();
+            let wanted = turn.cross(&axis) + body.spin.cross(&body.spin.cross(&axis));
+            let found = V::from(evaluation.acceleration[2 * i][1]);
+            let miss = (found - wanted).norm();
+            assert!(
+                miss < 1e-6 * size,
+                "{compared} axis of {i}: {miss:e} of {size:e}"
+            );
+        }
+    }
+}
