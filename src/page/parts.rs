@@ -3,7 +3,8 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    Ends, Hold, Joint, Load, LoadKind, Motion, MotionKind, Port, PortKind, Scene, Turning, Value,
+    Ends, Hold, Joint, JointCoordinate, Load, LoadKind, Motion, MotionKind, Port, PortKind, Scene,
+    Turning, Value,
 };
 use crate::system::Drive;
 
@@ -18,6 +19,11 @@ pub(super) fn parts(scene: &Scene) -> String {
             .map(|hold| hold_in_words(scene.dimension, joint, hold));
         let holds = holds.collect::<Vec<_>>().join("; ");
         row(&[&code(joint.name), kind, &ends_in_words(&joint.ends), &holds])
+    });
+    let gears = resolved.gears.iter().map(|gear| {
+        let [first, second] = gear.coordinates.map(|of| coordinate_in_words(&of));
+        let ratio = number(gear.ratio);
+        row(&[&code(gear.name), &first, &second, &ratio])
     });
     let motions = resolved.motions.iter().map(|motion| {
         let what = format!("{} {}", driven(motion), code(motion.kind.of()));
@@ -43,6 +49,12 @@ pub(super) fn parts(scene: &Scene) -> String {
     let note = "<p>The reaction of a joint is what it exerts on its second marker.</p>\n";
     [
         table("Joints", note, &heads, joints.collect()),
+        table(
+            "Gears",
+            "",
+            &["Name", "First", "Second", "Second per first"],
+            gears.collect(),
+        ),
         table(
             "Motions",
             "",
@@ -167,6 +179,7 @@ fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold) -> String {
             "the position in the plane across {} at the start{point}",
             vector(dimension, *across)
         ),
+        Hold::Screw(pitch) => format!("{} m along it a full turn", number(*pitch)),
         Hold::Curve(..) => "the position on the line of the cable".into(),
         Hold::Spring {
             rest,
@@ -178,6 +191,14 @@ fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold) -> String {
             format!("{k} N m/rad and {c} N m s/rad against rotation{rest}")
         }
     }
+}
+
+fn coordinate_in_words(of: &JointCoordinate<'_>) -> String {
+    let what = match of {
+        JointCoordinate::Displacement(_) => "displacement of",
+        JointCoordinate::Angle(_) => "angle of",
+    };
+    format!("{what} {}", code(of.name()))
 }
 
 fn driven(motion: &Motion<'_>) -> &'static str {
@@ -234,6 +255,51 @@ fn load_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) 
                 size,
             )
         }
+        _ => spring_in_words(load),
+    }
+}
+
+/// The same of springs, dampers and stops of joints.
+fn spring_in_words(load: &Load<'_>) -> (String, String, String) {
+    let units = |on: &JointCoordinate<'_>| match on.is_angle() {
+        true => ["N m/rad", "N m s/rad", "s/rad", "rad"],
+        false => ["N/m", "N s/m", "s/m", "m"],
+    };
+    match &load.kind {
+        LoadKind::JointSpring { on, sizes, rest } => {
+            let ([k, c], unit) = (sizes.map(number), units(on));
+            let rest = given(", at rest at", *rest, unit[3]);
+            (
+                "spring and damper".into(),
+                coordinate_in_words(on),
+                format!("{k} {}, {c} {}{rest}", unit[0], unit[1]),
+            )
+        }
+        LoadKind::Stop { on, sizes, limits } => {
+            let ([k, c], unit) = (sizes.map(number), units(on));
+            let sides = [("below", limits[0]), ("above", limits[1])];
+            let sides = sides.map(|(side, limit)| given(&format!(", {side}"), limit, unit[3]));
+            (
+                "stops".into(),
+                coordinate_in_words(on),
+                format!("{k} {}, {c} {}{}", unit[0], unit[2], sides.concat()),
+            )
+        }
+        LoadKind::Bushing(bushing) => {
+            let units = [["N/m", "N m/rad"], ["N s/m", "N m s/rad"]];
+            let sizes = [bushing.stiffness, bushing.damping];
+            let sizes = sizes.iter().zip(units).flat_map(|(sizes, units)| {
+                let sizes = sizes.iter().zip(units);
+                sizes.map(|(axes, unit)| format!("{} {unit}", vector(3, *axes)))
+            });
+            let point = at_point(3, &bushing.ends);
+            (
+                "bushing".into(),
+                format!("{}{point}", ends_in_words(&bushing.ends)),
+                sizes.collect::<Vec<_>>().join(", "),
+            )
+        }
+        LoadKind::Action { .. } | LoadKind::Spring(_) => Default::default(),
     }
 }
 

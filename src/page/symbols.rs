@@ -167,6 +167,28 @@ fn rails(canvas: &mut Canvas, at: Point, along: Point, is_grounded: bool, unit: 
     }
 }
 
+/// A bar that stops what goes along.
+pub fn stop(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
+    let (across, wall) = ([-along[1], along[0]], moved(at, along, 2.8 * unit));
+    let ends = [-0.9, 0.9].map(|side| moved(wall, across, side * unit));
+    canvas.polyline(&ends, false, line(0.3 * unit));
+}
+
+/// Two wheels that turn each other.
+pub fn gear(canvas: &mut Canvas, [from, to]: [Point; 2], unit: f64) {
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let reach = way[0].hypot(way[1]);
+    let radius = if reach > 2.0 * unit {
+        0.5 * reach
+    } else {
+        unit
+    };
+    canvas.polyline(&[from, to], false, line(0.06 * unit));
+    for at in [from, to] {
+        canvas.circle(at, radius, line(0.06 * unit));
+    }
+}
+
 /// A block that may move but not turn.
 pub fn orientation(canvas: &mut Canvas, at: Point, along: Point, unit: f64) {
     let corners = square(at, along, 0.8 * unit);

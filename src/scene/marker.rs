@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::description::Declaration;
 use super::resolved::{
-    Action, BodyReference, Cable, CableId, Ends, First, Form, Hold, Joint, Marker, MarkerId,
-    MotionKind, On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
+    Action, BodyReference, Cable, CableId, Ends, First, Form, Hold, Joint, JointCoordinate, Marker,
+    MarkerId, MotionKind, On, Pivot, Place, Resolved, Rigid, RigidId, SlideId, Slider, Turning,
 };
 use super::{Body, CableBody, Model, RigidBody, Scene};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion};
@@ -34,6 +34,7 @@ impl<'a> Resolved<'a> {
             markers: Vec::new(),
             masses: Vec::new(),
             joints: Vec::new(),
+            gears: Vec::new(),
             motions: Vec::new(),
             loads: Vec::new(),
             initial_loads: Vec::new(),
@@ -309,18 +310,26 @@ impl<'a> Joint<'a> {
 
     /// Whether it holds a position or a distance.
     pub(in crate::scene) fn holds_position(&self) -> bool {
-        let turns = |hold: &Hold| matches!(hold, Hold::Direction(_) | Hold::Spring { .. });
-        !self.holds.iter().all(turns)
+        let is_position = |hold: &Hold| {
+            use Hold::{Across, Axis, Direction, Spring};
+            !matches!(hold, Direction(_) | Axis(_) | Across(..) | Spring { .. })
+        };
+        self.holds.iter().any(is_position)
     }
 
     /// As a joint with an angle: its ends turn about one point.
     pub(super) fn pivot(&self) -> Option<Pivot<'a>> {
-        let axis = match self.holds[..] {
-            [Hold::Position] | [Hold::Position, Hold::Spring { .. }] => None,
-            [Hold::Position | Hold::Line(_), Hold::Axis(axis)]
-            | [Hold::Position, Hold::Axis(axis), Hold::Spring { .. }] => Some(axis),
-            _ => return None,
-        };
+        if self.holds.iter().any(|hold| matches!(hold, Hold::Plane(_))) {
+            return None;
+        }
+        let axis = self.holds.iter().find_map(|hold| match hold {
+            Hold::Axis(axis) => Some(*axis),
+            _ => None,
+        });
+        match (axis, &self.holds[..]) {
+            (None, [Hold::Position] | [Hold::Position, Hold::Spring { .. }]) | (Some(_), _) => {}
+            (None, _) => return None,
+        }
         Some(Pivot {
             name: self.name,
             joint: self.holder,
@@ -329,16 +338,36 @@ impl<'a> Joint<'a> {
         })
     }
 
-    /// As a slider on a fixed line.
+    /// As a joint along a line of the ground or of a rigid body.
     pub(super) fn slider(&self) -> Option<Slider<'a>> {
-        match self.holds[..] {
-            [Hold::Line(direction)] if self.ends.is_grounded() => Some(Slider {
-                name: self.name,
-                ends: self.ends,
-                direction,
-            }),
+        let direction = self.holds.iter().find_map(|hold| match hold {
+            Hold::Line(direction) => Some(*direction),
             _ => None,
-        }
+        })?;
+        let along = match self.ends.first {
+            First::Ground(_) => direction,
+            First::Marker(Marker {
+                place: Place::Point(..),
+                direction: [cos, sin, _],
+                ..
+            }) if self.is_planar => {
+                let [x, y, _] = direction;
+                [cos * x - sin * y, sin * x + cos * y, 0.0]
+            }
+            First::Marker(Marker {
+                place: Place::Point(..),
+                ..
+            }) => direction,
+            First::Marker(_) | First::Cable(_) => return None,
+        };
+        let size = length(along);
+        Some(Slider {
+            name: self.name,
+            joint: self.holder,
+            ends: self.ends,
+            direction,
+            along: along.map(|part| part / size),
+        })
     }
 
     /// The slide along a cable that it is.
@@ -347,6 +376,37 @@ impl<'a> Joint<'a> {
             Hold::Curve(_, slide) => Some(*slide),
             _ => None,
         })
+    }
+}
+
+impl<'a> Slider<'a> {
+    /// The way as described, m.
+    pub(super) fn start(&self) -> f64 {
+        let [first, second] = self.ends.points();
+        dot(&difference(second, first), &self.along)
+    }
+}
+
+impl<'a> JointCoordinate<'a> {
+    /// Name of the joint.
+    pub fn name(&self) -> &'a str {
+        match self {
+            Self::Displacement(slider) => slider.name,
+            Self::Angle(pivot) => pivot.name,
+        }
+    }
+
+    /// What the joint joins.
+    pub fn ends(&self) -> Ends<'a> {
+        match self {
+            Self::Displacement(slider) => slider.ends,
+            Self::Angle(pivot) => pivot.ends,
+        }
+    }
+
+    /// Whether it is an angle.
+    pub fn is_angle(&self) -> bool {
+        matches!(self, Self::Angle(_))
     }
 }
 
@@ -406,10 +466,7 @@ impl<'a> MotionKind<'a> {
             Self::Angle(Turning::Pivot(pivot), _) if pivot.axis.is_some() => vec![0.0],
             Self::Angle(Turning::Pivot(pivot), _) => vec![pivot.ends.angle()],
             Self::Position(marker, drives) => marker.position[..drives.len()].to_vec(),
-            Self::Displacement(slider, _) => vec![slider.ends.point().map_or(0.0, |point| {
-                let way = difference(slider.ends.second.position, point);
-                dot(&way, &slider.direction) / length(slider.direction)
-            })],
+            Self::Displacement(slider, _) => vec![slider.start()],
         }
     }
 }

@@ -66,7 +66,7 @@ impl<'a> Resolved<'a> {
         for load in &self.loads {
             match &load.kind {
                 LoadKind::Action { action, .. } => actions.push(action),
-                LoadKind::Spring(spring) => found.extend(spring.ends.markers()),
+                kind => found.extend(kind.between().iter().flat_map(|ends| ends.markers())),
             }
         }
         actions.extend(self.inputs.iter().filter_map(|input| match &input.kind {

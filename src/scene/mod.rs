@@ -26,10 +26,10 @@ pub use description::{
     Table, Value, Vector,
 };
 pub use resolved::{
-    Action, AngleId, BodyReference, Cable, CableId, Coupling, CouplingId, Ends, First, Hold,
-    Holder, HolderId, Incoming, Input, InputKind, Joint, Load, LoadKind, Marker, MarkerId, Mass,
-    Motion, MotionKind, Of, On, Output, Pivot, Place, Port, PortKind, Reaction, Resolved, Rigid,
-    RigidId, SlideId, Slider, Spring, Turning,
+    Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First,
+    Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
+    LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output, Pivot, Place, Port,
+    PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider, Spring, Turning,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};

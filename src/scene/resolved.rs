@@ -1,12 +1,15 @@
 //! A scene whose references are resolved: what a kind demands is there, what it names has been found, and
 //! what is numbered is numbered once. Values are checked while it is made (`validate/`).
 
+mod loads;
+
 use std::collections::BTreeMap;
 
 use super::description::{
-    ActionKind, Along, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
+    Along, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
 };
-use crate::system::{Drive, Signal};
+use crate::system::Drive;
+pub use loads::{Action, Bushing, Load, LoadKind, On, Spring};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
 macro_rules! numbers {
@@ -27,7 +30,7 @@ macro_rules! numbers {
 numbers! {
     /// A marker among those of all bodies.
     MarkerId;
-    /// What holds something in the system: joints, then motions, then what ports drive.
+    /// What holds something in the system: joints, then gears, then motions, then what ports drive.
     HolderId;
     /// A joint of kind `along` among those of its kind.
     SlideId;
@@ -141,15 +144,41 @@ pub struct Pivot<'a> {
     pub axis: Option<[f64; 3]>,
 }
 
-/// A joint that holds a marker on a line through a point of the ground.
+/// A joint that holds a marker on a line of the ground or of a rigid body.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider<'a> {
     /// Name of the joint.
     pub name: &'a str,
-    /// The ground and what it holds.
+    /// Which holder it is.
+    pub joint: HolderId,
+    /// What it joins.
     pub ends: Ends<'a>,
-    /// Direction of the line, of any length.
+    /// Direction of the line as [`Hold::Line`] has it.
     pub direction: [f64; 3],
+    /// The same at the start, in global axes, a unit vector.
+    pub along: [f64; 3],
+}
+
+/// A coordinate of a joint.
+#[derive(Clone, Copy, Debug)]
+pub enum JointCoordinate<'a> {
+    /// The way along its line, m.
+    Displacement(Slider<'a>),
+    /// The angle about its axis, rad.
+    Angle(Pivot<'a>),
+}
+
+/// A gear between two joints.
+#[derive(Clone, Debug)]
+pub struct Gear<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Which holder it is.
+    pub holder: HolderId,
+    /// What it couples.
+    pub coordinates: [JointCoordinate<'a>; 2],
+    /// Change of the second by that of the first.
+    pub ratio: f64,
 }
 
 /// What has a direction: a marker, or a joint between two.
@@ -181,6 +210,8 @@ pub struct Joint<'a> {
     pub holder: HolderId,
     /// As described.
     pub(super) kind: JointKind,
+    /// Whether the scene is one of the plane.
+    pub(super) is_planar: bool,
     /// What it joins.
     pub ends: Ends<'a>,
     /// What it holds.
@@ -202,6 +233,8 @@ pub enum Hold {
     Across([f64; 3], [f64; 3]),
     /// The position in a plane through the first end: the direction across it at the start, in global axes.
     Plane([f64; 3]),
+    /// The way along the line that it is on, in proportion to the angle about it: way a full turn, m.
+    Screw(f64),
     /// The distance.
     Distance(Option<f64>),
     /// The position on the curve of a cable that bends, by its place among the chains, and which slide that is.
@@ -237,70 +270,8 @@ pub enum MotionKind<'a> {
     Angle(Turning<'a>, Drive),
     /// The position of a marker, m.
     Position(Marker<'a>, Vec<Drive>),
-    /// The way along a slider from its point, m.
+    /// The way along a line, m.
     Displacement(Slider<'a>, Drive),
-}
-
-/// A load that the scene knows.
-#[derive(Clone, Debug)]
-pub struct Load<'a> {
-    /// Name.
-    pub name: &'a str,
-    /// What acts.
-    pub kind: LoadKind<'a>,
-}
-
-/// What acts.
-#[derive(Clone, Debug)]
-pub enum LoadKind<'a> {
-    /// A force or a moment.
-    Action {
-        /// Which and where.
-        action: Action<'a>,
-        /// Its size as written.
-        values: &'a [Value],
-    },
-    /// A spring and a damper side by side.
-    Spring(Spring<'a>),
-}
-
-/// A spring and a damper between two ends.
-#[derive(Clone, Debug)]
-pub struct Spring<'a> {
-    /// What they are fixed to.
-    pub ends: Ends<'a>,
-    /// Stiffness, N/m.
-    pub stiffness: f64,
-    /// Damping, N s/m.
-    pub damping: f64,
-    /// Length at rest as written, m.
-    pub given: Option<&'a Value>,
-    /// Length at rest, m; the distance at the start if there is none.
-    pub length: Option<Signal>,
-}
-
-/// A force or a moment, known or an input.
-#[derive(Clone, Debug)]
-pub struct Action<'a> {
-    /// Which.
-    pub kind: ActionKind,
-    /// What it acts on; which of these follows from the kind.
-    pub on: On<'a>,
-    /// Whether it turns with the marker.
-    pub follower: bool,
-    /// Its components, as many as the kind has.
-    pub components: Vec<Signal>,
-}
-
-/// What a force or a moment acts on.
-#[derive(Clone, Copy, Debug)]
-pub enum On<'a> {
-    /// A marker.
-    Marker(Marker<'a>),
-    /// A joint: its second marker, and the opposite on its first.
-    Joint(Pivot<'a>),
-    /// A cable, per reference length.
-    Cable(Cable<'a>),
 }
 
 /// An input.
@@ -359,6 +330,10 @@ pub enum Of<'a> {
     Slide(&'a str, SlideId),
     /// A joint or a motion.
     Reaction(Reaction<'a>),
+    /// A joint along a line.
+    Sliding(Slider<'a>),
+    /// A gear of this name.
+    Gear(&'a str, HolderId),
     /// The scene.
     Scene,
     /// The spectrum of the scene: the body whose name those of the variables begin with, and how many there are.
@@ -450,6 +425,8 @@ pub struct Resolved<'a> {
     pub masses: Vec<Mass<'a>>,
     /// Joints.
     pub joints: Vec<Joint<'a>>,
+    /// Gears.
+    pub gears: Vec<Gear<'a>>,
     /// Motions, without those of ports.
     pub motions: Vec<Motion<'a>>,
     /// Loads.

@@ -134,9 +134,12 @@ fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
 
 /// Rate of the whole mass on the stiffest spring or hinge; 0 without one.
 fn spring_rate(resolved: &Resolved<'_>, size: f64, mass: f64) -> f64 {
-    let of_springs = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Spring(spring) => Some(spring.stiffness),
-        LoadKind::Action { .. } => None,
+    // A stop is met now and then.
+    let loads = resolved.loads.iter();
+    let loads = loads.filter(|load| !matches!(load.kind, LoadKind::Stop { .. }));
+    let of_springs = loads.map(|load| {
+        let [against_ways, against_turns] = load.kind.stiffness();
+        against_ways.max(against_turns / (size * size))
     });
     let of_hinges = resolved.joints.iter().filter_map(|joint| joint.spring());
     let stiffest = of_springs

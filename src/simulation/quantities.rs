@@ -11,7 +11,7 @@ use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{axis, components};
 use crate::scene::{Along, AngleId, Assembled, CouplingId, HolderId, MarkerId, SlideId};
-use crate::system::{End, Evaluation, System};
+use crate::system::{End, Evaluation, System, Way};
 
 /// Outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +56,16 @@ pub enum Quantity {
     Reaction(HolderId, usize, Along),
     /// Component of the moment of a joint or motion; in the plane the third.
     ReactionMoment(HolderId, usize, Along),
+    /// Displacement of a joint along a line.
+    Displacement(HolderId),
+    /// Its rate.
+    SlidingVelocity(HolderId),
+    /// The rate of that.
+    SlidingAcceleration(HolderId),
+    /// Force of a gear on the displacement of its second joint.
+    GearForce(HolderId),
+    /// Torque of a gear on the angle of its second joint.
+    GearTorque(HolderId),
     /// Component of the force on what drives a marker: opposite to the reaction.
     MotionForce(HolderId, usize),
     /// Moment on what turns a marker.
@@ -148,6 +158,11 @@ pub(super) fn value<const D: usize, N: Number>(
         Reaction(joint, ..) | ReactionMoment(joint, ..) => {
             transmitted(quantity, values, assembled, joint)
         }
+        Displacement(joint) | SlidingVelocity(joint) | SlidingAcceleration(joint) => {
+            let way = system.joints()[joint.index()].way.as_ref();
+            way.map_or_else(|| N::of(0.0), |way| sliding(quantity, way, values))
+        }
+        GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
         MotionMoment(joint) => -values.reaction(system, joint.index()).1[2],
         CouplingForce(id, axis) => values.coupling(system, assembled.coupling(id)).0[axis],
@@ -163,6 +178,20 @@ pub(super) fn value<const D: usize, N: Number>(
         CenterOfMass(axis) => values.center_of_mass(system)[axis],
         Resolution => resolution(values, assembled),
         Residual(of) => N::of(values.residuals(system)[of]),
+    }
+}
+
+/// The way along a joint, its rate or the rate of that.
+fn sliding<const D: usize, N: Number>(
+    quantity: Quantity,
+    way: &Way<D>,
+    values: &Evaluation<D, N>,
+) -> N {
+    let (x, v) = (&values.x, &values.v);
+    match quantity {
+        Quantity::Displacement(_) => way.value(x),
+        Quantity::SlidingVelocity(_) => way.gradient(x).along(v),
+        _ => way.bend(v) + way.gradient(x).along(&values.acceleration),
     }
 }
 
@@ -265,19 +294,23 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
     use Evaluated::*;
     use Quantity::*;
     match quantity {
-        Position(..) | CenterOfMass(_) | Travel(_) => (Kinematics, |by| Some(by.size)),
-        Velocity(..) => (Kinematics, |by| Some(by.size * by.rate)),
-        Acceleration(..) => (Dynamics, |by| Some(by.size * by.rate * by.rate)),
+        Position(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => {
+            (Kinematics, |by| Some(by.size))
+        }
+        Velocity(..) | SlidingVelocity(_) => (Kinematics, |by| Some(by.size * by.rate)),
+        Acceleration(..) | SlidingAcceleration(_) => {
+            (Dynamics, |by| Some(by.size * by.rate * by.rate))
+        }
         Direction(..) | Angle(_) | Orientation(..) | Quaternion(..) | RotationVector(..) => {
             (Kinematics, |_| Some(1.0))
         }
         AngularVelocity(..) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
         AngularAcceleration(..) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
         Strain(_) | Curvature(_) => (Kinematics, |_| Some(0.0)),
-        AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) => {
+        AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) | GearForce(_) => {
             (Dynamics, |by| Some(by.force))
         }
-        BendingMoment(..) | ReactionMoment(..) | MotionMoment(_) => {
+        BendingMoment(..) | ReactionMoment(..) | MotionMoment(_) | GearTorque(_) => {
             (Dynamics, |by| Some(by.force * by.size))
         }
         CouplingForce(..) => (Kinematics, |by| Some(by.force)),

@@ -276,17 +276,19 @@ impl<const D: usize> System<D> {
         });
         let travel: Vec<f64> = slides.collect();
         let drives = vec![[0.0; 3]; self.drives.len()];
+        let angles = vec![0.0; self.angles.len()];
         let view = View {
             x: &x,
             v: &x,
             drives: &drives,
             chains: &self.chains,
             travel: &travel,
+            angles: &angles,
         };
         let mut y = vec![0.0; assembly.free()];
         let is_free = |(index, constraint): (usize, &Constraint<D>)| {
             let mut size = 0.0;
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 let (node, term) = &self.frames.pull(node, term, &x);
                 assembly.restrict_node(*node, term, &mut y);
                 size += product(term, term);
@@ -361,6 +363,11 @@ fn takes_moments<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
             match hold {
                 Primitive::Direction(_) | Primitive::Clamped(_) | Primitive::DrivenDirection(_) => {
                     joint.ends.iter().for_each(&mut take);
+                }
+                Primitive::Related(related) => {
+                    let angles = related.terms.iter().filter(|(_, of)| of.is_angle());
+                    let ends = angles.flat_map(|(_, of)| of.ends());
+                    ends.for_each(|end| take(&end));
                 }
                 // A line that turns with the first end is pushed at a distance from it.
                 Primitive::Line(_) => take(&joint.ends[0]),

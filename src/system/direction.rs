@@ -3,8 +3,9 @@
 
 use crate::body::{Marker, Node};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, moment};
-use crate::system::end::{Add, End, coupling};
+use crate::math::space::Vector;
+use crate::system::end::End;
+use crate::system::gradient::Gradient;
 
 /// A direction: of a marker, or fixed in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,33 +71,27 @@ impl<const D: usize> AxisTurn<D> {
             .map(|across| N::of(2.0) * across.rate(v).dot(&rate))
     }
 
-    /// Unit vector along the axis.
-    pub fn axis<N: Number>(&self, x: &[Node<D, N>]) -> [N; 3] {
+    /// Derivatives of `w . u = cos(angle) m . u - sin(angle) n . u` at a given angle, of which these are sine and cosine.
+    pub fn gradient_at<N: Number>(&self, [sin, cos]: [N; 2], x: &[Node<D, N>]) -> Gradient<D, N> {
         let [n, m] = self.across.map(|across| across.value(x));
-        moment(&n, &m)
+        let none = Vector::zeros();
+        Gradient {
+            ends: [
+                (self.turned([sin, cos]), [none, self.of.value(x)]),
+                (self.of.end().lift(), [none, m * cos - n * sin]),
+            ],
+        }
     }
 
-    /// Adds the stiffness of a spring that is at rest now: so much times the square of the derivatives of the angle.
-    pub fn add_square(&self, k: f64, x: &[Node<D>], add: Add<'_, D>) {
+    /// Derivatives of the angle.
+    pub fn gradient<N: Number>(&self, x: &[Node<D, N>]) -> Gradient<D, N> {
         let [p, q] = self.products(x);
-        let size = p.hypot(q);
-        let turned = [q / size, p / size];
-        let [first, u] = [self.turned(turned), self.of.end()];
-        let across = first.direction(x);
-        let [w, u_now]: [Vector<D>; 2] = match first {
-            End::Body(_) => [across, self.of.value(x)],
-            End::Ground(_) => {
-                let [n, m] = self.across.map(|across| across.value(x));
-                [m * turned[1] - n * turned[0], self.of.value(x)]
-            }
-        };
-        let [on_first, on_second] = [u_now, w];
-        let part = |a: Vector<D>, b: Vector<D>| a * b.transpose() * k;
-        let by = [
-            [part(on_first, on_first), part(on_first, on_second)],
-            [part(on_second, on_first), part(on_second, on_second)],
-        ];
-        coupling(&[first, u], by, 1, add);
+        let size = (p * p + q * q).sqrt();
+        let mut gradient = self.gradient_at([q / size, p / size], x);
+        for (_, [_, direction]) in &mut gradient.ends {
+            *direction /= size;
+        }
+        gradient
     }
 
     /// `w = -sin n + cos m`, across `u` at the angle with this sine and cosine, fixed in the first body: its end.
@@ -116,13 +111,16 @@ impl<const D: usize> AxisTurn<D> {
         (p * q_rate - q * p_rate) / (p * p + q * q)
     }
 
-    /// The rate of that, rad/s^2, under nodal accelerations `a`.
-    pub fn second<N: Number>(&self, [x, v, a]: [&[Node<D, N>]; 3]) -> N {
+    /// The rate of that but for the part of accelerations, rad/s^2.
+    pub fn bend<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         let ([p, q], [p_rate, q_rate]) = (self.products(x), self.rates(x, v));
-        let (by_rates, by_accelerations) = (self.bends(v), self.rates(x, a));
-        let [p_second, q_second] = [0, 1].map(|k| by_rates[k] + by_accelerations[k]);
-        let square = p * p + q * q;
-        let change = N::of(2.0) * (p * p_rate + q * q_rate) * self.rate(x, v);
-        (p * q_second - q * p_second - change) / square
+        let ([p_bend, q_bend], two) = (self.bends(v), N::of(2.0));
+        let change = two * (p * p_rate + q * q_rate) * self.rate(x, v);
+        (p * q_bend - q * p_bend - change) / (p * p + q * q)
+    }
+
+    /// The rate of its rate, rad/s^2, under nodal accelerations `a`.
+    pub fn second<N: Number>(&self, [x, v, a]: [&[Node<D, N>]; 3]) -> N {
+        self.bend(x, v) + self.gradient(x).along(a)
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::SMatrix;
 
 use crate::body::{Marker, Node, NodeBlock, Partial, Row, no_block};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, axis, cross, perpendicular};
+use crate::math::space::{Vector, axis, cross, perpendicular, perpendicular_matrix};
 use crate::system::direction::AxisTurn;
 
 /// A point of the ground or of a body.
@@ -113,11 +113,24 @@ impl<const D: usize> End<D> {
         }
     }
 
+    /// Minus the second derivative of the angle of its direction.
+    pub fn curl(&self, x: &[Node<D>]) -> SMatrix<f64, D, D> {
+        let u = self.direction(x);
+        let a = u.norm_squared();
+        (perpendicular(u) * u.transpose() * (2.0 / a) - perpendicular_matrix()) / a
+    }
+
     /// Nodes that it depends on.
     pub fn nodes(&self) -> impl Iterator<Item = usize> + use<D> {
         let nodes = self.marker().map(|marker| marker.nodes);
         nodes.into_iter().flatten()
     }
+}
+
+/// How far markers of rigid bodies are from their centres of mass at most, m.
+pub fn reach<const D: usize>(ends: &[End<D>; 2]) -> f64 {
+    let arm = |end: &End<D>| end.marker().map_or(0.0, |marker| marker.arm());
+    ends.iter().map(arm).fold(0.0, f64::max)
 }
 
 /// Relative direction of two ends, counted on over full turns.

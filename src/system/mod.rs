@@ -2,8 +2,10 @@
 //! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
 
 mod build;
+mod coordinate;
 mod direction;
 mod end;
+mod gradient;
 mod instant;
 pub mod joints;
 pub mod loads;
@@ -17,8 +19,10 @@ mod state;
 mod work;
 
 pub use build::{BuildError, LumpedMass, Parts};
+pub use coordinate::{Coordinate, Way};
 pub use direction::{AxisTurn, Direction};
-pub use end::{Angle, End};
+pub use end::{Angle, End, reach};
+pub use gradient::Gradient;
 pub use instant::Instant;
 pub use motion::breaks::Follower;
 pub use motion::dynamics::{Accepted, Dynamics, Model};

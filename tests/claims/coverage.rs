@@ -18,7 +18,13 @@ const SINGLE: [&str; 3] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 2] = ["initial.state=as_shaped", "initial.loads{spring_damper}"];
+const REFUSED: [&str; 5] = [
+    "initial.state=as_shaped",
+    "initial.loads{spring_damper}",
+    "initial.loads{joint_spring}",
+    "initial.loads{stop}",
+    "initial.loads{bushing}",
+];
 /// Keys that are refused where one of them alone is changed.
 const TOGETHER: [&str; 1] = ["bodies{rigid}.orientation.matrix["];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of

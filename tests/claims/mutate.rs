@@ -50,7 +50,7 @@ fn mirror(pointer: &str) -> Option<String> {
 /// Names that a reference may have in a scene.
 fn names(scene: &Value) -> Vec<String> {
     let mut names = vec!["ground".to_owned()];
-    for list in ["bodies", "joints", "loads", "motions"] {
+    for list in ["bodies", "joints", "gears", "loads", "motions"] {
         for part in scene[list].as_array().into_iter().flatten() {
             let name = part["name"].as_str().unwrap_or_default();
             names.push(name.into());
@@ -147,7 +147,7 @@ pub fn clash(scene: &Value, place: &Place) -> Value {
 /// One name of each sort.
 fn a_few_names(scene: &Value) -> Vec<String> {
     let mut names = vec!["ground".to_owned()];
-    for list in ["bodies", "joints", "loads", "motions"] {
+    for list in ["bodies", "joints", "gears", "loads", "motions"] {
         names.extend(scene[list][0]["name"].as_str().map(String::from));
     }
     let markers = scene["bodies"][0]["markers"]

@@ -73,6 +73,10 @@ keys! {
     HingeDamping => "joints", "/damping", "N.m.s/rad";
     SpringStiffness => "loads", "/stiffness", "N/m";
     SpringDamping => "loads", "/damping", "N.s/m";
+    TorsionStiffness => "loads", "/stiffness", "N.m/rad";
+    TorsionDamping => "loads", "/damping", "N.m.s/rad";
+    StopDamping => "loads", "/damping", "s/m";
+    TorsionStopDamping => "loads", "/damping", "s/rad";
     CouplingStiffness => "ports", "/stiffness", "N/m";
     CouplingDamping => "ports", "/damping", "N.s/m";
     TurningStiffness => "ports", "/rotational_stiffness", "N.m/rad";

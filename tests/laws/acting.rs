@@ -4,9 +4,9 @@
 use flexbody::body::{Node, NodeBlock};
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
-use flexbody::system::loads::{Bushing, Load, RotationalBushing, RotationalSpring};
-use flexbody::system::{Angle, End, Signal};
-use nalgebra::{DMatrix, DVector};
+use flexbody::system::loads::{Bushing, JointSpring, Load, RotationalBushing, Stop};
+use flexbody::system::{Angle, Coordinate, Direction, End, Signal, Way};
+use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::prelude::*;
 
 use crate::laws::differences::{Outcome, check, within};
@@ -89,6 +89,55 @@ impl Acted<'_> {
     }
 }
 
+/// Springs, dampers and stops on the angle between two ends and, where the first is rigid, on the way along a line of it.
+/// Stops stand where they are pressed on both sides.
+fn on_coordinates<'a>(frame: &'a Frame, ends: [End; 2]) -> Vec<Acted<'a>> {
+    let (made, angle) = (&frame.made, Angle { ends, turn: None });
+    let [sin, cos] = [made.noise[23].sin(), made.noise[23].cos()];
+    let along = |direction| {
+        Coordinate::Way(Way {
+            ends,
+            direction,
+            turn: [sin, cos],
+        })
+    };
+    let way = match &ends[0] {
+        End::Body(marker) if ends[0].is_rigid() => Some(along(Direction::Of(*marker))),
+        End::Ground(_) => Some(along(Direction::Fixed(Vector2::new(cos, sin)))),
+        End::Body(_) => None,
+    };
+    let coordinates = way.into_iter().chain([Coordinate::Angle(angle, 0)]);
+    let loads = coordinates.flat_map(|coordinate| {
+        let value = coordinate.value(&frame.x, &[angle.value(&frame.x, 0.4)]);
+        let spring = Load::JointSpring(JointSpring {
+            coordinate: Box::new(coordinate.clone()),
+            stiffness: 3.0 + made.noise[25],
+            damping: 1.0 + made.noise[26],
+            rest: 7.0 * made.noise[27],
+        });
+        let limits = [
+            [f64::NEG_INFINITY, value - 0.4],
+            [value + 0.3, f64::INFINITY],
+            [value - 9.0, value + 9.0],
+        ];
+        let stops = limits.map(|limits| {
+            Load::Stop(Stop {
+                coordinate: Box::new(coordinate.clone()),
+                limits,
+                stiffness: 5.0 + made.noise[24],
+                damping: 0.03,
+            })
+        });
+        stops.into_iter().chain([spring])
+    });
+    let acted = |load| Acted {
+        frame,
+        load,
+        angles: vec![angle],
+    };
+    loads.map(acted).collect()
+}
+
 fn loads(frame: &Frame) -> Vec<Acted<'_>> {
     let made = &frame.made;
     let mut actions = Vec::new();
@@ -115,18 +164,7 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
             length: wave(made, 22),
         });
         let ends = ends.map(|end| made.product_end(end));
-        rotational.push(Acted {
-            frame,
-            load: Load::RotationalSpring(RotationalSpring {
-                turn: None,
-                ends,
-                angle: 0,
-                stiffness: 3.0 + made.noise[25],
-                damping: 1.0 + made.noise[26],
-                rest: 7.0 * made.noise[27],
-            }),
-            angles: vec![Angle { ends, turn: None }],
-        });
+        rotational.extend(on_coordinates(frame, ends));
     }
     for (body, kind) in made.bodies.iter().enumerate() {
         if matches!(kind, Body::Cable(_)) {
@@ -216,7 +254,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
             within("work", (force[i] - exact).abs(), 1e-8 * most)?;
         }
         let conservative = match &acted.load {
-            Load::Spring(_) | Load::RotationalSpring(_) => true,
+            Load::Spring(_) | Load::JointSpring(_) | Load::Stop(_) => true,
             Load::Bushing(load) => load.damping == 0.0,
             Load::RotationalBushing(load) => load.damping == 0.0,
             _ => false,
@@ -237,7 +275,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
         within("symmetry", (&by_x - by_x.transpose()).amax(), 1e-7 * size)?;
     }
     within("damping", (&damping - &by_v).amax(), 1e-9)?;
-    // Between two places on one rigid body nothing is there to damp.
+    // Between two places on one rigid body nothing is there to damp, nor on a stop that is not met.
     prop_assert!(acted.load.is_damped() || damping.amax() == 0.0);
     // Power of the forces, with what is stored, is what comes in less what is dissipated.
     let moving = DVector::from_column_slice(v.as_flattened().as_flattened());
@@ -275,11 +313,11 @@ fn a_rotational_spring_counts_turns() {
         };
         let moment = |turns: f64| {
             let hint = angles[0].value(&frame.x, 0.0) + std::f64::consts::TAU * turns;
-            let Load::RotationalSpring(spring) = &load else {
+            let Load::JointSpring(spring) = &load else {
                 return f64::NAN;
             };
             let rest = vec![[[0.0; 2]; 2]; frame.x.len()];
-            let value = spring.moment(Instant {
+            let value = spring.force(Instant {
                 time: 0.0,
                 inputs: &[],
                 input_rates: &[],

@@ -2,9 +2,9 @@
 
 use flexbody::body::{Marker, Node};
 use flexbody::system::joints::{Joint, Primitive};
-use flexbody::system::loads::{Distributed, Force, Line, Load, Moment, RotationalSpring, Spring};
+use flexbody::system::loads::{Distributed, Force, JointSpring, Line, Load, Moment, Spring};
 use flexbody::system::{
-    Accepted, Angle, BuildError, CableChain, Drive, End, Evaluation, LumpedMass, Model,
+    Accepted, Angle, BuildError, CableChain, Coordinate, Drive, End, Evaluation, LumpedMass, Model,
     NotAssembled, Parts, Signal, State, System, Work,
 };
 use nalgebra::Vector2;
@@ -88,6 +88,7 @@ impl Mechanism {
             ends: hold.ends.map(|end| self.product_end(end)),
             spring: None,
             turn: None,
+            way: None,
         }
     }
 
@@ -158,14 +159,13 @@ impl Mechanism {
             let mut joint = self.joint(hold, &mut drives);
             if let Kind::Hinge([stiffness, damping, rest]) = hold.kind {
                 joint.spring = Some(loads.len());
-                angles.push(Angle {
+                let angle = Angle {
                     ends: joint.ends,
                     turn: None,
-                });
-                loads.push(Load::RotationalSpring(RotationalSpring {
-                    turn: None,
-                    ends: joint.ends,
-                    angle: angles.len() - 1,
+                };
+                angles.push(angle);
+                loads.push(Load::JointSpring(JointSpring {
+                    coordinate: Box::new(Coordinate::Angle(angle, angles.len() - 1)),
                     stiffness,
                     damping,
                     rest,

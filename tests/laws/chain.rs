@@ -160,6 +160,7 @@ impl Chain {
             ends: [End::Ground(position), second],
             spring: None,
             turn: None,
+            way: None,
         }
     }
 

@@ -92,6 +92,7 @@ impl Frame {
             drives: &drives,
             chains: &self.chains,
             travel: &travel,
+            angles: &[],
         };
         f(constraint, &view)
     }
@@ -100,7 +101,7 @@ impl Frame {
     fn gradient(&self, c: &Constraint, drives: &[Drive], x: &[Node], t: f64) -> DVector<f64> {
         self.view(c, drives, (x, &self.v, t), |c, view| {
             let mut gradient = DVector::zeros(4 * x.len());
-            c.gradient(view).for_each(|node, term| {
+            c.for_each(view, |node, term| {
                 (0..4).for_each(|k| gradient[4 * node + k] += term.as_flattened()[k]);
             });
             gradient

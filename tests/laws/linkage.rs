@@ -6,6 +6,8 @@ use flexbody::system::joints::{Across, Joint, Perpendicular, Primitive};
 use flexbody::system::{Direction, End, Parts, State, System, Work};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
+use crate::laws::sprung::Sprung;
+
 pub type V = Vector3<f64>;
 
 /// Numbers in (-1, 1), the same in every run.
@@ -49,9 +51,17 @@ pub enum Kind {
     Planar,
     Weld,
     Distance,
+    Screw,
+    /// Cylindrical, its way driven: [`DRIVE`].
+    DrivenCylindrical,
 }
 
-pub const KINDS: [Kind; 8] = [
+/// Rate (m/s) and half the second derivative (m/s^2) of driven ways.
+pub const DRIVE: [f64; 2] = [0.4, 0.7];
+/// Way of a screw per angle, m/rad.
+pub const THREAD: f64 = 0.35;
+
+pub const KINDS: [Kind; 10] = [
     Kind::Spherical,
     Kind::Revolute,
     Kind::Universal,
@@ -60,6 +70,8 @@ pub const KINDS: [Kind; 8] = [
     Kind::Planar,
     Kind::Weld,
     Kind::Distance,
+    Kind::Screw,
+    Kind::DrivenCylindrical,
 ];
 
 /// A joint: the first body (none is the ground), the second, points and axes fixed in both.
@@ -72,10 +84,16 @@ pub struct Held {
     pub length: f64,
 }
 
+/// A joint, and whether it is its angle.
+pub type Of = (usize, bool);
+
 pub struct Mechanism {
     pub bodies: Vec<Body>,
     pub joints: Vec<Held>,
     pub gravity: V,
+    pub sprung: Vec<Sprung>,
+    /// Pairs of coordinates, by joint and whether it is the angle; ratio and what `c2 - ratio c1` is.
+    pub gears: Vec<((Of, Of), [f64; 2])>,
 }
 
 impl Body {
@@ -125,6 +143,15 @@ impl Held {
                 );
             }
             Kind::Distance => gaps.push(way.norm_squared() - self.length * self.length),
+            Kind::Screw => {
+                gaps.extend([across(0), across(1), right(0, 2), right(1, 2)]);
+                let angle = right(1, 0).atan2(right(0, 0));
+                gaps.push(across(2) - THREAD * angle - self.length);
+            }
+            // Less what drives it, which depends on time alone.
+            Kind::DrivenCylindrical => {
+                gaps.extend([across(0), across(1), right(0, 2), right(1, 2), across(2)]);
+            }
         }
         gaps
     }
@@ -138,6 +165,8 @@ impl Mechanism {
             bodies: Vec::new(),
             joints: Vec::new(),
             gravity: chance.vector() * 9.81,
+            sprung: Vec::new(),
+            gears: Vec::new(),
         };
         for body in 0..count {
             let sizes = chance.vector().map(|x| 0.2 + x * x);
@@ -163,6 +192,9 @@ impl Mechanism {
             let first = chance.below(count - 1);
             made.join(Some(first), count - 1, chance);
         }
+        if chance.below(2) == 0 {
+            made.gear(chance);
+        }
         made.start(chance);
         made
     }
@@ -175,19 +207,20 @@ impl Mechanism {
         );
         let way = match kind {
             Kind::Distance => chance.vector() + V::new(0.0, 0.0, 2.0),
-            Kind::Cylindrical | Kind::Prismatic => axes.column(2) * chance.number(),
+            Kind::Cylindrical | Kind::Prismatic | Kind::Screw | Kind::DrivenCylindrical => {
+                axes.column(2) * chance.number()
+            }
             Kind::Planar => axes.column(0) * chance.number() + axes.column(1) * chance.number(),
             _ => V::zeros(),
-        };
-        // A universal joint that is bent.
-        let bent = match kind {
-            Kind::Universal => Rotation3::new(V::new(0.0, 0.0, chance.number())).into_inner(),
-            _ => Matrix3::identity(),
         };
         // What may turn.
         let turned = match kind {
             Kind::Spherical | Kind::Distance => Rotation3::new(chance.vector()).into_inner(),
-            Kind::Revolute | Kind::Cylindrical | Kind::Planar => {
+            Kind::Revolute
+            | Kind::Cylindrical
+            | Kind::Planar
+            | Kind::Screw
+            | Kind::DrivenCylindrical => {
                 Rotation3::new(V::new(0.0, 0.0, chance.number())).into_inner()
             }
             Kind::Universal => Rotation3::new(V::new(0.0, chance.number(), 0.0)).into_inner(),
@@ -200,7 +233,6 @@ impl Mechanism {
             }
             _ => turned,
         };
-        let _ = bent;
         let ends = [
             (first, place, axes),
             (Some(second), place + way, axes * turned),
@@ -221,15 +253,22 @@ impl Mechanism {
             axes: [a.1, b.1],
             length: way.norm(),
         });
+        let made = self.joints.len() - 1;
+        let held = &self.joints[made];
+        let way = held.coordinate(&self.bodies, false);
+        let angle = held.coordinate(&self.bodies, true);
+        match kind {
+            Kind::Screw => self.joints[made].length = way - THREAD * angle,
+            Kind::DrivenCylindrical => self.joints[made].length = way,
+            _ => {}
+        }
     }
 
     pub fn gaps(&self, bodies: &[Body]) -> DVector<f64> {
-        DVector::from_vec(
-            self.joints
-                .iter()
-                .flat_map(|joint| joint.gaps(bodies))
-                .collect(),
-        )
+        let joints = self.joints.iter().flat_map(|joint| joint.gaps(bodies));
+        let gears = self.gears.iter();
+        let gears = gears.map(|(of, [ratio, gap])| self.related(*of, *ratio, bodies) - gap);
+        DVector::from_vec(joints.chain(gears).collect())
     }
 
     pub fn twisted(&self, twists: &DVector<f64>, time: f64) -> Vec<Body> {
@@ -243,7 +282,16 @@ impl Mechanism {
     }
 
     pub fn slope(&self, twists: &DVector<f64>, step: f64) -> DVector<f64> {
-        let at = |h: f64| self.gaps(&self.twisted(twists, h));
+        self.slope_of(&|bodies| self.gaps(bodies), twists, step)
+    }
+
+    pub fn slope_of(
+        &self,
+        of: &dyn Fn(&[Body]) -> DVector<f64>,
+        twists: &DVector<f64>,
+        step: f64,
+    ) -> DVector<f64> {
+        let at = |h: f64| of(&self.twisted(twists, h));
         let by = |h: f64| (at(h) - at(-h)) / (2.0 * h);
         (by(0.5 * step) * 4.0 - by(step)) / 3.0
     }
@@ -279,13 +327,15 @@ impl Mechanism {
         let n = 6 * self.bodies.len();
         let mut twists = DVector::from_fn(n, |_, _| 2.0 * chance.number());
         if !self.joints.is_empty() {
-            let svd = self.jacobian().svd(true, true);
-            let along = svd.v_t.expect("asked for");
-            for (row, size) in along.row_iter().zip(svd.singular_values.iter()) {
-                if *size > 1e-7 {
-                    let row = row.transpose();
-                    twists -= &row * row.dot(&twists);
-                }
+            let jacobian = self.jacobian();
+            let missing = self.driven(1) - &jacobian * &twists;
+            let svd = jacobian.svd(true, true);
+            twists += svd.solve(&missing, 1e-7).expect("asked for");
+            let left = (self.driven(1) - self.jacobian() * &twists).norm();
+            if self.is_driven() && (left > 1e-7 || twists.amax() > 10.0) {
+                // A loop holds what would be driven, or nearly.
+                self.release_drives();
+                return self.start(chance);
             }
         }
         for (i, body) in self.bodies.iter_mut().enumerate() {
@@ -309,13 +359,14 @@ impl Mechanism {
             let gyroscopic = body.spin.cross(&(inertia * body.spin));
             force.rows_mut(6 * i + 3, 3).copy_from(&-gyroscopic);
         }
+        force += self.sprung_forces().0;
         let inverse = mass.clone().cholesky().expect("positive").inverse();
         let free = &inverse * force;
         if self.joints.is_empty() {
             return free;
         }
         let jacobian = self.jacobian();
-        let missing = -self.bend(&self.twists(), 1e-2) - &jacobian * &free;
+        let missing = self.driven(2) - self.bend(&self.twists(), 1e-2) - &jacobian * &free;
         let schur = &jacobian * &inverse * jacobian.transpose();
         let multipliers = schur
             .svd(true, true)
@@ -367,12 +418,16 @@ impl Mechanism {
             Kind::Planar => vec![across(2), right(0, 2), right(1, 2)],
             Kind::Weld => vec![position, right(0, 2), right(1, 2), right(0, 1)],
             Kind::Distance => vec![Primitive::Distance(joint.length)],
+            Kind::Screw | Kind::DrivenCylindrical => {
+                vec![across(0), across(1), right(0, 2), right(1, 2)]
+            }
         };
         Joint {
             holds,
             ends,
             spring: None,
             turn: None,
+            way: None,
         }
     }
 
@@ -393,7 +448,7 @@ impl Mechanism {
             moments: body.moments.into(),
             places: [None; 3],
         });
-        Parts {
+        let mut parts = Parts {
             nodes: self.nodes(|body| (body.center, body.axes)),
             bodies: (0..count).map(|i| 2 * i..2 * i + 2).collect(),
             chains: Vec::new(),
@@ -409,7 +464,9 @@ impl Mechanism {
             gravity: self.gravity,
             rotation: [0.0; 3],
             tracks_work: false,
-        }
+        };
+        self.couple(&mut parts);
+        parts
     }
 
     /// The system with its state as described.

@@ -32,5 +32,6 @@ mod spatial;
 mod specimen;
 mod spectra;
 mod spinning;
+mod sprung;
 mod tangents;
 mod whirl;

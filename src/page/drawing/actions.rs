@@ -35,7 +35,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
             label: load.name,
             components: at_start(action, &[]),
         }),
-        LoadKind::Spring(_) => None,
+        _ => None,
     });
     let ports = resolved.ports.iter().flat_map(|port| {
         let inputs: &[_] = match &port.kind {

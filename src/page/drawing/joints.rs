@@ -3,7 +3,9 @@
 use super::picture::{Picture, Place};
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
-use crate::scene::{Ends, First, Hold, Joint, LoadKind, MotionKind, Place as On, PortKind, Symbol};
+use crate::scene::{
+    Ends, First, Hold, Joint, JointCoordinate, LoadKind, MotionKind, Place as On, PortKind, Symbol,
+};
 
 /// The way out of a body at a marker: at the first half of a cable backwards.
 fn outward(place: &Place<'_>) -> [f64; 2] {
@@ -93,14 +95,53 @@ impl Picture<'_> {
 
     pub(super) fn springs(&mut self) {
         for load in &self.resolved.loads {
-            let LoadKind::Spring(spring) = &load.kind else {
-                continue;
-            };
-            let [from, to] = self.ends(&spring.ends);
-            symbols::spring(&mut self.canvas, from, to, self.unit);
-            if spring.ends.is_grounded() {
-                symbols::revolute(&mut self.canvas, from, self.unit);
+            match &load.kind {
+                LoadKind::JointSpring { on, .. } => self.joint_spring(on),
+                LoadKind::Stop { on, limits, .. } => self.stop(on, limits),
+                kind => kind.between().iter().for_each(|ends| self.spring(ends)),
             }
+        }
+    }
+
+    fn spring(&mut self, ends: &Ends<'_>) {
+        let [from, to] = self.ends(ends);
+        symbols::spring(&mut self.canvas, from, to, self.unit);
+        if ends.is_grounded() {
+            symbols::revolute(&mut self.canvas, from, self.unit);
+        }
+    }
+
+    fn joint_spring(&mut self, on: &JointCoordinate<'_>) {
+        let [from, to] = self.ends(&on.ends());
+        match on {
+            JointCoordinate::Angle(_) => symbols::spiral(&mut self.canvas, to, self.unit),
+            JointCoordinate::Displacement(_) => {
+                symbols::spring(&mut self.canvas, from, to, self.unit);
+            }
+        }
+    }
+
+    /// Bars across the way of what stops limit, on the sides where they are.
+    fn stop(&mut self, on: &JointCoordinate<'_>, limits: &[Option<f64>; 2]) {
+        let at = self.at(on.ends().second.position);
+        let along = match on {
+            JointCoordinate::Angle(_) => [1.0, 0.0],
+            JointCoordinate::Displacement(slider) => self.way(slider.along),
+        };
+        for (side, limit) in [-1.0, 1.0].into_iter().zip(limits) {
+            if limit.is_some() {
+                let way = along.map(|part| side * part);
+                symbols::stop(&mut self.canvas, at, way, self.unit);
+            }
+        }
+    }
+
+    pub(super) fn gears(&mut self) {
+        for gear in &self.resolved.gears {
+            let both = gear
+                .coordinates
+                .map(|of| self.at(of.ends().second.position));
+            symbols::gear(&mut self.canvas, both, self.unit);
         }
     }
 
@@ -143,7 +184,7 @@ impl Picture<'_> {
                 }
                 MotionKind::Position(..) => self.ways(at),
                 MotionKind::Displacement(slider, _) => {
-                    let along = self.way(slider.direction);
+                    let along = self.way(slider.along);
                     symbols::way(&mut self.canvas, at, along, unit);
                 }
             }

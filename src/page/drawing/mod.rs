@@ -7,7 +7,7 @@ mod names;
 mod picture;
 
 use super::canvas::Point;
-use crate::scene::{LoadKind, Resolved, Scene};
+use crate::scene::{Resolved, Scene};
 use picture::Picture;
 
 /// Width of a drawing, and its margin where no block of names needs more, pixels.
@@ -51,10 +51,8 @@ fn bounds(resolved: &Resolved<'_>) -> [Point; 2] {
         .joints
         .iter()
         .filter_map(|joint| joint.ends.point());
-    let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Spring(spring) => spring.ends.point(),
-        LoadKind::Action { .. } => None,
-    });
+    let loads = resolved.loads.iter();
+    let loads = loads.filter_map(|load| load.kind.between()?.point());
     let outlines = resolved
         .bodies
         .iter()
@@ -81,6 +79,7 @@ impl Picture<'_> {
         }
         self.joints();
         self.springs();
+        self.gears();
         self.marks();
         self.actions();
         self.motions();

@@ -5,9 +5,7 @@ use super::bodies::rigid_outline;
 use super::picture::{BODY, FAINT, INK, Picture, seen};
 use crate::page::canvas::{LINE, Point, direction, moved};
 use crate::page::symbols;
-use crate::scene::{
-    BodyReference, CableBody, Ends, LoadKind, Place as On, PortKind, RigidBody, Symbol,
-};
+use crate::scene::{BodyReference, CableBody, Ends, Place as On, PortKind, RigidBody, Symbol};
 
 /// With more bodies than this, names would only cover each other.
 const MOST_BODIES: usize = 32;
@@ -177,8 +175,8 @@ impl<'a> Picture<'a> {
     /// Names of springs and links in their middle.
     fn name_links(&mut self) {
         for load in &self.resolved.loads {
-            if let LoadKind::Spring(spring) = &load.kind {
-                self.name_link(&spring.ends, load.name, symbols::SPRING);
+            if let Some(ends) = load.kind.between() {
+                self.name_link(&ends, load.name, symbols::SPRING);
             }
         }
         for joint in &self.resolved.joints {

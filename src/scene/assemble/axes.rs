@@ -8,14 +8,14 @@ use crate::math::space::{Vector, axis, components, moment, normal, normals, vect
 use crate::scene::resolved::{self, Action, Pivot, Place, Turning};
 use crate::system::joints::{Across, Perpendicular, Primitive};
 use crate::system::loads::{Couple, Load};
-use crate::system::{AxisTurn, Direction, End};
+use crate::system::{AxisTurn, Direction, End, reach};
 
 /// The axis of the plane.
 const THIRD: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl<const D: usize> Builder<'_, D> {
     /// A direction at the start, fixed in the body of an end; of a cable its own.
-    fn fixed(&self, end: &End<D>, direction: Vector<D>) -> Direction<D> {
+    pub(super) fn fixed(&self, end: &End<D>, direction: Vector<D>) -> Direction<D> {
         let End::Body(marker) = end else {
             return Direction::Fixed(direction);
         };
@@ -33,8 +33,7 @@ impl<const D: usize> Builder<'_, D> {
         let built = self.marker(marker);
         std::array::from_fn(|k| match marker.place {
             Place::Point(rigid, _) if built.is_framed() => {
-                let mut unit = [0.0; 3];
-                unit[k] = 1.0;
+                let unit = Vector::<3>::ith(k, 1.0).into();
                 built.directed(self.resolved.solid(rigid).directed(unit))
             }
             _ => built,
@@ -103,16 +102,16 @@ impl<const D: usize> Builder<'_, D> {
 
     /// The way between both ends across a direction of the first body.
     pub(super) fn across_way(&self, ends: [End<D>; 2], direction: Vector<D>) -> Primitive<D> {
-        let reach = |end: &End<D>| end.marker().map_or(0.0, |marker| marker.arm());
-        let size = ends
-            .iter()
-            .map(reach)
-            .fold(self.distance_at_start(&ends), f64::max);
-        let size = if size > 0.0 { size } else { 1.0 };
         Primitive::Perpendicular(Perpendicular {
             direction: self.fixed(&ends[0], direction),
-            across: Across::Way(ends, size),
+            across: Across::Way(ends, self.size_of(&ends)),
         })
+    }
+
+    /// What residuals of ways between these ends are relative to, m.
+    pub(super) fn size_of(&self, ends: &[End<D>; 2]) -> f64 {
+        let size = reach(ends).max(self.distance_at_start(ends));
+        if size > 0.0 { size } else { 1.0 }
     }
 
     /// The second end on a line of the first body.

@@ -3,6 +3,7 @@
 mod axes;
 mod axial;
 mod bodies;
+mod coordinates;
 mod initial;
 mod motions;
 mod ports;
@@ -23,7 +24,9 @@ use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{Joint, Primitive};
 use crate::system::loads::{self, Load};
-use crate::system::{Angle, AxisTurn, BuildError, End, LumpedMass, Parts, Signal, State, System};
+use crate::system::{
+    Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, Signal, State, System,
+};
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
 const BYTES: usize = 5000;
@@ -126,6 +129,7 @@ impl Resolved<'_> {
         builder.masses();
         builder.angles();
         builder.joints();
+        builder.gears();
         builder.motions();
         builder.loads();
         builder.inputs();
@@ -291,15 +295,22 @@ impl<const D: usize> Builder<'_, D> {
             ends,
             spring: None,
             turn: None,
+            way: None,
         });
     }
 
     fn joints(&mut self) {
         for joint in &self.resolved.joints {
             let ends = self.ends(joint.ends);
-            let holds = joint.holds.iter();
-            let holds = holds.flat_map(|hold| self.primitives(hold, joint, ends));
-            let holds = holds.collect();
+            let mut holds = Vec::new();
+            for hold in &joint.holds {
+                match (hold, joint.pivot(), joint.slider()) {
+                    (Hold::Screw(pitch), Some(pivot), Some(slider)) => {
+                        holds.push(self.screw(pivot, slider, *pitch));
+                    }
+                    _ => holds.extend(self.primitives(hold, joint, ends)),
+                }
+            }
             let springs = joint.holds.iter();
             let turn = self.turn_of(joint);
             let spring = springs.filter_map(|hold| self.spring_of(hold, ends, turn));
@@ -309,6 +320,7 @@ impl<const D: usize> Builder<'_, D> {
                 ends,
                 spring,
                 turn,
+                way: joint.slider().map(|slider| self.way(&slider)),
             });
         }
     }
@@ -357,7 +369,11 @@ impl<const D: usize> Builder<'_, D> {
                 Primitive::Distance(given.unwrap_or_else(|| self.distance_at_start(&ends)))
             }
             Hold::Curve(chain, _) => Primitive::Curve(chain),
-            Hold::Spring { .. } | Hold::Axis(_) | Hold::Across(..) | Hold::Plane(_) => return None,
+            Hold::Spring { .. }
+            | Hold::Axis(_)
+            | Hold::Across(..)
+            | Hold::Plane(_)
+            | Hold::Screw(_) => return None,
         })
     }
 
@@ -376,18 +392,10 @@ impl<const D: usize> Builder<'_, D> {
         else {
             return None;
         };
-        let spring = loads::RotationalSpring {
-            ends,
-            rest: match turn {
-                Some(_) => rest.unwrap_or(0.0),
-                None => self.angle(ends, rest),
-            },
-            angle: self.count_angle(ends, turn),
-            turn: turn.map(Box::new),
-            stiffness,
-            damping,
-        };
-        self.parts.loads.push(Load::RotationalSpring(spring));
+        let counted = self.count_angle(ends, turn);
+        let angle = Coordinate::Angle(Angle { ends, turn }, counted);
+        let spring = self.joint_spring(angle, [stiffness, damping], rest);
+        self.parts.loads.push(spring);
         Some(self.parts.loads.len() - 1)
     }
 
@@ -396,6 +404,12 @@ impl<const D: usize> Builder<'_, D> {
             let built = match &load.kind {
                 LoadKind::Action { action, .. } => self.action(action),
                 LoadKind::Spring(spring) => self.spring(spring),
+                LoadKind::JointSpring { on, sizes, rest } => {
+                    let coordinate = self.coordinate(on);
+                    self.joint_spring(coordinate, *sizes, *rest)
+                }
+                LoadKind::Stop { on, sizes, limits } => self.stop(on, *sizes, *limits),
+                LoadKind::Bushing(bushing) => self.bushing(bushing),
             };
             self.parts.loads.push(built);
         }

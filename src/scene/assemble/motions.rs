@@ -2,8 +2,8 @@
 
 use super::{Builder, unit};
 use crate::scene::resolved::{MotionKind, PortKind};
-use crate::system::Drive;
-use crate::system::joints::{DrivenTurn, Primitive};
+use crate::system::joints::{DrivenTurn, Primitive, Related};
+use crate::system::{Coordinate, Drive};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn motions(&mut self) {
@@ -33,9 +33,17 @@ impl<const D: usize> Builder<'_, D> {
                 self.hold(Primitive::DrivenPosition(drives), self.on_marker(*marker));
             }
             MotionKind::Displacement(slider, drive) => {
-                let along = unit(slider.direction);
-                let driven = Primitive::DrivenDistance(along, self.drive(drive));
-                self.hold(driven, self.ends(slider.ends));
+                let (ends, drive) = (self.ends(slider.ends), self.drive(drive));
+                let driven = match slider.ends.is_grounded() {
+                    true => Primitive::DrivenDistance(unit(slider.direction), drive),
+                    false => Primitive::Related(Related {
+                        terms: vec![(1.0, Coordinate::Way(self.way(slider)))],
+                        offset: 0.0,
+                        drive: Some(drive),
+                        size: self.size_of(&ends),
+                    }),
+                };
+                self.hold(driven, ends);
             }
         }
     }

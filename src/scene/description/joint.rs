@@ -19,9 +19,9 @@ pub struct Joint {
     /// With `ground` only: where on the ground, m; where the second marker is at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vector>,
-    /// In the axes of the body of the first marker at the start (of ground: the global ones). `slider`, `cylindrical`: direction
+    /// In the axes of the body of the first marker at the start (of ground: the global ones). `slider`, `cylindrical`, `screw`: direction
     /// of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    /// first marker itself. In space, `revolute`, `hinge`, `cylindrical`: the axis to turn about (`revolute` without one is
+    /// first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
     /// `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Vector>,
@@ -36,6 +36,13 @@ pub struct Joint {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: Option<f64>,
+    /// `screw` only: way along the axis a full turn, m; negative of a left-handed thread.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitch: Option<f64>,
+    /// `generic` only: what is let go along and about the axes of the body of the first marker (of ground: the global
+    /// ones); everything else is held. Of two rotations the first turns about the axis of the first body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub free: Option<Vec<Freedom>>,
     /// `hinge` only: stiffness against rotation, N m/rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
@@ -62,6 +69,8 @@ pub enum JointKind {
     Slider,
     /// Holds the marker on a line of the first one, in space, and lets it turn about that line only.
     Cylindrical,
+    /// Holds the marker on a line of the first one, in space, along which it goes as it turns about it.
+    Screw,
     /// Holds the marker on a line of the first one, and the direction, in space how bodies stand to each other.
     Prismatic,
     /// Holds the marker in a plane of the first one, in space, and lets it turn in that plane only.
@@ -74,6 +83,62 @@ pub enum JointKind {
     Hinge,
     /// Holds the marker on the line of a cable.
     Along,
+    /// Holds, in space, what `free` does not name.
+    Generic,
+}
+
+/// A translation or a rotation that a joint lets go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Freedom {
+    /// Along the first axis.
+    X,
+    /// Along the second axis.
+    Y,
+    /// Along the third axis.
+    Z,
+    /// About the first axis.
+    RotationX,
+    /// About the second axis.
+    RotationY,
+    /// About the third axis.
+    RotationZ,
+}
+
+impl Freedom {
+    /// Which axis it is of, and whether it is a rotation.
+    pub fn axis(self) -> (usize, bool) {
+        match self {
+            Self::X => (0, false),
+            Self::Y => (1, false),
+            Self::Z => (2, false),
+            Self::RotationX => (0, true),
+            Self::RotationY => (1, true),
+            Self::RotationZ => (2, true),
+        }
+    }
+}
+
+/// A gear between two joints: `c2 = ratio c1`, of their coordinates from the start on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Gear {
+    /// Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    pub name: String,
+    /// The joints: the angle of those with an axis, else the displacement.
+    pub joints: [String; 2],
+    /// How much the coordinate of the second changes with that of the first: 1, m/rad, rad/m; negative where they turn opposite ways.
+    pub ratio: f64,
+}
+
+/// A coordinate of a joint by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CoordinateKind {
+    /// The way along its line from the first marker or its point, m.
+    Displacement,
+    /// The angle about its axis, rad.
+    Angle,
 }
 
 /// What keys, checks, equations, outputs, words and the symbol of a kind of joint derive from.
@@ -110,6 +175,10 @@ pub enum Condition {
     Curve,
     /// The direction, by a spring and a damper.
     Spring,
+    /// In space the way along a line, in proportion to the angle about it.
+    Screw,
+    /// In space whatever is not let go.
+    Rest,
 }
 
 /// How a joint is drawn.
@@ -138,14 +207,19 @@ impl JointKind {
     pub fn is_spatial(self) -> bool {
         matches!(
             self,
-            Self::Spherical | Self::Universal | Self::Cylindrical | Self::Planar
+            Self::Spherical
+                | Self::Universal
+                | Self::Cylindrical
+                | Self::Planar
+                | Self::Screw
+                | Self::Generic
         )
     }
 
     /// The one declaration of the kind.
     #[rustfmt::skip] // a table
     pub fn declaration(self) -> Declaration {
-        use Condition::{Across, Axis, Curve, Direction, Distance, Line, Plane, Position, Spring};
+        use Condition::{Across, Axis, Curve, Direction, Distance, Line, Plane, Position, Rest, Screw, Spring};
         let (name, keys, holds, symbol): (_, &[Keys], &[Condition], _) = match self {
             Self::Revolute => ("revolute", &[(&[], &["point", "direction"])], &[Position, Axis], Symbol::Pin),
             Self::Spherical => ("spherical", &[(&[], &["point"])], &[Position], Symbol::Pin),
@@ -155,12 +229,14 @@ impl JointKind {
             Self::Weld => ("weld", &[(&[], &["point", "angle"])], &[Position, Direction], Symbol::Weld),
             Self::Slider => ("slider", &[(&["direction"], &["point"])], &[Line], Symbol::Slider),
             Self::Cylindrical => ("cylindrical", &[(&["direction"], &["point"])], &[Line, Axis], Symbol::Prismatic),
+            Self::Screw => ("screw", &[(&["direction", "pitch"], &["point"])], &[Line, Axis, Screw], Symbol::Prismatic),
             Self::Planar => ("planar", &[(&["direction"], &["point"])], &[Plane, Axis], Symbol::Slider),
             Self::Prismatic => ("prismatic", &[(&[], &["point", "direction", "angle"])], &[Line, Direction], Symbol::Prismatic),
             Self::Orientation => ("orientation", &[(&[], &["angle"])], &[Direction], Symbol::Orientation),
             Self::Distance => ("distance", &[(&[], &["point", "length"])], &[Distance], Symbol::Link),
             Self::Hinge => ("hinge", &[(&[], &["point", "direction", "angle", "stiffness", "damping"])], &[Position, Axis, Spring], Symbol::Spiral),
             Self::Along => ("along", &[(&[], &[])], &[Curve], Symbol::Ring),
+            Self::Generic => ("generic", &[(&["free"], &["point"])], &[Rest], Symbol::Orientation),
         };
         Declaration { name, keys, holds, symbol }
     }
@@ -185,7 +261,7 @@ pub struct Motion {
     /// `position`, `angle`: the driven `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
-    /// `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider.
+    /// `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider or of another joint along a line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
     /// Its course in time: m or rad.
@@ -201,7 +277,8 @@ pub enum MotionKind {
     Angle,
     /// Position of a marker, m.
     Position,
-    /// Way along the direction of a slider from its point, m.
+    /// Way along the line of a slider, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
+    /// that line belongs to a cable.
     Displacement,
 }
 

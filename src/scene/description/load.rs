@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Keys, Kind, LoadValue, Value, Vector};
+use super::{CoordinateKind, Keys, Kind, LoadValue, Value, Vector};
 
 /// A load that is known in the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -16,13 +16,16 @@ pub struct Load {
     /// `force`, `moment`: where it acts, `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
-    /// `torque`: name of the revolute joint or hinge that it acts in.
+    /// `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
+    /// `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinate: Option<CoordinateKind>,
     /// `distributed`: name of the cable that it acts on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// `spring_damper`: its ends, `ground` or `body.marker`, then `body.marker`.
+    /// `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub markers: Option<[String; 2]>,
     /// `spring_damper` from `ground` only: where on the ground, m; where the second marker is at the
@@ -33,21 +36,43 @@ pub struct Load {
     /// space along the axes of the body's frame.
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
-    /// All but `spring_damper`: the components of a force (N), of a force per length (N/m) or of a moment in space (N m), one
+    /// `force`, `moment`, `torque`, `distributed`: the components of a force (N), of a force per length (N/m) or of a moment in space (N m), one
     /// of a moment in the plane or of a torque (N m).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<LoadValue>,
-    /// `spring_damper`: stiffness, N/m.
+    /// `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub stiffness: Option<f64>,
-    /// `spring_damper`: damping, N s/m.
+    /// `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
+    /// that is passed by `d`, s/m or s/rad; 0 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
     /// `spring_damper`: length at rest, m; the distance at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<Value>,
+    /// `bushing`: stiffness along the three axes, N/m; zeros by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub translational_stiffness: Option<[f64; 3]>,
+    /// `bushing`: damping along the three axes, N s/m; zeros by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub translational_damping: Option<[f64; 3]>,
+    /// `bushing`: stiffness about the three axes, N m/rad; zeros by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotational_stiffness: Option<[f64; 3]>,
+    /// `bushing`: damping about the three axes, N m s/rad; zeros by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotational_damping: Option<[f64; 3]>,
+    /// `joint_spring`: coordinate at rest, m or rad; that at the start by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest: Option<f64>,
+    /// `stop`: the least coordinate without force, m or rad; no stop there by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lower: Option<f64>,
+    /// `stop`: the largest coordinate without force, m or rad; no stop there by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub upper: Option<f64>,
 }
 
 /// Loads by name.
@@ -65,6 +90,14 @@ pub enum LoadKind {
     Distributed,
     /// Spring and damper side by side between two points.
     SpringDamper,
+    /// Spring and damper side by side on a coordinate of a joint.
+    JointSpring,
+    /// Springs and dampers between two bodies in space, three along and three about the axes of the first one's body (of ground: the
+    /// global ones), from how they stand at the start: the rotation is measured by its vector, angle along axis.
+    Bushing,
+    /// One-sided springs and dampers on a coordinate of a joint, beyond a lower limit, an upper one or both, without friction; the
+    /// force is continuous in time (Hunt and Crossley 1975).
+    Stop,
 }
 
 /// A load that the master sets.
@@ -119,6 +152,20 @@ impl Kind for LoadKind {
             Self::Moment => &[(&["marker", "value"], &["follower"])],
             Self::Torque => &[(&["joint", "value"], &[])],
             Self::Distributed => &[(&["body", "value"], &[])],
+            Self::JointSpring => &[(&["joint"], &["coordinate", "stiffness", "damping", "rest"])],
+            Self::Bushing => &[(
+                &["markers"],
+                &[
+                    "translational_stiffness",
+                    "translational_damping",
+                    "rotational_stiffness",
+                    "rotational_damping",
+                ],
+            )],
+            Self::Stop => &[(
+                &["joint", "stiffness"],
+                &["coordinate", "damping", "lower", "upper"],
+            )],
             Self::SpringDamper => &[(&["markers"], &["point", "stiffness", "damping", "length"])],
         }
     }
@@ -200,7 +247,7 @@ impl ActionKind {
 
 /// Which kinds of loads and of inputs are forces and moments, and which is none.
 macro_rules! actions {
-    ($($of:ident but $none:ident),*) => {$(
+    ($($of:ident but $($none:ident)|*),*) => {$(
         impl $of {
             /// As a force or a moment, if it is one.
             pub fn action(self) -> Option<ActionKind> {
@@ -209,13 +256,13 @@ macro_rules! actions {
                     Self::Moment => Some(ActionKind::Moment),
                     Self::Torque => Some(ActionKind::Torque),
                     Self::Distributed => Some(ActionKind::Distributed),
-                    Self::$none => None,
+                    $(Self::$none)|* => None,
                 }
             }
         }
     )*};
 }
-actions!(LoadKind but SpringDamper, InputKind but RestLength);
+actions!(LoadKind but SpringDamper | JointSpring | Stop | Bushing, InputKind but RestLength);
 
 impl Input {
     /// Number of components.

@@ -25,7 +25,9 @@ pub use body::{
     Axial, Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Section, Shape, Strain,
 };
 pub use initial::{Initial, InitialState};
-pub use joint::{Condition, Declaration, Joint, JointKind, Motion, MotionKind, Symbol};
+pub use joint::{
+    Condition, CoordinateKind, Declaration, Gear, Joint, JointKind, Motion, MotionKind, Symbol,
+};
 pub use kinds::{Keys, Kind, tell_apart};
 pub use load::{ActionKind, ActsOn, Input, InputKind, Load, LoadKind};
 pub use output::{Along, Output, OutputKind, ReadAt};
@@ -64,6 +66,9 @@ pub struct Scene {
     /// Joints to ground and between bodies.
     #[serde(default)]
     pub joints: Vec<Joint>,
+    /// Gears between joints.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gears: Vec<Gear>,
     /// Driven positions, angles and displacements.
     #[serde(default)]
     pub motions: Vec<Motion>,

@@ -17,6 +17,9 @@ pub struct Output {
     /// Name of a joint, for quantities of a joint.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
+    /// Name of a gear.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gear: Option<String>,
     /// Name of a motion, for what drives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<String>,
@@ -59,10 +62,13 @@ impl Along {
 pub enum OutputKind {
     /// Position of a marker, m.
     Position,
-    /// Velocity of a marker, m/s.
+    /// Velocity of a marker; rate of the displacement of a joint, m/s.
     Velocity,
-    /// Acceleration of a marker, m/s^2.
+    /// Acceleration of a marker; rate of the velocity of a joint, m/s^2.
     Acceleration,
+    /// Way of the second marker of a joint along its line from the first marker or the point, m; not where that line belongs to a
+    /// cable.
+    Displacement,
     /// Direction at a marker: the unit vector along the cable, or along the first axis of a rigid body, which must have
     /// inertia.
     Direction,
@@ -99,6 +105,10 @@ pub enum OutputKind {
     Reaction,
     /// Moment of a joint on its second marker, or of a motion, N m (`axes`).
     ReactionMoment,
+    /// Force of a gear on the displacement of its second joint, N; on the coordinate of the first acts minus the ratio times that.
+    GearForce,
+    /// Torque of a gear on the angle of its second joint, N m; on the coordinate of the first acts minus the ratio times that.
+    GearTorque,
     /// Kinetic, strain and gravitational energy, and that of springs where there are any, J.
     Energy,
     /// Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
@@ -132,6 +142,12 @@ pub enum OutputKind {
 pub enum ReadAt {
     /// A marker.
     Marker,
+    /// A marker, or a joint along a line.
+    Moving,
+    /// A joint along a line.
+    Sliding,
+    /// A gear.
+    Gear,
     /// A marker with a direction: of a cable, or of a rigid body that has inertia.
     Directed,
     /// A marker of a cable.
@@ -162,7 +178,10 @@ impl OutputKind {
     /// What it is read at.
     pub fn read_at(self) -> ReadAt {
         match self {
-            Self::Position | Self::Velocity | Self::Acceleration => ReadAt::Marker,
+            Self::Position => ReadAt::Marker,
+            Self::Velocity | Self::Acceleration => ReadAt::Moving,
+            Self::Displacement => ReadAt::Sliding,
+            Self::GearForce | Self::GearTorque => ReadAt::Gear,
             Self::Direction => ReadAt::Directed,
             Self::Orientation | Self::Quaternion | Self::RotationVector => ReadAt::Standing,
             Self::Strain | Self::Curvature => ReadAt::Flexible,
@@ -195,9 +214,10 @@ impl Kind for OutputKind {
             | ReadAt::Cable
             | ReadAt::Flexible
             | ReadAt::Node => &[(&["marker"], &[])],
-            ReadAt::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
+            ReadAt::Angle | ReadAt::Moving => &[(&["joint"], &[]), (&["marker"], &[])],
             ReadAt::Turning => &[(&["joint"], &[]), (&["marker"], &["axes"])],
-            ReadAt::Slide => &[(&["joint"], &[])],
+            ReadAt::Gear => &[(&["gear"], &[])],
+            ReadAt::Slide | ReadAt::Sliding => &[(&["joint"], &[])],
             ReadAt::Force | ReadAt::Moment => &[(&["motion"], &[]), (&["joint"], &["axes"])],
             ReadAt::Scene => &[(&[], &[])],
             ReadAt::Spectrum => &[(&[], &["body", "count"])],

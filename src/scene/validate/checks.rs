@@ -158,6 +158,15 @@ pub fn not_negative(path: &str, unit: &str, value: f64) -> Result<(), Error> {
     Err(expected(path, &wanted, value))
 }
 
+/// Checks that a quantity is finite and not zero.
+pub fn not_zero(path: &str, unit: &str, value: f64) -> Result<(), Error> {
+    if value.is_finite() && value != 0.0 {
+        return Ok(());
+    }
+    let wanted = format!("a number that is not zero ({unit})");
+    Err(expected(path, &wanted, value))
+}
+
 /// Stiffness and damping of a spring and a damper side by side; one that is missing has none.
 pub fn spring_damper(
     path: &str,

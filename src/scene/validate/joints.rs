@@ -2,7 +2,9 @@
 
 use nalgebra::Vector3;
 
-use super::checks::{Key, expected, finite, keys, planar, positive, quoted, spring_damper, vector};
+use super::checks::{
+    Key, expected, finite, keys, not_zero, planar, positive, quoted, spring_damper, vector,
+};
 use crate::scene::description::{Condition, Declaration, Joint, Kind as _};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{self, Ends, First, Hold, Marker, Place, Resolved, SlideId};
@@ -22,7 +24,7 @@ impl Joint {
             2 => ("a point [x, y]", "a direction [x, y]"),
             _ => ("a point [x, y, z]", "a direction [x, y, z]"),
         };
-        let all: [Key; 7] = [
+        let all: [Key; 9] = [
             ("point", self.point.is_some(), point),
             ("direction", self.direction.is_some(), direction),
             (
@@ -32,6 +34,8 @@ impl Joint {
             ),
             ("angle", self.angle.is_some(), "an angle"),
             ("length", self.length.is_some(), "a length"),
+            ("pitch", self.pitch.is_some(), "a pitch"),
+            ("free", self.free.is_some(), "a list of freedoms"),
             ("stiffness", self.stiffness.is_some(), "a stiffness"),
             ("damping", self.damping.is_some(), "a damping"),
         ];
@@ -97,7 +101,55 @@ impl Joint {
         if let Some(length) = self.length {
             positive(&at("length"), "m", length)?;
         }
-        Ok(())
+        if let Some(pitch) = self.pitch {
+            not_zero(&at("pitch"), "m", pitch)?;
+        }
+        let Some(free) = &self.free else {
+            return Ok(());
+        };
+        let twice = (1..free.len()).find(|k| free[..*k].contains(&free[*k]));
+        if let Some(k) = twice {
+            let wanted = "a freedom that is not in the list yet";
+            let found = format!("{:?} again", free[k]);
+            return Err(expected(&format!("{}[{k}]", at("free")), wanted, found));
+        }
+        match free.len() {
+            6 => Err(expected(
+                &at("free"),
+                "freedoms that leave something to hold",
+                "all six",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// What a generic joint holds, with the axes that it names at the start, in global axes.
+    fn rest(&self, ends: &Ends<'_>) -> Vec<Hold> {
+        let axis = |k: usize| {
+            let unit = std::array::from_fn(|i| f64::from(u8::from(i == k)));
+            Resolved::global(ends, unit)
+        };
+        let named = |is_rotation: bool| {
+            let free = self.free.iter().flatten().map(|freedom| freedom.axis());
+            let free = free.filter(|(_, of)| *of == is_rotation).map(|(k, _)| k);
+            free.collect::<Vec<usize>>()
+        };
+        let (ways, turns) = (named(false), named(true));
+        let mut holds: Vec<Hold> = match ways[..] {
+            [] => vec![Hold::Position],
+            [along] => vec![Hold::Line(axis(along))],
+            _ => {
+                let held = (0..3).filter(|k| !ways.contains(k));
+                held.map(|k| Hold::Plane(axis(k))).collect()
+            }
+        };
+        holds.extend(match turns[..] {
+            [] => Some(Hold::Direction(None)),
+            [about] => Some(Hold::Axis(axis(about))),
+            [first, second] => Some(Hold::Across(axis(first), axis(second))),
+            _ => None,
+        });
+        holds
     }
 }
 
@@ -114,15 +166,19 @@ impl<'a> Resolved<'a> {
                 Condition::Axis => self.scene.dimension == 3 && joint.direction.is_some(),
                 _ => true,
             };
-            let holds = holds
-                .filter(is_held)
-                .map(|condition| self.resolve_condition(&path, joint, *condition, &ends));
-            let holds = holds.collect::<Result<_, _>>()?;
+            let holds = holds.filter(is_held).map(|condition| match condition {
+                Condition::Rest => Ok(joint.rest(&ends)),
+                _ => self
+                    .resolve_condition(&path, joint, *condition, &ends)
+                    .map(|hold| vec![hold]),
+            });
+            let holds = holds.collect::<Result<Vec<_>, _>>()?.concat();
             let holder = self.hold(&path, &joint.name);
             self.joints.push(resolved::Joint {
                 name: &joint.name,
                 holder,
                 kind: joint.kind,
+                is_planar: self.scene.dimension == 2,
                 ends,
                 holds,
             });
@@ -173,7 +229,7 @@ impl<'a> Resolved<'a> {
         };
         let axes = [Condition::Axis, Condition::Across, Condition::Plane];
         let has_axis = |of: &&Condition| axes.contains(of) && joint.direction.is_some();
-        let needs_frames = holds.iter().any(|of| has_axis(&of));
+        let needs_frames = holds.iter().any(|of| has_axis(&of)) || holds.contains(&Condition::Rest);
         let holds_direction = holds.contains(&Condition::Direction);
         let sides = [
             (0, first, needs_frames || holds.contains(&Condition::Line)),
@@ -229,6 +285,7 @@ impl<'a> Resolved<'a> {
                 Condition::Line => side == 1 || is_along,
                 Condition::Direction => on_ground,
                 Condition::Spring => is_pivot,
+                Condition::Screw | Condition::Rest => false,
                 Condition::Position | Condition::Distance | Condition::Curve => true,
             };
             if !holds.iter().all(may_hold) {
@@ -280,6 +337,9 @@ impl<'a> Resolved<'a> {
                 let wanted = "a length, since the markers are at the same place at the start";
                 return Err(expected(&format!("{path}.length"), wanted, "nothing"));
             }
+            Condition::Screw => Hold::Screw(joint.pitch.unwrap_or_default()),
+            // Several, by `Joint::rest`.
+            Condition::Rest => Hold::Position,
             Condition::Distance => Hold::Distance(joint.length),
             Condition::Curve => {
                 let first = format!("{path}.markers[0]");

@@ -2,13 +2,13 @@
 
 use super::checks::{Key, components, expected, keys, needed, not_negative, spring_damper, value};
 use crate::scene::Error;
-use crate::scene::description::{ActionKind, ActsOn, Kind as _, Load, LoadKind, LoadValue, Value};
+use crate::scene::description::{ActionKind, ActsOn, Kind as _, Load, LoadValue, Value};
 use crate::scene::resolved::{self, Action, On, Resolved, Spring};
 use crate::system::Signal;
 
 impl Load {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 10] = [
+        let all: [Key; 18] = [
             ("marker", self.marker.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
             ("body", self.body.is_some(), "a name"),
@@ -19,6 +19,34 @@ impl Load {
             ("stiffness", self.stiffness.is_some(), "a stiffness"),
             ("damping", self.damping.is_some(), "a damping"),
             ("length", self.length.is_some(), "a length"),
+            (
+                "coordinate",
+                self.coordinate.is_some(),
+                "displacement or angle",
+            ),
+            ("rest", self.rest.is_some(), "a coordinate"),
+            ("lower", self.lower.is_some(), "a limit"),
+            ("upper", self.upper.is_some(), "a limit"),
+            (
+                "translational_stiffness",
+                self.translational_stiffness.is_some(),
+                "three stiffnesses",
+            ),
+            (
+                "translational_damping",
+                self.translational_damping.is_some(),
+                "three dampings",
+            ),
+            (
+                "rotational_stiffness",
+                self.rotational_stiffness.is_some(),
+                "three stiffnesses",
+            ),
+            (
+                "rotational_damping",
+                self.rotational_damping.is_some(),
+                "three dampings",
+            ),
         ];
         keys(path, "load", &all, self.kind.keys())
     }
@@ -40,13 +68,10 @@ impl<'a> Resolved<'a> {
         for (index, load) in self.scene.initial.loads().iter().enumerate() {
             let path = format!("initial.loads[{index}]");
             load.validate_keys(&path)?;
-            if load.kind == LoadKind::SpringDamper {
+            if load.kind.action().is_none() {
                 let wanted = "a force, a moment, a torque or a distributed load";
-                return Err(expected(
-                    &format!("{path}.kind"),
-                    wanted,
-                    "a spring and damper",
-                ));
+                let place = format!("{path}.kind");
+                return Err(expected(&place, wanted, "springs and dampers"));
             }
             let kind = self.resolve_load(&path, load)?;
             let name = &load.name;
@@ -57,7 +82,7 @@ impl<'a> Resolved<'a> {
 
     fn resolve_load(&self, path: &str, load: &'a Load) -> Result<resolved::LoadKind<'a>, Error> {
         let Some(kind) = load.kind.action() else {
-            return self.spring(path, load).map(resolved::LoadKind::Spring);
+            return self.resolve_springs(path, load);
         };
         let given = needed(path, "value", "a value", load.value.as_ref())?;
         let components = self.signals(&format!("{path}.value"), kind, given)?;
@@ -128,7 +153,7 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    fn spring(&self, path: &str, load: &'a Load) -> Result<Spring<'a>, Error> {
+    pub(super) fn spring(&self, path: &str, load: &'a Load) -> Result<Spring<'a>, Error> {
         let markers = needed(path, "markers", "two names", load.markers.as_ref())?;
         let ends = self.require_pair(path, markers, load.point)?;
         let stiffness = (load.stiffness, "N/m");

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod checks;
+mod gears;
 mod inputs;
 mod joints;
 mod loads;
@@ -9,6 +10,7 @@ mod motions;
 mod outputs;
 mod ports;
 mod references;
+mod springs;
 #[cfg(test)]
 mod tests;
 
@@ -49,6 +51,7 @@ impl Scene {
         let mut resolved = Resolved::bare(self);
         resolved.resolve_masses()?;
         resolved.resolve_joints()?;
+        resolved.resolve_gears()?;
         resolved.resolve_motions()?;
         resolved.resolve_loads()?;
         resolved.resolve_inputs()?;
@@ -97,11 +100,12 @@ impl Scene {
         self.resolve().expect("a valid scene")
     }
 
-    /// Bodies, joints, motions, loads and ports share their names.
+    /// Bodies, joints, gears, motions, loads and ports share their names.
     fn validate_names(&self) -> Result<(), Error> {
         let mut names = BTreeSet::new();
         let bodies = self.bodies.iter().map(|body| body.name());
         let joints = self.joints.iter().map(|joint| joint.name.as_str());
+        let gears = self.gears.iter().map(|gear| gear.name.as_str());
         let motions = self.motions.iter().map(|motion| motion.name.as_str());
         let loads = self.loads.iter().map(|load| load.name.as_str());
         let ports = self.ports.iter().map(|port| port.name.as_str());
@@ -109,6 +113,7 @@ impl Scene {
         let named = |list: &'static str| move |(i, name)| (format!("{list}[{i}].name"), name);
         let all = bodies.enumerate().map(named("bodies"));
         let all = all.chain(joints.enumerate().map(named("joints")));
+        let all = all.chain(gears.enumerate().map(named("gears")));
         let all = all.chain(motions.enumerate().map(named("motions")));
         let all = all.chain(loads.enumerate().map(named("loads")));
         let all = all.chain(initial.enumerate().map(named("initial.loads")));

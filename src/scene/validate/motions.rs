@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::checks::{Key, components, expected, keys, needed, quoted, shape, value};
 use crate::scene::Error;
 use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue};
-use crate::scene::resolved::{self, Resolved, Slider, Turning};
+use crate::scene::resolved::{self, Resolved, Turning};
 use crate::system::Drive;
 
 /// Most derivatives that the master sets with a motion.
@@ -73,11 +73,6 @@ impl<'a> Resolved<'a> {
                 Kind::Displacement(slider, self.one_drive(&at_value, &motion.value)?)
             }
         })
-    }
-
-    fn require_slider(&self, path: &str, name: &str) -> Result<Slider<'a>, Error> {
-        let slider = self.require_joint(path, name)?.slider();
-        slider.ok_or_else(|| expected(path, "a slider on a fixed line", quoted(name)))
     }
 
     fn one_drive(&mut self, path: &str, given: &MotionValue) -> Result<Drive, Error> {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, expected, keys, needed, quoted};
 use crate::scene::Error;
-use crate::scene::description::{Kind as _, Output, ReadAt};
+use crate::scene::description::{Kind as _, Output, OutputKind, ReadAt};
 use crate::scene::resolved::{
     self, AngleId, First, Marker, MotionKind, Of, Reaction, Resolved, Turning,
 };
@@ -14,9 +14,10 @@ const MOST_FREQUENCIES: u32 = 100;
 
 impl Output {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 6] = [
+        let all: [Key; 7] = [
             ("marker", self.marker.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
+            ("gear", self.gear.is_some(), "a name"),
             ("motion", self.motion.is_some(), "a name"),
             ("axes", !self.axes.is_global(), "axes"),
             ("body", self.body.is_some(), "a name"),
@@ -51,7 +52,13 @@ impl<'a> Resolved<'a> {
             output.validate_count(&path)?;
             let of = self.resolve_output(&path, output)?;
             self.validate_axes(&format!("{path}.axes"), output, &of)?;
-            let named = [&output.marker, &output.joint, &output.motion, &output.body];
+            let named = [
+                &output.marker,
+                &output.joint,
+                &output.gear,
+                &output.motion,
+                &output.body,
+            ];
             if !seen.insert((output.kind as u8, output.axes as u8, named)) {
                 return Err(expected(&path, "an output not declared before", "it again"));
             }
@@ -104,6 +111,12 @@ impl<'a> Resolved<'a> {
             None => Ok(Turning::Marker(marker(Self::require_spinning)?)),
         };
         Ok(match output.kind.read_at() {
+            ReadAt::Moving if output.joint.is_none() => Of::Marker(marker(Self::require_marker)?),
+            ReadAt::Moving | ReadAt::Sliding => {
+                let name = needed(path, "joint", "a name", output.joint.as_deref())?;
+                Of::Sliding(self.require_slider(&format!("{path}.joint"), name)?)
+            }
+            ReadAt::Gear => self.gear(path, output)?,
             ReadAt::Marker => Of::Marker(marker(Self::require_marker)?),
             ReadAt::Directed => Of::Marker(marker(Self::require_directed)?),
             ReadAt::Standing => Of::Marker(marker(Self::require_standing)?),
@@ -141,6 +154,27 @@ impl<'a> Resolved<'a> {
         let slide = joint.slide();
         let slide = slide.ok_or_else(|| expected(path, "a joint of kind along", quoted(name)))?;
         Ok(Of::Slide(joint.name, slide))
+    }
+
+    fn gear(&self, path: &str, output: &'a Output) -> Result<Of<'a>, Error> {
+        let name = needed(path, "gear", "a name", output.gear.as_deref())?;
+        let path = format!("{path}.gear");
+        let Some(gear) = self.gears.iter().find(|gear| gear.name == name) else {
+            return Err(expected(&path, "a gear of this scene", quoted(name)));
+        };
+        let [_, second] = &gear.coordinates;
+        if second.is_angle() != (output.kind == OutputKind::GearTorque) {
+            let wanted = match second.is_angle() {
+                true => {
+                    "a gear whose second coordinate is a displacement; gear_torque reads angles"
+                }
+                false => {
+                    "a gear whose second coordinate is an angle; gear_force reads displacements"
+                }
+            };
+            return Err(expected(&path, wanted, quoted(name)));
+        }
+        Ok(Of::Gear(gear.name, gear.holder))
     }
 
     fn reaction(&self, path: &str, output: &'a Output) -> Result<Reaction<'a>, Error> {

@@ -1,9 +1,11 @@
 //! Names that refer to other parts of a scene, and what they refer to.
 
 use super::checks::{expected, planar, quoted, vector};
+use crate::scene::description::CoordinateKind;
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
-    BodyReference, Cable, Ends, First, Form, Joint, Marker, Pivot, Place, Resolved,
+    BodyReference, Cable, Ends, First, Form, Joint, JointCoordinate, Marker, Pivot, Place,
+    Resolved, Slider,
 };
 use crate::scene::{Error, Vector};
 
@@ -154,6 +156,41 @@ impl<'a> Resolved<'a> {
     pub(super) fn require_joint(&self, path: &str, name: &str) -> Result<&Joint<'a>, Error> {
         let found = self.joints.iter().find(|joint| joint.name == name);
         found.ok_or_else(|| expected(path, "a joint of this scene", quoted(name)))
+    }
+
+    /// A joint along a line of the ground or of a rigid body.
+    pub(super) fn require_slider(&self, path: &str, name: &str) -> Result<Slider<'a>, Error> {
+        let slider = self.require_joint(path, name)?.slider();
+        let wanted = "a joint along a line of the ground or of a rigid body";
+        slider.ok_or_else(|| expected(path, wanted, quoted(name)))
+    }
+
+    /// A coordinate of a joint: the one that is asked for, or the one by default where it has that, else the other.
+    pub(super) fn require_coordinate(
+        &self,
+        path: &str,
+        name: &str,
+        (asked, default): (Option<CoordinateKind>, CoordinateKind),
+    ) -> Result<JointCoordinate<'a>, Error> {
+        let slider = || {
+            self.require_slider(path, name)
+                .map(JointCoordinate::Displacement)
+        };
+        let pivot = || self.require_pivot(path, name).map(JointCoordinate::Angle);
+        match (asked, default) {
+            (Some(CoordinateKind::Displacement), _) => slider(),
+            (Some(CoordinateKind::Angle), _) => pivot(),
+            (None, CoordinateKind::Displacement) => slider().or_else(|_| pivot()),
+            (None, CoordinateKind::Angle) => pivot().or_else(|_| slider()),
+        }
+        .map_err(|error| match (asked, self.require_joint(path, name)) {
+            (None, Ok(_)) => {
+                let wanted =
+                    "a joint with an angle or along a line of the ground or of a rigid body";
+                expected(path, wanted, quoted(name))
+            }
+            _ => error,
+        })
     }
 
     /// A joint with an angle of its own.

@@ -271,7 +271,7 @@ fn motions_drive_what_can_be_driven_once() {
         /motions/0/joint | "gone" | motions[0].joint: expected a joint of this scene
         /motions/0/marker | "rod.root" | motions[0]: expected either a marker or a joint, found both
         /motions/0/joint | null | motions[0]: expected either a marker or a joint, found neither
-        /motions/1/joint | "pin" | motions[1].joint: expected a slider
+        /motions/1/joint | "pin" | motions[1].joint: expected a joint along a line of the ground or of a rigid body, found "pin"
         /motions/1/marker | "rod.tip" | motions[1].marker: expected nothing for this kind of motion
         /motions/2/marker | null | motions[2].marker: expected a name, found nothing
         /motions/2/joint | "pin" | motions[2].joint: expected nothing for this kind of motion

@@ -89,6 +89,14 @@ pub enum Parameter {
     SpringStiffness(usize),
     /// Damping of a spring-damper.
     SpringDamping(usize),
+    /// Stiffness of a spring or a stop about the axis of a joint, N m/rad.
+    TorsionStiffness(usize),
+    /// Damping of a spring about the axis of a joint, N m s/rad.
+    TorsionDamping(usize),
+    /// Damping of a stop of a displacement, s/m.
+    StopDamping(usize),
+    /// Damping of a stop of an angle, s/rad.
+    TorsionStopDamping(usize),
     /// Stiffness of a coupling.
     CouplingStiffness(usize),
     /// Damping of a coupling.

@@ -3,8 +3,8 @@
 use super::unit::*;
 use super::{AXES, List, PARTS, Quantity, Source, Unit, component};
 use crate::scene::{
-    Along, AngleId, HolderId, InputKind, LoadKind, MarkerId, Of, Output, OutputKind, Port,
-    PortKind, Resolved, SlideId, Turning,
+    Along, AngleId, HolderId, InputKind, MarkerId, Of, Output, OutputKind, Port, PortKind,
+    Resolved, SlideId, Turning,
 };
 use crate::simulation::quantities::{Evaluated, needs};
 
@@ -34,6 +34,10 @@ enum Read {
         fn(MarkerId, usize, Along) -> Quantity,
         fn(HolderId) -> Quantity,
     ),
+    /// Of a marker, of a joint along a line.
+    Moving(fn(MarkerId, usize) -> Quantity, fn(HolderId) -> Quantity),
+    /// One number of a joint or a gear.
+    Joint(fn(HolderId) -> Quantity),
     Counted(fn(AngleId) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
     Holder(fn(HolderId, usize, Along) -> Quantity),
@@ -52,8 +56,11 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
     use Shape::{List, Matrix, Quaternion as Four, Scalar, Turn, Vector};
     match kind {
         Kind::Position => vec![("position", "Position of {}", Some(METRE), Vector, Read::Marker(Position))],
-        Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Marker(Velocity))],
-        Kind::Acceleration => vec![("acceleration", "Acceleration of {}", Some(METRE_PER_SECOND_2), Vector, Read::Marker(Acceleration))],
+        Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Moving(Velocity, SlidingVelocity))],
+        Kind::Acceleration => vec![("acceleration", "Acceleration of {}", Some(METRE_PER_SECOND_2), Vector, Read::Moving(Acceleration, SlidingAcceleration))],
+        Kind::Displacement => vec![("displacement", "Displacement of {}", Some(METRE), Scalar, Read::Joint(Displacement))],
+        Kind::GearForce => vec![("gear_force", "Force of {} on the displacement of its second joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
+        Kind::GearTorque => vec![("gear_torque", "Torque of {} on the angle of its second joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
         Kind::Orientation => vec![
             ("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation)),
@@ -170,6 +177,7 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
         let shape = match (shape, output.of) {
             // A joint has one axis, in space too.
             (Shape::Turn, Of::Turning(Turning::Pivot(_))) => Shape::Scalar,
+            (Shape::Vector, Of::Sliding(_)) => Shape::Scalar,
             _ => shape,
         };
         let (name, what) = match output.along {
@@ -196,6 +204,11 @@ fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
         Of::Angle(Turning::Marker(marker), _) => (marker.name, format!("at {}", marker.name)),
         Of::Angle(Turning::Pivot(pivot), _) => (pivot.name, format!("of {}", second(pivot.name))),
         Of::Slide(joint, _) => (joint, (*joint).into()),
+        Of::Sliding(slider) => {
+            let what = format!("the second marker of {} along its line", slider.name);
+            (slider.name, what)
+        }
+        Of::Gear(gear, _) => (gear, (*gear).into()),
         Of::Reaction(reaction) => {
             let on = match reaction.is_motion {
                 true => "what it drives",
@@ -224,6 +237,11 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
             quantity(marker.id, k, along)
         }
         (Read::Turning(_, quantity), Of::Turning(Turning::Pivot(pivot))) => quantity(pivot.joint),
+        (Read::Moving(quantity, _), Of::Marker(marker)) => quantity(marker.id, k),
+        (Read::Moving(_, quantity) | Read::Joint(quantity), Of::Sliding(slider)) => {
+            quantity(slider.joint)
+        }
+        (Read::Joint(quantity), Of::Gear(_, holder)) => quantity(*holder),
         (Read::Counted(quantity), Of::Angle(_, angle)) => quantity(*angle),
         (Read::Slide(quantity), Of::Slide(_, slide)) => quantity(*slide),
         (Read::Holder(quantity), Of::Reaction(reaction)) => quantity(reaction.holder, k, along),
@@ -275,10 +293,8 @@ fn add_port_force(list: &mut List, port: &Port<'_>) {
 
 /// Whether there are springs, hinges or couplings with stiffness.
 fn has_springs(resolved: &Resolved<'_>) -> bool {
-    let springs = resolved.loads.iter().filter_map(|load| match &load.kind {
-        LoadKind::Spring(spring) => Some(spring.stiffness),
-        LoadKind::Action { .. } => None,
-    });
+    let springs = resolved.loads.iter();
+    let springs = springs.flat_map(|load| load.kind.stiffness());
     let hinges = resolved.joints.iter().filter_map(|joint| joint.spring());
     let hinges = hinges.map(|[stiffness, _]| stiffness);
     let couplings = resolved.ports.iter().filter_map(|port| match &port.kind {

@@ -112,12 +112,30 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
         }
     }
     for (i, load) in resolved.loads.iter().enumerate() {
-        if let LoadKind::Spring(spring) = &load.kind {
-            let units = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
-            let parameters = [SpringStiffness(i), SpringDamping(i)];
-            let starts = [spring.stiffness, spring.damping];
-            list.damper(load.name, units, parameters, starts);
-        }
+        let along = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
+        let about = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
+        let (starts, units, parameters) = match &load.kind {
+            LoadKind::Action { .. } | LoadKind::Bushing(_) => continue,
+            LoadKind::Spring(spring) => {
+                let starts = [spring.stiffness, spring.damping];
+                (starts, along, [SpringStiffness(i), SpringDamping(i)])
+            }
+            LoadKind::JointSpring { on, sizes, .. } => match on.is_angle() {
+                true => (*sizes, about, [TorsionStiffness(i), TorsionDamping(i)]),
+                false => (*sizes, along, [SpringStiffness(i), SpringDamping(i)]),
+            },
+            LoadKind::Stop { on, sizes, .. } => match on.is_angle() {
+                true => {
+                    let parameters = [TorsionStiffness(i), TorsionStopDamping(i)];
+                    (*sizes, [about[0], SECOND_PER_RADIAN], parameters)
+                }
+                false => {
+                    let parameters = [SpringStiffness(i), StopDamping(i)];
+                    (*sizes, [along[0], SECOND_PER_METRE], parameters)
+                }
+            },
+        };
+        list.damper(load.name, units, parameters, starts);
     }
     for (i, port) in resolved.ports.iter().enumerate() {
         let PortKind::Coupling { position, angle } = &port.kind else {
@@ -198,8 +216,10 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         LumpedMass(i) => scene.masses[i].mass = value,
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),
-        SpringStiffness(i) => scene.loads[i].stiffness = Some(value),
-        SpringDamping(i) => scene.loads[i].damping = Some(value),
+        SpringStiffness(i) | TorsionStiffness(i) => scene.loads[i].stiffness = Some(value),
+        SpringDamping(i) | TorsionDamping(i) | StopDamping(i) | TorsionStopDamping(i) => {
+            scene.loads[i].damping = Some(value);
+        }
         CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
         CouplingDamping(i) => scene.ports[i].damping = Some(value),
         TurningStiffness(i) => scene.ports[i].rotational_stiffness = Some(value),

@@ -5,7 +5,6 @@ use nalgebra::SMatrix;
 
 use super::{Gradient, View};
 use crate::math::jet::Number;
-use crate::math::space::Vector;
 use crate::system::direction::{AxisTurn, Direction};
 use crate::system::end::{Add, End, bilinear};
 
@@ -33,15 +32,8 @@ impl<const D: usize> DrivenTurn<D> {
     }
 
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
-        let (none, (_, [sin, cos])) = (Vector::zeros(), self.drive(view));
-        let [n, m] = self.turn.across.map(|across| across.value(view.x));
-        let u = self.turn.of.value(view.x);
-        Gradient {
-            ends: [
-                (self.turn.turned([sin, cos]), [none, u]),
-                (self.turn.of.end().lift(), [none, m * cos - n * sin]),
-            ],
-        }
+        let (_, turned) = self.drive(view);
+        self.turn.gradient_at(turned, view.x)
     }
 
     pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {

@@ -1,11 +1,10 @@
 //! Rows that are linear in what joints see and yet keep multipliers: those of rigid bodies in space, whose axes are no
 //! coordinates, and pins of so many rigid bodies that eliminating them would tie all of them together.
 
-use super::{ConstraintKind, Linear};
-use super::{Gradient, Rows, Target, View};
+use super::{ConstraintKind, Gradient, Linear, Rows, Target, View};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, axis};
-use crate::system::end::End;
+use crate::system::end::{End, reach};
 
 /// `sum over both ends of (coefficients . position + coefficients . direction) = target`.
 #[derive(Clone, Debug)]
@@ -33,8 +32,7 @@ pub(super) fn coincide<const D: usize>(rows: &mut Rows<'_, D>) -> Option<Constra
 impl<const D: usize> HeldRow<D> {
     /// The row of a joint with these ends.
     pub fn new(linear: &Linear<D>, ends: [End<D>; 2]) -> Self {
-        let arm = |end: &End<D>| end.marker().map_or(0.0, |marker| marker.arm());
-        let size = ends.iter().map(arm).fold(0.0, f64::max);
+        let size = reach(&ends);
         let holds_position = linear.on_ends[1][0].norm() > 0.0;
         Self {
             on_ends: linear.on_ends,

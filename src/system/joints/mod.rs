@@ -9,6 +9,7 @@ mod line;
 mod motion;
 mod perpendicular;
 mod point_on_curve;
+mod related;
 mod unit;
 
 pub use direction::AngleBetween;
@@ -18,11 +19,14 @@ pub use held_row::HeldRow;
 pub use line::PointOnLine;
 pub use perpendicular::{Across, Perpendicular};
 pub use point_on_curve::PointOnCurve;
+pub use related::Related;
 pub use unit::UnitLength;
 
 use super::CableChain;
+use super::coordinate::Way;
 use super::direction::AxisTurn;
 use super::end::{Add, End};
+use super::gradient::Gradient;
 use crate::body::{Node, Row};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
@@ -48,6 +52,8 @@ pub enum Primitive<const D: usize = 2> {
     DrivenDirection(usize),
     /// The angle about an axis in space is driven.
     DrivenTurn(DrivenTurn<D>),
+    /// Coordinates of joints in a linear relation, or one that is driven.
+    Related(Related<D>),
     /// The position has driven coordinates (first end: ground).
     DrivenPosition([usize; D]),
     /// The position along this unit vector is at a driven distance from the first end (ground).
@@ -61,10 +67,12 @@ pub struct Joint<const D: usize = 2> {
     pub holds: Vec<Primitive<D>>,
     /// What it joins.
     pub ends: [End<D>; 2],
-    /// Index of its rotational spring among the loads: a hinge.
+    /// Index of its spring among the loads: a hinge.
     pub spring: Option<usize>,
     /// In space the turn about its axis, where it has one.
     pub turn: Option<AxisTurn<D>>,
+    /// The way that its second end can go along a line of the first, where that stands still or belongs to a rigid body.
+    pub way: Option<Way<D>>,
 }
 
 /// What a row is to equal.
@@ -133,6 +141,8 @@ pub struct View<'a, const D: usize, N = f64> {
     pub chains: &'a [CableChain<D>],
     /// Where on their chains slides are, m.
     pub travel: &'a [N],
+    /// Angles that the system counts, rad: what angles are nearest to.
+    pub angles: &'a [N],
 }
 
 /// A non-linear constraint `g(x, t) = 0` with the force `-J^T lambda`.
@@ -165,6 +175,8 @@ pub enum ConstraintKind<const D: usize = 2> {
     Perpendicular(Perpendicular<D>),
     /// A driven turn.
     DrivenTurn(DrivenTurn<D>),
+    /// A relation between coordinates of joints.
+    Related(Related<D>),
 }
 
 macro_rules! each {
@@ -178,6 +190,7 @@ macro_rules! each {
             ConstraintKind::HeldRow($c) => $call,
             ConstraintKind::Perpendicular($c) => $call,
             ConstraintKind::DrivenTurn($c) => $call,
+            ConstraintKind::Related($c) => $call,
         }
     };
 }
@@ -198,9 +211,32 @@ impl<const D: usize> Constraint<D> {
         value - N::of(self.offset)
     }
 
-    /// Forces that a unit multiplier takes from position and direction of both ends.
-    pub fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
-        each!(self, c => c.gradient(view))
+    /// Calls with the forces that a unit multiplier takes from position and direction of two ends, or of two pairs of ends.
+    pub fn for_each_pair<N: Number>(
+        &self,
+        view: &View<'_, D, N>,
+        mut call: impl FnMut(&Gradient<D, N>),
+    ) {
+        match &self.kind {
+            ConstraintKind::UnitLength(c) => call(&c.gradient(view)),
+            ConstraintKind::AngleBetween(c) => call(&c.gradient(view)),
+            ConstraintKind::Distance(c) => call(&c.gradient(view)),
+            ConstraintKind::PointOnLine(c) => call(&c.gradient(view)),
+            ConstraintKind::PointOnCurve(c) => call(&c.gradient(view)),
+            ConstraintKind::HeldRow(c) => call(&c.gradient(view)),
+            ConstraintKind::Perpendicular(c) => call(&c.gradient(view)),
+            ConstraintKind::DrivenTurn(c) => call(&c.gradient(view)),
+            ConstraintKind::Related(c) => c.gradients(view).for_each(|pair| call(&pair)),
+        }
+    }
+
+    /// The same as terms over the nodes.
+    pub fn for_each<N: Number>(
+        &self,
+        view: &View<'_, D, N>,
+        mut term: impl FnMut(usize, &Node<D, N>),
+    ) {
+        self.for_each_pair(view, |pair| pair.for_each(&mut term));
     }
 
     /// Derivative of `g` by time alone, 1/s.
@@ -209,6 +245,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::AngleBetween(c) => c.rate(view),
             ConstraintKind::HeldRow(c) => c.rate(view),
             ConstraintKind::DrivenTurn(c) => c.rate(view),
+            ConstraintKind::Related(c) => c.rate(view),
             _ => N::of(0.0),
         }
     }
@@ -230,6 +267,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::HeldRow(_) => {}
             ConstraintKind::Perpendicular(c) => c.stiffness(lambda, add),
             ConstraintKind::DrivenTurn(c) => c.stiffness(lambda, view, add),
+            ConstraintKind::Related(c) => c.stiffness(lambda, view, add),
         }
     }
 
@@ -243,6 +281,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::PointOnLine(c) => c.size,
             ConstraintKind::HeldRow(c) => c.size,
             ConstraintKind::Perpendicular(c) => c.size(),
+            ConstraintKind::Related(c) => c.size,
             ConstraintKind::PointOnCurve(c) => chains[c.chain].length(),
         }
     }
@@ -258,6 +297,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::HeldRow(c) => c.ends.to_vec(),
             ConstraintKind::Perpendicular(c) => c.ends(),
             ConstraintKind::DrivenTurn(c) => c.ends(),
+            ConstraintKind::Related(c) => c.ends(),
         }
     }
 
@@ -298,28 +338,6 @@ impl<const D: usize> Constraint<D> {
     }
 }
 
-/// Derivatives of a constraint by position and direction of two ends.
-#[derive(Clone, Copy, Debug)]
-pub struct Gradient<const D: usize, N: Number = f64> {
-    /// The ends and, for each, the derivatives by position and direction.
-    pub ends: [(End<D, N>, [Vector<D, N>; 2]); 2],
-}
-
-impl<const D: usize, N: Number> Gradient<D, N> {
-    /// Terms over the nodes.
-    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<D, N>)) {
-        for (end, [position, direction]) in &self.ends {
-            if let End::Body(marker) = end {
-                let [a, b] = marker.forces(*position, *direction);
-                term(a.0, &a.1);
-                if b.1 != [[N::of(0.0); D]; 2] {
-                    term(b.0, &b.1);
-                }
-            }
-        }
-    }
-}
-
 impl<const D: usize> Joint<D> {
     /// Driven coordinates that it follows.
     pub fn drives(&self) -> impl Iterator<Item = usize> {
@@ -330,6 +348,7 @@ impl<const D: usize> Joint<D> {
                 | Primitive::DrivenDistance(_, drive)
                 | Primitive::DrivenTurn(DrivenTurn { drive, .. }) => std::slice::from_ref(drive),
                 Primitive::DrivenPosition(drives) => drives,
+                Primitive::Related(related) => related.drive.as_slice(),
                 _ => &[],
             })
             .copied()
@@ -380,6 +399,7 @@ impl<const D: usize> Joint<D> {
                 }
                 Primitive::DrivenDirection(drive) => motion::direction(&mut rows, *drive),
                 Primitive::DrivenTurn(driven) => Some(ConstraintKind::DrivenTurn(driven.clone())),
+                Primitive::Related(related) => Some(ConstraintKind::Related(related.clone())),
                 Primitive::DrivenPosition(drives) => motion::position(&mut rows, *drives),
                 Primitive::DrivenDistance(along, drive) => {
                     motion::distance(&mut rows, *along, *drive)

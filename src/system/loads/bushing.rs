@@ -144,7 +144,7 @@ impl RotationalBushing {
         let outer: SMatrix<f64, D, D> = turn * turn.transpose();
         let ends = [end, End::Ground(Vector::zeros())];
         let alone = |k: SMatrix<f64, D, D>| [[k, SMatrix::zeros()], [SMatrix::zeros(); 2]];
-        let k = outer * self.stiffness - super::moment::curl(&end, at.x) * self.moment(at);
+        let k = outer * self.stiffness - end.curl(at.x) * self.moment(at);
         coupling(&ends, alone(k), 1, stiffness);
         if self.damping > 0.0 {
             coupling(&ends, alone(outer * self.damping), 1, damping);

@@ -28,11 +28,7 @@ pub struct Couple<const D: usize> {
 
 /// The three axes of the body that a marker belongs to, as directions of markers.
 fn axes(marker: &Marker) -> [Marker; 3] {
-    std::array::from_fn(|k| {
-        let mut unit = [0.0; 3];
-        unit[k] = 1.0;
-        marker.directed(unit)
-    })
+    std::array::from_fn(|k| marker.directed(Vector3::ith(k, 1.0).into()))
 }
 
 /// Angular velocity of an end, rad/s.

@@ -5,19 +5,23 @@ mod bushing;
 mod couple;
 mod distributed;
 mod force;
-mod hinge;
+mod joint_spring;
 mod moment;
 mod orientation_bushing;
+mod six_bushing;
 mod spring;
+mod stop;
 
 pub use bushing::{Bushing, RotationalBushing};
 pub use couple::Couple;
 pub use distributed::{Distributed, Line};
 pub use force::Force;
-pub use hinge::RotationalSpring;
+pub use joint_spring::JointSpring;
 pub use moment::Moment;
 pub use orientation_bushing::OrientationBushing;
+pub use six_bushing::SixBushing;
 pub use spring::Spring;
+pub use stop::Stop;
 
 use super::end::{Add, End};
 use super::instant::Instant;
@@ -39,8 +43,12 @@ pub enum Load<const D: usize = 2> {
     Distributed(Distributed<D>),
     /// A spring with a damper between two ends.
     Spring(Spring<D>),
-    /// A rotational spring with a damper between two directions.
-    RotationalSpring(RotationalSpring<D>),
+    /// A spring with a damper on a coordinate of a joint.
+    JointSpring(JointSpring<D>),
+    /// Stops of a coordinate of a joint.
+    Stop(Stop<D>),
+    /// Springs with dampers along and about three axes.
+    SixBushing(Box<SixBushing<D>>),
     /// A spring with a damper from a marker to a point that moves.
     Bushing(Bushing<D>),
     /// A rotational spring with a damper from the direction of a marker to an angle.
@@ -73,7 +81,9 @@ impl<const D: usize> Load<D> {
             Self::Couple(load) => load.act(at, call),
             Self::Distributed(_) => {}
             Self::Spring(load) => load.act(at, call),
-            Self::RotationalSpring(load) => load.act(at, call),
+            Self::JointSpring(load) => load.act(at, call),
+            Self::Stop(load) => load.act(at, call),
+            Self::SixBushing(load) => load.act(at, call),
             Self::Bushing(load) => load.act(at, call),
             Self::RotationalBushing(load) => load.act(at, call),
             Self::OrientationBushing(load) => load.act(at, call),
@@ -89,7 +99,9 @@ impl<const D: usize> Load<D> {
             // What it adds to the stiffness where bodies turn is not symmetric, and small beside inertia.
             Self::Couple(_) | Self::Distributed(_) => {}
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
-            Self::RotationalSpring(load) => load.add_tangent(at, stiffness, damping),
+            Self::JointSpring(load) => load.add_tangent(at, stiffness, damping),
+            Self::Stop(load) => load.add_tangent(at, stiffness, damping),
+            Self::SixBushing(load) => load.add_tangent(at, stiffness, damping),
             Self::Bushing(load) => load.add_tangent(stiffness, damping),
             Self::RotationalBushing(load) => load.add_tangent(at, stiffness, damping),
             Self::OrientationBushing(load) => load.add_tangent(at, stiffness, damping),
@@ -105,7 +117,9 @@ impl<const D: usize> Load<D> {
             Self::Couple(load) => [load.power(at), none],
             Self::Distributed(load) => [load.power(at), none],
             Self::Spring(load) => load.power(at),
-            Self::RotationalSpring(load) => [none, load.dissipation(at)],
+            Self::JointSpring(load) => [none, load.dissipation(at)],
+            Self::Stop(load) => [none, load.dissipation(at)],
+            Self::SixBushing(load) => [none, load.dissipation(at)],
             Self::Bushing(load) => load.power(at),
             Self::RotationalBushing(load) => load.power(at),
             Self::OrientationBushing(load) => load.power(at),
@@ -116,7 +130,9 @@ impl<const D: usize> Load<D> {
     pub fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         match self {
             Self::Spring(load) => load.energy(at),
-            Self::RotationalSpring(load) => load.energy(at),
+            Self::JointSpring(load) => load.energy(at),
+            Self::Stop(load) => load.energy(at),
+            Self::SixBushing(load) => load.energy(at),
             Self::Bushing(load) => load.energy(at),
             Self::RotationalBushing(load) => load.energy(at),
             Self::OrientationBushing(load) => load.energy(at),
@@ -135,7 +151,9 @@ impl<const D: usize> Load<D> {
             Self::Bushing(load) => load.work(before, after),
             Self::RotationalBushing(load) => load.work(before, after),
             Self::OrientationBushing(load) => load.work(before, after),
-            Self::Spring(_) | Self::RotationalSpring(_) => self.energy(before) - self.energy(after),
+            Self::Spring(_) | Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {
+                self.energy(before) - self.energy(after)
+            }
         }
     }
 
@@ -157,7 +175,7 @@ impl<const D: usize> Load<D> {
             }
             Self::Distributed(load) => hold(&mut load.components, fraction),
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
-            Self::RotationalSpring(_) => {}
+            Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {}
             Self::Bushing(load) => {
                 hold(&mut load.position, 1.0);
                 hold(&mut load.velocity, 1.0);
@@ -188,9 +206,11 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Moment(_)
             | Self::Couple(_)
-            | Self::RotationalSpring(_)
+            | Self::SixBushing(_)
             | Self::RotationalBushing(_)
             | Self::OrientationBushing(_) => true,
+            Self::JointSpring(load) => load.coordinate.is_angle(),
+            Self::Stop(load) => load.coordinate.is_angle(),
             Self::Force(_) | Self::Distributed(_) | Self::Spring(_) | Self::Bushing(_) => false,
         }
     }
@@ -199,7 +219,9 @@ impl<const D: usize> Load<D> {
     pub fn is_damped(&self) -> bool {
         match self {
             Self::Spring(load) => load.damping > 0.0,
-            Self::RotationalSpring(load) => load.damping > 0.0,
+            Self::JointSpring(load) => load.damping > 0.0,
+            Self::Stop(load) => load.damping > 0.0,
+            Self::SixBushing(load) => load.is_damped(),
             Self::Bushing(load) => load.damping > 0.0,
             Self::RotationalBushing(load) => load.damping > 0.0,
             Self::OrientationBushing(load) => load.damping > 0.0,
@@ -215,7 +237,9 @@ impl<const D: usize> Load<D> {
             Self::Distributed(load) => (&load.components, &[]),
             Self::Moment(load) => (one(&load.size), &[]),
             Self::Spring(load) => (one(&load.length), &[]),
-            Self::Couple(_) | Self::RotationalSpring(_) => (&[], &[]),
+            Self::Couple(_) | Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {
+                (&[], &[])
+            }
             Self::Bushing(load) => (&load.position, &load.velocity),
             Self::RotationalBushing(load) => (one(&load.angle), one(&load.velocity)),
             Self::OrientationBushing(load) => (&load.quaternion, &load.velocity),
@@ -235,7 +259,9 @@ impl<const D: usize> Load<D> {
             Self::Couple(load) => load.ends.to_vec(),
             Self::Distributed(_) => vec![],
             Self::Spring(load) => load.ends.to_vec(),
-            Self::RotationalSpring(load) => load.ends.to_vec(),
+            Self::JointSpring(load) => load.coordinate.ends().to_vec(),
+            Self::Stop(load) => load.coordinate.ends().to_vec(),
+            Self::SixBushing(load) => load.ends().to_vec(),
             Self::Bushing(load) => vec![End::Body(load.marker)],
             Self::RotationalBushing(load) => vec![End::Body(load.marker)],
             Self::OrientationBushing(load) => vec![End::Body(load.axes[0])],

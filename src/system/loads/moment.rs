@@ -4,9 +4,8 @@
 use nalgebra::SMatrix;
 
 use super::{Add, Instant};
-use crate::body::Node;
 use crate::math::jet::Number;
-use crate::math::space::{Vector, cross, perpendicular, perpendicular_matrix};
+use crate::math::space::{Vector, cross};
 use crate::system::end::{End, coupling};
 use crate::system::signal::Signal;
 
@@ -35,7 +34,7 @@ impl<const D: usize> Moment<D> {
         let size = self.size.value(at);
         for (end, size) in self.ends.iter().zip([-size, size]) {
             if let End::Body(_) = end {
-                let k = curl(end, at.x) * size;
+                let k = end.curl(at.x) * size;
                 let zero = SMatrix::zeros();
                 let ground = End::Ground(Vector::zeros());
                 coupling(&[*end, ground], [[k, zero], [zero, zero]], 1, add);
@@ -55,11 +54,4 @@ impl<const D: usize> Moment<D> {
         };
         self.size.value(before) * (turn(&self.ends[1]) - turn(&self.ends[0]))
     }
-}
-
-/// Minus the second derivative of the angle of a direction.
-pub(super) fn curl<const D: usize>(end: &End<D>, x: &[Node<D>]) -> SMatrix<f64, D, D> {
-    let u = end.direction(x);
-    let a = u.norm_squared();
-    (perpendicular(u) * u.transpose() * (2.0 / a) - perpendicular_matrix()) / a
 }

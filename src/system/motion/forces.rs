@@ -173,6 +173,7 @@ impl<const D: usize> System<D> {
             drives,
             chains: &self.chains,
             travel,
+            angles,
         };
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             constraint.stiffness(*lambda, &view, &mut |a, b, block| {
@@ -211,7 +212,7 @@ impl<const D: usize> System<D> {
         sum.copy_from_slice(&work.f);
         let view = self.view(work);
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 add(&[(node, *term)], -lambda, &mut sum);
             });
         }
@@ -232,7 +233,7 @@ impl<const D: usize> System<D> {
         let mut supply = std::mem::take(&mut work.supply);
         let view = self.view(work);
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 add(&[(node, *term)], *lambda, &mut supply);
             });
         }

@@ -72,14 +72,14 @@ impl<const D: usize> System<D> {
             drives: &work.drives,
             chains: &self.chains,
             travel: &work.travel,
+            angles: &work.angles,
         };
         for (row, constraint) in self.constraints.iter().enumerate() {
             if !work.jacobian.needs(row) {
                 continue;
             }
-            let gradient = constraint.gradient(&view);
             (work.jacobian).fill(&self.elimination, row, |tell| {
-                gradient.for_each(|node, term| {
+                constraint.for_each(&view, |node, term| {
                     let (node, term) = self.frames.pull(node, term, &work.x);
                     tell(node, &term);
                 });
@@ -118,6 +118,7 @@ impl<const D: usize> System<D> {
             drives: &work.drives,
             chains: &self.chains,
             travel: &work.travel,
+            angles: &work.angles,
         }
     }
 
@@ -135,7 +136,7 @@ impl<const D: usize> System<D> {
         for (_, (constraint, index)) in constraints.filter(|(row, _)| jacobian.is_independent(*row))
         {
             assembly.add_corner(*index, 1.0, matrix);
-            constraint.gradient(view).for_each(|node, term| {
+            constraint.for_each(view, |node, term| {
                 let (node, term) = self.frames.pull(node, term, view.x);
                 assembly.add_gradient((*index, node), &term, matrix);
             });
@@ -156,7 +157,7 @@ impl<const D: usize> System<D> {
         for (right, constraint) in right.iter_mut().zip(&self.constraints) {
             *right = -constraint.bias(&view);
             if is_driven {
-                constraint.gradient(&view).for_each(|node, term| {
+                constraint.for_each(&view, |node, term| {
                     *right -= product(term, &work.other[node]);
                 });
             }
@@ -321,7 +322,7 @@ fn constraint_rate<const D: usize, N: Number>(
     view: &View<'_, D, N>,
 ) -> N {
     let mut rate = constraint.rate(view);
-    constraint.gradient(view).for_each(|node, term| {
+    constraint.for_each(view, |node, term| {
         for (term, v) in term.as_flattened().iter().zip(view.v[node].as_flattened()) {
             rate += *term * *v;
         }

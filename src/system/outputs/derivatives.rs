@@ -314,7 +314,7 @@ impl<const D: usize> Derivatives<D> {
         for (row, constraint) in system.constraints.iter().enumerate() {
             let bias = constraint.bias(&view);
             let mut right = -part(bias, k);
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 let driven = self.driven[node].as_flattened();
                 for (term, driven) in term.as_flattened().iter().zip(driven) {
                     right -= part(*term * *driven, k);
@@ -347,7 +347,7 @@ impl<const D: usize> Derivatives<D> {
         let mut supply = std::mem::take(&mut self.values.supply);
         let view = self.values.view(system);
         for (constraint, lambda) in system.constraints.iter().zip(&self.values.lambda) {
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 let supply = supply[node].as_flattened_mut().iter_mut();
                 for (supply, term) in supply.zip(term.as_flattened()) {
                     *supply += *term * *lambda;

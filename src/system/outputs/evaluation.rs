@@ -174,22 +174,30 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (at, view) = (self.instant(system), self.view(system));
         for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
             if constraint.joint == Some(joint) {
-                let (end, [position, direction]) = constraint.gradient(&view).ends[1];
-                let u = end.direction(&self.x);
-                force -= position * *lambda;
-                turning -= Vector3::from(moment(&u, &(direction * *lambda)));
+                constraint.for_each_pair(&view, |pair| {
+                    let (end, [position, direction]) = pair.ends[1];
+                    let u = end.direction(&self.x);
+                    force -= position * *lambda;
+                    turning -= Vector3::from(moment(&u, &(direction * *lambda)));
+                });
             }
         }
         if let Some(load) = system.joints[joint].spring
-            && let Load::RotationalSpring(spring) = &system.loads[load]
+            && let Load::JointSpring(spring) = &system.loads[load]
         {
-            let axis = match &spring.turn {
-                Some(turn) => turn.axis(&self.x),
-                None => [N::of(0.0), N::of(0.0), N::of(1.0)],
-            };
-            turning += Vector3::from(axis) * spring.moment(at);
+            let pair = spring.coordinate.gradient(&self.x);
+            let (end, [_, direction]) = &pair.ends[1];
+            let on = direction * spring.force(at);
+            turning += Vector3::from(moment(&end.direction(&self.x), &on));
         }
         (force, turning.into())
+    }
+
+    /// Force (N) or torque (N m) of a gear on the coordinate of its second joint.
+    pub fn gear(&self, system: &System<D>, gear: usize) -> N {
+        let rows = system.constraints.iter().zip(&self.lambda);
+        let mut own = rows.filter(|(constraint, _)| constraint.joint == Some(gear));
+        own.next().map_or(N::of(0.0), |(_, lambda)| -*lambda)
     }
 
     /// Force (N) and moment (N m), in the plane its third component, of a coupling on what it couples to.
@@ -224,6 +232,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             drives: &self.drives,
             chains: &system.chains,
             travel: &self.travel,
+            angles: &self.angles,
         }
     }
 

@@ -170,9 +170,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         let view = self.view(system);
         for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
-            for (end, on) in constraint.gradient(&view).ends {
-                call(&end, on.map(|on| -on * *lambda));
-            }
+            constraint.for_each_pair(&view, |pair| {
+                for (end, on) in &pair.ends {
+                    call(end, on.map(|on| -on * *lambda));
+                }
+            });
         }
     }
 }

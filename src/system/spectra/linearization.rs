@@ -350,6 +350,7 @@ impl<const D: usize> System<D> {
     ) -> Blocks {
         let lift = |x: &f64| Jet::from_re(*x);
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
+        let angles: Vec<Jet> = work.angles.iter().map(lift).collect();
         let mut nodes = constraint.nodes(&self.chains);
         if let ConstraintKind::PointOnCurve(along) = &constraint.kind {
             let chain = &self.chains[along.chain];
@@ -372,8 +373,9 @@ impl<const D: usize> System<D> {
                 drives: &drives,
                 chains: &self.chains,
                 travel: &travel,
+                angles: &angles,
             };
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 let f = f[node].as_flattened_mut().iter_mut();
                 for (f, term) in f.zip(term.as_flattened()) {
                     *f -= *term * Jet::of(lambda);
@@ -439,31 +441,31 @@ impl<const D: usize> System<D> {
         let drives: Vec<[Jet; 3]> = work.drives.iter().map(lift).collect();
         let mut travel: Vec<Jet> = work.travel.iter().map(|s| Jet::from_re(*s)).collect();
         self.find_travel(&x, &mut travel);
+        let angles: Vec<Jet> = work.angles.iter().map(|a| Jet::from_re(*a)).collect();
         let view = View {
             x: &x,
             v: &v,
             drives: &drives,
             chains: &self.chains,
             travel: &travel,
+            angles: &angles,
         };
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];
-            self.constraints[*row]
-                .gradient(&view)
-                .for_each(|node, term| {
-                    let spin = self.frames.of_node::<D>(node).map(|(frame, _)| frame);
-                    let spin = spin.map(|frame| frame.spin(&work.x, &work.v));
-                    let (node, term) = self.frames.pull(node, term, &x);
-                    let mut change = map_node(&term, |t| t.v1);
-                    if let Some(spin) = spin {
-                        // Of rotations about axes that stand still.
-                        let moment = components(&term[1].map(|t| t.re).into());
-                        let along = Vector3::from(moment).cross(&spin);
-                        let turned: Vector<D> = vector(along.into());
-                        add_node(&mut change, -1.0, &[[0.0; D], turned.into()]);
-                    }
-                    (self.elimination.assembly).restrict_node(node, &change, &mut rate);
-                });
+            self.constraints[*row].for_each(&view, |node, term| {
+                let spin = self.frames.of_node::<D>(node).map(|(frame, _)| frame);
+                let spin = spin.map(|frame| frame.spin(&work.x, &work.v));
+                let (node, term) = self.frames.pull(node, term, &x);
+                let mut change = map_node(&term, |t| t.v1);
+                if let Some(spin) = spin {
+                    // Of rotations about axes that stand still.
+                    let moment = components(&term[1].map(|t| t.re).into());
+                    let along = Vector3::from(moment).cross(&spin);
+                    let turned: Vector<D> = vector(along.into());
+                    add_node(&mut change, -1.0, &[[0.0; D], turned.into()]);
+                }
+                (self.elimination.assembly).restrict_node(node, &change, &mut rate);
+            });
             self.elimination.project_in_place(&mut rate);
             rate
         });

@@ -187,7 +187,7 @@ impl<const D: usize> System<D> {
             ..self.view(work)
         };
         for (i, constraint) in self.all_constraints().enumerate() {
-            constraint.gradient(&view).for_each(|node, c| {
+            constraint.for_each(&view, |node, c| {
                 let scale = constraint_size(constraint, size);
                 enter(self.linear.len() + i, node, c, scale);
             });
@@ -208,11 +208,13 @@ fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64
         | ConstraintKind::DrivenTurn(_) => 1.0,
         ConstraintKind::HeldRow(row) if row.holds_direction() => 1.0,
         ConstraintKind::Perpendicular(right) if right.is_angle() => 1.0,
+        ConstraintKind::Related(related) if related.is_angle() => 1.0,
         ConstraintKind::Distance(_)
         | ConstraintKind::PointOnLine(_)
         | ConstraintKind::PointOnCurve(_)
         | ConstraintKind::HeldRow(_)
-        | ConstraintKind::Perpendicular(_) => size,
+        | ConstraintKind::Perpendicular(_)
+        | ConstraintKind::Related(_) => size,
     }
 }
 

@@ -144,7 +144,7 @@ impl<const D: usize> System<D> {
         let view = self.view(work);
         for constraint in &self.constraints {
             let mut row = vec![0.0; fields.len()];
-            constraint.gradient(&view).for_each(|node, term| {
+            constraint.for_each(&view, |node, term| {
                 for (sum, field) in row.iter_mut().zip(fields) {
                     *sum += product(term, &field[node]);
                 }

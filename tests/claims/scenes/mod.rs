@@ -1,7 +1,9 @@
 //! The specimens: scenes of a body or a few, and what must come of them in closed form. Numbers of the
 //! closed forms are those of the scene, written once more where a test must not compute them.
 
+mod bushings;
 mod cables;
+mod coordinates;
 mod frames;
 mod initial;
 mod inputs;
@@ -49,6 +51,8 @@ pub fn all() -> Vec<Specimen> {
         space_bodies::all(),
         space_joints::all(),
         space_modes::all(),
+        coordinates::all(),
+        bushings::all(),
         space_ports::all(),
         shapes::all(),
     ];

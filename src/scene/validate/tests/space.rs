@@ -289,7 +289,32 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /motions/0/joint | "sleeve" | accepted
         /motions/0/joint | "cross" | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one, found "cross"
         /motions/0 | {"name": "turn", "kind": "angle", "marker": "a.in", "value": 0} | motions[0].marker: expected nothing that has an angle
-        /motions/0 | {"name": "turn", "kind": "displacement", "joint": "rail", "value": 0} | motions[0].joint: expected a slider on a fixed line
+        /motions | [{"name": "turn", "kind": "angle", "joint": "pin", "value": 0}, {"name": "slide", "kind": "displacement", "joint": "rail", "value": 0}] | accepted
+        /motions/0 | {"name": "turn", "kind": "displacement", "joint": "ball", "value": 0} | motions[0].joint: expected a joint along a line of the ground or of a rigid body, found "ball"
+        /gears | [{"name": "g", "joints": ["elbow", "rail"], "ratio": 0.5}] | accepted
+        /gears | [{"name": "elbow", "joints": ["elbow", "rail"], "ratio": 0.5}] | gears[0].name: expected a name not used yet
+        /gears | [{"name": "g", "joints": ["elbow", "none"], "ratio": 0.5}] | gears[0].joints[1]: expected a joint of this scene
+        /gears | [{"name": "g", "joints": ["elbow", "ball"], "ratio": 0.5}] | gears[0].joints[1]: expected a joint with an angle or along a line
+        /gears | [{"name": "g", "joints": ["elbow", "elbow"], "ratio": 0.5}] | gears[0].joints: expected two joints, found "elbow" twice
+        /gears | [{"name": "g", "joints": ["elbow", "rail"], "ratio": 0}] | gears[0].ratio: expected a number that is not zero (m/rad), found 0
+        /outputs/0 | {"kind": "gear_torque", "gear": "g"} | outputs[0].gear: expected a gear of this scene, found "g"
+        /outputs/0 | {"kind": "displacement", "joint": "elbow"} | outputs[0].joint: expected a joint along a line
+        /outputs/0 | {"kind": "velocity", "joint": "rail"} | accepted
+        /joints/0 | {"name": "s", "kind": "screw", "markers": ["ground", "a.in"], "direction": [1, 0, 0]} | joints[0].pitch: expected a pitch, found nothing
+        /joints/0 | {"name": "s", "kind": "screw", "markers": ["ground", "a.in"], "direction": [1, 0, 0], "pitch": 0} | joints[0].pitch: expected a number that is not zero (m), found 0
+        /joints/0 | {"name": "s", "kind": "generic", "markers": ["ground", "a.in"], "free": ["x", "x"]} | joints[0].free[1]: expected a freedom that is not in the list yet
+        /joints/0 | {"name": "s", "kind": "generic", "markers": ["ground", "a.in"], "free": ["x", "y", "z", "rotation_x", "rotation_y", "rotation_z"]} | joints[0].free: expected freedoms that leave something to hold, found all six
+        /joints/0 | {"name": "s", "kind": "generic", "markers": ["ground", "rope.tip"], "free": ["x"]} | joints[0].markers[1]: expected a marker of a rigid body with inertia
+        /loads/0 | {"name": "l", "kind": "joint_spring", "joint": "rail"} | loads[0]: expected a stiffness or a damping, found neither
+        /loads/0 | {"name": "l", "kind": "joint_spring", "joint": "rail", "coordinate": "angle", "stiffness": 1} | loads[0].joint: expected a revolute joint with a direction
+        /loads/0 | {"name": "l", "kind": "joint_spring", "joint": "ball", "stiffness": 1} | loads[0].joint: expected a joint with an angle or along a line
+        /loads/0 | {"name": "l", "kind": "joint_spring", "joint": "elbow", "stiffness": -1} | loads[0].stiffness: expected zero or a positive number (N m/rad), found -1
+        /loads/0 | {"name": "l", "kind": "stop", "joint": "rail", "stiffness": 5} | loads[0]: expected a lower or an upper limit, found neither
+        /loads/0 | {"name": "l", "kind": "stop", "joint": "rail", "stiffness": 0, "lower": 1} | loads[0].stiffness: expected a positive number (N/m), found 0
+        /loads/0 | {"name": "l", "kind": "stop", "joint": "rail", "stiffness": 5, "lower": 1, "upper": 0} | loads[0].upper: expected a limit that is not below `lower`, 1, found 0
+        /loads/0 | {"name": "l", "kind": "bushing", "markers": ["a.in", "b.out"]} | loads[0]: expected stiffnesses or dampings, found none
+        /loads/0 | {"name": "l", "kind": "bushing", "markers": ["ground", "rope.tip"], "rotational_stiffness": [1, 1, 1]} | loads[0].markers[1]: expected a marker of a rigid body with inertia
+        /loads/0 | {"name": "l", "kind": "bushing", "markers": ["a.in", "b.out"], "rotational_damping": [1, 1, -1]} | loads[0].rotational_damping[2]: expected zero or a positive number (N m s/rad), found -1
         /loads/0/value | 1 | loads[0].value: expected 3 values [x, y, z], found 1
         /loads/0/value | [1, 2] | loads[0].value: expected 3 values [x, y, z], found 2
         /loads/1/marker | "rope.tip" | loads[1].marker: expected a marker of a rigid body with inertia

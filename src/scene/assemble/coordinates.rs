@@ -1,0 +1,148 @@
+//! Coordinates of joints, and what stands on them: springs, stops, screws, gears.
+
+use super::{Builder, unit};
+use crate::math::space::{Vector, axis, vector};
+use crate::scene::resolved::{self, First, Gear, JointCoordinate, Pivot, Slider, Turning};
+use crate::system::joints::{Primitive, Related};
+use crate::system::loads::{JointSpring, Load, SixBushing, Stop};
+use crate::system::{Angle, Coordinate, Direction, End, Way};
+
+impl<const D: usize> Builder<'_, D> {
+    /// The way along the line of a joint.
+    pub(super) fn way(&self, slider: &Slider<'_>) -> Way<D> {
+        let ends = self.ends(slider.ends);
+        let still = [0.0, 1.0];
+        let (direction, turn) = match (slider.ends.first, &ends[0]) {
+            (First::Marker(_), End::Body(marker)) if D == 2 => {
+                let [cos, sin] = [0, 1].map(|k| unit::<D>(slider.direction)[k]);
+                (Direction::Of(*marker), [sin, cos])
+            }
+            (First::Marker(_), first) => (self.fixed(first, vector(slider.along)), still),
+            _ => (Direction::Fixed(vector(slider.along)), still),
+        };
+        Way {
+            ends,
+            direction,
+            turn,
+        }
+    }
+
+    /// The angle of a joint, which is counted.
+    fn counted(&mut self, pivot: &Pivot<'_>) -> Coordinate<D> {
+        let ends = self.ends(pivot.ends);
+        let turn = self.axis_turn(&Turning::Pivot(*pivot));
+        let index = self.count_angle(ends, turn);
+        Coordinate::Angle(Angle { ends, turn }, index)
+    }
+
+    pub(super) fn coordinate(&mut self, of: &JointCoordinate<'_>) -> Coordinate<D> {
+        match of {
+            JointCoordinate::Displacement(slider) => Coordinate::Way(self.way(slider)),
+            JointCoordinate::Angle(pivot) => self.counted(pivot),
+        }
+    }
+
+    /// Its value in the shapes and positions that the scene describes, m or rad.
+    pub(super) fn at_start(&self, coordinate: &Coordinate<D>) -> f64 {
+        let angles = vec![0.0; self.parts.angles.len()];
+        coordinate.value(&self.parts.nodes, &angles)
+    }
+
+    pub(super) fn joint_spring(
+        &self,
+        coordinate: Coordinate<D>,
+        [stiffness, damping]: [f64; 2],
+        rest: Option<f64>,
+    ) -> Load<D> {
+        Load::JointSpring(JointSpring {
+            rest: rest.unwrap_or_else(|| self.at_start(&coordinate)),
+            coordinate: Box::new(coordinate),
+            stiffness,
+            damping,
+        })
+    }
+
+    pub(super) fn stop(
+        &mut self,
+        on: &JointCoordinate<'_>,
+        [stiffness, damping]: [f64; 2],
+        [lower, upper]: [Option<f64>; 2],
+    ) -> Load<D> {
+        Load::Stop(Stop {
+            coordinate: Box::new(self.coordinate(on)),
+            limits: [
+                lower.unwrap_or(f64::NEG_INFINITY),
+                upper.unwrap_or(f64::INFINITY),
+            ],
+            stiffness,
+            damping,
+        })
+    }
+
+    pub(super) fn bushing(&self, bushing: &resolved::Bushing<'_>) -> Load<D> {
+        let ends = self.ends(bushing.ends);
+        let first = match bushing.ends.first {
+            First::Marker(marker) => self.frame_axes(marker).map(Direction::Of),
+            First::Ground(_) | First::Cable(_) => {
+                std::array::from_fn(|k| Direction::Fixed(axis(k)))
+            }
+        };
+        let nodes = &self.parts.nodes;
+        let axes: [Vector<D>; D] = first.map(|axis| axis.value(nodes));
+        let second = axes.map(|axis| self.fixed(&ends[1], axis));
+        // In space alone.
+        let three = |of: &[Direction<D>; D]| std::array::from_fn(|k| of[k.min(D - 1)]);
+        let ways = three(&first).map(|direction| Way {
+            ends,
+            direction,
+            turn: [0.0, 1.0],
+        });
+        Load::SixBushing(Box::new(SixBushing {
+            rest: ways.map(|way| way.value(nodes)),
+            ways,
+            axes: [three(&first), three(&second)],
+            stiffness: bushing.stiffness,
+            damping: bushing.damping,
+        }))
+    }
+
+    /// `second - ratio first` stays what it is at the start.
+    fn related(&mut self, both: &[JointCoordinate<'_>; 2], ratio: f64) -> Primitive<D> {
+        let [first, second] = both.each_ref().map(|of| self.coordinate(of));
+        let offset = self.at_start(&second) - ratio * self.at_start(&first);
+        let size = match both[1] {
+            JointCoordinate::Displacement(_) => self.size_of(&second.ends()),
+            JointCoordinate::Angle(_) => 1.0,
+        };
+        Primitive::Related(Related {
+            terms: vec![(-ratio, first), (1.0, second)],
+            offset,
+            drive: None,
+            size,
+        })
+    }
+
+    /// The way of a screw, by its pitch.
+    pub(super) fn screw(
+        &mut self,
+        pivot: Pivot<'_>,
+        slider: Slider<'_>,
+        pitch: f64,
+    ) -> Primitive<D> {
+        let both = [
+            JointCoordinate::Angle(pivot),
+            JointCoordinate::Displacement(slider),
+        ];
+        self.related(&both, pitch / std::f64::consts::TAU)
+    }
+
+    pub(super) fn gears(&mut self) {
+        for Gear {
+            coordinates, ratio, ..
+        } in &self.resolved.gears
+        {
+            let related = self.related(coordinates, *ratio);
+            self.hold(related, self.ends(coordinates[1].ends()));
+        }
+    }
+}

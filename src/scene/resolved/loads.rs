@@ -1,0 +1,126 @@
+//! Loads of a resolved scene: forces and moments, springs, dampers and stops.
+
+use super::{Cable, Ends, JointCoordinate, Marker, Pivot};
+use crate::scene::description::{ActionKind, Value};
+use crate::system::Signal;
+
+/// A load that the scene knows.
+#[derive(Clone, Debug)]
+pub struct Load<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// What acts.
+    pub kind: LoadKind<'a>,
+}
+
+/// What acts.
+#[derive(Clone, Debug)]
+pub enum LoadKind<'a> {
+    /// A force or a moment.
+    Action {
+        /// Which and where.
+        action: Action<'a>,
+        /// Its size as written.
+        values: &'a [Value],
+    },
+    /// A spring and a damper side by side.
+    Spring(Spring<'a>),
+    /// A spring and a damper on a coordinate of a joint.
+    JointSpring {
+        /// What they act on.
+        on: JointCoordinate<'a>,
+        /// Stiffness (N/m or N m/rad) and damping (N s/m or N m s/rad).
+        sizes: [f64; 2],
+        /// Coordinate at rest; that at the start if there is none.
+        rest: Option<f64>,
+    },
+    /// Springs and dampers along and about three axes.
+    Bushing(Bushing<'a>),
+    /// Stops of a coordinate of a joint.
+    Stop {
+        /// What they limit.
+        on: JointCoordinate<'a>,
+        /// Stiffness (N/m or N m/rad) and damping (s/m or s/rad).
+        sizes: [f64; 2],
+        /// Limits below and above.
+        limits: [Option<f64>; 2],
+    },
+}
+
+/// Springs and dampers along and about the axes of the first end's body.
+#[derive(Clone, Copy, Debug)]
+pub struct Bushing<'a> {
+    /// What they are fixed to.
+    pub ends: Ends<'a>,
+    /// Stiffness along (N/m) and about (N m/rad) the axes.
+    pub stiffness: [[f64; 3]; 2],
+    /// Damping along (N s/m) and about (N m s/rad) the axes.
+    pub damping: [[f64; 3]; 2],
+}
+
+impl<'a> LoadKind<'a> {
+    /// What springs between two points are fixed to.
+    pub fn between(&self) -> Option<Ends<'a>> {
+        match self {
+            Self::Spring(spring) => Some(spring.ends),
+            Self::Bushing(bushing) => Some(bushing.ends),
+            Self::Action { .. } | Self::JointSpring { .. } | Self::Stop { .. } => None,
+        }
+    }
+
+    /// Its largest stiffness against ways (N/m) and against turns (N m/rad).
+    pub fn stiffness(&self) -> [f64; 2] {
+        match self {
+            Self::Action { .. } => [0.0; 2],
+            Self::Spring(spring) => [spring.stiffness, 0.0],
+            Self::Bushing(bushing) => bushing
+                .stiffness
+                .map(|axes| axes.into_iter().fold(0.0, f64::max)),
+            Self::JointSpring { on, sizes, .. } | Self::Stop { on, sizes, .. } => {
+                match on.is_angle() {
+                    true => [0.0, sizes[0]],
+                    false => [sizes[0], 0.0],
+                }
+            }
+        }
+    }
+}
+
+/// A spring and a damper between two ends.
+#[derive(Clone, Debug)]
+pub struct Spring<'a> {
+    /// What they are fixed to.
+    pub ends: Ends<'a>,
+    /// Stiffness, N/m.
+    pub stiffness: f64,
+    /// Damping, N s/m.
+    pub damping: f64,
+    /// Length at rest as written, m.
+    pub given: Option<&'a Value>,
+    /// Length at rest, m; the distance at the start if there is none.
+    pub length: Option<Signal>,
+}
+
+/// A force or a moment, known or an input.
+#[derive(Clone, Debug)]
+pub struct Action<'a> {
+    /// Which.
+    pub kind: ActionKind,
+    /// What it acts on; which of these follows from the kind.
+    pub on: On<'a>,
+    /// Whether it turns with the marker.
+    pub follower: bool,
+    /// Its components, as many as the kind has.
+    pub components: Vec<Signal>,
+}
+
+/// What a force or a moment acts on.
+#[derive(Clone, Copy, Debug)]
+pub enum On<'a> {
+    /// A marker.
+    Marker(Marker<'a>),
+    /// A joint: its second marker, and the opposite on its first.
+    Joint(Pivot<'a>),
+    /// A cable, per reference length.
+    Cable(Cable<'a>),
+}

@@ -1,0 +1,39 @@
+//! Checks of gears.
+
+use super::checks::{expected, not_zero, quoted};
+use crate::scene::Error;
+use crate::scene::description::CoordinateKind;
+use crate::scene::resolved::{Gear, Resolved};
+
+impl<'a> Resolved<'a> {
+    pub(super) fn resolve_gears(&mut self) -> Result<(), Error> {
+        for (index, gear) in self.scene.gears.iter().enumerate() {
+            let path = format!("gears[{index}]");
+            let coordinate = |side: usize| {
+                let at = format!("{path}.joints[{side}]");
+                let which = (None, CoordinateKind::Angle);
+                self.require_coordinate(&at, &gear.joints[side], which)
+            };
+            let coordinates = [coordinate(0)?, coordinate(1)?];
+            let [a, b] = &gear.joints;
+            if a == b {
+                let found = format!("{} twice", quoted(a));
+                return Err(expected(&format!("{path}.joints"), "two joints", found));
+            }
+            let unit = match coordinates.map(|of| of.is_angle()) {
+                [true, false] => "m/rad",
+                [false, true] => "rad/m",
+                _ => "1",
+            };
+            not_zero(&format!("{path}.ratio"), unit, gear.ratio)?;
+            let holder = self.hold(&path, &gear.name);
+            self.gears.push(Gear {
+                name: &gear.name,
+                holder,
+                coordinates,
+                ratio: gear.ratio,
+            });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,112 @@
+//! Checks of springs, dampers and stops.
+
+use super::checks::{expected, finite, needed, not_negative, positive, spring_damper};
+use crate::scene::Error;
+use crate::scene::description::{CoordinateKind, Load, LoadKind as Given};
+use crate::scene::resolved::{Bushing, First, JointCoordinate, LoadKind, Resolved};
+
+impl<'a> Resolved<'a> {
+    /// A load that is no force or moment.
+    pub(super) fn resolve_springs(
+        &self,
+        path: &str,
+        load: &'a Load,
+    ) -> Result<LoadKind<'a>, Error> {
+        match load.kind {
+            Given::JointSpring => self.joint_spring(path, load),
+            Given::Stop => self.stop(path, load),
+            Given::Bushing => self.bushing(path, load).map(LoadKind::Bushing),
+            _ => self.spring(path, load).map(LoadKind::Spring),
+        }
+    }
+
+    fn coordinate(&self, path: &str, load: &'a Load) -> Result<JointCoordinate<'a>, Error> {
+        let joint = needed(path, "joint", "a name", load.joint.as_deref())?;
+        let which = (load.coordinate, CoordinateKind::Displacement);
+        self.require_coordinate(&format!("{path}.joint"), joint, which)
+    }
+
+    fn joint_spring(&self, path: &str, load: &'a Load) -> Result<LoadKind<'a>, Error> {
+        let on = self.coordinate(path, load)?;
+        let units = match on.is_angle() {
+            true => ["N m/rad", "N m s/rad"],
+            false => ["N/m", "N s/m"],
+        };
+        if let Some(rest) = load.rest {
+            finite(&format!("{path}.rest"), rest)?;
+        }
+        let sizes = spring_damper(path, (load.stiffness, units[0]), (load.damping, units[1]))?;
+        Ok(LoadKind::JointSpring {
+            on,
+            sizes,
+            rest: load.rest,
+        })
+    }
+
+    fn stop(&self, path: &str, load: &'a Load) -> Result<LoadKind<'a>, Error> {
+        let on = self.coordinate(path, load)?;
+        let units = match on.is_angle() {
+            true => ["N m/rad", "s/rad"],
+            false => ["N/m", "s/m"],
+        };
+        let stiffness = needed(path, "stiffness", "a stiffness", load.stiffness)?;
+        positive(&format!("{path}.stiffness"), units[0], stiffness)?;
+        let damping = load.damping.unwrap_or(0.0);
+        not_negative(&format!("{path}.damping"), units[1], damping)?;
+        let limits = [load.lower, load.upper];
+        for (key, limit) in ["lower", "upper"].into_iter().zip(limits) {
+            if let Some(limit) = limit {
+                finite(&format!("{path}.{key}"), limit)?;
+            }
+        }
+        match limits {
+            [None, None] => Err(expected(path, "a lower or an upper limit", "neither")),
+            [Some(lower), Some(upper)] if lower > upper => {
+                let wanted = format!("a limit that is not below `lower`, {lower}");
+                Err(expected(&format!("{path}.upper"), &wanted, upper))
+            }
+            _ => Ok(LoadKind::Stop {
+                on,
+                sizes: [stiffness, damping],
+                limits,
+            }),
+        }
+    }
+
+    fn bushing(&self, path: &str, load: &'a Load) -> Result<Bushing<'a>, Error> {
+        if self.scene.dimension == 2 {
+            let wanted = "spring_damper or hinge in the plane";
+            return Err(expected(&format!("{path}.kind"), wanted, "bushing"));
+        }
+        let markers = needed(path, "markers", "two names", load.markers.as_ref())?;
+        let ends = self.require_pair(path, markers, load.point)?;
+        if let First::Marker(_) = ends.first {
+            self.require_standing(&format!("{path}.markers[0]"), &markers[0])?;
+        }
+        self.require_standing(&format!("{path}.markers[1]"), &markers[1])?;
+        let all = [
+            (
+                "translational_stiffness",
+                load.translational_stiffness,
+                "N/m",
+            ),
+            ("rotational_stiffness", load.rotational_stiffness, "N m/rad"),
+            ("translational_damping", load.translational_damping, "N s/m"),
+            ("rotational_damping", load.rotational_damping, "N m s/rad"),
+        ];
+        if all.iter().all(|(_, given, _)| given.is_none()) {
+            return Err(expected(path, "stiffnesses or dampings", "none"));
+        }
+        for (key, given, unit) in all {
+            for (k, value) in given.iter().flatten().enumerate() {
+                not_negative(&format!("{path}.{key}[{k}]"), unit, *value)?;
+            }
+        }
+        let [along, about, damped, turned] = all.map(|(_, given, _)| given.unwrap_or_default());
+        Ok(Bushing {
+            ends,
+            stiffness: [along, about],
+            damping: [damped, turned],
+        })
+    }
+}

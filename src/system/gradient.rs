@@ -1,0 +1,102 @@
+//! Derivatives of a function of two ends, such as a constraint or a coordinate of a joint: forces on both, and over the nodes.
+
+use super::end::{Add, End};
+use crate::body::{Node, add_node, no_node};
+use crate::math::jet::Number;
+use crate::math::space::Vector;
+
+/// Derivatives by position and direction of two ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Gradient<const D: usize, N: Number = f64> {
+    /// The ends and, for each, the derivatives by position and direction.
+    pub ends: [(End<D, N>, [Vector<D, N>; 2]); 2],
+}
+
+impl<const D: usize, N: Number> Gradient<D, N> {
+    /// The derivative along a nodal vector.
+    pub fn along(&self, v: &[Node<D, N>]) -> N {
+        let of = |(end, [position, direction]): &(End<D, N>, [Vector<D, N>; 2])| {
+            position.dot(&end.velocity(v)) + direction.dot(&end.direction_rate(v))
+        };
+        of(&self.ends[0]) + of(&self.ends[1])
+    }
+
+    /// The same times a factor.
+    pub fn scaled(mut self, factor: N) -> Self {
+        for (_, [position, direction]) in &mut self.ends {
+            *position *= factor;
+            *direction *= factor;
+        }
+        self
+    }
+
+    /// Terms over the nodes.
+    pub fn for_each(&self, mut term: impl FnMut(usize, &Node<D, N>)) {
+        for (end, [position, direction]) in &self.ends {
+            if let End::Body(marker) = end {
+                let [a, b] = marker.forces(*position, *direction);
+                term(a.0, &a.1);
+                if b.1 != [[N::of(0.0); D]; 2] {
+                    term(b.0, &b.1);
+                }
+            }
+        }
+    }
+}
+
+/// Derivatives by the coordinates of up to four nodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms<const D: usize> {
+    terms: [(usize, Node<D>); 4],
+    count: usize,
+}
+
+impl<const D: usize> Default for Terms<D> {
+    fn default() -> Self {
+        Self {
+            terms: [(usize::MAX, no_node()); 4],
+            count: 0,
+        }
+    }
+}
+
+impl<const D: usize> Terms<D> {
+    /// Adds derivatives by the coordinates of a node.
+    pub fn add(&mut self, node: usize, term: &Node<D>) {
+        let mut known = self.terms[..self.count].iter();
+        let place = known.position(|(at, _)| *at == node).unwrap_or(self.count);
+        self.count = self.count.max(place + 1);
+        self.terms[place].0 = node;
+        add_node(&mut self.terms[place].1, 1.0, term);
+    }
+
+    /// Adds derivatives by position and direction of an end.
+    pub fn add_end(&mut self, end: &End<D>, [position, direction]: [Vector<D>; 2]) {
+        if let End::Body(marker) = end {
+            for (node, term) in marker.forces(position, direction) {
+                self.add(node, &term);
+            }
+        }
+    }
+
+    /// Adds the product with themselves, times a factor, to a matrix over nodes.
+    pub fn add_square(&self, factor: f64, add: Add<'_, D>) {
+        let terms = &self.terms[..self.count];
+        for (i, (a, p)) in terms.iter().enumerate() {
+            for (b, q) in &terms[i..] {
+                let row = |part: &[f64; D], by: f64| part.map(|c| factor * by * c);
+                let block = p.map(|on| on.map(|by| q.map(|part| row(&part, by))));
+                add(*a, *b, &block);
+            }
+        }
+    }
+}
+
+impl<const D: usize> Gradient<D> {
+    /// Adds the product with itself, times a factor, to a matrix over nodes.
+    pub fn add_square(&self, factor: f64, add: Add<'_, D>) {
+        let mut terms = Terms::default();
+        self.for_each(|node, term| terms.add(node, term));
+        terms.add_square(factor, add);
+    }
+}

@@ -1,0 +1,65 @@
+//! A linear spring with a damper on a coordinate of a joint: along a slider, about the axis of a hinge.
+
+use super::{Add, Instant};
+use crate::math::jet::Number;
+use crate::math::space::Vector;
+use crate::system::coordinate::Coordinate;
+use crate::system::end::End;
+
+/// A spring and a damper in parallel.
+#[derive(Clone, Debug)]
+pub struct JointSpring<const D: usize = 2> {
+    /// What they act on.
+    pub coordinate: Box<Coordinate<D>>,
+    /// Stiffness, N/m or N m/rad.
+    pub stiffness: f64,
+    /// Damping, N s/m or N m s/rad.
+    pub damping: f64,
+    /// Coordinate without force, m or rad.
+    pub rest: f64,
+}
+
+impl<const D: usize> JointSpring<D> {
+    /// How far it is from rest.
+    fn stretch<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.coordinate.value(at.x, at.angles.1) - N::of(self.rest)
+    }
+
+    /// Force on the coordinate, N or N m.
+    pub fn force<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        let rate = self.coordinate.rate(at.x, at.v);
+        -N::of(self.stiffness) * self.stretch(at) - N::of(self.damping) * rate
+    }
+
+    pub(super) fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
+        self.coordinate.act(self.force(at), at.x, call);
+    }
+
+    pub(super) fn add_tangent(
+        &self,
+        at: Instant<'_, D>,
+        stiffness: Add<'_, D>,
+        damping: Add<'_, D>,
+    ) {
+        let of = &self.coordinate;
+        of.add_square(self.stiffness, at.x, &mut *stiffness);
+        of.add_curvature(-self.force(at), at.x, stiffness);
+        if self.damping > 0.0 {
+            of.add_square(self.damping, at.x, damping);
+        }
+    }
+
+    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        let rate = self.coordinate.rate(at.x, at.v);
+        N::of(self.damping) * rate * rate
+    }
+
+    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        let stretch = self.stretch(at);
+        N::of(0.5 * self.stiffness) * stretch * stretch
+    }
+}
