@@ -11,6 +11,7 @@ use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Primitive, Target, View};
 use super::loads::Load;
 use super::motion::forces::add_mass;
+use super::motion::tree::Tree;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
@@ -129,6 +130,7 @@ impl<const D: usize> System<D> {
             constraints: Vec::new(),
             settled: Vec::new(),
             multipliers: Vec::new(),
+            tree: None,
             redundant,
             drives: parts.drives,
             loads: parts.loads,
@@ -151,6 +153,7 @@ impl<const D: usize> System<D> {
         system.find_weight();
         system.keep(nonlinear, &described);
         system.needs_rates |= !system.constraints.is_empty();
+        system.tree = Tree::of(&system);
         Ok(system)
     }
 
@@ -286,9 +289,9 @@ impl<const D: usize> System<D> {
         let mut y = vec![0.0; assembly.free()];
         let is_free = |(index, constraint): (usize, &Constraint<D>)| {
             let mut size = 0.0;
-            constraint.gradient(&view).for_each(|node, term| {
-                let (node, term) = &self.frames.pull(node, term, &x);
-                assembly.restrict_node(*node, term, &mut y);
+            let gradient = constraint.gradient(&view);
+            gradient.for_each_pulled(&self.frames, &x, |node, term| {
+                assembly.restrict_node(node, term, &mut y);
                 size += product(term, term);
             });
             let mut is_free = false;

@@ -23,9 +23,9 @@ pub use unit::UnitLength;
 use super::CableChain;
 use super::direction::AxisTurn;
 use super::end::{Add, End};
-use crate::body::{Node, Row};
+use crate::body::{Frames, Node, Row};
 use crate::math::jet::Number;
-use crate::math::space::Vector;
+use crate::math::space::{Vector, is_nothing};
 
 /// What joints and motions are made of: a condition on the second end, seen from the first.
 #[derive(Clone, Debug)]
@@ -248,7 +248,7 @@ impl<const D: usize> Constraint<D> {
     }
 
     /// The ends that it joins; of a slide along a chain the one that slides.
-    fn ends(&self) -> Vec<End<D>> {
+    pub(super) fn ends(&self) -> Vec<End<D>> {
         match &self.kind {
             ConstraintKind::UnitLength(_) => Vec::new(),
             ConstraintKind::PointOnCurve(c) => vec![c.end],
@@ -312,11 +312,53 @@ impl<const D: usize, N: Number> Gradient<D, N> {
             if let End::Body(marker) = end {
                 let [a, b] = marker.forces(*position, *direction);
                 term(a.0, &a.1);
-                if b.1 != [[N::of(0.0); D]; 2] {
+                if !marker.is_nodal() {
                     term(b.0, &b.1);
                 }
             }
         }
+    }
+
+    /// Terms over the nodes that have coordinates: of rigid bodies of space the first one.
+    pub fn for_each_pulled(
+        &self,
+        frames: &Frames,
+        x: &[Node<D, N>],
+        mut term: impl FnMut(usize, &Node<D, N>),
+    ) {
+        for (end, [position, direction]) in &self.ends {
+            let End::Body(marker) = end else {
+                continue;
+            };
+            if let Some((node, force)) = frames.pull_marker(marker, [position, direction], x) {
+                term(node, &force);
+                continue;
+            }
+            let [a, b] = marker.forces(*position, *direction);
+            term(a.0, &a.1);
+            if !marker.is_nodal() {
+                term(b.0, &b.1);
+            }
+        }
+    }
+
+    /// Product with a nodal vector: how `g` changes at these rates.
+    pub fn product(&self, rates: &[Node<D, N>]) -> N {
+        let mut sum = N::of(0.0);
+        for (end, [position, direction]) in &self.ends {
+            let End::Body(marker) = end else {
+                continue;
+            };
+            for (force, is_position) in [(position, true), (direction, false)] {
+                if !is_nothing(force) {
+                    sum += force.dot(&match is_position {
+                        true => marker.position(rates),
+                        false => marker.direction(rates),
+                    });
+                }
+            }
+        }
+        sum
     }
 }
 

@@ -448,22 +448,19 @@ impl<const D: usize> System<D> {
         };
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];
-            self.constraints[*row]
-                .gradient(&view)
-                .for_each(|node, term| {
-                    let spin = self.frames.of_node::<D>(node).map(|(frame, _)| frame);
-                    let spin = spin.map(|frame| frame.spin(&work.x, &work.v));
-                    let (node, term) = self.frames.pull(node, term, &x);
-                    let mut change = map_node(&term, |t| t.v1);
-                    if let Some(spin) = spin {
-                        // Of rotations about axes that stand still.
-                        let moment = components(&term[1].map(|t| t.re).into());
-                        let along = Vector3::from(moment).cross(&spin);
-                        let turned: Vector<D> = vector(along.into());
-                        add_node(&mut change, -1.0, &[[0.0; D], turned.into()]);
-                    }
-                    (self.elimination.assembly).restrict_node(node, &change, &mut rate);
-                });
+            let gradient = self.constraints[*row].gradient(&view);
+            gradient.for_each_pulled(&self.frames, &x, |node, term| {
+                let mut change = map_node(term, |t| t.v1);
+                if let Some((frame, _)) = self.frames.of_node::<D>(node) {
+                    // Of rotations about axes that stand still.
+                    let spin = frame.spin(&work.x, &work.v);
+                    let moment = components(&term[1].map(|t| t.re).into());
+                    let along = Vector3::from(moment).cross(&spin);
+                    let turned: Vector<D> = vector(along.into());
+                    add_node(&mut change, -1.0, &[[0.0; D], turned.into()]);
+                }
+                (self.elimination.assembly).restrict_node(node, &change, &mut rate);
+            });
             self.elimination.project_in_place(&mut rate);
             rate
         });
