@@ -136,8 +136,8 @@ struct Free {
     push: Twist,
     /// `1 / D`.
     inverse: f64,
-    /// What drives it, of the solution under way.
-    drive: f64,
+    /// How much of it forces ask for, of the solution under way.
+    amount: f64,
 }
 
 /// A body in the elimination.
@@ -324,8 +324,8 @@ impl Articulated {
                 force.add(1.0, &part.inertia.times(&part.asked));
             }
             for free in &mut self.free[self.ways[index].clone()] {
-                free.drive = -free.way.dot(&force) * free.inverse;
-                force.add(free.drive, &free.push);
+                free.amount = -free.way.dot(&force) * free.inverse;
+                force.add(free.amount, &free.push);
             }
             if let Some(parent) = link.parent {
                 let parent = &mut before[parent].force;
@@ -364,7 +364,7 @@ impl Articulated {
             Twist { turn, shift }
         });
         for free in self.free[self.ways[index].clone()].iter().rev() {
-            let amount = free.drive - free.push.dot(&own) * free.inverse;
+            let amount = free.amount - free.push.dot(&own) * free.inverse;
             own.add(amount, &free.way);
         }
         if link.arms.is_some() {

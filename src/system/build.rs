@@ -153,7 +153,6 @@ impl<const D: usize> System<D> {
         system.find_weight();
         system.keep(nonlinear, &described);
         system.needs_rates |= !system.constraints.is_empty();
-        system.tree = Tree::of(&system);
         Ok(system)
     }
 
@@ -320,6 +319,7 @@ impl<const D: usize> System<D> {
                 self.slides[along.slide] = index;
             }
         }
+        self.tree = Tree::of(self);
     }
 }
 
