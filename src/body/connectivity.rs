@@ -11,7 +11,7 @@
 use nalgebra::DMatrix;
 
 use crate::math::householder::{reflect, reflector};
-use crate::math::space::carried;
+use crate::math::space::{Vector, carried, moment};
 use crate::math::vector::{dot, norm};
 
 /// Coordinates of a node in `D` dimensions: position, then direction (the slope of a cable, the unit vector of a
@@ -44,6 +44,25 @@ pub fn carried_node<const D: usize>(rate: [f64; 3], x: &Node<D>, v: &Node<D>) ->
 /// A nodal vector of numbers made one by one.
 pub fn map_node<const D: usize, A: Copy, B>(node: &Node<D, A>, of: impl Fn(A) -> B) -> Node<D, B> {
     node.map(|vector| vector.map(&of))
+}
+
+/// Largest rotation of any direction, rad, and change of any stretch between two configurations of nodes.
+pub fn largest_turn<const D: usize>(from: &[Node<D>], to: &[Node<D>]) -> f64 {
+    // Squares of the largest tangent of a turn, of the least and of the largest stretch; turns beyond a right angle.
+    let (mut tangent, mut least, mut most, mut beyond) = (0.0_f64, 1.0_f64, 1.0_f64, 0.0_f64);
+    for (a, b) in from.iter().zip(to) {
+        let [a, b] = [a, b].map(|node| Vector::from(node[1]));
+        let (along, across) = (a.dot(&b), Vector::from(moment(&a, &b)).norm_squared());
+        if along > 0.0 {
+            tangent = tangent.max(across / (along * along));
+        } else {
+            beyond = beyond.max(across.sqrt().atan2(along));
+        }
+        let stretch = b.norm_squared() / a.norm_squared();
+        (least, most) = (least.min(stretch), most.max(stretch));
+    }
+    let stretch = 0.5 * most.ln().max(-least.ln());
+    tangent.sqrt().atan().max(beyond).max(stretch)
 }
 
 /// Part of a row, relative to its size, below which it depends on the rows before.

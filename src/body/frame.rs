@@ -21,9 +21,10 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::assembly::{NodeBlock, no_block};
 use super::connectivity::Node;
+use super::marker::Marker;
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, axes, normalized, product, quaternion};
-use crate::math::space::{components, vector};
+use crate::math::space::{Vector, components, is_nothing, vector};
 
 /// Size of the rotation `p` from which on the frame that the state holds is renewed.
 pub const RENEWED: f64 = 0.5;
@@ -346,29 +347,38 @@ impl Frames {
         }
     }
 
-    /// What a force on a node does to the coordinates of its body's first node: that node, the force on the centre of mass
-    /// and the moment along the axes.
+    /// What a force on the position and one on the direction of a marker do to the coordinates of the first node of its body:
+    /// that node, the force on the centre of mass and the moment along the axes; nothing where it is on none of these
+    /// bodies.
     #[inline(always)]
-    pub fn pull<const D: usize, N: Number>(
+    pub fn pull_marker<const D: usize, N: Number>(
         &self,
-        node: usize,
-        force: &Node<D, N>,
+        marker: &Marker<N>,
+        forces: [&Vector<D, N>; 2],
         x: &[Node<D, N>],
-    ) -> (usize, Node<D, N>) {
-        let Some((frame, is_second)) = self.of_node::<D>(node) else {
-            return (node, *force);
+    ) -> Option<(usize, Node<D, N>)> {
+        let (frame, is_second) = self.of_node::<D>(marker.nodes[0])?;
+        if is_second || !marker.is_framed() {
+            return None;
+        }
+        let axes = frame.axes(x);
+        let along = |force: &Vector<D, N>| {
+            let force = Vector3::from(components(force));
+            Vector3::new(
+                axes[0].dot(&force),
+                axes[1].dot(&force),
+                axes[2].dot(&force),
+            )
         };
-        let zero = Vector3::from_element(N::of(0.0));
-        let [first, second] = force.map(|part| Vector3::from(components(&part.into())));
-        let (on_center, on_axes) = match is_second {
-            false => (force[0], [second, zero, zero]),
-            true => ([N::of(0.0); D], [zero, first, second]),
-        };
-        let moment = Frame::moment(&frame.axes(x), &on_axes);
-        (
+        let [point, direction] = marker.components();
+        let mut moment = point.cross(&along(forces[0]));
+        if !is_nothing(forces[1]) {
+            moment += direction.cross(&along(forces[1]));
+        }
+        Some((
             frame.node,
-            [on_center, vector::<D, N>(moment.into()).into()],
-        )
+            [(*forces[0]).into(), vector::<D, N>(moment.into()).into()],
+        ))
     }
 
     /// Forces over the nodes become those on centres of mass and moments along axes; with the spins of `v`, less what

@@ -14,7 +14,7 @@ use std::ops::Range;
 use super::connectivity::Node;
 use super::elimination::Elimination;
 use crate::math::sparse::{Matrix, Pattern, Reach};
-use crate::math::vector::dot;
+use crate::math::vector::short_dot;
 
 /// Sparse rows over `q`.
 #[derive(Clone, Debug)]
@@ -72,7 +72,9 @@ impl SparseRows {
 
     /// Product of a row with `q`.
     pub fn product(&self, row: usize, q: &[f64]) -> f64 {
-        let products = self.pieces(row).map(|(range, row)| dot(row, &q[range]));
+        let products = self
+            .pieces(row)
+            .map(|(range, row)| short_dot(row, &q[range]));
         products.sum()
     }
 
@@ -316,7 +318,7 @@ impl Blocks {
 fn add_products(overlaps: &[Overlap], rows: &[f64], entries: &mut [f64]) {
     for Overlap { entry, at, length } in overlaps {
         let [a, b] = at.map(|at| &rows[at as usize..(at + length) as usize]);
-        entries[*entry as usize] += dot(a, b);
+        entries[*entry as usize] += short_dot(a, b);
     }
 }
 

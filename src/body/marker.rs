@@ -1,6 +1,6 @@
 //! Points of bodies: their position and direction are linear in the coordinates of one or two nodes.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector3};
 
 use super::Chain;
 use super::connectivity::{Node, Row, add_node};
@@ -177,6 +177,11 @@ impl<N: Number> Marker<N> {
     /// Whether it belongs to a rigid body of space that turns: to both of its nodes.
     pub fn is_framed(&self) -> bool {
         self.element.is_none() && !self.is_nodal()
+    }
+
+    /// Components along the axes of a rigid body of space: of the point, m, and of the direction.
+    pub fn components(&self) -> [Vector3<N>; 2] {
+        [self.values, self.slopes].map(|[_, a, b, c]| Vector3::new(a, b, c))
     }
 
     /// How far along its direction a point of a rigid body is from the centre of mass, m.

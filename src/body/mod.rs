@@ -1,6 +1,7 @@
 //! Floor 2. Bodies as nodes: chains of elements through them, points on bodies, linear constraints
 //! between nodes and their elimination, and the structured tangent solve.
 
+mod articulated;
 mod assembly;
 mod chain;
 mod connectivity;
@@ -12,11 +13,12 @@ mod marker;
 mod stages;
 mod tangent;
 
+pub use articulated::{Articulated, Link};
 pub use assembly::{Assembly, Links, NodeBlock, no_block};
 pub use chain::Chain;
 pub use connectivity::{
-    Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, carried_node, map_node, no_node,
-    product, tied_with,
+    Cluster, Dependent, Node, RANK_TOLERANCE, Row, add_node, carried_node, largest_turn, map_node,
+    no_node, product, tied_with,
 };
 pub use elimination::Elimination;
 pub use frame::{Axes, Frame, Frames, RENEWED, Turn, combined, turned, turning_block};

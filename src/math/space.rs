@@ -23,6 +23,11 @@ pub fn vector<const D: usize, N: Number>(components: [N; 3]) -> Vector<D, N> {
     Vector::from_row_slice(&components[..D])
 }
 
+/// Whether a vector and its derivatives are zero; `==` compares values alone.
+pub fn is_nothing<const D: usize, N: Number>(v: &Vector<D, N>) -> bool {
+    v.iter().all(|part| part.largest() == 0.0)
+}
+
 /// The part in the plane, turned left by a right angle.
 pub fn perpendicular<const D: usize, N: Number>(v: Vector<D, N>) -> Vector<D, N> {
     let mut turned = Vector::zeros();

@@ -11,6 +11,7 @@ use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Primitive, Target, View};
 use super::loads::Load;
 use super::motion::forces::add_mass;
+use super::motion::tree::Tree;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
@@ -129,6 +130,7 @@ impl<const D: usize> System<D> {
             constraints: Vec::new(),
             settled: Vec::new(),
             multipliers: Vec::new(),
+            tree: None,
             redundant,
             drives: parts.drives,
             loads: parts.loads,
@@ -288,9 +290,8 @@ impl<const D: usize> System<D> {
         let mut y = vec![0.0; assembly.free()];
         let is_free = |(index, constraint): (usize, &Constraint<D>)| {
             let mut size = 0.0;
-            constraint.for_each(&view, |node, term| {
-                let (node, term) = &self.frames.pull(node, term, &x);
-                assembly.restrict_node(*node, term, &mut y);
+            constraint.for_each_pulled((&view, &self.frames), |node, term| {
+                assembly.restrict_node(node, term, &mut y);
                 size += product(term, term);
             });
             let mut is_free = false;
@@ -319,6 +320,7 @@ impl<const D: usize> System<D> {
                 self.slides[along.slide] = index;
             }
         }
+        self.tree = Tree::of(self);
     }
 }
 

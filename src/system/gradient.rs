@@ -1,9 +1,9 @@
 //! Derivatives of a function of two ends, such as a constraint or a coordinate of a joint: forces on both, and over the nodes.
 
 use super::end::{Add, End};
-use crate::body::{Node, add_node, no_node};
+use crate::body::{Frames, Node, add_node, no_node};
 use crate::math::jet::Number;
-use crate::math::space::Vector;
+use crate::math::space::{Vector, is_nothing};
 
 /// Derivatives by position and direction of two ends.
 #[derive(Clone, Copy, Debug)]
@@ -14,11 +14,20 @@ pub struct Gradient<const D: usize, N: Number = f64> {
 
 impl<const D: usize, N: Number> Gradient<D, N> {
     /// The derivative along a nodal vector.
-    pub fn along(&self, v: &[Node<D, N>]) -> N {
-        let of = |(end, [position, direction]): &(End<D, N>, [Vector<D, N>; 2])| {
-            position.dot(&end.velocity(v)) + direction.dot(&end.direction_rate(v))
-        };
-        of(&self.ends[0]) + of(&self.ends[1])
+    pub fn along(&self, rates: &[Node<D, N>]) -> N {
+        let mut sum = N::of(0.0);
+        for (end, [position, direction]) in &self.ends {
+            let End::Body(marker) = end else {
+                continue;
+            };
+            if !is_nothing(position) {
+                sum += position.dot(&marker.position(rates));
+            }
+            if !is_nothing(direction) {
+                sum += direction.dot(&marker.direction(rates));
+            }
+        }
+        sum
     }
 
     /// The same times a factor.
@@ -36,9 +45,32 @@ impl<const D: usize, N: Number> Gradient<D, N> {
             if let End::Body(marker) = end {
                 let [a, b] = marker.forces(*position, *direction);
                 term(a.0, &a.1);
-                if b.1 != [[N::of(0.0); D]; 2] {
+                if !marker.is_nodal() {
                     term(b.0, &b.1);
                 }
+            }
+        }
+    }
+
+    /// Terms over the nodes that have coordinates: of rigid bodies of space the first one.
+    pub fn for_each_pulled(
+        &self,
+        frames: &Frames,
+        x: &[Node<D, N>],
+        mut term: impl FnMut(usize, &Node<D, N>),
+    ) {
+        for (end, [position, direction]) in &self.ends {
+            let End::Body(marker) = end else {
+                continue;
+            };
+            if let Some((node, force)) = frames.pull_marker(marker, [position, direction], x) {
+                term(node, &force);
+                continue;
+            }
+            let [a, b] = marker.forces(*position, *direction);
+            term(a.0, &a.1);
+            if !marker.is_nodal() {
+                term(b.0, &b.1);
             }
         }
     }

@@ -50,6 +50,7 @@ use crate::body::{Chain, Elimination, Frames, Node};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
+use motion::tree::Tree;
 
 /// Flexible bodies of a system.
 pub type CableChain<const D: usize = 2> = Chain<Cable<D>, D>;
@@ -80,6 +81,8 @@ pub struct System<const D: usize = 2> {
     settled: Vec<Constraint<D>>,
     /// For each of them its multiplier, as the assembly counts them.
     multipliers: Vec<usize>,
+    /// The tree that they make of rigid bodies in space, where they do.
+    tree: Option<Tree<D>>,
     /// Joints with a row that repeats others.
     redundant: Vec<usize>,
     drives: Vec<Drive>,

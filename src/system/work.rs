@@ -1,8 +1,9 @@
 //! Scratch of a system: nothing allocates in a step.
 
+use super::motion::tree::Tree;
 use super::signal::Trajectory;
 use super::{State, System};
-use crate::body::{Jacobian, Node, Tangent, Turn, no_node};
+use crate::body::{Articulated, Jacobian, Node, Tangent, Turn, no_node};
 use crate::math::recent::Recent;
 use crate::math::rotation::{NO_TURN, Quaternion};
 
@@ -45,6 +46,12 @@ pub struct Work<const D: usize = 2> {
     pub(super) jacobian: Jacobian,
     pub(super) jacobian_at: Configuration<D>,
     pub(super) lambda: Vec<f64>,
+    /// Factors of the tree that constraints make, what they were made from, and whether they could be.
+    pub(super) articulated: Articulated,
+    tree_at: Configuration<D>,
+    pub(super) is_tree: bool,
+    /// Whether the last acceleration was found with these, without multipliers.
+    pub(super) is_without_multipliers: bool,
     /// What constraints ask for.
     pub(super) right: Vec<f64>,
     pub(super) tangent: Tangent<D>,
@@ -61,17 +68,37 @@ pub(super) struct Configuration<const D: usize> {
     travel: Vec<f64>,
 }
 
+impl<const D: usize> Configuration<D> {
+    /// Before the first one.
+    fn none(system: &System<D>) -> Self {
+        Self {
+            x: vec![[[f64::NAN; D]; 2]; system.reference.len()],
+            drives: vec![[0.0; 3]; system.drives.len()],
+            travel: vec![0.0; system.slides.len()],
+        }
+    }
+
+    /// Whether it is not this one; from now on it is.
+    fn is_outdated(&mut self, x: &[Node<D>], drives: &[[f64; 3]], travel: &[f64]) -> bool {
+        if self.x == x && self.drives == drives && self.travel == travel {
+            return false;
+        }
+        self.x.copy_from_slice(x);
+        self.drives.copy_from_slice(drives);
+        self.travel.copy_from_slice(travel);
+        true
+    }
+}
+
 impl<const D: usize> Work<D> {
     /// Whether the Jacobian is not that of the configuration in place; from now on it is.
     pub(super) fn outdates_jacobian(&mut self) -> bool {
-        let at = &mut self.jacobian_at;
-        if at.x == self.x && at.drives == self.drives && at.travel == self.travel {
-            return false;
-        }
-        at.x.copy_from_slice(&self.x);
-        at.drives.copy_from_slice(&self.drives);
-        at.travel.copy_from_slice(&self.travel);
-        true
+        (self.jacobian_at).is_outdated(&self.x, &self.drives, &self.travel)
+    }
+
+    /// The same of the factors of the tree.
+    pub(super) fn outdates_tree(&mut self) -> bool {
+        (self.tree_at).is_outdated(&self.x, &self.drives, &self.travel)
     }
 
     /// For a system.
@@ -116,19 +143,14 @@ impl<const D: usize> Work<D> {
                 &elastic,
             ),
             jacobian,
-            jacobian_at: Configuration {
-                x: vec![[[f64::NAN; D]; 2]; system.reference.len()],
-                drives: vec![[0.0; 3]; system.drives.len()],
-                travel: vec![0.0; system.slides.len()],
-            },
+            jacobian_at: Configuration::none(system),
+            articulated: (system.tree.as_ref()).map_or_else(Articulated::default, Tree::scratch),
+            tree_at: Configuration::none(system),
+            is_tree: false,
+            is_without_multipliers: false,
             power: [0.0; 2],
             dissipated: 0.0,
         }
-    }
-
-    /// Takes the part of `q` out that constraints do not allow, with the Jacobians of the last acceleration.
-    pub(super) fn project_on_tangent_plane(&mut self, q: &mut [f64]) {
-        self.jacobian.bring(2, |_| 0.0, q);
     }
 
     /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.

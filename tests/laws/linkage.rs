@@ -87,6 +87,7 @@ pub struct Held {
 /// A joint, and whether it is its angle.
 pub type Of = (usize, bool);
 
+#[derive(Clone)]
 pub struct Mechanism {
     pub bodies: Vec<Body>,
     pub joints: Vec<Held>,

@@ -76,6 +76,55 @@ fn accelerations_are_those_of_newton_and_euler() {
     }
 }
 
+#[test]
+fn trees_are_eliminated_as_multipliers_would() {
+    // Accelerations with multipliers are those of Newton and Euler, above; without them they must be the same.
+    let mut chance = Chance(23);
+    let mut trees = 0;
+    for run in 0..600 {
+        let mechanism = Mechanism::random(&mut chance);
+        let (system, mut state, mut work) = mechanism.started();
+        let n = system.coordinates();
+        let mut model = Model::new(&system, &[], &mut work, &state);
+        model.renew_beyond(&mut state, 0.0);
+        let (mut with, mut without) = (vec![0.0; n], vec![0.0; n]);
+        let at = (&state.coordinates, &state.rates);
+        model.acceleration(0.0, at.0, at.1, &mut without);
+        let mut other = DVector::from_fn(n, |_, _| chance.number());
+        let kept = other.clone();
+        model.take_out_normal(other.as_mut_slice());
+        model.accelerate(0.0, at.0, at.1, &mut with);
+        let mut along = kept.clone();
+        model.take_out_normal(along.as_mut_slice());
+        let (with, without) = (DVector::from_vec(with), DVector::from_vec(without));
+        let miss = (&with - without).amax() / (1.0 + with.amax());
+        assert!(miss < 1e-11, "{run}: {miss:e}");
+        let miss = (along - other).amax();
+        assert!(miss < 1e-11, "{run}: {miss:e} in the tangent plane");
+
+        // Rates that are off are brought back along the shortest way: across all that joints allow.
+        state
+            .rates
+            .iter_mut()
+            .zip(&kept)
+            .for_each(|(v, off)| *v += off);
+        let off = state.rates.clone();
+        assert!(model.project(&mut state), "{run}");
+        let mut change = DVector::from_fn(n, |k, _| state.rates[k] - off[k]);
+        model.accelerate(0.0, &state.coordinates, &state.rates, &mut vec![0.0; n]);
+        model.take_out_normal(change.as_mut_slice());
+        assert!(change.amax() < 1e-11, "{run}: {:e} along", change.amax());
+        let mut left = 0.0_f64;
+        let (q, v) = (&state.coordinates, &state.rates);
+        system.visit_constraints(0.0, q, Some(v), &mut work, |row| {
+            left = left.max(row.rate().abs());
+        });
+        assert!(left < 1e-12, "{run}: {left:e} left");
+        trees += u32::from(system.is_open_tree());
+    }
+    assert!(trees > 60, "{trees} trees");
+}
+
 /// Energy, momentum and angular momentum of a state.
 fn invariants(system: &System<3>, state: &State, work: &mut Work<3>) -> [f64; 7] {
     let mut values = Evaluation::new(system);

@@ -60,11 +60,9 @@ fn disturbed(
         body.velocity += part(rate, 0) * size;
         body.spin = spin + (part(rate, 3) + part(way, 3).cross(&spin)) * size;
     }
-    let joints = mechanism.joints.clone();
     Mechanism {
         bodies,
-        joints,
-        gravity: mechanism.gravity,
+        ..mechanism.clone()
     }
 }
 
@@ -97,8 +95,7 @@ fn small_motions_about_turning_bodies_are_those_of_newton_and_euler() {
             let moving = mechanism.twists();
             let at = |h: f64| Mechanism {
                 bodies: mechanism.twisted(&moving, h),
-                joints: mechanism.joints.clone(),
-                gravity: mechanism.gravity,
+                ..mechanism.clone()
             };
             const STEP: f64 = 1e-4;
             let rates = (at(STEP).jacobian() - at(-STEP).jacobian()) / (2.0 * STEP);

@@ -11,7 +11,7 @@ use nalgebra::{DVector, Matrix3, Rotation3};
 use crate::laws::linkage::{Body, Chance, DRIVE, Held, Kind, Mechanism, Of, THREAD, V};
 
 /// What acts beside gravity.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum Sprung {
     /// On the angle of a joint, or on its way: stiffness, damping, value at rest.
     Spring(Of, [f64; 3]),
@@ -21,7 +21,7 @@ pub enum Sprung {
     Bushing(Box<Bushing>),
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Bushing {
     pub bodies: [Option<usize>; 2],
     pub points: [V; 2],

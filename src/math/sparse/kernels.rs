@@ -22,7 +22,7 @@ macro_rules! of_any_size {
         }
     };
     ($size:expr, $n:ident => $call:expr) => {
-        of_any_size!([1 2 3 4 6] $size, $n => $call)
+        of_any_size!([1 2 3 4 5 6] $size, $n => $call)
     };
 }
 

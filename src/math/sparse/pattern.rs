@@ -73,8 +73,9 @@ impl Step {
     }
 }
 
-/// The block sizes for which runs have loops of their own: pins and nodes of cables, in the plane and in space.
-pub(super) const CHAINS: [usize; 4] = [2, 3, 4, 6];
+/// The block sizes for which runs have loops of their own: pins and nodes of cables, in the plane and in space, and
+/// hinges in space.
+pub(super) const CHAINS: [usize; 5] = [2, 3, 4, 5, 6];
 
 /// Does something with the size of a run's blocks known when compiling.
 macro_rules! of_size {
@@ -91,7 +92,7 @@ macro_rules! of_size {
         }
     };
     ($size:expr, $b:ident => $call:expr) => {
-        of_size!([2 3 4] or 6, $size, $b => $call)
+        of_size!([2 3 4 5] or 6, $size, $b => $call)
     };
 }
 pub(super) use of_size;

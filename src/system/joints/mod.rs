@@ -27,7 +27,7 @@ use super::coordinate::Way;
 use super::direction::AxisTurn;
 use super::end::{Add, End};
 use super::gradient::Gradient;
-use crate::body::{Node, Row};
+use crate::body::{Frames, Node, Row};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -239,6 +239,22 @@ impl<const D: usize> Constraint<D> {
         self.for_each_pair(view, |pair| pair.for_each(&mut term));
     }
 
+    /// The same as terms over the nodes that have coordinates: of rigid bodies of space the first one.
+    pub fn for_each_pulled<N: Number>(
+        &self,
+        (view, frames): (&View<'_, D, N>, &Frames),
+        mut term: impl FnMut(usize, &Node<D, N>),
+    ) {
+        self.for_each_pair(view, |pair| pair.for_each_pulled(frames, view.x, &mut term));
+    }
+
+    /// The derivative of `g` along a nodal vector.
+    pub fn along<N: Number>(&self, view: &View<'_, D, N>, rates: &[Node<D, N>]) -> N {
+        let mut sum = N::of(0.0);
+        self.for_each_pair(view, |pair| sum += pair.along(rates));
+        sum
+    }
+
     /// Derivative of `g` by time alone, 1/s.
     pub fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         match &self.kind {
@@ -287,7 +303,7 @@ impl<const D: usize> Constraint<D> {
     }
 
     /// The ends that it joins; of a slide along a chain the one that slides.
-    fn ends(&self) -> Vec<End<D>> {
+    pub(super) fn ends(&self) -> Vec<End<D>> {
         match &self.kind {
             ConstraintKind::UnitLength(_) => Vec::new(),
             ConstraintKind::PointOnCurve(c) => vec![c.end],

@@ -3,9 +3,8 @@
 
 use nalgebra::Complex;
 
-use crate::body::{Node, RENEWED};
+use crate::body::{Node, RENEWED, largest_turn};
 use crate::elements::Element;
-use crate::math::space::{Vector, moment};
 use crate::system::instant::Instant;
 use crate::system::joints::ConstraintKind;
 use crate::system::signal::{Trajectory, moved};
@@ -201,14 +200,21 @@ impl<'a, const D: usize> Model<'a, D> {
         self
     }
 
-    /// Accelerations of the coordinates; of rotations, angular accelerations about the axes that turn with the body.
+    /// Accelerations of the coordinates, and multipliers; of rotations, angular accelerations about the axes that turn with
+    /// the body.
     pub fn accelerate(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        self.accelerate_with(time, [q, v], true, a);
+    }
+
+    /// The same, with or without multipliers.
+    fn accelerate_with(&mut self, time: f64, [q, v]: [&[f64]; 2], is_told: bool, a: &mut [f64]) {
         self.operations += 1.0;
         let system = self.system;
         self.place(time, q, v);
         system.forces(time, self.work);
         system.reduce(self.work, a);
-        if !system.constraints.is_empty() {
+        let is_read = is_told || (system.tracks_work && !system.drives.is_empty());
+        if !system.constraints.is_empty() && (is_read || !system.constrain_tree(self.work, a)) {
             system.constrain(self.work, a);
         }
         if system.tracks_work {
@@ -292,11 +298,11 @@ impl<'a, const D: usize> Model<'a, D> {
 
     /// `K x`, in place, inside the tangent plane of the constraints.
     pub fn apply_stiffness(&mut self, x: &mut [f64]) {
-        self.work.project_on_tangent_plane(x);
+        self.system.project_on_tangent_plane(self.work, x);
         self.work
             .tangent
             .apply_stiffness(&self.system.elimination, x);
-        self.work.project_on_tangent_plane(x);
+        self.system.project_on_tangent_plane(self.work, x);
     }
 
     fn instant<'b>(&'b self, x: &'b [Node<D>]) -> Instant<'b, D> {
@@ -357,7 +363,7 @@ impl<'a, const D: usize> Model<'a, D> {
 
 impl<const D: usize> Dynamics for Model<'_, D> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
-        self.accelerate(time, q, v, a);
+        self.accelerate_with(time, [q, v], false, a);
         self.system.frames.to_second(&self.work.turns, a);
     }
 
@@ -383,7 +389,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         if !(system.constraints.is_empty() && system.frames.is_empty()) {
             // Multipliers stiffen, so do forces on bodies that turn, and solves need the Jacobian here.
             let mut a = std::mem::take(&mut self.work.a);
-            self.acceleration(time, q, v, &mut a);
+            self.accelerate(time, q, v, &mut a);
             self.work.a = a;
         } else {
             self.place(time, q, v);
@@ -422,7 +428,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn take_out_normal(&mut self, a: &mut [f64]) {
-        self.work.project_on_tangent_plane(a);
+        self.system.project_on_tangent_plane(self.work, a);
     }
 
     fn apply_damping(&mut self, x: &mut [f64]) {
@@ -473,23 +479,4 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     fn end_stretch(&mut self, state: &mut State) -> Accepted {
         self.leave(state)
     }
-}
-
-/// Largest rotation of any direction, rad, and change of any stretch between two configurations of nodes.
-fn largest_turn<const D: usize>(from: &[Node<D>], to: &[Node<D>]) -> f64 {
-    // Squares of the largest tangent of a turn, of the least and of the largest stretch; turns beyond a right angle.
-    let (mut tangent, mut least, mut most, mut beyond) = (0.0_f64, 1.0_f64, 1.0_f64, 0.0_f64);
-    for (a, b) in from.iter().zip(to) {
-        let [a, b] = [a, b].map(|node| Vector::from(node[1]));
-        let (along, across) = (a.dot(&b), Vector::from(moment(&a, &b)).norm_squared());
-        if along > 0.0 {
-            tangent = tangent.max(across / (along * along));
-        } else {
-            beyond = beyond.max(across.sqrt().atan2(along));
-        }
-        let stretch = b.norm_squared() / a.norm_squared();
-        (least, most) = (least.min(stretch), most.max(stretch));
-    }
-    let stretch = 0.5 * most.ln().max(-least.ln());
-    tangent.sqrt().atan().max(beyond).max(stretch)
 }

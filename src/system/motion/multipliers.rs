@@ -11,7 +11,7 @@
 //! Geometric Numerical Integration, 2nd ed., section IV.4; minimum norm in singular configurations:
 //! F. E. Udwadia, R. E. Kalaba, Analytical Dynamics (1996).
 
-use crate::body::{Jacobian, Node, SparseRows, no_node, product};
+use crate::body::{Jacobian, Node, SparseRows, no_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::joints::{Constraint, ConstraintKind, View};
@@ -79,10 +79,7 @@ impl<const D: usize> System<D> {
                 continue;
             }
             (work.jacobian).fill(&self.elimination, row, |tell| {
-                constraint.for_each(&view, |node, term| {
-                    let (node, term) = self.frames.pull(node, term, &work.x);
-                    tell(node, &term);
-                });
+                constraint.for_each_pulled((&view, &self.frames), |node, term| tell(node, term));
             });
         }
     }
@@ -136,16 +133,35 @@ impl<const D: usize> System<D> {
         for (_, (constraint, index)) in constraints.filter(|(row, _)| jacobian.is_independent(*row))
         {
             assembly.add_corner(*index, 1.0, matrix);
-            constraint.for_each(view, |node, term| {
-                let (node, term) = self.frames.pull(node, term, view.x);
-                assembly.add_gradient((*index, node), &term, matrix);
+            constraint.for_each_pulled((view, &self.frames), |node, term| {
+                assembly.add_gradient((*index, node), term, matrix);
             });
         }
     }
 
-    /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`.
+    /// Turns free accelerations into constrained ones, at the coordinates and rates in `work`, and finds multipliers.
     pub(in crate::system) fn constrain(&self, work: &mut Work<D>, a: &mut [f64]) {
         self.jacobians(work);
+        self.ask_accelerations(work);
+        work.jacobian.factor(RANK);
+        let right = &work.right;
+        work.jacobian.bring(2, |row| right[row], a);
+        work.lambda.copy_from_slice(work.jacobian.multipliers());
+        work.is_without_multipliers = false;
+    }
+
+    /// Takes the part of `q` out that constraints do not allow where the last acceleration was.
+    pub(in crate::system) fn project_on_tangent_plane(&self, work: &mut Work<D>, q: &mut [f64]) {
+        if work.is_without_multipliers {
+            work.right.fill(0.0);
+            self.bring_tree(work, q);
+        } else {
+            work.jacobian.bring(2, |_| 0.0, q);
+        }
+    }
+
+    /// What constraints ask of accelerations, into `work.right`.
+    pub(in crate::system) fn ask_accelerations(&self, work: &mut Work<D>) {
         // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
         let is_driven = !(self.driven.is_empty() && self.frames.is_empty());
         if is_driven {
@@ -154,17 +170,16 @@ impl<const D: usize> System<D> {
         }
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
-        for (right, constraint) in right.iter_mut().zip(&self.constraints) {
-            *right = -constraint.bias(&view);
-            if is_driven {
-                constraint.for_each(&view, |node, term| {
-                    *right -= product(term, &work.other[node]);
-                });
-            }
-        }
-        work.jacobian.factor(RANK);
-        work.jacobian.bring(2, |row| right[row], a);
-        work.lambda.copy_from_slice(work.jacobian.multipliers());
+        self.fill_right(
+            &view,
+            &mut right,
+            |end| end.velocity(&work.other),
+            |constraint, view| match is_driven {
+                true => constraint.bias(view) + constraint.along(view, &work.other),
+                false => constraint.bias(view),
+            },
+            false,
+        );
         work.right = right;
     }
 
@@ -185,11 +200,11 @@ impl<const D: usize> System<D> {
         let (mut before, mut rank) = (f64::INFINITY, RANK);
         for _ in 0..ITERATIONS {
             self.forward_kinematics(time, q, None, work);
-            let missing = self.missing(work, Constraint::value);
+            let missing = self.missing(work, true);
             let residual = larger(missing, self.settled_residual(&self.view(work)));
             // Two and more iterations are quadratic; what does not shrink is roundoff, or in rows that do not count.
             if residual <= EXACT || residual > 0.5 * before {
-                let is_left = residual > ROUNDOFF && !work.jacobian.has_full_rank();
+                let is_left = residual > ROUNDOFF && !self.has_full_rank(work);
                 if !is_left || rank == FINE_RANK {
                     return residual;
                 }
@@ -197,7 +212,7 @@ impl<const D: usize> System<D> {
             }
             // After the first one, the Jacobian in place shrinks the residual as much once more.
             if before.is_infinite() || residual * (residual / before) > EXACT {
-                self.jacobians(work);
+                self.prepare(work);
             }
             before = residual;
             self.correct(q, work, (1, rank));
@@ -207,10 +222,10 @@ impl<const D: usize> System<D> {
 
     /// Projects velocities onto the constraints at the positions and drives in `work`.
     pub(in crate::system) fn project_velocities(&self, v: &mut [f64], work: &mut Work<D>) {
-        self.jacobians(work);
+        self.prepare(work);
         self.missing_rates(v, work);
         self.correct(v, work, (2, RANK));
-        if !work.jacobian.has_full_rank() && self.missing_rates(v, work) > ROUNDOFF {
+        if !self.has_full_rank(work) && self.missing_rates(v, work) > ROUNDOFF {
             self.correct(v, work, (2, FINE_RANK));
         }
     }
@@ -218,21 +233,41 @@ impl<const D: usize> System<D> {
     /// Takes velocities for what is missing. Returns the largest residual, relative to the size of its constraint, 1/s.
     fn missing_rates(&self, v: &[f64], work: &mut Work<D>) -> f64 {
         self.rate_kinematics(v, work);
-        self.missing(work, constraint_rate)
+        self.missing(work, false)
     }
 
-    /// Takes the residuals of constraints at what is in `work` for what is missing. Returns the largest one, relative to
-    /// the size of its constraint.
-    fn missing(
-        &self,
-        work: &mut Work<D>,
-        residual: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
-    ) -> f64 {
+    /// What corrections are found with: the factors of the tree that constraints make, or the Jacobian.
+    fn prepare(&self, work: &mut Work<D>) {
+        if !self.factor_tree(work) {
+            self.jacobians(work);
+        }
+    }
+
+    /// Whether all constraints count where corrections were found last.
+    fn has_full_rank(&self, work: &Work<D>) -> bool {
+        work.is_tree || work.jacobian.has_full_rank()
+    }
+
+    /// Takes the residuals of positions or rates at what is in `work` for what is missing. Returns the largest one, relative
+    /// to the size of its constraint.
+    fn missing(&self, work: &mut Work<D>, is_position: bool) -> f64 {
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);
+        self.fill_right(
+            &view,
+            &mut right,
+            |end| match is_position {
+                true => end.position(&work.x),
+                false => end.velocity(&work.v),
+            },
+            |constraint, view| match is_position {
+                true => constraint.value(view),
+                false => constraint_rate(constraint, view),
+            },
+            is_position,
+        );
         let mut largest = 0.0;
-        for (right, constraint) in right.iter_mut().zip(&self.constraints) {
-            *right = -residual(constraint, &view);
+        for (right, constraint) in right.iter().zip(&self.constraints) {
             largest = larger(largest, right.abs() / constraint.size(&self.chains));
         }
         work.right = right;
@@ -242,14 +277,18 @@ impl<const D: usize> System<D> {
     /// Adds what is missing to first order, with the Jacobian in `work`, in so many passes and by rows that others
     /// leave so much of.
     fn correct(&self, q: &mut [f64], work: &mut Work<D>, (passes, rank): (usize, f64)) {
-        let right = std::mem::take(&mut work.right);
-        work.jacobian.factor(rank);
         let mut change = std::mem::take(&mut work.a);
         change.fill(0.0);
-        (work.jacobian).bring(passes, |row| right[row], &mut change);
+        if work.is_tree {
+            self.bring_tree(work, &mut change);
+        } else {
+            work.jacobian.factor(rank);
+            let right = &work.right;
+            (work.jacobian).bring(passes, |row| right[row], &mut change);
+        }
         self.frames.to_rotations(&work.turns, &mut change);
         q.iter_mut().zip(&change).for_each(|(q, c)| *q += c);
-        (work.right, work.a) = (right, change);
+        work.a = change;
     }
 
     /// Largest residual of positions, relative to the size of the constraint.
@@ -321,13 +360,7 @@ fn constraint_rate<const D: usize, N: Number>(
     constraint: &Constraint<D>,
     view: &View<'_, D, N>,
 ) -> N {
-    let mut rate = constraint.rate(view);
-    constraint.for_each(view, |node, term| {
-        for (term, v) in term.as_flattened().iter().zip(view.v[node].as_flattened()) {
-            rate += *term * *v;
-        }
-    });
-    rate
+    constraint.rate(view) + constraint.along(view, view.v)
 }
 
 /// The larger number; unlike `f64::max` it does not hide a NaN.

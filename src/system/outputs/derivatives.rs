@@ -314,19 +314,15 @@ impl<const D: usize> Derivatives<D> {
         for (row, constraint) in system.constraints.iter().enumerate() {
             let bias = constraint.bias(&view);
             let mut right = -part(bias, k);
-            constraint.for_each(&view, |node, term| {
-                let driven = self.driven[node].as_flattened();
-                for (term, driven) in term.as_flattened().iter().zip(driven) {
-                    right -= part(*term * *driven, k);
-                }
-                let (node, term) = &system.frames.pull(node, term, view.x);
+            right -= part(constraint.along(&view, &self.driven), k);
+            constraint.for_each_pulled((&view, &system.frames), |node, term| {
                 // Derivatives of a product: of the Jacobian by the order, of the other factor by the rest.
                 for order in 1..=k {
                     let times = if (k, order) == (2, 1) { 2.0 } else { 1.0 };
                     let term = map_node(term, |term| part(term, order));
-                    right -= times * product(&term, &self.moved[k - order][*node]);
+                    right -= times * product(&term, &self.moved[k - order][node]);
                     let force = times * self.lambda[k - order][row];
-                    add_node(&mut self.one[*node], -force, &term);
+                    add_node(&mut self.one[node], -force, &term);
                 }
             });
             self.right[row] = right;

@@ -452,13 +452,11 @@ impl<const D: usize> System<D> {
         };
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];
-            self.constraints[*row].for_each(&view, |node, term| {
-                let spin = self.frames.of_node::<D>(node).map(|(frame, _)| frame);
-                let spin = spin.map(|frame| frame.spin(&work.x, &work.v));
-                let (node, term) = self.frames.pull(node, term, &x);
-                let mut change = map_node(&term, |t| t.v1);
-                if let Some(spin) = spin {
+            self.constraints[*row].for_each_pulled((&view, &self.frames), |node, term| {
+                let mut change = map_node(term, |t| t.v1);
+                if let Some((frame, _)) = self.frames.of_node::<D>(node) {
                     // Of rotations about axes that stand still.
+                    let spin = frame.spin(&work.x, &work.v);
                     let moment = components(&term[1].map(|t| t.re).into());
                     let along = Vector3::from(moment).cross(&spin);
                     let turned: Vector<D> = vector(along.into());

@@ -90,7 +90,7 @@ pub(super) fn solve<const D: usize>(
 /// Solves with the symmetric factors, inside the tangent plane of the constraints.
 fn preconditioned<const D: usize>(model: &mut Model<'_, D>, f: &[f64]) -> Vec<f64> {
     let mut x = f.to_vec();
-    model.work.project_on_tangent_plane(&mut x);
+    model.system.project_on_tangent_plane(model.work, &mut x);
     model.solve(&mut x);
     x
 }

@@ -1,0 +1,322 @@
+//! Mechanisms of rigid bodies in space without loops whose joints hold points and turns: revolute and ball joints, hinges,
+//! universal joints, welds, driven turns. Their constraints are satisfied by an elimination from the leaves to the roots
+//! ([`Articulated`]) instead of one of the multipliers; both solve the same equations.
+
+use nalgebra::Vector3;
+
+use crate::body::{Articulated, Frame, Link};
+use crate::math::space::{Vector, components, moment};
+use crate::system::end::End;
+use crate::system::joints::{Constraint, ConstraintKind, HeldRow, Target, View};
+use crate::system::{System, Work};
+
+/// The point that a joint holds.
+#[derive(Clone, Debug)]
+struct Pin<const D: usize> {
+    /// Its rows, one an axis, and the link that they hold: whether it is of the second end.
+    rows: [usize; 3],
+    ends: [End<D>; 2],
+    is_second: bool,
+}
+
+/// How constraints make a tree.
+#[derive(Clone, Debug)]
+pub(in crate::system) struct Tree<const D: usize> {
+    links: Vec<Link>,
+    /// For every link that a joint holds.
+    pins: Vec<Option<Pin<D>>>,
+    /// Rows of the turns that are held.
+    turns: Vec<usize>,
+}
+
+/// What joins two bodies, or one and the ground.
+struct Pair<const D: usize> {
+    bodies: [Option<usize>; 2],
+    pins: Vec<usize>,
+    turns: Vec<usize>,
+    ends: Option<[End<D>; 2]>,
+}
+
+impl<const D: usize> Tree<D> {
+    /// The tree that these constraints make of all that moves; nothing where they make none.
+    pub fn of(system: &System<D>) -> Option<Self> {
+        let frames = system.frames.list();
+        let is_whole = system.coordinates() == 6 * frames.len() && system.driven.is_empty();
+        let turns = |frame: &Frame| frame.places.iter().all(Option::is_some);
+        if frames.is_empty() || !is_whole || !frames.iter().all(turns) {
+            return None;
+        }
+        let mut pairs = pairs(system)?;
+        let mut tree = Self {
+            links: Vec::new(),
+            pins: Vec::new(),
+            turns: Vec::new(),
+        };
+        let mut link_of = vec![None; frames.len()];
+        tree.grow(system, None, &mut pairs, &mut link_of)?;
+        for frame in 0..frames.len() {
+            if link_of[frame].is_none() {
+                link_of[frame] = Some(tree.links.len());
+                tree.links.push(Link {
+                    frame,
+                    parent: None,
+                    arms: None,
+                    turns: tree.turns.len()..tree.turns.len(),
+                    center: center(system, frame)?,
+                });
+                tree.pins.push(None);
+                tree.grow(system, Some(frame), &mut pairs, &mut link_of)?;
+            }
+        }
+        // What is left closes loops.
+        pairs.is_empty().then_some(tree)
+    }
+
+    /// Adds all that hangs on a body or on the ground.
+    fn grow(
+        &mut self,
+        system: &System<D>,
+        from: Option<usize>,
+        pairs: &mut Vec<Pair<D>>,
+        link_of: &mut [Option<usize>],
+    ) -> Option<()> {
+        let mut open = vec![from];
+        while let Some(from) = open.pop() {
+            while let Some(index) = pairs.iter().position(|pair| pair.bodies.contains(&from)) {
+                let pair = pairs.swap_remove(index);
+                let is_second = pair.bodies[0] == from;
+                let frame = pair.bodies[usize::from(is_second)]?;
+                if link_of[frame].is_some() {
+                    return None;
+                }
+                link_of[frame] = Some(self.links.len());
+                let ends = pair.ends?;
+                let [first, second] = ends.map(|end| arm(&end));
+                let first_turn = self.turns.len();
+                self.turns.extend(pair.turns);
+                self.links.push(Link {
+                    frame,
+                    parent: from.and_then(|from| link_of[from]),
+                    arms: Some(if is_second {
+                        [second, first]
+                    } else {
+                        [first, second]
+                    }),
+                    turns: first_turn..self.turns.len(),
+                    center: center(system, frame)?,
+                });
+                self.pins.push(Some(Pin {
+                    rows: pair.pins.try_into().ok()?,
+                    ends,
+                    is_second,
+                }));
+                open.push(Some(frame));
+            }
+        }
+        Some(())
+    }
+
+    /// Scratch for it.
+    pub fn scratch(&self) -> Articulated {
+        Articulated::new(self.links.clone())
+    }
+}
+
+/// Where the centre of mass of a body is among the coordinates, and how many of these make a metre.
+fn center<const D: usize>(system: &System<D>, frame: usize) -> Option<(usize, f64)> {
+    let frame = &system.frames.list()[frame];
+    let (mut y, mut q) = (
+        vec![0.0; system.elimination.scratch()],
+        vec![0.0; system.coordinates()],
+    );
+    let mut force = vec![[[0.0; D]; 2]; system.elimination.assembly.nodes()];
+    for axis in 0..D {
+        force[frame.node][0][axis] = frame.mass * (1.0 + axis as f64);
+    }
+    system.elimination.reduce(&force, &mut y, &mut q);
+    let at = q.iter().position(|q| *q != 0.0)?;
+    let scale = q[at];
+    let others = q.iter().enumerate().all(|(i, q)| match i.checked_sub(at) {
+        Some(axis @ 0..3) => (q - scale * (1.0 + axis as f64)).abs() <= 1e-14 * q.abs(),
+        _ => *q == 0.0,
+    });
+    others.then_some((at, scale))
+}
+
+/// Components of a point along the axes of its body, m.
+fn arm<const D: usize>(end: &End<D>) -> [f64; 3] {
+    end.marker()
+        .map_or([0.0; 3], |marker| marker.components()[0].into())
+}
+
+/// All constraints, by what they join; nothing where one is of another kind.
+fn pairs<const D: usize>(system: &System<D>) -> Option<Vec<Pair<D>>> {
+    let mut pairs: Vec<Pair<D>> = Vec::new();
+    for (row, constraint) in system.constraints.iter().enumerate() {
+        let ends = constraint.ends();
+        let bodies = [body(system, ends.first()?)?, body(system, ends.get(1)?)?];
+        let same = |pair: &Pair<D>| pair.bodies == bodies || pair.bodies == [bodies[1], bodies[0]];
+        if bodies[0] == bodies[1] {
+            return None;
+        }
+        let index = pairs.iter().position(same);
+        let pair = match index {
+            Some(index) => &mut pairs[index],
+            None => {
+                pairs.push(Pair {
+                    bodies,
+                    pins: Vec::new(),
+                    turns: Vec::new(),
+                    ends: None,
+                });
+                pairs.last_mut()?
+            }
+        };
+        match &constraint.kind {
+            ConstraintKind::HeldRow(held) => {
+                let goes_on = pair.ends.is_none_or(|ends| ends == held.ends);
+                if !goes_on || !holds_point(held, pair.pins.len()) || pair.pins.len() == 3 {
+                    return None;
+                }
+                pair.bodies = bodies;
+                pair.ends = Some(held.ends);
+                pair.pins.push(row);
+            }
+            ConstraintKind::Perpendicular(right) if right.is_angle() => pair.turns.push(row),
+            ConstraintKind::DrivenTurn(_) => pair.turns.push(row),
+            _ => return None,
+        }
+    }
+    let is_joint = |pair: &Pair<D>| pair.pins.len() == 3 && pair.turns.len() <= 3;
+    pairs.iter().all(is_joint).then_some(pairs)
+}
+
+/// The rigid body that an end is on; of the ground there is none. Nothing where it is something else.
+fn body<const D: usize>(system: &System<D>, end: &End<D>) -> Option<Option<usize>> {
+    let Some(marker) = end.marker() else {
+        return Some(None);
+    };
+    if !marker.is_framed() {
+        return None;
+    }
+    let frames = system.frames.list();
+    let index = frames
+        .iter()
+        .position(|frame| frame.node == marker.nodes[0]);
+    index.map(Some)
+}
+
+/// Whether a row holds a point of the second end at that of the first, along this axis.
+fn holds_point<const D: usize>(held: &HeldRow<D>, axis: usize) -> bool {
+    let start = match held.ends[0] {
+        End::Ground(point) => point.get(axis).copied(),
+        End::Body(_) => Some(0.0),
+    };
+    let unit = |sign: f64| Vector::<D>::from_fn(|i, _| if i == axis { sign } else { 0.0 });
+    let is_fixed = start.is_some_and(|start| held.target == Target::Fixed(start));
+    is_fixed
+        && held.ends[1].marker().is_some()
+        && held.on_ends == [[unit(-1.0), Vector::zeros()], [unit(1.0), Vector::zeros()]]
+}
+
+impl<const D: usize> System<D> {
+    /// Whether accelerations are found by the elimination of an open tree.
+    pub fn is_open_tree(&self) -> bool {
+        self.tree.is_some()
+    }
+
+    /// Factors the tree at the nodal coordinates in `work`, unless it is that already. False where there is no tree, or where
+    /// turns that a joint holds depend on each other: then multipliers are to be used.
+    pub(in crate::system) fn factor_tree(&self, work: &mut Work<D>) -> bool {
+        let Some(tree) = &self.tree else {
+            return false;
+        };
+        if !work.outdates_tree() {
+            return work.is_tree;
+        }
+        let mut articulated = std::mem::take(&mut work.articulated);
+        let view = self.view(work);
+        let frames = self.frames.list();
+        work.is_tree = articulated.factor(frames, &work.x, |turn, link| {
+            let node = frames[link.frame].node;
+            let mut of_body = Vector3::zeros();
+            self.constraints[tree.turns[turn]].for_each_pair(&view, |pair| {
+                for (end, [_, direction]) in &pair.ends {
+                    if let Some(marker) = end.marker().filter(|marker| marker.nodes[0] == node) {
+                        let own: Vector<D> = marker.direction(view.x);
+                        of_body += Vector3::from(moment(&own, direction));
+                    }
+                }
+            });
+            of_body
+        });
+        work.articulated = articulated;
+        work.is_tree
+    }
+
+    /// Changes `q` by the least that makes its products with the rows of the Jacobian what `work.right` says, with the factors
+    /// of the tree.
+    pub(in crate::system) fn bring_tree(&self, work: &mut Work<D>, q: &mut [f64]) {
+        let Some(tree) = &self.tree else {
+            return;
+        };
+        let right = &work.right;
+        work.articulated.bring(
+            self.frames.list(),
+            |turn| right[tree.turns[turn]],
+            |link| match &tree.pins[link] {
+                Some(pin) => {
+                    let sign = if pin.is_second { 1.0 } else { -1.0 };
+                    pin.rows.map(|row| sign * right[row])
+                }
+                None => [0.0; 3],
+            },
+            q,
+        );
+    }
+
+    /// What is missing in every constraint, into `right`: minus `of_point`, of how the points that a joint holds differ, less
+    /// what that is to be; minus `of_other` of the others.
+    pub(in crate::system) fn fill_right(
+        &self,
+        view: &View<'_, D>,
+        right: &mut [f64],
+        of_point: impl Fn(&End<D>) -> Vector<D>,
+        of_other: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
+        is_position: bool,
+    ) {
+        let Some(tree) = &self.tree else {
+            for (right, constraint) in right.iter_mut().zip(&self.constraints) {
+                *right = -of_other(constraint, view);
+            }
+            return;
+        };
+        for pin in tree.pins.iter().flatten() {
+            let [first, second] = [&pin.ends[0], &pin.ends[1]].map(&of_point);
+            let gap: [f64; 3] = components(&(first - second));
+            for (row, gap) in pin.rows.iter().zip(gap) {
+                let open = if is_position {
+                    self.constraints[*row].offset
+                } else {
+                    0.0
+                };
+                right[*row] = gap + open;
+            }
+        }
+        for row in &tree.turns {
+            right[*row] = -of_other(&self.constraints[*row], view);
+        }
+    }
+
+    /// Turns free accelerations into constrained ones as [`System::constrain`] does, but for multipliers; false where there is
+    /// no tree.
+    pub(in crate::system) fn constrain_tree(&self, work: &mut Work<D>, a: &mut [f64]) -> bool {
+        if !self.factor_tree(work) {
+            return false;
+        }
+        self.ask_accelerations(work);
+        self.bring_tree(work, a);
+        work.is_without_multipliers = true;
+        true
+    }
+}
