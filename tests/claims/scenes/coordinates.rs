@@ -342,11 +342,14 @@ fn rack() -> Specimen {
     specimen
 }
 
+/// Name, what is free, which translations and which rotations that is.
+type Free<'a> = (&'a str, &'a [&'a str], [f64; 3], [f64; 3]);
+
 /// Bodies at rest that may go along and turn about named axes of the ground, pushed and turned: of two rotations the joint holds
 /// the moment across both.
 fn let_go() -> Specimen {
     let off = Vector3::new(0.02, 0.05, -0.03);
-    let cases: [(&str, &[&str], [f64; 3], [f64; 3]); 4] = [
+    let cases: [Free<'_>; 4] = [
         ("a", &["x", "rotation_y"], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
         (
             "b",
