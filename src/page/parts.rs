@@ -3,8 +3,8 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    Ends, Hold, Joint, JointCoordinate, Load, LoadKind, Motion, MotionKind, Port, PortKind, Scene,
-    Turning, Value,
+    Ends, Gear, Hold, Joint, JointCoordinate, Load, LoadKind, Motion, MotionKind, Port, PortKind,
+    Scene, Turning, Value,
 };
 use crate::system::Drive;
 
@@ -20,11 +20,7 @@ pub(super) fn parts(scene: &Scene) -> String {
         let holds = holds.collect::<Vec<_>>().join("; ");
         row(&[&code(joint.name), kind, &ends_in_words(&joint.ends), &holds])
     });
-    let gears = resolved.gears.iter().map(|gear| {
-        let [first, second] = gear.coordinates.map(|of| coordinate_in_words(&of));
-        let ratio = number(gear.ratio);
-        row(&[&code(gear.name), &first, &second, &ratio])
-    });
+    let gears = resolved.gears.iter().map(gear_in_words);
     let motions = resolved.motions.iter().map(|motion| {
         let what = format!("{} {}", driven(motion), code(motion.kind.of()));
         row(&[&code(motion.name), &what, &course(motion)])
@@ -191,6 +187,11 @@ fn hold_in_words(dimension: usize, joint: &Joint<'_>, hold: &Hold) -> String {
             format!("{k} N m/rad and {c} N m s/rad against rotation{rest}")
         }
     }
+}
+
+fn gear_in_words(gear: &Gear<'_>) -> String {
+    let [first, second] = gear.coordinates.map(|of| coordinate_in_words(&of));
+    row(&[&code(gear.name), &first, &second, &number(gear.ratio)])
 }
 
 fn coordinate_in_words(of: &JointCoordinate<'_>) -> String {

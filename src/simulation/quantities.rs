@@ -11,7 +11,7 @@ use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{axis, components};
 use crate::scene::{Along, AngleId, Assembled, CouplingId, HolderId, MarkerId, SlideId};
-use crate::system::{End, Evaluation, System, Way};
+use crate::system::{End, Evaluation, System};
 
 /// Outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,24 +130,18 @@ pub(super) fn value<const D: usize, N: Number>(
         | RotationVector(id, ..)
         | AngularVelocity(id, ..)
         | AngularAcceleration(id, ..) => turning(quantity, values, assembled, at(id)),
-        JointVelocity(joint) if turn(joint).is_some() => {
-            let rate = turn(joint).map(|turn| turn.rate(&values.x, &values.v));
-            rate.unwrap_or_else(|| N::of(0.0))
-        }
-        JointVelocity(joint) => {
-            let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
-            b - a
-        }
-        JointAcceleration(joint) if turn(joint).is_some() => {
-            let of = [&values.x[..], &values.v, &values.acceleration];
-            let second = turn(joint).map(|turn| turn.second(of));
-            second.unwrap_or_else(|| N::of(0.0))
-        }
+        JointVelocity(joint) => match turn(joint) {
+            Some(turn) => turn.rate(&values.x, &values.v),
+            None => {
+                let [a, b] = ends(joint).map(|end| end.lift().spin(&values.x, &values.v));
+                b - a
+            }
+        },
         JointAcceleration(joint) => {
-            let rate =
-                |end: End<D>| (end.lift()).spin_rate(&values.x, &values.v, &values.acceleration);
-            let [a, b] = ends(joint).map(rate);
-            b - a
+            let (x, v, a) = (&values.x[..], &values.v[..], &values.acceleration[..]);
+            let rate = |end: End<D>| end.lift().spin_rate(x, v, a);
+            let [first, second] = ends(joint).map(rate);
+            turn(joint).map_or(second - first, |turn| turn.second([x, v, a]))
         }
         Strain(id) => values.strain(system, at(id)).0,
         Curvature(id) => values.strain(system, at(id)).1,
@@ -159,8 +153,7 @@ pub(super) fn value<const D: usize, N: Number>(
             transmitted(quantity, values, assembled, joint)
         }
         Displacement(joint) | SlidingVelocity(joint) | SlidingAcceleration(joint) => {
-            let way = system.joints()[joint.index()].way.as_ref();
-            way.map_or_else(|| N::of(0.0), |way| sliding(quantity, way, values))
+            sliding(quantity, values, system, joint)
         }
         GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
@@ -184,15 +177,17 @@ pub(super) fn value<const D: usize, N: Number>(
 /// The way along a joint, its rate or the rate of that.
 fn sliding<const D: usize, N: Number>(
     quantity: Quantity,
-    way: &Way<D>,
     values: &Evaluation<D, N>,
+    system: &System<D>,
+    joint: HolderId,
 ) -> N {
     let (x, v) = (&values.x, &values.v);
-    match quantity {
+    let way = system.joints()[joint.index()].way.as_ref();
+    way.map_or(N::of(0.0), |way| match quantity {
         Quantity::Displacement(_) => way.value(x),
         Quantity::SlidingVelocity(_) => way.gradient(x).along(v),
         _ => way.bend(v) + way.gradient(x).along(&values.acceleration),
-    }
+    })
 }
 
 /// How the rigid body that a marker belongs to stands and turns.

@@ -62,12 +62,8 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         Kind::GearForce => vec![("gear_force", "Force of {} on the displacement of its second joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
         Kind::GearTorque => vec![("gear_torque", "Torque of {} on the angle of its second joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
-        Kind::Orientation => vec![
-            ("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation)),
-        ],
-        Kind::Quaternion => vec![
-            ("quaternion", "Unit quaternion of the frame at {}", None, Four, Read::Marker(Quaternion)),
-        ],
+        Kind::Orientation => vec![("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation))],
+        Kind::Quaternion => vec![("quaternion", "Unit quaternion of the frame at {}", None, Four, Read::Marker(Quaternion))],
         Kind::RotationVector => vec![
             ("rotation_vector", "Rotation vector of the frame at {}, at most half a turn long", Some(RADIAN), Vector, Read::Marker(RotationVector)),
         ],
@@ -88,9 +84,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         ],
         Kind::Travel => vec![("travel", "Length along the cable at which {} stands", Some(METRE), Scalar, Read::Slide(Travel))],
         Kind::Reaction => vec![("reaction", "Force of {}", Some(NEWTON), Vector, Read::Holder(Reaction))],
-        Kind::ReactionMoment => vec![
-            ("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::Holder(ReactionMoment)),
-        ],
+        Kind::ReactionMoment => vec![("reaction_moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::Holder(ReactionMoment))],
         Kind::Energy => energies(resolved),
         Kind::Work => vec![
             ("energy.input", "Work that loads, inputs and motions have done since the start", Some(JOULE), Scalar, Read::Scene(|_| Input)),

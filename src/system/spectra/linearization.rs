@@ -275,23 +275,7 @@ impl<const D: usize> System<D> {
         let mut centrifugal = Matrix::zeros(assembly.pattern());
         self.add_centrifugal(&work.x, &mut centrifugal);
         made.stiffness.add_symmetric(1.0, &centrifugal);
-        let coriolis = spin_matrix::<D>(spin) * 2.0;
-        for frame in self.frames.list() {
-            let nodes = [frame.node, frame.node + 1];
-            let mut whole = DMatrix::zeros(4 * D, 4 * D);
-            for (node, part, mass) in frame.masses() {
-                let at = 2 * D * (node - nodes[0]) + D * part;
-                whole
-                    .fixed_view_mut::<D, D>(at, at)
-                    .copy_from(&(coriolis * mass));
-            }
-            let by_rates = Blocks::new(&nodes, whole);
-            let mut blocks = Blocks::new(&[frame.node], DMatrix::zeros(2 * D, 2 * D));
-            blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
-            blocks.add(assembly, &mut made.stiffness, &mut none);
-            let by_rates = by_rates.pulled(&self.frames, &work.x);
-            by_rates.add(assembly, &mut made.damping, &mut none);
-        }
+        self.linearize_coriolis(work, made);
         let mut add = |nodes: &[usize], mass: &dyn Fn(Node<D>, usize, usize) -> Node<D>| {
             for a in nodes {
                 for b in nodes {
@@ -338,6 +322,29 @@ impl<const D: usize> System<D> {
                 let forces = marker.forces(at, on);
                 forces[usize::from(a != nodes[0])].1
             });
+        }
+    }
+
+    /// The Coriolis force on rigid bodies of space in a turning frame.
+    fn linearize_coriolis(&self, work: &Work<D>, made: &mut Linearization<'_, D>) {
+        let assembly = &self.elimination.assembly;
+        let mut none = |_: usize, _: usize, _: f64| {};
+        let coriolis = spin_matrix::<D>(self.rotation) * 2.0;
+        for frame in self.frames.list() {
+            let nodes = [frame.node, frame.node + 1];
+            let mut whole = DMatrix::zeros(4 * D, 4 * D);
+            for (node, part, mass) in frame.masses() {
+                let at = 2 * D * (node - nodes[0]) + D * part;
+                whole
+                    .fixed_view_mut::<D, D>(at, at)
+                    .copy_from(&(coriolis * mass));
+            }
+            let by_rates = Blocks::new(&nodes, whole);
+            let mut blocks = Blocks::new(&[frame.node], DMatrix::zeros(2 * D, 2 * D));
+            blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
+            blocks.add(assembly, &mut made.stiffness, &mut none);
+            let by_rates = by_rates.pulled(&self.frames, &work.x);
+            by_rates.add(assembly, &mut made.damping, &mut none);
         }
     }
 

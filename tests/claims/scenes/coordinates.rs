@@ -79,7 +79,8 @@ fn sprung() -> Specimen {
     let idle = body("idle");
     let scene = json!({"name": "sprung", "dimension": 3, "bodies": [bar.described(Value::Null), idle.described(Value::Null)],
         "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point},
-                   {"name": "other", "kind": "cylindrical", "markers": ["ground", "idle.c"], "direction": AXIS}],
+                   {"name": "other", "kind": "cylindrical", "markers": ["ground", "idle.c"], "direction": AXIS,
+                    "point": array(idle.place)}],
         "loads": [{"name": "spring", "kind": "joint_spring", "joint": "guide", "coordinate": "displacement",
                    "stiffness": k, "damping": c, "rest": rest},
                   {"name": "as_it_starts", "kind": "joint_spring", "joint": "guide", "stiffness": 3.0},

@@ -1,0 +1,123 @@
+//! Derivatives over the nodes of rigid bodies become those over their coordinates.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{Frame, Frames, turned};
+use crate::body::assembly::{NodeBlock, no_block};
+use crate::body::connectivity::Node;
+
+/// The block of a node whose second vector stands for a rotation.
+pub fn turning_block<const D: usize>(matrix: &Matrix3<f64>) -> NodeBlock<D> {
+    let mut block = no_block();
+    for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
+        block[1][i][1][j] = matrix[(i, j)];
+    }
+    block
+}
+
+/// Parts and axes of a nodal vector.
+fn entries<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
+    (0..2).flat_map(|part| (0..D).map(move |axis| (part, axis)))
+}
+
+impl Frames {
+    /// Second derivatives by nodal coordinates become those by the coordinates of bodies, node by node: the nodes that
+    /// stand for these, and the block; what a pair of nodes of one body has both ways is in it.
+    pub fn pull_block<const D: usize>(
+        &self,
+        (a, b): (usize, usize),
+        block: &NodeBlock<D>,
+        x: &[Node<D>],
+    ) -> (usize, usize, NodeBlock<D>) {
+        let ([to_a, to_b], [of_a, of_b]) = {
+            let [a, b] = [a, b].map(|node| self.partial(node, x));
+            ([a.0, b.0], [a.1, b.1])
+        };
+        let mut pulled = no_block();
+        for (i, k) in entries::<D>() {
+            for (j, l) in entries::<D>() {
+                let mut sum = 0.0;
+                for (p, r) in entries::<D>() {
+                    let inner: f64 = entries::<D>()
+                        .map(|(q, s)| block[p][r][q][s] * of_b[q][s][j][l])
+                        .sum();
+                    sum += of_a[p][r][i][k] * inner;
+                }
+                pulled[i][k][j][l] = sum;
+            }
+        }
+        if to_a == to_b && a != b {
+            let once = pulled;
+            for (i, k) in entries::<D>() {
+                for (j, l) in entries::<D>() {
+                    pulled[i][k][j][l] += once[j][l][i][k];
+                }
+            }
+        }
+        (to_a, to_b, pulled)
+    }
+
+    /// Derivatives of a node's vectors by the coordinates of its body, and the node that has these.
+    pub fn partial<const D: usize>(&self, node: usize, x: &[Node<D>]) -> (usize, NodeBlock<D>) {
+        let mut partial = no_block();
+        let Some((frame, is_second)) = self.of_node::<D>(node) else {
+            for (i, k) in entries::<D>() {
+                partial[i][k][i][k] = 1.0;
+            }
+            return (node, partial);
+        };
+        let axes = frame.axes(x);
+        for turn in 0..D {
+            let [a, b, c] = turned(&axes, &Vector3::ith(turn, 1.0));
+            let changes = if is_second {
+                [b, c]
+            } else {
+                [Vector3::zeros(), a]
+            };
+            for (part, change) in changes.iter().enumerate() {
+                for axis in 0..D {
+                    partial[part][axis][1][turn] = change[axis];
+                }
+            }
+            if !is_second {
+                partial[0][turn][0][turn] = 1.0;
+            }
+        }
+        (frame.node, partial)
+    }
+
+    /// Derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand: `E_i x v`.
+    pub fn partial_of_rates<const D: usize>(
+        &self,
+        node: usize,
+        x: &[Node<D>],
+        v: &[Node<D>],
+    ) -> (usize, NodeBlock<D>) {
+        let mut partial = no_block();
+        let Some((frame, is_second)) = self.of_node::<D>(node) else {
+            return (node, partial);
+        };
+        let (axes, [a, b, c]) = (frame.axes(x), frame.axes(v));
+        for (turn, about) in axes.iter().enumerate().take(D) {
+            let rates = match is_second {
+                true => [b, c],
+                false => [Vector3::zeros(), a],
+            };
+            for (part, rate) in rates.iter().enumerate() {
+                let change = about.cross(rate);
+                for axis in 0..D {
+                    partial[part][axis][1][turn] = change[axis];
+                }
+            }
+        }
+        (frame.node, partial)
+    }
+
+    /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`,
+    /// symmetric where the forces have no moment.
+    pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> Matrix3<f64> {
+        let (axes, forces) = (frame.axes(x), frame.axes(f));
+        let along = Matrix3::from_fn(|i, j| forces[j].dot(&axes[i]));
+        Matrix3::from_diagonal_element(along.trace()) - along
+    }
+}
