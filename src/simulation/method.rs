@@ -51,7 +51,7 @@ pub(super) fn choose<const D: usize>(
     let n = system.coordinates();
     let radau = || -> Box<dyn Method> { Box::new(Radau::new(n)) };
     let named = scene.method.integrator;
-    if named == Integrator::Radau {
+    if named == Integrator::Radau || (named == Integrator::Auto && system.has_contacts()) {
         return Ok((tolerance, Methods::one(radau())));
     }
     if system.reads_rates()

@@ -220,6 +220,11 @@ impl<const D: usize> System<D> {
         self.is_damped || self.needs_rates
     }
 
+    /// Whether forces have kinks at times that the state decides: error estimates of explicit methods may miss them.
+    pub fn has_contacts(&self) -> bool {
+        self.loads.iter().any(Load::has_contact)
+    }
+
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
         let chains: f64 = self.chains.iter().map(CableChain::mass).sum();

@@ -215,6 +215,11 @@ impl<const D: usize> Load<D> {
         }
     }
 
+    /// Whether its force has a kink at a time that the state decides.
+    pub fn has_contact(&self) -> bool {
+        matches!(self, Self::Stop(_))
+    }
+
     /// Whether it dissipates.
     pub fn is_damped(&self) -> bool {
         match self {

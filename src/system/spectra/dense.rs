@@ -84,8 +84,13 @@ pub(super) fn quadratic(
     let n = stiffness.nrows();
     let size = stiffness.amax();
     let skew = (stiffness - stiffness.transpose()).amax();
+    // Stiffness of bodies that turn is what is left of terms as large as squares of gyroscopic rates.
+    let gyroscopic = 0.5 * (damping - damping.transpose()).amax();
+    let noise = ROUNDOFF * (2 * n) as f64 * size.max(gyroscopic * gyroscopic);
     let root = match skew <= 1e-13 * size {
-        true => stiffness.clone().cholesky().map(|c| c.l()),
+        // Pivots of roundoff have roots of any size: singular matrices have none.
+        true => (stiffness.clone().cholesky().map(|c| c.l()))
+            .filter(|l| l.diagonal().iter().all(|d| d * d > noise)),
         false => None,
     };
     let rate = match size.sqrt() {
@@ -101,7 +106,6 @@ pub(super) fn quadratic(
         (false, false, _) => -damping[(i - n, j - n)],
     };
     let matrix = DMatrix::from_fn(2 * n, 2 * n, entry);
-    let noise = ROUNDOFF * (2 * n) as f64 * size;
     let found = general(&matrix)?.into_iter().filter(|s| s.im >= 0.0);
     // Without a root a double eigenvalue 0 shows as the root of roundoff.
     let zero = |s: Complex<f64>| root.is_none() && s.norm_sqr() <= noise;
