@@ -178,7 +178,9 @@ fn scenes() -> Vec<String> {
     let mut scenes: Vec<String> = [r#""integrator": "radau""#, r#""integrator": "rk4""#]
         .map(|method| MANY.replace("METHOD", method))
         .into();
-    for integrator in ["radau", "rk4", "rkn43", "rkn64", "verlet", "auto"] {
+    for integrator in [
+        "radau", "rk4", "dopri853", "rkn43", "rkn64", "verlet", "auto",
+    ] {
         let reads_rates = !matches!(integrator, "rkn43" | "rkn64" | "verlet");
         for damping_time in [0.0, 1e-4].into_iter().take(1 + usize::from(reads_rates)) {
             for joints in [(PIN, ""), (CLAMP, "joint"), (SLIDERS, "third")] {
@@ -199,7 +201,7 @@ fn in_space() -> impl Iterator<Item = String> {
         include_str!("../scenes/crane_3d.json"),
     ];
     ready.into_iter().flat_map(|text| {
-        ["radau", "rk4"].map(|integrator| {
+        ["radau", "rk4", "dopri853", "auto"].map(|integrator| {
             let mut scene: serde_json::Value = serde_json::from_str(text).expect("JSON");
             scene["accuracy"] = serde_json::json!({ "relative_tolerance": 1e-4 });
             scene["method"] = serde_json::json!({ "integrator": integrator });

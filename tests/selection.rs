@@ -8,6 +8,8 @@ use flexbody::simulation::{Simulation, Snapshot};
 const PENDULUM: &str = include_str!("cases/soft_pendulum/scene.json");
 /// Driven slowly from rest: the rule that begins takes it for soft.
 const SPIN_UP: &str = include_str!("../scenes/spin_up_beam.json");
+/// A body that turns fast.
+const GYROSCOPE: &str = include_str!("../scenes/gyroscope.json");
 /// Communication points of a run.
 const POINTS: u32 = 120;
 
@@ -110,6 +112,38 @@ fn the_order_follows_what_holds_steps_back() {
             "{tolerance:e}: {auto}, {low}"
         );
     }
+}
+
+/// Bodies in space: accelerations read rates.
+#[test]
+fn the_order_with_rates_follows_what_holds_steps_back() {
+    for (tolerance, step, gain) in [
+        (1e-3, 0.01, 0.0),
+        (1e-6, 0.01, 0.4),
+        (1e-8, 0.01, 0.6),
+        (1e-6, 1e-3, 0.0),
+    ] {
+        let named = [Integrator::Auto, Integrator::Rk4, Integrator::Dopri853];
+        let [auto, low, high] =
+            named.map(|integrator| run_of(gyroscope(tolerance, integrator), step).2);
+        println!("{tolerance:e}: {auto} with the choice, {low} of order 4, {high} of order 8");
+        assert!(
+            auto < 1.1 * low.min(high),
+            "{tolerance:e}: {auto}, {low}, {high}"
+        );
+        assert!(
+            auto < (1.0 - gain) * low * 1.1,
+            "{tolerance:e}: {auto}, {low}"
+        );
+    }
+}
+
+fn gyroscope(tolerance: f64, integrator: Integrator) -> Scene {
+    let mut scene = Scene::from_json(GYROSCOPE).expect("a scene");
+    scene.accuracy = Default::default();
+    scene.accuracy.relative_tolerance = Some(tolerance);
+    scene.method.integrator = integrator;
+    scene
 }
 
 #[test]

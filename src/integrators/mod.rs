@@ -7,15 +7,17 @@
 
 mod controller;
 mod dense;
+mod dopri853;
 mod nystrom;
 mod radau;
-mod rk4;
+mod runge_kutta;
 mod selection;
 
 pub use controller::rescaled;
+pub use dopri853::DOPRI853;
 pub use nystrom::{Nystrom, RKN43, RKN64, Tableau, VERLET};
 pub use radau::Radau;
-pub use rk4::Rk4;
+pub use runge_kutta::{Bounds, Coefficients, RK4, RungeKutta};
 pub use selection::Methods;
 
 use crate::math::vector::norm as size;

@@ -7,7 +7,7 @@
 //! 235-250: RKN4(3)4FM (Table 3).
 
 use super::{Attempt, Method, Tolerance, rescaled};
-use crate::math::sums::{TERMS, Term, add, sum};
+use crate::math::sums::{Term, combine};
 use crate::system::{DenseStep, Dynamics};
 
 /// Part of the stability limit that is used: the bound on the frequency is that of the reference
@@ -214,20 +214,11 @@ impl Nystrom {
     }
 }
 
-/// `out = start + factor * sum of the weighted vectors`, with at most as many vectors at the start as a sum takes.
+/// `out = start + factor * sum of the weighted vectors`.
 fn set(out: &mut [f64], start: &[Term<'_>], factor: f64, (weights, a): (&[f64], &[Vec<f64>])) {
-    let (mut terms, mut count) = ([(0.0, &a[0][..]); TERMS], start.len());
-    terms[..count].copy_from_slice(start);
-    let mut write: fn(&mut [f64], &[Term<'_>]) = sum;
-    for (weight, a) in weights.iter().zip(a) {
-        if count == TERMS {
-            write(out, &terms);
-            (write, count) = (add, 0);
-        }
-        terms[count] = (factor * weight, a);
-        count += 1;
-    }
-    write(out, &terms[..count]);
+    let weighted = weights.iter().zip(a);
+    let weighted = weighted.map(|(weight, a)| (factor * weight, &a[..]));
+    combine(out, start.iter().copied().chain(weighted));
 }
 
 impl Method for Nystrom {

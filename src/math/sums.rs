@@ -21,6 +21,21 @@ pub fn add(out: &mut [f64], terms: &[Term<'_>]) {
     vectorized_where(out.len() >= LONG, Sum::<'_, true> { out, terms });
 }
 
+/// `out = sum of all terms`, at least one; all vectors are of one length.
+pub fn combine<'a>(out: &mut [f64], terms: impl Iterator<Item = Term<'a>>) {
+    let mut few: [Term<'_>; TERMS] = [(0.0, &[]); TERMS];
+    let (mut write, mut count): (fn(&mut [f64], &[Term<'_>]), _) = (sum, 0);
+    for term in terms {
+        if count == TERMS {
+            write(out, &few);
+            (write, count) = (add, 0);
+        }
+        few[count] = term;
+        count += 1;
+    }
+    write(out, &few[..count]);
+}
+
 /// [`sum`], or [`add`] if `ADDS`.
 struct Sum<'a, const ADDS: bool> {
     out: &'a mut [f64],

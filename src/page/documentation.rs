@@ -138,6 +138,7 @@ fn model(scene: &Scene) -> String {
         }
         Integrator::Radau => "Radau IIA of order 5, implicit",
         Integrator::Rk4 => "Runge-Kutta of order 4, explicit",
+        Integrator::Dopri853 => "Runge-Kutta of Dormand and Prince of order 8, explicit",
         Integrator::Verlet => "velocity Verlet of order 2, explicit",
         Integrator::Rkn43 => "Runge-Kutta-Nystrom of order 4, explicit",
         Integrator::Rkn64 => "Runge-Kutta-Nystrom of order 6, explicit",

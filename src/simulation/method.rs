@@ -2,7 +2,10 @@
 
 use std::f64::consts::PI;
 
-use crate::integrators::{Method, Methods, Nystrom, RKN43, RKN64, Radau, Rk4, Tolerance, VERLET};
+use crate::integrators::{
+    Bounds, DOPRI853, Method, Methods, Nystrom, RK4, RKN43, RKN64, Radau, RungeKutta, Tolerance,
+    VERLET,
+};
 use crate::math::vector::norm;
 use crate::scene::{Error, Integrator, LoadKind, Resolved};
 use crate::system::{State, System, Work, fastest};
@@ -18,6 +21,9 @@ const LOOSE: f64 = 1e-4;
 /// Tolerance from which stability alone sets the steps of the method of order 4, and one of order 2 is
 /// cheaper.
 const LOOSEST: f64 = 5e-3;
+
+/// What projecting the end of a step, and the acceleration there, cost beside an acceleration.
+const PROJECTION: f64 = 2.2;
 
 /// What a choice is made from.
 pub(super) struct Start<'a, const D: usize> {
@@ -62,7 +68,7 @@ pub(super) fn choose<const D: usize>(
     {
         let found = format!("{named:?}").to_lowercase();
         let message = format!(
-            "expected \"auto\", \"radau\" or \"rk4\" where accelerations read rates (damping, joints that \
+            "expected \"auto\", \"radau\", \"rk4\" or \"dopri853\" where accelerations read rates (damping, joints that \
              keep multipliers, a turning frame, the energy of inputs), found \"{found}\""
         );
         return Err(Error::new("method.integrator", message));
@@ -70,13 +76,28 @@ pub(super) fn choose<const D: usize>(
     let (frequency, decay) = fastest(system, start.inputs, work, start.state);
     let nystrom = |tableau| -> Box<dyn Method> { Box::new(Nystrom::new(tableau, n, frequency)) };
     let both = || -> Box<dyn Method> { Box::new(Nystrom::pair([&RKN43, &RKN64], n, frequency)) };
-    let rk4 = || -> Box<dyn Method> { Box::new(Rk4::new(n, frequency, decay)) };
+    let runge_kutta =
+        |method| -> Box<dyn Method> { Box::new(RungeKutta::new(method, n, frequency, decay)) };
+    let with_rates = || -> Box<dyn Method> {
+        let projection = if system.is_projected() {
+            PROJECTION
+        } else {
+            0.0
+        };
+        let bounds = Bounds {
+            frequency,
+            decay,
+            projection,
+        };
+        Box::new(RungeKutta::pair([&RK4, &DOPRI853], n, bounds, relative))
+    };
     let explicit = match named {
         Integrator::Verlet => nystrom(&VERLET),
         Integrator::Rkn43 => nystrom(&RKN43),
         Integrator::Rkn64 => nystrom(&RKN64),
-        Integrator::Rk4 => rk4(),
-        _ if system.reads_rates() => rk4(),
+        Integrator::Rk4 => runge_kutta(&RK4),
+        Integrator::Dopri853 => runge_kutta(&DOPRI853),
+        _ if system.reads_rates() => with_rates(),
         _ if relative >= LOOSEST => nystrom(&VERLET),
         _ => both(),
     };

@@ -225,6 +225,11 @@ impl<const D: usize> System<D> {
         self.loads.iter().any(Load::has_contact)
     }
 
+    /// Whether states are brought back to constraints after each step.
+    pub fn is_projected(&self) -> bool {
+        !self.constraints.is_empty() || !self.settled.is_empty()
+    }
+
     /// Mass, kg.
     pub fn mass(&self) -> f64 {
         let chains: f64 = self.chains.iter().map(CableChain::mass).sum();

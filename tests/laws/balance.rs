@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
+use flexbody::integrators::{Method, RK4, Radau, RungeKutta, Tolerance, advance};
 use flexbody::system::{Evaluation, Model, System, fastest};
 use proptest::prelude::*;
 
@@ -27,7 +27,7 @@ fn method(moving: &mut Moving, explicit: bool) -> Box<dyn Method> {
     let n = moving.system.coordinates();
     let (frequency, decay) = fastest(&moving.system, &[], &mut moving.work, &moving.state);
     match explicit {
-        true => Box::new(Rk4::new(n, frequency, decay)),
+        true => Box::new(RungeKutta::new(&RK4, n, frequency, decay)),
         false => Box::new(Radau::new(n)),
     }
 }

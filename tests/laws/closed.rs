@@ -4,7 +4,7 @@
 use flexbody::body::Node;
 use flexbody::elements::Strain;
 use flexbody::elements::cable::{Cable, Inertia, Parameters};
-use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
+use flexbody::integrators::{Method, RK4, Radau, RungeKutta, Tolerance, advance};
 use flexbody::system::{Model, fastest, natural_frequencies};
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -363,7 +363,7 @@ fn run(mechanism: &Mechanism) -> Vec<Node> {
         position: 1.0,
         time: 1.0,
     };
-    let mut method = Rk4::new(moving.system.coordinates(), 1.0, 0.0);
+    let mut method = RungeKutta::new(&RK4, moving.system.coordinates(), 1.0, 0.0);
     let h = 5e-4;
     for step in 0..400 {
         let time = h * f64::from(step);

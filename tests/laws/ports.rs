@@ -2,7 +2,7 @@
 //! body by itself; orientations that bodies are pulled towards; quaternions that go on over full turns.
 
 use flexbody::body::Marker;
-use flexbody::integrators::{Rk4, Tolerance, advance};
+use flexbody::integrators::{RK4, RungeKutta, Tolerance, advance};
 use flexbody::math::function::Function;
 use flexbody::math::rotation;
 use flexbody::scene::Scene;
@@ -231,7 +231,7 @@ fn what_pulls_towards_an_orientation_conserves_energy() {
             position: system.scale(),
             time: 0.5,
         };
-        let mut method = Rk4::new(system.coordinates(), 1e-9, 1e-9);
+        let mut method = RungeKutta::new(&RK4, system.coordinates(), 1e-9, 1e-9);
         let mut model = Model::new(&system, &[], &mut work, &state);
         let (_, result) = advance(&mut method, &mut model, &mut state, 0.3, &tolerance);
         result.expect("a motion");

@@ -1,7 +1,7 @@
 //! Rigid bodies of space in random mechanisms, against Newton's and Euler's equations of every body by itself.
 
 use flexbody::body::{Marker, Node};
-use flexbody::integrators::{Method, Radau, Rk4, Tolerance, advance};
+use flexbody::integrators::{Method, RK4, Radau, RungeKutta, Tolerance, advance};
 use flexbody::math::function::Function;
 use flexbody::math::jet::Jet;
 use flexbody::system::loads::{Load, Spring};
@@ -184,7 +184,10 @@ fn free_mechanisms_keep_energy_momentum_and_angular_momentum() {
         } else {
             1e-9
         };
-        let methods: [&mut dyn Method; 2] = [&mut Rk4::new(n, 1e-9, 1e-9), &mut Radau::new(n)];
+        let methods: [&mut dyn Method; 2] = [
+            &mut RungeKutta::new(&RK4, n, 1e-9, 1e-9),
+            &mut Radau::new(n),
+        ];
         for method in methods {
             let mut state = start.clone();
             let name = method.name();
@@ -235,7 +238,7 @@ fn derivatives_in_time_are_those_of_the_motion() {
         let mut state = start.clone();
         for k in 0..5 {
             if k > 0 {
-                let mut method = Rk4::new(system.coordinates(), 1e-9, 1e-9);
+                let mut method = RungeKutta::new(&RK4, system.coordinates(), 1e-9, 1e-9);
                 let until = step * f64::from(k);
                 advanced(&mut method, (&system, &mut state, &mut work), until, 1e-13);
             }

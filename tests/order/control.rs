@@ -1,6 +1,8 @@
 //! Error control: tolerances are followed, communication points met, the impossible refused.
 
-use flexbody::integrators::{Attempt, Method, Methods, Radau, Rk4, Stop, Tolerance, advance};
+use flexbody::integrators::{
+    Attempt, Method, Methods, RK4, Radau, RungeKutta, Stop, Tolerance, advance,
+};
 use flexbody::system::{Dynamics, State};
 use nalgebra::{Matrix2, Vector2};
 
@@ -133,7 +135,7 @@ fn a_singular_tangent_ends_the_step() {
 #[test]
 fn a_step_keeps_to_the_longest_that_stability_allows() {
     let mut problem = Problem::new(|_, q, _| -q * 1e4, |_, _| [Matrix2::zeros(); 2]);
-    let mut method = Rk4::new(2, 100.0, 0.0);
+    let mut method = RungeKutta::new(&RK4, 2, 100.0, 0.0);
     let mut state = started();
     (state.coordinates, state.rates) = (vec![1e-9, 0.0], vec![0.0, 0.0]);
     let loose = Tolerance {

@@ -6,7 +6,8 @@ mod problem;
 mod work;
 
 use flexbody::integrators::{
-    Attempt, Method, Nystrom, RKN43, RKN64, Radau, Rk4, Tolerance, VERLET,
+    Attempt, Coefficients, DOPRI853, Method, Nystrom, RK4, RKN43, RKN64, Radau, RungeKutta,
+    Tolerance, VERLET,
 };
 use nalgebra::{Matrix2, Vector2};
 use problem::Problem;
@@ -21,12 +22,19 @@ struct Row {
     rates: bool,
 }
 
-const ROWS: [Row; 5] = [
+const ROWS: [Row; 6] = [
     Row {
         name: "rk4",
         order: 4.0,
-        make: || Box::new(Rk4::new(2, 1.0, 0.0)),
+        make: || Box::new(RungeKutta::new(&RK4, 2, 1.0, 0.0)),
         steps: [40, 80, 160],
+        rates: true,
+    },
+    Row {
+        name: "dopri853",
+        order: 8.0,
+        make: || Box::new(RungeKutta::new(&DOPRI853, 2, 1.0, 0.0)),
+        steps: [4, 8, 16],
         rates: true,
     },
     Row {
@@ -214,22 +222,46 @@ fn growth(method: &mut dyn Method, frequency: f64, ratio: f64) -> f64 {
 }
 
 #[test]
-fn rk4_is_stable_exactly_as_far_as_it_says() {
-    let limit = 8.0_f64.sqrt();
-    let mut method = Rk4::new(2, limit, 0.0);
+fn runge_kutta_methods_are_stable_exactly_as_far_as_they_say() {
+    assert_eq!(RK4.limits[0], 8.0_f64.sqrt());
+    for coefficients in [&RK4, &DOPRI853] {
+        is_stable_exactly_as_far_as_it_says(coefficients);
+    }
+}
+
+fn is_stable_exactly_as_far_as_it_says(coefficients: &'static Coefficients) {
+    let name = coefficients.name;
+    let [limit, decay] = coefficients.limits;
+    let mut method = RungeKutta::new(coefficients, 2, limit, 0.0);
     assert!(
         (method.longest_step() - 0.9).abs() < 1e-12,
         "0.9 of the limit"
     );
-    assert!(growth(&mut method, 0.999 * limit, 0.0) < 1.0);
-    assert!(growth(&mut method, 1.001 * limit, 0.0) > 1.0);
+    for part in 1..=200 {
+        let frequency = 0.999 * limit * f64::from(part) / 200.0;
+        let grown = growth(&mut method, frequency, 0.0);
+        // Neutral, or nearly: what is seen of the largest deflection differs a little.
+        let most = if part < 200 { 1.01 } else { 1.0 };
+        assert!(grown < most, "{name}: {grown} at {frequency}");
+    }
+    assert!(growth(&mut method, 1.001 * limit, 0.0) > 1.0, "{name}");
+    // The faster rate of an overdamped mode of the frequency 0.1.
+    let ratio = |decay: f64| (decay + 0.01 / decay) / 0.2;
+    assert!(
+        growth(&mut method, 0.1, ratio(0.999 * decay)) < 1.0,
+        "{name}"
+    );
+    assert!(
+        growth(&mut method, 0.1, ratio(1.001 * decay)) > 1.0,
+        "{name}"
+    );
     // Damped modes at the longest step that the method allows itself.
     for number in 0..=60 {
         let ratio = 0.05 * f64::from(number);
         let (frequency, decay) = (1.0, 2.0 * ratio);
-        let h = Rk4::new(2, frequency, decay).longest_step();
+        let h = RungeKutta::new(coefficients, 2, frequency, decay).longest_step();
         let grown = growth(&mut method, h * frequency, ratio);
-        assert!(grown < 1.0, "damping ratio {ratio}: {grown}");
+        assert!(grown < 1.0, "{name}: damping ratio {ratio}: {grown}");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use flexbody::integrators::{Rk4, Tolerance, advance};
+use flexbody::integrators::{RK4, RungeKutta, Tolerance, advance};
 use flexbody::system::{Model, fastest};
 use serde_json::{Value, json};
 
@@ -188,7 +188,7 @@ pub fn tolerance() -> Outcome<Row> {
         time: 1.0,
     };
     let (frequency, decay) = fastest(system, &[], &mut work, &state);
-    let mut rk4 = Rk4::new(state.rates.len(), frequency, decay);
+    let mut rk4 = RungeKutta::new(&RK4, state.rates.len(), frequency, decay);
     let mut model = Model::new(system, &[], &mut work, &state);
     let stop = 1e-6;
     let (counts, end) = advance(&mut rk4, &mut model, &mut state, stop, &tight);

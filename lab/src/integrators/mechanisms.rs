@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use flexbody::integrators::{Rk4, Tolerance, advance};
+use flexbody::integrators::{RK4, RungeKutta, Tolerance, advance};
 use flexbody::system::{Dynamics, Model, fastest};
 
 use super::probe::Probe;
@@ -40,7 +40,7 @@ fn both_ways(mechanism: &Mechanism, seen: &Cell<u32>) -> Outcome {
         let mut a = vec![0.0; n];
         probe.acceleration(state.time, &state.coordinates, &state.rates, &mut a);
         accelerations.push(a);
-        let mut method = Rk4::new(n, frequency, decay);
+        let mut method = RungeKutta::new(&RK4, n, frequency, decay);
         let (_, result) = advance(&mut method, &mut probe, &mut state, 0.03, &tolerance);
         if result.is_err() {
             return Ok(());

@@ -31,7 +31,7 @@ mod verlet;
 use std::sync::{Arc, Mutex};
 
 use flexbody::body::Node;
-use flexbody::integrators::{Method, Nystrom, RKN43, RKN64, Radau, Rk4};
+use flexbody::integrators::{Method, Nystrom, RK4, RKN43, RKN64, Radau, RungeKutta};
 use flexbody::system::fastest;
 
 use crate::scene::{Outcome, Start};
@@ -64,7 +64,7 @@ pub fn build(name: &str, build: &Build<'_>) -> Outcome<Box<dyn Method>> {
             let (start, mut work) = (build.start, build.start.work.clone());
             let system = &start.assembled.system;
             let (frequency, decay) = fastest(system, &start.inputs, &mut work, &start.state);
-            Box::new(Rk4::new(n, frequency, decay))
+            Box::new(RungeKutta::new(&RK4, n, frequency, decay))
         }
         "dopri5" => Box::new(dopri5::Dopri5::new(n)),
         "rkn43" | "rkn64" => {

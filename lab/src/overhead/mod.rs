@@ -5,7 +5,7 @@ mod master;
 use std::path::PathBuf;
 
 use cpu_time::ThreadTime;
-use flexbody::integrators::{Rk4, Tolerance, advance};
+use flexbody::integrators::{RK4, RungeKutta, Tolerance, advance};
 use flexbody::scene::{Integrator, Scene};
 use flexbody::system::{Model, fastest};
 use master::{Instance, Unit};
@@ -104,7 +104,7 @@ fn step(scene: &Scene) -> Result<Value, String> {
     } = Start::new(scene)?;
     let system = &assembled.system;
     let (frequency, decay) = fastest(system, &inputs, &mut work, &state);
-    let mut method = Rk4::new(system.coordinates(), frequency, decay);
+    let mut method = RungeKutta::new(&RK4, system.coordinates(), frequency, decay);
     let tolerance = Tolerance {
         relative: scene.relative_tolerance(),
         position: system.scale(),

@@ -207,6 +207,9 @@ pub enum Integrator {
     /// Runge-Kutta of order 4 with an embedded order 3, explicit: for soft scenes with damping or
     /// constraints.
     Rk4,
+    /// Runge-Kutta of Dormand and Prince of order 8 with embedded orders 5 and 3, explicit: for soft scenes with damping or
+    /// constraints at tight tolerances.
+    Dopri853,
     /// Velocity Verlet of order 2, explicit: for soft scenes at loose tolerances.
     Verlet,
     /// Runge-Kutta-Nystrom of order 4 with an embedded order 3, explicit: for soft scenes.

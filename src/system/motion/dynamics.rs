@@ -314,7 +314,7 @@ impl<'a, const D: usize> Model<'a, D> {
 
     /// Brings a state onto the constraints; false where that fails.
     pub fn project(&mut self, state: &mut State) -> bool {
-        if self.system.constraints.is_empty() && self.system.settled.is_empty() {
+        if !self.system.is_projected() {
             return true;
         }
         let (system, time) = (self.system, state.time);
@@ -448,7 +448,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn accepted(&mut self, state: &mut State) -> Accepted {
-        if self.system.constraints.is_empty() && self.system.settled.is_empty() {
+        if !self.system.is_projected() {
             return self.count(state);
         }
         if !self.project(state) {

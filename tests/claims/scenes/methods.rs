@@ -6,7 +6,7 @@ use super::times;
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    let mut all: Vec<Specimen> = ["radau", "rk4", "verlet", "rkn43", "rkn64"]
+    let mut all: Vec<Specimen> = ["radau", "rk4", "dopri853", "verlet", "rkn43", "rkn64"]
         .map(thrown)
         .into();
     all.extend([
