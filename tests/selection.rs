@@ -118,7 +118,7 @@ fn the_order_follows_what_holds_steps_back() {
 #[test]
 fn the_order_with_rates_follows_what_holds_steps_back() {
     for (tolerance, step, gain) in [
-        (1e-3, 0.01, 0.0),
+        (1e-4, 0.01, 0.0),
         (1e-6, 0.01, 0.4),
         (1e-8, 0.01, 0.6),
         (1e-6, 1e-3, 0.0),

@@ -60,18 +60,8 @@ pub(super) fn choose<const D: usize>(
     if named == Integrator::Radau || (named == Integrator::Auto && system.has_contacts()) {
         return Ok((tolerance, Methods::one(radau())));
     }
-    if system.reads_rates()
-        && matches!(
-            named,
-            Integrator::Verlet | Integrator::Rkn43 | Integrator::Rkn64
-        )
-    {
-        let found = format!("{named:?}").to_lowercase();
-        let message = format!(
-            "expected \"auto\", \"radau\", \"rk4\" or \"dopri853\" where accelerations read rates (damping, joints that \
-             keep multipliers, a turning frame, the energy of inputs), found \"{found}\""
-        );
-        return Err(Error::new("method.integrator", message));
+    if system.reads_rates() {
+        takes_rates(named)?;
     }
     let (frequency, decay) = fastest(system, start.inputs, work, start.state);
     let nystrom = |tableau| -> Box<dyn Method> { Box::new(Nystrom::new(tableau, n, frequency)) };
@@ -116,6 +106,25 @@ pub(super) fn choose<const D: usize>(
             false => Methods::two(radau(), explicit),
         },
     ))
+}
+
+/// Whether an integrator takes accelerations that read rates.
+///
+/// # Errors
+/// That it does not.
+fn takes_rates(named: Integrator) -> Result<(), Error> {
+    if !matches!(
+        named,
+        Integrator::Verlet | Integrator::Rkn43 | Integrator::Rkn64
+    ) {
+        return Ok(());
+    }
+    let found = format!("{named:?}").to_lowercase();
+    let message = format!(
+        "expected \"auto\", \"radau\", \"rk4\" or \"dopri853\" where accelerations read rates (damping, joints that \
+         keep multipliers, a turning frame, the energy of inputs), found \"{found}\""
+    );
+    Err(Error::new("method.integrator", message))
 }
 
 /// How fast the scene moves, 1/s: by gravity, by its motion at the start, by the turning of its frame;

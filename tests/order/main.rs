@@ -31,17 +31,17 @@ const ROWS: [Row; 6] = [
         rates: true,
     },
     Row {
-        name: "dopri853",
-        order: 8.0,
-        make: || Box::new(RungeKutta::new(&DOPRI853, 2, 1.0, 0.0)),
-        steps: [4, 8, 16],
-        rates: true,
-    },
-    Row {
         name: "radau",
         order: 5.0,
         make: || Box::new(Radau::new(2)),
         steps: [8, 16, 32],
+        rates: true,
+    },
+    Row {
+        name: "dopri853",
+        order: 8.0,
+        make: || Box::new(RungeKutta::new(&DOPRI853, 2, 1.0, 0.0)),
+        steps: [4, 8, 16],
         rates: true,
     },
     Row {
@@ -252,7 +252,7 @@ fn is_stable_exactly_as_far_as_it_says(coefficients: &'static Coefficients) {
         "{name}"
     );
     assert!(
-        growth(&mut method, 0.1, ratio(1.001 * decay)) > 1.0,
+        growth(&mut method, 0.1, ratio(1.01 * decay)) > 1.0,
         "{name}"
     );
     // Damped modes at the longest step that the method allows itself.
