@@ -368,12 +368,11 @@ impl Mechanism {
         }
         let jacobian = self.jacobian();
         let missing = self.driven(2) - self.bend(&self.twists(), 1e-2) - &jacobian * &free;
-        let schur = &jacobian * &inverse * jacobian.transpose();
-        let multipliers = schur
-            .svd(true, true)
-            .solve(&missing, 1e-7)
-            .expect("a solution");
-        free + inverse * jacobian.transpose() * multipliers
+        // In coordinates of unit mass the least change. Not by `J M^-1 J^T`: its singular values are squares, of which
+        // a threshold would take those near a singular position for zero that velocities do not.
+        let root = inverse.cholesky().expect("positive").unpack();
+        let change = (jacobian * &root).svd(true, true).solve(&missing, 1e-7);
+        free + root * change.expect("a solution")
     }
 
     pub fn end(&self, joint: &Held, i: usize, axis: usize) -> End<3> {
