@@ -13,6 +13,7 @@ use flexbody::system::{
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3};
 
+use crate::laws::least::least;
 use crate::laws::linkage::{Chance, Mechanism, V};
 use crate::laws::rigid::stiffness_is_the_derivative;
 
@@ -93,8 +94,12 @@ fn mobility(mechanism: &Mechanism, places: &[Place]) -> (DMatrix<f64>, f64) {
         // As in `Mechanism::accelerations`, in coordinates of unit mass.
         let root = inverse.clone().cholesky().expect("positive").unpack();
         let rows = mechanism.jacobian() * &root;
-        let held = rows.clone().pseudo_inverse(1e-7).expect("a tolerance");
-        inverse -= &root * held * rows * root.transpose();
+        let mut free = root.transpose();
+        for mut column in free.column_iter_mut() {
+            let held = least(&rows, &(&rows * &column));
+            column -= held;
+        }
+        inverse = root * free;
     }
     let carried = carried(mechanism, places);
     (&carried * inverse * carried.transpose(), size)
