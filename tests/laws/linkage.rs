@@ -6,6 +6,7 @@ use flexbody::system::joints::{Across, Joint, Perpendicular, Primitive};
 use flexbody::system::{Direction, End, Parts, State, System, Work};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
+use crate::laws::least::least;
 use crate::laws::sprung::Sprung;
 
 pub type V = Vector3<f64>;
@@ -330,9 +331,8 @@ impl Mechanism {
         if !self.joints.is_empty() {
             let jacobian = self.jacobian();
             let missing = self.driven(1) - &jacobian * &twists;
-            let svd = jacobian.svd(true, true);
-            twists += svd.solve(&missing, 1e-7).expect("asked for");
-            let left = (self.driven(1) - self.jacobian() * &twists).norm();
+            twists += least(&jacobian, &missing);
+            let left = (self.driven(1) - jacobian * &twists).norm();
             if self.is_driven() && (left > 1e-7 || twists.amax() > 10.0) {
                 // A loop holds what would be driven, or nearly.
                 self.release_drives();
@@ -368,12 +368,10 @@ impl Mechanism {
         }
         let jacobian = self.jacobian();
         let missing = self.driven(2) - self.bend(&self.twists(), 1e-2) - &jacobian * &free;
-        let schur = &jacobian * &inverse * jacobian.transpose();
-        let multipliers = schur
-            .svd(true, true)
-            .solve(&missing, 1e-7)
-            .expect("a solution");
-        free + inverse * jacobian.transpose() * multipliers
+        // In coordinates of unit mass the least change. Not by `J M^-1 J^T`: its singular values are squares, of which
+        // a threshold would take those near a singular position for zero that velocities do not.
+        let root = inverse.cholesky().expect("positive").unpack();
+        free + &root * least(&(jacobian * &root), &missing)
     }
 
     pub fn end(&self, joint: &Held, i: usize, axis: usize) -> End<3> {

@@ -12,6 +12,7 @@ mod differences;
 mod driven;
 mod elements;
 mod frames;
+mod least;
 mod linkage;
 mod links;
 mod mechanics;

@@ -289,7 +289,7 @@ fn tethered(mechanism: &Mechanism, chance: &mut Chance) -> Parts<3> {
 
 #[test]
 fn the_stiffness_is_the_derivative_of_forces() {
-    let mut chance = Chance(11);
+    let (mut chance, mut compared) = (Chance(11), 0);
     for run in 0..60 {
         let mut mechanism = Mechanism::random(&mut chance);
         if mechanism.is_driven() {
@@ -302,12 +302,31 @@ fn the_stiffness_is_the_derivative_of_forces() {
             (body.velocity, body.spin) = (V::zeros(), V::zeros());
         });
         let parts = tethered(&mechanism, &mut chance);
-        stiffness_is_the_derivative(run, &mechanism, parts);
+        compared += usize::from(stiffness_is_the_derivative(run, &mechanism, parts));
     }
+    assert!(compared > 35, "{compared}");
 }
 
-/// Of a mechanism at rest with loads, but for what is not symmetric.
-pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Parts<3>) {
+/// Largest singular value of a mechanism's Jacobian over the least that is not zero: large near a singular position. Along a
+/// way `h` rows change by about `h` of the largest, so that what follows from them changes by `h` times this.
+fn condition(mechanism: &Mechanism) -> f64 {
+    if mechanism.joints.is_empty() {
+        return 1.0;
+    }
+    let sizes = mechanism.jacobian().singular_values();
+    let largest = sizes.max();
+    let least = sizes.iter().filter(|size| **size > 1e-7 * largest);
+    largest / least.fold(largest, |least, size| least.min(*size))
+}
+
+/// Of a mechanism at rest with loads, but for what is not symmetric. Whether it was compared: not near a singular position,
+/// where the differences, which are off by the fourth power of the step times the condition, say nothing.
+pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Parts<3>) -> bool {
+    const STEP: f64 = 1e-4;
+    const LIMIT: f64 = 1e-5;
+    if (STEP * condition(mechanism)).powi(4) > 0.1 * LIMIT {
+        return false;
+    }
     let system = System::new(parts).expect("a system");
     let (mut state, mut work) = mechanism.state_of(&system);
     state.rates.fill(0.0);
@@ -341,15 +360,18 @@ pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Par
         model.take_out_normal(&mut a);
         a
     };
-    const STEP: f64 = 1e-4;
     let columns = (0..n).map(|k| {
-        let [a, b] = [at(&mut model, k, STEP), at(&mut model, k, -STEP)];
-        DVector::from_fn(n, |j, _| (b[j] - a[j]) / (2.0 * STEP))
+        let mut by = |h: f64| {
+            let [a, b] = [at(&mut model, k, h), at(&mut model, k, -h)];
+            DVector::from_fn(n, |j, _| (b[j] - a[j]) / (2.0 * h))
+        };
+        (by(0.5 * STEP) * 4.0 - by(STEP)) / 3.0
     });
     let wanted = DMatrix::from_columns(&columns.collect::<Vec<_>>());
     let symmetric = (&wanted + wanted.transpose()) * 0.5;
     let found = DMatrix::from_fn(n, n, |i, j| tangents[j][i]);
     // Where nothing is free, both are zero.
     let miss = (&symmetric - &found).amax() / found.amax().max(1.0);
-    assert!(miss < 1e-5, "{run}: {miss:e}");
+    assert!(miss < LIMIT, "{run}: {miss:e}");
+    true
 }
