@@ -24,16 +24,24 @@ pub fn add(out: &mut [f64], terms: &[Term<'_>]) {
 /// `out = sum of all terms`, at least one; all vectors are of one length.
 pub fn combine<'a>(out: &mut [f64], terms: impl Iterator<Item = Term<'a>>) {
     let mut few: [Term<'_>; TERMS] = [(0.0, &[]); TERMS];
-    let (mut write, mut count): (fn(&mut [f64], &[Term<'_>]), _) = (sum, 0);
+    let (mut is_begun, mut count) = (false, 0);
     for term in terms {
         if count == TERMS {
-            write(out, &few);
-            (write, count) = (add, 0);
+            go_on(is_begun, out, &few);
+            (is_begun, count) = (true, 0);
         }
         few[count] = term;
         count += 1;
     }
-    write(out, &few[..count]);
+    go_on(is_begun, out, &few[..count]);
+}
+
+/// [`add`] where a sum is begun, [`sum`] where not.
+fn go_on(is_begun: bool, out: &mut [f64], terms: &[Term<'_>]) {
+    match is_begun {
+        true => add(out, terms),
+        false => sum(out, terms),
+    }
 }
 
 /// [`sum`], or [`add`] if `ADDS`.
