@@ -6,6 +6,7 @@
 //! El-Mikkawy, P. J. Prince, Families of Runge-Kutta-Nystrom formulae, IMA J. Numer. Anal. 7 (1987)
 //! 235-250: RKN4(3)4FM (Table 3).
 
+use super::selection::cheaper_of_pair;
 use super::{Attempt, Method, Tolerance, rescaled};
 use crate::math::sums::{Term, combine};
 use crate::system::{DenseStep, Dynamics};
@@ -162,8 +163,6 @@ pub static RKN64: Tableau = Tableau {
 /// How many times longer the second of two methods steps than the first where errors set their steps: 1.8 to 2.6 times
 /// ([`RKN64`] and [`RKN43`], tolerances from 1e-4 to 1e-7).
 const LONGER: f64 = 2.2;
-/// How many times fewer accelerations a method must take to be preferred to the one in use.
-const FEWER: f64 = 1.1;
 
 /// A Nystrom method, or two of which the cheaper goes on, with their scratch.
 #[derive(Clone, Debug)]
@@ -239,14 +238,9 @@ impl Method for Nystrom {
     }
 
     fn cheaper(&self, h: f64, remaining: f64) -> Option<(usize, f64)> {
-        let other = 1 - self.variant;
-        let proposed = match other {
-            0 => h / LONGER,
-            _ => h * LONGER,
-        };
-        let [own, others] = [(self.variant, h), (other, proposed)]
-            .map(|(variant, h)| self.price(variant, h, remaining));
-        (FEWER * others < own).then_some((other, proposed))
+        cheaper_of_pair(self.variant, h, LONGER, |variant, h| {
+            self.price(variant, h, remaining)
+        })
     }
 
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {

@@ -5,6 +5,7 @@
 //! section II.1 (the classical method); the embedded weights 1/6, 1/3, 1/3, 0, 1/6 meet the conditions of order
 //! 3 (their Table II.2.1).
 
+use super::selection::cheaper_of_pair;
 use super::{Attempt, Method, Tolerance, rescaled};
 use crate::math::sums::combine;
 use crate::system::{DenseStep, Dynamics};
@@ -62,8 +63,6 @@ pub static RK4: Coefficients = Coefficients {
 /// of 1; it grows as the tolerance shrinks by what their powers differ by: 2.2 times at 1e-4, 3.9 at 1e-6 and 7 at 1e-8 with
 /// [`RK4`] and `DOPRI853`.
 const LONGER: f64 = 0.7;
-/// How many times fewer accelerations a method must take to be preferred to the one in use.
-const FEWER: f64 = 1.1;
 
 /// What steps are bounded by, and what goes with each.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -196,14 +195,9 @@ impl Method for RungeKutta {
     }
 
     fn cheaper(&self, h: f64, remaining: f64) -> Option<(usize, f64)> {
-        let other = 1 - self.variant;
-        let proposed = match other {
-            0 => h / self.longer,
-            _ => h * self.longer,
-        };
-        let [own, others] = [(self.variant, h), (other, proposed)]
-            .map(|(variant, h)| self.price(variant, h, remaining));
-        (FEWER * others < own).then_some((other, proposed))
+        cheaper_of_pair(self.variant, h, self.longer, |variant, h| {
+            self.price(variant, h, remaining)
+        })
     }
 
     fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {

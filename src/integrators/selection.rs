@@ -30,6 +30,26 @@ const FALLEN: f64 = 2.0;
 /// Part of what the method before got for an operation below which a trial ends with its first step.
 const HOPELESS: f64 = 0.5;
 
+/// How many times fewer accelerations one of a pair of explicit methods must take to be preferred to the one in use.
+const FEWER: f64 = 1.1;
+
+/// Of a pair of explicit methods, of which the second steps so many times longer than the first where errors set steps, the one
+/// that is not in use and the step (s) to propose to it, if it takes fewer accelerations to an end. `price` tells how many a
+/// method takes there where errors allow it steps of a length (s).
+pub(super) fn cheaper_of_pair(
+    used: usize,
+    h: f64,
+    longer: f64,
+    price: impl Fn(usize, f64) -> f64,
+) -> Option<(usize, f64)> {
+    let other = 1 - used;
+    let proposed = match other {
+        0 => h / longer,
+        _ => h * longer,
+    };
+    (FEWER * price(other, proposed) < price(used, h)).then_some((other, proposed))
+}
+
 /// One method, or two to choose from.
 pub struct Methods(Vec<Box<dyn Method>>);
 
