@@ -6,7 +6,7 @@ use super::lanes::{Simd, Work, vectorized_where};
 pub type Term<'a> = (f64, &'a [f64]);
 
 /// Numbers from which on a sum goes in lanes.
-const LONG: usize = 16;
+const LONG: usize = 24;
 
 /// Most terms of a sum.
 pub const TERMS: usize = 6;
@@ -22,7 +22,20 @@ pub fn add(out: &mut [f64], terms: &[Term<'_>]) {
 }
 
 /// `out = sum of all terms`, at least one; all vectors are of one length.
-pub fn combine<'a>(out: &mut [f64], terms: impl Iterator<Item = Term<'a>>) {
+#[inline]
+pub fn combine<'a>(out: &mut [f64], mut terms: impl Iterator<Item = Term<'a>>) {
+    if out.len() < LONG {
+        // One term after the other: to gather terms would take longer than to add them.
+        let (weight, first) = terms.next().expect("one term at least");
+        out.iter_mut()
+            .zip(first)
+            .for_each(|(out, x)| *out = weight * x);
+        return terms.for_each(|(weight, x)| {
+            out.iter_mut()
+                .zip(x)
+                .for_each(|(out, x)| *out += weight * x);
+        });
+    }
     let mut few: [Term<'_>; TERMS] = [(0.0, &[]); TERMS];
     let (mut is_begun, mut count) = (false, 0);
     for term in terms {
@@ -106,7 +119,7 @@ mod tests {
 
     #[test]
     fn sums_hold_all_terms_whatever_the_length() {
-        for n in 0..20 {
+        for n in 0..2 * LONG as u32 {
             let x: Vec<f64> = (0..n).map(f64::from).collect();
             let y: Vec<f64> = x.iter().map(|x| 100.0 + x).collect();
             for count in 1..=TERMS {
@@ -114,6 +127,9 @@ mod tests {
                 let mut out = vec![f64::NAN; x.len()];
                 sum(&mut out, &terms);
                 add(&mut out, &terms);
+                let mut combined = vec![f64::NAN; x.len()];
+                combine(&mut combined, terms.iter().chain(&terms).copied());
+                assert_eq!(out, combined);
                 for (i, out) in out.iter().enumerate() {
                     let expected: f64 = terms.iter().map(|(weight, x)| weight * x[i]).sum();
                     assert_eq!(*out, 2.0 * expected);
