@@ -17,6 +17,7 @@
 //! Multibody System Dynamics 4 (2000) 129-193 (Cayley-Gibbs-Rodrigues parameters); H. Munthe-Kaas, BIT 38 (1998) 92-111
 //! (one-step methods in coordinates that are renewed every step).
 
+mod carried;
 mod tangent;
 
 use nalgebra::{Matrix3, Vector3};
@@ -27,6 +28,7 @@ use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, axes, normalized, product, quaternion};
 use crate::math::space::{Vector, components, is_nothing, vector};
 
+pub use carried::{Carried, Carry};
 pub use tangent::turning_block;
 
 /// Size of the rotation `p` from which on the frame that the state holds is renewed.
@@ -101,18 +103,28 @@ pub fn turned<N: Number>([a, b, c]: &Axes<N>, spin: &Vector3<N>) -> Axes<N> {
     ]
 }
 
+/// The axes in a node and the one after it, or their rates where `x` holds rates.
+fn axes_at<const D: usize, N: Number>(node: usize, x: &[Node<D, N>]) -> Axes<N> {
+    let [[_, a], [b, c]] = [&x[node], &x[node + 1]];
+    [a, b, c].map(|axis| components(&(*axis).into()).into())
+}
+
+/// Sets them.
+fn set_axes_at<const D: usize, N: Number>(node: usize, axes: &Axes<N>, x: &mut [Node<D, N>]) {
+    let [a, b, c] = axes.map(|axis| vector::<D, N>(axis.into()).into());
+    x[node][1] = a;
+    x[node + 1] = [b, c];
+}
+
 impl Frame {
     /// Its axes, or their rates where `x` holds rates.
     pub fn axes<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Axes<N> {
-        let [[_, a], [b, c]] = [&x[self.node], &x[self.node + 1]];
-        [a, b, c].map(|axis| components(&(*axis).into()).into())
+        axes_at(self.node, x)
     }
 
     /// Sets its axes, or their rates.
     pub fn set_axes<const D: usize, N: Number>(&self, axes: &Axes<N>, x: &mut [Node<D, N>]) {
-        let [a, b, c] = axes.map(|axis| vector::<D, N>(axis.into()).into());
-        x[self.node][1] = a;
-        x[self.node + 1] = [b, c];
+        set_axes_at(self.node, axes, x);
     }
 
     /// Masses that the axes would need as coordinates, kg m^2: `J1 = m2 + m3` and so on.
@@ -241,23 +253,35 @@ impl Frame {
     }
 }
 
-/// The rigid bodies of a system in space; none in the plane.
+/// The rigid bodies of a system in space, and the frames that its rods carry; none in the plane.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
     list: Vec<Frame>,
-    /// For every node its body and whether it is its second node.
+    carried: Vec<Carried>,
+    /// For every node its body, or after those its carried frame, and whether it is the second node of that.
     of_node: Vec<Option<(usize, bool)>>,
 }
 
 impl Frames {
-    /// For these bodies among so many nodes.
-    pub fn new(list: Vec<Frame>, nodes: usize) -> Self {
+    /// For these bodies and carried frames among so many nodes.
+    pub fn new(list: Vec<Frame>, carried: Vec<Carried>, nodes: usize) -> Self {
         let mut of_node = vec![None; nodes];
-        for (index, frame) in list.iter().enumerate() {
-            of_node[frame.node] = Some((index, false));
-            of_node[frame.node + 1] = Some((index, true));
+        let firsts = list.iter().map(|frame| frame.node);
+        let firsts = firsts.chain(carried.iter().map(|frame| frame.node));
+        for (index, first) in firsts.enumerate() {
+            of_node[first] = Some((index, false));
+            of_node[first + 1] = Some((index, true));
         }
-        Self { list, of_node }
+        Self {
+            list,
+            carried,
+            of_node,
+        }
+    }
+
+    /// How many there are: bodies, then carried ones, in the order of the state's.
+    pub fn count(&self) -> usize {
+        self.list.len() + self.carried.len()
     }
 
     /// The bodies.
@@ -272,7 +296,7 @@ impl Frames {
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.list.is_empty()
+        self.list.is_empty() && self.carried.is_empty()
     }
 
     /// The body that a node belongs to, and whether it is its second node.
@@ -281,16 +305,18 @@ impl Frames {
         if D == 2 || self.list.is_empty() {
             return None;
         }
-        self.of_node[node].map(|(index, is_second)| (&self.list[index], is_second))
+        let (index, is_second) = self.of_node[node]?;
+        Some((self.list.get(index)?, is_second))
     }
 
     /// Axes at coordinates over the nodes, which hold rotations before.
     pub fn place<const D: usize>(
         &self,
         from: &[Quaternion],
-        turns: &mut [Turn],
+        (turns, carries): (&mut [Turn], &mut [Carry]),
         x: &mut [Node<D>],
     ) {
+        self.place_carried(&from[self.list.len()..], carries, x);
         for ((frame, from), turn) in self.list.iter().zip(from).zip(turns) {
             turn.rotation = components(&x[frame.node][1].into()).into();
             frame.set_axes(&axes(&turn.quaternion(from)), x);
@@ -301,9 +327,10 @@ impl Frames {
     pub fn place_rates<const D: usize>(
         &self,
         x: &[Node<D>],
-        turns: &mut [Turn],
+        (turns, carries): (&mut [Turn], &mut [Carry]),
         v: &mut [Node<D>],
     ) {
+        self.place_carried_rates(x, carries, v);
         for (frame, turn) in self.list.iter().zip(turns) {
             turn.rate = components(&v[frame.node][1].into()).into();
             turn.spin = turn.spin_of(&turn.rate);
@@ -317,6 +344,7 @@ impl Frames {
         x: &[Node<D, N>],
         dx: &mut [Node<D, N>],
     ) {
+        self.place_carried_changes(x, dx);
         for frame in &self.list {
             let turn = components(&dx[frame.node][1].into()).into();
             frame.set_axes(&turned(&frame.axes(x), &turn), dx);
@@ -329,6 +357,7 @@ impl Frames {
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         a: &mut [Node<D, N>],
     ) {
+        self.add_carried_centripetal((x, v), a);
         for frame in &self.list {
             let by_spin = turned(&frame.axes(v), &frame.spin(x, v));
             let sum = frame.axes(a);
@@ -336,21 +365,20 @@ impl Frames {
         }
     }
 
-    /// What a force on the position and one on the direction of a marker do to the coordinates of the first node of its body:
-    /// that node, the force on the centre of mass and the moment along the axes; nothing where it is on none of these
-    /// bodies.
+    /// What a force on the position and one on the direction of a marker do to the nodes of its body that have coordinates: forces
+    /// and moments. False where it is on none of these bodies.
     #[inline(always)]
     pub fn pull_marker<const D: usize, N: Number>(
         &self,
         marker: &Marker<N>,
         forces: [&Vector<D, N>; 2],
         x: &[Node<D, N>],
-    ) -> Option<(usize, Node<D, N>)> {
-        let (frame, is_second) = self.of_node::<D>(marker.nodes[0])?;
-        if is_second || !marker.is_framed() {
-            return None;
+        term: &mut impl FnMut(usize, &Node<D, N>),
+    ) -> bool {
+        if self.is_empty() || !marker.is_framed() {
+            return false;
         }
-        let axes = frame.axes(x);
+        let axes = axes_at(marker.nodes[0], x);
         let along = |force: &Vector<D, N>| {
             let force = Vector3::from(components(force));
             Vector3::new(
@@ -364,10 +392,15 @@ impl Frames {
         if !is_nothing(forces[1]) {
             moment += direction.cross(&along(forces[1]));
         }
-        Some((
-            frame.node,
-            [(*forces[0]).into(), vector::<D, N>(moment.into()).into()],
-        ))
+        let force = (*forces[0]).into();
+        match self.carried_of::<D>(marker.nodes[0]) {
+            Some((frame, _)) => Self::pull_on_carried(frame, (&force, &moment), x, term),
+            None => term(
+                marker.nodes[0],
+                &[force, vector::<D, N>(moment.into()).into()],
+            ),
+        }
+        true
     }
 
     /// Forces over the nodes become those on centres of mass and moments along axes; with the spins of `v`, less what
@@ -377,6 +410,7 @@ impl Frames {
         (x, v): (&[Node<D, N>], Option<&[Node<D, N>]>),
         f: &mut [Node<D, N>],
     ) {
+        self.pull_carried(x, f);
         for frame in &self.list {
             let mut moment = Frame::moment(&frame.axes(x), &frame.axes(f));
             if let Some(v) = v {
@@ -425,8 +459,10 @@ impl Frames {
 
     /// Frames at nodal coordinates.
     pub fn frames_at<const D: usize>(&self, x: &[Node<D>], frames: &mut [Quaternion]) {
-        for (frame, at) in self.list.iter().zip(frames) {
-            *at = normalized(quaternion(&frame.axes(x)));
+        let nodes = self.list.iter().map(|frame| frame.node);
+        let nodes = nodes.chain(self.carried.iter().map(|frame| frame.node));
+        for (node, at) in nodes.zip(frames) {
+            *at = normalized(quaternion(&axes_at(node, x)));
         }
     }
 

@@ -10,6 +10,7 @@ mod frame;
 mod jacobian;
 mod layout;
 mod marker;
+mod rod_chain;
 mod stages;
 mod tangent;
 
@@ -21,8 +22,11 @@ pub use connectivity::{
     no_node, product, tied_with,
 };
 pub use elimination::Elimination;
-pub use frame::{Axes, Frame, Frames, RENEWED, Turn, combined, turned, turning_block};
+pub use frame::{
+    Axes, Carried, Carry, Frame, Frames, RENEWED, Turn, combined, turned, turning_block,
+};
 pub use jacobian::{Jacobian, SparseRows};
 pub use marker::{Marker, Partial};
+pub use rod_chain::{INNER, RodChain, carried_nodes};
 pub use stages::STAGES;
 pub use tangent::Tangent;

@@ -79,11 +79,15 @@ struct Floating {
 }
 
 impl<const D: usize> Stages<D> {
-    pub(super) fn new(elimination: &Elimination<D>, grounded: &[usize], elastic: &[bool]) -> Self {
+    pub(super) fn new(
+        elimination: &Elimination<D>,
+        grounded: &[usize],
+        [elastic, still]: [&[bool]; 2],
+    ) -> Self {
         let nodes = elimination.assembly.nodes();
         let directions = || vec![SVector::zeros(); nodes];
         Self {
-            floating: floating::<D>(elimination, grounded),
+            floating: floating::<D>(elimination, grounded, still),
             knots: knots(&elimination.assembly, elastic),
             elastic: elastic.to_vec(),
             nodes: vec![no_node(); nodes],
@@ -262,7 +266,11 @@ impl Floating {
 }
 
 /// Components that uniform translation of all their nodes does not strain.
-fn floating<const D: usize>(elimination: &Elimination<D>, grounded: &[usize]) -> Vec<Floating> {
+fn floating<const D: usize>(
+    elimination: &Elimination<D>,
+    grounded: &[usize],
+    still: &[bool],
+) -> Vec<Floating> {
     let assembly = &elimination.assembly;
     let (n, all) = (elimination.scratch(), assembly.pattern().len());
     let mut held = vec![false; assembly.components().len()];
@@ -273,7 +281,9 @@ fn floating<const D: usize>(elimination: &Elimination<D>, grounded: &[usize]) ->
     for axis in 0..D {
         let mut unit: Node<D> = no_node();
         unit[0][axis] = 1.0;
-        let x = vec![unit; assembly.nodes()];
+        let mut x = vec![unit; assembly.nodes()];
+        let held_still = x.iter_mut().zip(still).filter(|(_, still)| **still);
+        held_still.for_each(|(x, _)| *x = no_node());
         let (mut y, mut product) = (vec![0.0; n], vec![0.0; n]);
         let [mut padded, mut sum] = [vec![0.0; all], vec![0.0; all]];
         assembly.restrict(&x, &mut y);

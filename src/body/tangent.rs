@@ -71,19 +71,19 @@ impl Normals {
 
 impl<const D: usize> Tangent<D> {
     /// Storage. `jacobian` is that of the constraints; `grounded` are nodes that something else than rows ties to the
-    /// ground; `elastic` says which belong to cables.
+    /// ground; `elastic` says which belong to cables, `still` which have no position among their coordinates.
     pub fn new(
         elimination: &Elimination<D>,
         is_damped: bool,
         jacobian: &Jacobian,
         grounded: &[usize],
-        elastic: &[bool],
+        [elastic, still]: [&[bool]; 2],
     ) -> Self {
         let pattern = elimination.assembly.pattern();
         let zeros = Matrix::zeros(pattern);
         let parts = vec![0.0; jacobian.rows().count()];
         Self {
-            stages: Stages::new(elimination, grounded, elastic),
+            stages: Stages::new(elimination, grounded, [elastic, still]),
             stiffness: zeros.clone(),
             damping: zeros.clone(),
             is_damped,

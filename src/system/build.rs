@@ -15,13 +15,13 @@ use super::motion::tree::Tree;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
-    Assembly, Dependent, Elimination, Frame, Frames, Marker, Node, Row, add_node, no_block,
-    no_node, product,
+    Assembly, Carried, Dependent, Elimination, Frame, Frames, Marker, Node, RodChain, Row, add_node,
+    no_block, no_node, product,
 };
 use crate::math::function::Function;
 use crate::math::space::Vector;
 use crate::math::sparse::Matrix;
-use rows::{constraints, free_ends, links, unplaced};
+use rows::{constraints, free_ends, links, unplaced, unplaced_rod};
 
 /// Part of a gradient that counts as none.
 const NOTHING: f64 = 1e-12;
@@ -50,6 +50,8 @@ pub struct Parts<const D: usize = 2> {
     pub lumped_masses: Vec<LumpedMass>,
     /// Rigid bodies of space that turn: their nodes hold the centre of mass and the principal axes.
     pub frames: Vec<Frame>,
+    /// Bending and torsion of rods, whose lines are chains.
+    pub rod_chains: Vec<RodChain>,
     /// Rigid bodies whose sections are read.
     pub rods: Vec<Rod>,
     /// Nodes of rigid bodies, and whether they can turn.
@@ -95,12 +97,27 @@ impl<const D: usize> System<D> {
         let redundant = redundant(&linear, &dependent)?;
         let mass = mass(&parts, &assembly);
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
-        let chains_damped = parts.chains.iter().any(CableChain::is_damped);
+        let chains_damped = parts.chains.iter().any(CableChain::is_damped)
+            || parts.rod_chains.iter().any(RodChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let grounded = grounded(&parts, &nonlinear);
         let takes_moments = takes_moments(&parts);
-        let frames = Frames::new(std::mem::take(&mut parts.frames), parts.nodes.len());
+        let carried = parts.rod_chains.iter().flat_map(RodChain::frames);
+        let carried = carried.map(|(node, line)| Carried {
+            node,
+            line,
+            place: (0, 1.0),
+        });
+        let carried = carried.collect();
+        let frames = Frames::new(
+            std::mem::take(&mut parts.frames),
+            carried,
+            parts.nodes.len(),
+        );
         let described = parts.nodes.clone();
+        for chain in &parts.rod_chains {
+            unplaced_rod(chain, &mut parts.nodes);
+        }
         for frame in frames.list() {
             let at = unplaced(&parts.nodes[frame.node]);
             parts.nodes[frame.node..][..2].fill(at);
@@ -120,6 +137,7 @@ impl<const D: usize> System<D> {
             reach: 0.0,
             chains: parts.chains,
             lumped_masses: parts.lumped_masses,
+            rod_chains: parts.rod_chains,
             rods: parts.rods,
             bodies: parts.bodies,
             elimination,
@@ -211,6 +229,13 @@ impl<const D: usize> System<D> {
                 frame.places[axis] = place.map(|at| (at, q[at]));
             }
         }
+        for frame in frames.carried_mut() {
+            unit[frame.node][1][0] = 1.0;
+            self.elimination.assembly.restrict(&unit, &mut y);
+            unit[frame.node][1][0] = 0.0;
+            let place = y.iter().position(|y| *y != 0.0);
+            frame.place = place.map_or((0, 0.0), |at| (at, y[at]));
+        }
         self.frames = frames;
     }
 
@@ -268,6 +293,9 @@ impl<const D: usize> System<D> {
         let mut x = self.reference.clone();
         for frame in self.frames.list() {
             frame.set_axes(&frame.axes(described), &mut x);
+        }
+        for frame in self.frames.carried() {
+            x[frame.node..][..2].copy_from_slice(&described[frame.node..][..2]);
         }
         let assembly = &self.elimination.assembly;
         let slides = nonlinear.iter().filter_map(|c| match &c.kind {
@@ -345,6 +373,9 @@ fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64>
     let mut mass = Matrix::zeros(assembly.pattern());
     let linear = (&parts.chains[..], &parts.lumped_masses[..]);
     add_mass(linear, &SMatrix::identity(), assembly, &mut mass);
+    for chain in &parts.rod_chains {
+        chain.add_mass(assembly, &mut mass);
+    }
     for frame in &parts.frames {
         let mut block = no_block();
         for axis in 0..D {

@@ -63,8 +63,7 @@ impl<const D: usize, N: Number> Gradient<D, N> {
             let End::Body(marker) = end else {
                 continue;
             };
-            if let Some((node, force)) = frames.pull_marker(marker, [position, direction], x) {
-                term(node, &force);
+            if frames.pull_marker(marker, [position, direction], x, &mut term) {
                 continue;
             }
             let [a, b] = marker.forces(*position, *direction);

@@ -46,7 +46,7 @@ use std::ops::Range;
 use crate::math::rotation::NO_TURN;
 use crate::math::space::Vector;
 
-use crate::body::{Chain, Elimination, Frames, Node};
+use crate::body::{Chain, Elimination, Frames, Node, RodChain};
 use crate::elements::cable::Cable;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
@@ -65,6 +65,8 @@ pub struct System<const D: usize = 2> {
     /// Rigid bodies of space that turn, and how far the system reaches where there are any, m.
     frames: Frames,
     reach: f64,
+    /// Bending and torsion of rods.
+    rod_chains: Vec<RodChain>,
     /// Rigid bodies whose sections are read.
     rods: Vec<Rod>,
     /// Nodes of every body.
@@ -247,7 +249,7 @@ impl<const D: usize> System<D> {
             pace: Pace::default(),
             coordinates: vec![0.0; n],
             rates: vec![0.0; n],
-            frames: vec![NO_TURN; self.frames.list().len()],
+            frames: vec![NO_TURN; self.frames.count()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
             driven: vec![[0.0; 5]; self.trajectories().count()],

@@ -3,7 +3,7 @@
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
 use super::{State, System};
-use crate::body::{Articulated, Jacobian, Node, Tangent, Turn, no_node};
+use crate::body::{Articulated, Carry, Jacobian, Node, Tangent, Turn, no_node};
 use crate::math::recent::Recent;
 use crate::math::rotation::{NO_TURN, Quaternion};
 
@@ -40,6 +40,10 @@ pub struct Work<const D: usize = 2> {
     /// Frames that rotations are counted from, and how bodies have turned from there.
     pub(super) frames: Vec<Quaternion>,
     pub(super) turns: Vec<Turn>,
+    /// The same of frames that rods carry.
+    pub(super) carries: Vec<Carry>,
+    /// Torques of rods about the tangents of their carried frames, N m.
+    pub(super) torques: Vec<f64>,
     /// The state accepted last, to go back to from a step that leaves a cable.
     pub(super) before: State,
     /// Jacobian of the non-linear constraints, what it was made from, and their multipliers at the last acceleration.
@@ -109,6 +113,11 @@ impl<const D: usize> Work<D> {
             let first = chain.nodes(0)[0];
             elastic[first..first + chain.node_count()].fill(true);
         }
+        let mut still = vec![false; nodes.len()];
+        for chain in &system.rod_chains {
+            let frames = chain.frames().flat_map(|(node, _)| [node, node + 1]);
+            frames.chain(chain.inner()).for_each(|node| still[node] = true);
+        }
         let jacobian = Jacobian::new(&system.elimination, &system.multipliers, |row| {
             system.constraints[row].is_linear()
         });
@@ -130,8 +139,10 @@ impl<const D: usize> Work<D> {
             input_rates: Vec::new(),
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
-            frames: vec![NO_TURN; system.frames.list().len()],
+            frames: vec![NO_TURN; system.frames.count()],
             turns: vec![Turn::default(); system.frames.list().len()],
+            carries: vec![Carry::default(); system.frames.carried().len()],
+            torques: vec![0.0; system.frames.carried().len()],
             before: system.blank_state(0.0),
             right: lambda.clone(),
             lambda,
@@ -140,7 +151,7 @@ impl<const D: usize> Work<D> {
                 system.is_damped,
                 &jacobian,
                 &system.grounded,
-                &elastic,
+                [&elastic, &still],
             ),
             jacobian,
             jacobian_at: Configuration::none(system),

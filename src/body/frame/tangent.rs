@@ -20,51 +20,80 @@ fn entries<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
     (0..2).flat_map(|part| (0..D).map(move |axis| (part, axis)))
 }
 
+/// `A^T K B`.
+fn transformed<const D: usize>(
+    block: &NodeBlock<D>,
+    by_a: &NodeBlock<D>,
+    by_b: &NodeBlock<D>,
+) -> NodeBlock<D> {
+    let mut pulled = no_block();
+    for (i, k) in entries::<D>() {
+        for (j, l) in entries::<D>() {
+            let mut sum = 0.0;
+            for (p, r) in entries::<D>() {
+                let inner: f64 = entries::<D>()
+                    .map(|(q, s)| block[p][r][q][s] * by_b[q][s][j][l])
+                    .sum();
+                sum += by_a[p][r][i][k] * inner;
+            }
+            pulled[i][k][j][l] = sum;
+        }
+    }
+    pulled
+}
+
+/// Adds its transpose to a block.
+fn add_transposed<const D: usize>(block: &mut NodeBlock<D>) {
+    let once = *block;
+    for (i, k) in entries::<D>() {
+        for (j, l) in entries::<D>() {
+            block[i][k][j][l] += once[j][l][i][k];
+        }
+    }
+}
+
 impl Frames {
-    /// Second derivatives by nodal coordinates become those by the coordinates of bodies, node by node: the nodes that
-    /// stand for these, and the block; what a pair of nodes of one body has both ways is in it.
+    /// Second derivatives by nodal coordinates become those by the coordinates of bodies, added pair by pair of the nodes that
+    /// have these; what a pair of nodes has both ways that stand for one is in it.
     pub fn pull_block<const D: usize>(
         &self,
         (a, b): (usize, usize),
         block: &NodeBlock<D>,
         x: &[Node<D>],
-    ) -> (usize, usize, NodeBlock<D>) {
-        let ([to_a, to_b], [of_a, of_b]) = {
-            let [a, b] = [a, b].map(|node| self.partial(node, x));
-            ([a.0, b.0], [a.1, b.1])
-        };
-        let mut pulled = no_block();
-        for (i, k) in entries::<D>() {
-            for (j, l) in entries::<D>() {
-                let mut sum = 0.0;
-                for (p, r) in entries::<D>() {
-                    let inner: f64 = entries::<D>()
-                        .map(|(q, s)| block[p][r][q][s] * of_b[q][s][j][l])
-                        .sum();
-                    sum += of_a[p][r][i][k] * inner;
+        mut add: impl FnMut(usize, usize, &NodeBlock<D>),
+    ) {
+        let [of_a, of_b] = [a, b].map(|node| self.partials(node, x));
+        let is_pair = a != b;
+        for (i, (to_a, by_a)) in of_a.into_iter().flatten().enumerate() {
+            for (j, (to_b, by_b)) in of_b.into_iter().flatten().enumerate() {
+                // Of what belongs to one node the lower half is what the upper one is.
+                if !is_pair && j > i {
+                    continue;
                 }
-                pulled[i][k][j][l] = sum;
+                let mut pulled = transformed(block, &by_a, &by_b);
+                if is_pair && to_a == to_b {
+                    add_transposed(&mut pulled);
+                }
+                add(to_a, to_b, &pulled);
             }
         }
-        if to_a == to_b && a != b {
-            let once = pulled;
-            for (i, k) in entries::<D>() {
-                for (j, l) in entries::<D>() {
-                    pulled[i][k][j][l] += once[j][l][i][k];
-                }
-            }
-        }
-        (to_a, to_b, pulled)
     }
 
-    /// Derivatives of a node's vectors by the coordinates of its body, and the node that has these.
-    pub fn partial<const D: usize>(&self, node: usize, x: &[Node<D>]) -> (usize, NodeBlock<D>) {
+    /// Derivatives of a node's vectors by the coordinates of the nodes that have them: one node, but for carried frames.
+    pub fn partials<const D: usize>(
+        &self,
+        node: usize,
+        x: &[Node<D>],
+    ) -> [Option<(usize, NodeBlock<D>)>; 2] {
+        if let Some(partials) = self.partials_of_carried(node, x) {
+            return partials.map(Some);
+        }
         let mut partial = no_block();
         let Some((frame, is_second)) = self.of_node::<D>(node) else {
             for (i, k) in entries::<D>() {
                 partial[i][k][i][k] = 1.0;
             }
-            return (node, partial);
+            return [Some((node, partial)), None];
         };
         let axes = frame.axes(x);
         for turn in 0..D {
@@ -83,19 +112,23 @@ impl Frames {
                 partial[0][turn][0][turn] = 1.0;
             }
         }
-        (frame.node, partial)
+        [Some((frame.node, partial)), None]
     }
 
-    /// Derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand: `E_i x v`.
-    pub fn partial_of_rates<const D: usize>(
+    /// Derivatives of the rates of a node's vectors by rotations of its body about its axes as they stand: `E_i x v`; of carried
+    /// frames at rest, nothing.
+    pub fn partials_of_rates<const D: usize>(
         &self,
         node: usize,
         x: &[Node<D>],
         v: &[Node<D>],
-    ) -> (usize, NodeBlock<D>) {
+    ) -> [Option<(usize, NodeBlock<D>)>; 2] {
         let mut partial = no_block();
+        if let Some((frame, _)) = self.carried_of::<D>(node) {
+            return [frame.line, frame.node].map(|owner| Some((owner, partial)));
+        }
         let Some((frame, is_second)) = self.of_node::<D>(node) else {
-            return (node, partial);
+            return [Some((node, partial)), None];
         };
         let (axes, [a, b, c]) = (frame.axes(x), frame.axes(v));
         for (turn, about) in axes.iter().enumerate().take(D) {
@@ -110,7 +143,7 @@ impl Frames {
                 }
             }
         }
-        (frame.node, partial)
+        [Some((frame.node, partial)), None]
     }
 
     /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`,

@@ -35,6 +35,8 @@ pub struct Parameters {
     pub axial_stiffness: f64,
     /// Bending stiffness EI, N m^2.
     pub bending_stiffness: f64,
+    /// Whether it is the line of a rod: bending is not its own then.
+    pub is_line_of_rod: bool,
     /// Mass per reference length, kg/m.
     pub line_density: f64,
     /// Kelvin-Voigt damping time of axial strain: force is stiffness times (strain + time x strain rate), s.
@@ -145,13 +147,13 @@ impl<const D: usize> Cable<D> {
             sampling,
             strain: p.strain,
             is_damped: p.longest_damping_time() > 0.0,
-            bends: p.bending_stiffness > 0.0,
+            bends: p.bending_stiffness > 0.0 && !p.is_line_of_rod,
         };
         if let Some(e) = shape {
             (kernel.natural_strain, kernel.natural_curvature) = kernel.strains(&e.data.0);
         }
         Self {
-            mass: mass(&parameters, kernel.bends),
+            mass: mass(&parameters, p.bending_stiffness > 0.0),
             parameters,
             kernel,
         }
@@ -220,7 +222,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     /// stiffness there if strain is sampled at that point; so it is not (docs/decisions/0021-stable-equilibria.md).
     fn with_free_ends(&self, shape: &Nodal<D>, free: [bool; 2]) -> Self {
         let mut element = self.clone();
-        if self.kernel.bends || self.kernel.sampling != Sampling::Lobatto {
+        if self.bends() || self.kernel.sampling != Sampling::Lobatto {
             return element;
         }
         element.kernel.sampling = match free {
@@ -240,7 +242,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     fn with_bending(&self, shape: &Nodal<D>, stiffness: f64) -> Self {
-        if self.kernel.bends {
+        if self.bends() {
             return self.clone();
         }
         let mut element = self.clone();
@@ -291,7 +293,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     fn bends(&self) -> bool {
-        self.kernel.bends
+        self.kernel.bends || self.parameters.is_line_of_rod
     }
 
     fn strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> (N, N) {

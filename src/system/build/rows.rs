@@ -1,7 +1,7 @@
 //! Which rows and constraints parts make, and what they couple.
 
 use super::Parts;
-use crate::body::{Frame, Links, Node, Row, no_node, tied_with};
+use crate::body::{Frame, INNER, Links, Node, RodChain, Row, no_node, tied_with};
 use crate::math::space::Vector;
 use crate::system::end::End;
 use crate::system::joints::{Constraint, ConstraintKind, HeldRow, Linear, Target, UnitLength};
@@ -50,6 +50,9 @@ pub(super) fn constraints<const D: usize>(
     for frame in &parts.frames {
         rest(parts, frame, &mut linear);
     }
+    for chain in &parts.rod_chains {
+        rest_of_rod(parts, chain, &mut linear);
+    }
     for (index, joint) in parts.joints.iter().enumerate() {
         joint.constraints((index, &parts.nodes), &mut linear, &mut nonlinear);
     }
@@ -82,6 +85,38 @@ fn rest<const D: usize>(parts: &Parts<D>, frame: &Frame, linear: &mut Vec<Linear
     }
     let without = (0..D).filter(|axis| frame.moments[*axis] <= 0.0);
     linear.extend(without.map(|axis| still((frame.node, 1, axis), 0.0)));
+}
+
+/// Of a carried frame the rotation about its tangent alone is a coordinate, of a node inside an element the internal twist.
+fn rest_of_rod<const D: usize>(
+    parts: &Parts<D>,
+    chain: &RodChain,
+    linear: &mut Vec<Linear<D>>,
+) {
+    let mut nodes = parts.nodes.clone();
+    unplaced_rod(chain, &mut nodes);
+    let frames = chain.frames();
+    let held = frames.flat_map(|(node, _)| [(node, Some((1, 0))), (node + 1, None)]);
+    for (node, free) in held.chain(chain.inner().map(|node| (node, Some(INNER)))) {
+        for (part, axis) in (0..2).flat_map(|part| (0..D).map(move |axis| (part, axis))) {
+            if free != Some((part, axis)) {
+                linear.push(still((node, part, axis), nodes[node][part][axis]));
+            }
+        }
+    }
+}
+
+/// Puts the nodes of a rod's frames and those inside its elements where nothing has turned and nothing is twisted.
+pub(super) fn unplaced_rod<const D: usize>(chain: &RodChain, nodes: &mut [Node<D>]) {
+    for (node, line) in chain.frames() {
+        let at = unplaced(&nodes[line]);
+        nodes[node..][..2].fill(at);
+    }
+    for (j, node) in chain.inner().enumerate() {
+        let [line, ..] = chain.nodes(j);
+        nodes[node] = unplaced(&nodes[line]);
+        nodes[node][1][0] = 1.0;
+    }
 }
 
 /// Coordinates of both nodes of a rigid body of space where it has not turned.
@@ -125,6 +160,18 @@ fn release_rows<const D: usize>(
     }
 }
 
+/// What the elements of a rod couple.
+fn link_rod(chain: &RodChain, links: &mut Links) {
+    for j in 0..chain.count() {
+        let nodes = chain.nodes(j);
+        let [_, a, _, b, inner] = nodes;
+        links.mass.extend([(a, inner), (a, b), (b, inner)]);
+        for (i, row) in nodes.iter().enumerate() {
+            (links.stiffness).extend(nodes[..i].iter().map(|column| (*row, *column)));
+        }
+    }
+}
+
 /// What mass, stiffness and constraints couple.
 pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Links {
     let mut links = Links::default();
@@ -136,16 +183,28 @@ pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>
         let [a, b] = lump.marker.nodes;
         links.mass.push((a, b));
     }
-    // What holds the axes of a rigid body of space holds its first node.
-    let mut first: Vec<usize> = (0..parts.nodes.len()).collect();
+    // What holds the axes of a rigid body of space holds its first node, what holds those of a carried frame the line as well.
+    let mut first: Vec<[usize; 2]> = (0..parts.nodes.len()).map(|node| [node; 2]).collect();
     for frame in &parts.frames {
         links.mass.push((frame.node, frame.node));
-        first[frame.node + 1] = frame.node;
+        first[frame.node + 1] = [frame.node; 2];
     }
+    for chain in &parts.rod_chains {
+        link_rod(chain, &mut links);
+        for (node, line) in chain.frames() {
+            first[node..][..2].fill([line, node]);
+        }
+    }
+    let has_frames = !(parts.frames.is_empty() && parts.rod_chains.is_empty());
     let owners = |nodes: Vec<usize>| {
-        let mut owners: Vec<usize> = nodes.iter().map(|node| first[*node]).collect();
-        if !parts.frames.is_empty() {
-            owners.dedup();
+        if !has_frames {
+            return nodes;
+        }
+        let mut owners: Vec<usize> = Vec::with_capacity(2 * nodes.len());
+        for owner in nodes.iter().flat_map(|node| first[*node]) {
+            if !owners.contains(&owner) {
+                owners.push(owner);
+            }
         }
         owners
     };

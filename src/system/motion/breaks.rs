@@ -149,7 +149,7 @@ impl<const D: usize> Model<'_, D> {
         let rates = Some(&state.rates[..]);
         self.work.stretch = Some([before, before]);
         system.forward_kinematics(time, &state.coordinates, rates, self.work);
-        let energy = system.kinetic(&self.work.v);
+        let energy = system.kinetic(&self.work.x, &self.work.v);
         let mut old = std::mem::take(&mut self.work.v);
         self.work.stretch = Some([after, after]);
         system.forward_kinematics(time, &state.coordinates, None, self.work);
@@ -164,7 +164,7 @@ impl<const D: usize> Model<'_, D> {
         system.forward_kinematics(time, &state.coordinates, Some(&state.rates), self.work);
         if system.tracks_work {
             // Drives alone do work: the other impulses act where velocities have no part before or after.
-            state.work[0] += system.kinetic(&self.work.v) - energy;
+            state.work[0] += system.kinetic(&self.work.x, &self.work.v) - energy;
         }
         self.work.stretch = None;
         match kept {

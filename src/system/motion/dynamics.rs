@@ -224,14 +224,7 @@ impl<'a, const D: usize> Model<'a, D> {
 
     /// Puts a state whose rotations are larger than this in terms of smaller ones. Whether they were.
     pub fn renew_beyond(&mut self, state: &mut State, size: f64) -> bool {
-        let frames = &self.system.frames;
-        if frames.largest(&state.coordinates) <= size {
-            return false;
-        }
-        let (q, v) = (&mut state.coordinates, &mut state.rates);
-        frames.renew(&mut state.frames, q, v);
-        self.work.frames.copy_from_slice(&state.frames);
-        true
+        self.system.renew(state, size, self.work)
     }
 
     /// The largest turn from one state to another, as [`Dynamics::largest_turn`].
@@ -268,6 +261,12 @@ impl<'a, const D: usize> Model<'a, D> {
         for chain in &system.chains {
             for (j, element) in chain.elements().iter().enumerate() {
                 let [now, then] = [after, before].map(|x| element.energy(&chain.element(j, x)));
+                add(now - then, now + then);
+            }
+        }
+        for chain in &system.rod_chains {
+            for j in 0..chain.count() {
+                let [now, then] = [after, before].map(|x| chain.element(j).energy(&chain.at(j, x)));
                 add(now - then, now + then);
             }
         }
@@ -364,7 +363,7 @@ impl<'a, const D: usize> Model<'a, D> {
 impl<const D: usize> Dynamics for Model<'_, D> {
     fn acceleration(&mut self, time: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         self.accelerate_with(time, [q, v], false, a);
-        self.system.frames.to_second(&self.work.turns, a);
+        self.system.to_second(self.work, a);
     }
 
     fn power(&self) -> [f64; 2] {

@@ -43,7 +43,8 @@ impl<const D: usize> System<D> {
         self.elimination
             .expand_from(&self.reference, q, &mut work.y, &mut work.x);
         self.add_driven(&work.targets, 0, &mut work.x);
-        (self.frames).place(&work.frames, &mut work.turns, &mut work.x);
+        let turns = (&mut work.turns[..], &mut work.carries[..]);
+        (self.frames).place(&work.frames, turns, &mut work.x);
         self.find_travel(&work.x, &mut work.travel);
         if let Some(v) = v {
             self.rate_kinematics(v, work);
@@ -63,7 +64,8 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Work<D>) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
         self.add_driven(&work.targets, 1, &mut work.v);
-        (self.frames).place_rates(&work.x, &mut work.turns, &mut work.v);
+        let turns = (&mut work.turns[..], &mut work.carries[..]);
+        (self.frames).place_rates(&work.x, turns, &mut work.v);
     }
 
     /// Adds what nodes follow of driven rows: coordinates, rates (`order` 1) or accelerations (2).
@@ -102,6 +104,12 @@ impl<const D: usize> System<D> {
         for chain in &self.chains {
             work.dissipated += chain.add_force(&work.x, &work.v, &mut force);
         }
+        work.torques.fill(0.0);
+        for chain in &self.rod_chains {
+            let motion = (&work.x[..], &work.v[..]);
+            let out = (&mut force[..], &mut work.torques[..]);
+            work.dissipated += chain.add_force(motion, &self.frames, out);
+        }
         let at = self.instant(time, work);
         for load in &self.loads {
             load.add_force(at, &mut force);
@@ -128,6 +136,8 @@ impl<const D: usize> System<D> {
         } else {
             work.other.copy_from_slice(&work.f);
             (self.frames).pull_all((&work.x, Some(&work.v)), &mut work.other);
+            let motion = (&work.x[..], &work.v[..]);
+            self.add_rod_forces(motion, &work.torques, &mut work.other);
             self.elimination.reduce(&work.other, &mut work.y, a);
         }
         change(1.0, work);
@@ -147,6 +157,10 @@ impl<const D: usize> System<D> {
         let (stiffness, damping) = (&mut tangent.stiffness, &mut tangent.damping);
         for chain in &self.chains {
             chain.add_tangent((x, v), assembly, stiffness, damping);
+        }
+        for chain in &self.rod_chains {
+            let matrices = [&mut *stiffness, &mut *damping];
+            chain.add_tangent((x, v), &self.frames, assembly, matrices);
         }
         let at = Instant {
             time: clock,
@@ -185,6 +199,11 @@ impl<const D: usize> System<D> {
             let block = turning_block(&((turned + turned.transpose()) * 0.5));
             assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
         }
+        for frame in self.frames.carried() {
+            for ((a, b), block) in Frames::geometric_of_carried(frame, &work.supply, x) {
+                assembly.add(a, b, &block, &mut tangent.stiffness);
+            }
+        }
         tangent.hold(assembly, &work.jacobian, &self.multipliers);
         self.add_multipliers(&view, &work.jacobian, &mut tangent.stiffness);
     }
@@ -202,8 +221,9 @@ impl<const D: usize> System<D> {
         if self.frames.is_empty() {
             return assembly.add(a, b, block, matrix);
         }
-        let (a, b, block) = self.frames.pull_block((a, b), block, x);
-        assembly.add(a, b, &block, matrix);
+        self.frames.pull_block((a, b), block, x, |a, b, block| {
+            assembly.add(a, b, block, matrix);
+        });
     }
 
     /// Forces over the nodes, those of constraints that keep multipliers among them, into `work.supply`.
@@ -305,9 +325,11 @@ impl<const D: usize> System<D> {
         self.quadratic(x, |v| spun(self.rotation, v))
     }
 
-    /// Kinetic energy at rates `v`, J.
-    pub(in crate::system) fn kinetic<N: Number>(&self, v: &[Node<D, N>]) -> N {
-        self.quadratic(v, |v| v)
+    /// Kinetic energy at coordinates `x` and rates `v`, J.
+    pub(in crate::system) fn kinetic<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
+        let spins = self.rod_chains.iter();
+        let spins = spins.map(|chain| chain.spin_energy((x, v), &self.frames));
+        spins.fold(self.quadratic(v, |v| v), |sum, energy| sum + energy)
     }
 
     /// `x^T M x / 2` of vectors that are mapped one by one.

@@ -4,4 +4,5 @@ pub(in crate::system) mod breaks;
 pub(in crate::system) mod dynamics;
 pub(in crate::system) mod forces;
 pub(in crate::system) mod multipliers;
+mod rods;
 pub(in crate::system) mod tree;

@@ -286,7 +286,7 @@ impl<const D: usize> System<D> {
             let right = &work.right;
             (work.jacobian).bring(passes, |row| right[row], &mut change);
         }
-        self.frames.to_rotations(&work.turns, &mut change);
+        self.to_rotations(work, &mut change);
         q.iter_mut().zip(&change).for_each(|(q, c)| *q += c);
         work.a = change;
     }

@@ -26,6 +26,9 @@ pub struct Derivatives<const D: usize> {
     /// The same on centres of mass and about axes of rigid bodies in space; angular accelerations of these.
     pulled: Vec<Node<D, Jet>>,
     spin_rates: Vec<Vector3<Jet>>,
+    /// Torques of rods, and angular accelerations about the tangents of their carried frames.
+    torques: Vec<Jet>,
+    carried_rates: Vec<Jet>,
     /// Nodal accelerations of what is driven, and of axes that turn.
     driven: Vec<Node<D, Jet>>,
     /// First and second derivative of generalized accelerations.
@@ -53,6 +56,8 @@ impl<const D: usize> Derivatives<D> {
             f: nodes.clone(),
             pulled: nodes.clone(),
             spin_rates: vec![Vector3::from_element(Jet::from_re(0.0)); system.frames.list().len()],
+            torques: vec![Jet::from_re(0.0); system.frames.carried().len()],
+            carried_rates: vec![Jet::from_re(0.0); system.frames.carried().len()],
             driven: nodes,
             q: [q.clone(), q],
             one: none.clone(),
@@ -189,9 +194,15 @@ impl<const D: usize> Derivatives<D> {
             *f = map_node(weight, Jet::from_re);
         }
         let values = &self.values;
+        self.torques.fill(Jet::from_re(0.0));
         if elastic {
             for chain in &system.chains {
                 chain.add_force_of(&values.x, &values.v, &mut self.f);
+            }
+            for chain in &system.rod_chains {
+                let motion = (&values.x[..], &values.v[..]);
+                let out = (&mut self.f[..], &mut self.torques[..]);
+                chain.add_force(motion, &system.frames, out);
             }
         }
         let at = values.instant(system);
@@ -272,6 +283,7 @@ impl<const D: usize> Derivatives<D> {
         self.pulled.copy_from_slice(&self.f);
         let (x, v) = (&self.values.x, &self.values.v);
         system.frames.pull_all((x, Some(v)), &mut self.pulled);
+        system.add_rod_forces((x, v), &self.torques, &mut self.pulled);
         take(&self.pulled, k, &mut self.one);
         let elimination = &system.elimination;
         elimination.expand(&work.a, &mut work.y, &mut self.other);
@@ -279,6 +291,9 @@ impl<const D: usize> Derivatives<D> {
             for (rate, value) in rate.iter_mut().zip(&self.other[frame.node][1]) {
                 rate.re = *value;
             }
+        }
+        for (frame, rate) in system.frames.carried().iter().zip(&mut self.carried_rates) {
+            rate.re = self.other[frame.node][1][0];
         }
     }
 
@@ -300,6 +315,27 @@ impl<const D: usize> Derivatives<D> {
                 }
             }
             frame.set_axes(&sum, &mut self.values.acceleration);
+        }
+        self.turn_carried(system, k);
+    }
+
+    /// The same of axes that rods carry.
+    fn turn_carried(&mut self, system: &System<D>, k: usize) {
+        let frames = system.frames.carried().iter();
+        for (frame, spin_rate) in frames.zip(&mut self.carried_rates) {
+            set_part(spin_rate, k, self.other[frame.node][1][0]);
+            let acceleration = &mut self.values.acceleration;
+            let by_rate = frame.turned(&self.values.x, acceleration, *spin_rate);
+            let by_spin = frame.axes(&self.driven);
+            let mut sum = frame.axes(acceleration);
+            for (axis, sum) in sum.iter_mut().enumerate() {
+                for (i, sum) in sum.iter_mut().enumerate() {
+                    let [a, b] = [by_rate[axis][i], by_spin[axis][i]].map(|of| part(of, k));
+                    set_part(sum, k, a + b);
+                }
+            }
+            frame.set_axes(&sum, acceleration);
+            acceleration[frame.node][0] = acceleration[frame.line][0];
         }
     }
 

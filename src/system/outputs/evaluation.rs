@@ -56,7 +56,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             angles: vec![zero; system.angles.len()],
             travel: vec![zero; system.slides.len()],
             drives: vec![[zero; 3]; system.drives.len()],
-            frames: vec![NO_TURN; system.frames.list().len()],
+            frames: vec![NO_TURN; system.frames.count()],
         }
     }
 }
@@ -241,7 +241,10 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let multiplied = system.constraints.iter().zip(self.lambda.iter().copied());
         let (at, view) = (self.instant(system), self.view(system));
         let powers = (system.chains.iter()).map(|chain| chain.dissipation(&self.x, &self.v));
-        let by_cables = powers.fold(N::of(0.0), |sum, power| sum + power);
+        let by_rods = system.rod_chains.iter();
+        let motion = (&self.x[..], &self.v[..]);
+        let by_rods = by_rods.map(|chain| chain.dissipation(motion, &system.frames));
+        let by_cables = powers.chain(by_rods).fold(N::of(0.0), |sum, power| sum + power);
         system.power(at, &view, (&self.supply, by_cables), multiplied)
     }
 
@@ -257,7 +260,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Kinetic energy, J.
     pub fn kinetic_energy(&self, system: &System<D>) -> N {
-        system.kinetic(&self.v)
+        system.kinetic(&self.x, &self.v)
     }
 
     /// Strain energy, J.
@@ -265,7 +268,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let energies = system
             .chains
             .iter()
-            .map(|chain| chain.strain_energy(&self.x));
+            .map(|chain| chain.strain_energy(&self.x))
+            .chain((system.rod_chains.iter()).map(|chain| chain.strain_energy(&self.x)));
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
@@ -316,6 +320,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         for (node, part, mass) in system.frames.list().iter().flat_map(Frame::masses) {
             let [x, v] = [&self.x, &self.v].map(|of| Vector::from(of[node][part]));
             add(x, v * N::of(mass), system.is_center(node, part));
+        }
+        for chain in &system.rod_chains {
+            let motion = (&self.x[..], &self.v[..]);
+            chain.for_each_momentum(motion, &system.frames, |frame, momentum| {
+                angular += frame.axes(&self.x)[0] * momentum;
+            });
         }
         (linear, angular.into())
     }

@@ -96,7 +96,7 @@ impl Blocks {
         if frames.is_empty() {
             return self;
         }
-        let (nodes, change) = self.changes(|node| frames.partial(node, x));
+        let (nodes, change) = self.changes(|node| frames.partials(node, x));
         Self {
             whole: change.transpose() * self.whole * change,
             nodes,
@@ -114,8 +114,8 @@ impl Blocks {
         if frames.is_empty() {
             return;
         }
-        let (nodes, change) = by_rates.changes(|node| frames.partial(node, x));
-        let (_, turned) = by_rates.changes(|node| frames.partial_of_rates(node, x, v));
+        let (nodes, change) = by_rates.changes(|node| frames.partials(node, x));
+        let (_, turned) = by_rates.changes(|node| frames.partials_of_rates(node, x, v));
         debug_assert_eq!(nodes, self.nodes);
         self.whole += change.transpose() * &by_rates.whole * turned;
     }
@@ -123,18 +123,28 @@ impl Blocks {
     /// Nodes that stand for bodies, and derivatives of all vectors by their coordinates.
     fn changes<const D: usize>(
         &self,
-        partial: impl Fn(usize) -> (usize, NodeBlock<D>),
+        partials_at: impl Fn(usize) -> [Option<(usize, NodeBlock<D>)>; 2],
     ) -> (Vec<usize>, DMatrix<f64>) {
-        let partials: Vec<_> = self.nodes.iter().map(|node| partial(*node)).collect();
-        let mut nodes: Vec<usize> = partials.iter().map(|(node, _)| *node).collect();
-        nodes.dedup();
+        let partials = self.nodes.iter().enumerate();
+        let partials: Vec<_> = partials
+            .flat_map(|(i, node)| {
+                let partials = partials_at(*node).into_iter().flatten();
+                partials.map(move |(owner, partial)| (i, owner, partial))
+            })
+            .collect();
+        let mut nodes: Vec<usize> = Vec::new();
+        for (_, owner, _) in &partials {
+            if !nodes.contains(owner) {
+                nodes.push(*owner);
+            }
+        }
         let size = 2 * D;
         let mut change = DMatrix::zeros(size * self.nodes.len(), size * nodes.len());
-        for (i, (owner, partial)) in partials.iter().enumerate() {
+        for (i, owner, partial) in &partials {
             let j = nodes.iter().position(|node| node == owner).unwrap_or(0);
             for (r, row) in partial.as_flattened().iter().enumerate() {
                 for (c, entry) in row.as_flattened().iter().enumerate() {
-                    change[(size * i + r, size * j + c)] = *entry;
+                    change[(size * i + r, size * j + c)] += *entry;
                 }
             }
         }

@@ -39,8 +39,8 @@ pub enum SpectrumError {
          with them (\"rotation\")"
     )]
     Turns(f64),
-    /// A thin rod of space turns at this rate, rad/s.
-    #[error("expected thin rods that do not turn in space, found one at {0} rad/s")]
+    /// A thin rigid rod of space, or a section of a rod, turns at this rate, rad/s.
+    #[error("expected thin rods and rods that do not turn in space, found one at {0} rad/s")]
     Spins(f64),
     /// Rigid bodies turn in space among too many coordinates: most, present.
     #[error(
@@ -182,7 +182,10 @@ pub fn eigenvalues<const D: usize>(
     // How a thin rod turns about itself nobody knows.
     let thin = system.frames.list().iter().filter(|frame| frame.is_thin());
     let spins = thin.map(|frame| frame.spin(&work.x, &work.v).norm());
-    let spin = spins.fold(0.0, f64::max);
+    // Nor are gyroscopic terms of rods held here.
+    let of_rods = system.frames.carried().iter();
+    let of_rods = of_rods.map(|frame| frame.velocity(&work.x, &work.v).norm());
+    let spin = spins.chain(of_rods).fold(0.0, f64::max);
     if spin > 0.0 {
         return Err(SpectrumError::Spins(spin));
     }

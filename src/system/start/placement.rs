@@ -227,9 +227,12 @@ impl<const D: usize> System<D> {
     ) {
         work.f.fill(no_node());
         self.add_inertia(1.0, dx, &mut work.f);
+        for chain in &self.rod_chains {
+            chain.add_spin_inertia((&work.x, dx), &self.frames, &mut work.f);
+        }
         (self.frames).pull_all((&work.x, None), &mut work.f);
         self.elimination.reduce(&work.f, &mut work.y, q);
-        self.frames.to_rotations(&work.turns, q);
+        self.to_rotations(work, q);
     }
 
     /// Motions that inputs drive start where the inputs say.

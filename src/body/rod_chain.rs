@@ -1,0 +1,382 @@
+//! Bending and torsion of a rod, along the chain that is its line. Its nodes are those of the line, two for the frame carried at each of
+//! them, and one inside every element, which holds the internal twist alone.
+
+use nalgebra::Vector3;
+
+use super::assembly::{Assembly, NodeBlock, no_block};
+use super::connectivity::Node;
+use super::frame::{Carried, Frames};
+use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Rates, Rod};
+use crate::math::jet::Number;
+use crate::math::space::{Vector, components};
+use crate::math::sparse::Matrix;
+
+/// Where the internal twist stands in a node inside an element: part and axis. The axis before it stands still at one, so that the node
+/// has a direction.
+pub const INNER: (usize, usize) = (1, 1);
+
+/// Inertia of an element against spins at its ends and the rate of internal twist between them, over density times polar second moment
+/// times length: they are interpolated as the twist is.
+const SPIN_MASS: [[f64; 3]; 3] = [
+    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
+    [1.0 / 3.0, 8.0 / 15.0, 1.0 / 3.0],
+    [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0],
+];
+
+/// Where an element's velocities stand among its nodes `[line, frame, line, frame, inner]`: node, part, first axis, how many.
+const PLACES: [(usize, usize, usize, usize); 7] = [
+    (0, 0, 0, 3),
+    (0, 1, 0, 3),
+    (1, 1, 0, 1),
+    (2, 0, 0, 3),
+    (2, 1, 0, 3),
+    (3, 1, 0, 1),
+    (4, INNER.0, INNER.1, 1),
+];
+
+/// Bending and torsion of a rod.
+#[derive(Clone, Debug)]
+pub struct RodChain {
+    /// Its elements, and density times polar second moment of area of each, kg m.
+    elements: Vec<(Rod, f64)>,
+    /// First node of the line, of the carried frames, and inside the elements.
+    line: usize,
+    frames: usize,
+    inner: usize,
+    /// Its first carried frame among those of the system.
+    carried: usize,
+    is_damped: bool,
+}
+
+impl RodChain {
+    /// Along the line from node `line` on, whose nodes those of its frames follow and then those inside its elements; each element with its
+    /// density times polar second moment of area, kg m. So many frames are carried before its own.
+    pub fn new(elements: Vec<(Rod, f64)>, line: usize, carried: usize) -> Self {
+        let nodes = elements.len() + 1;
+        Self {
+            is_damped: elements.iter().any(|(rod, _)| rod.is_damped()),
+            line,
+            frames: line + nodes,
+            inner: line + 3 * nodes,
+            elements,
+            carried,
+        }
+    }
+
+    /// The nodes of element `j`: line and frame at both ends, then that inside.
+    pub fn nodes(&self, j: usize) -> [usize; 5] {
+        let [a, b] = [j, j + 1].map(|k| [self.line + k, self.frames + 2 * k]);
+        [a[0], a[1], b[0], b[1], self.inner + j]
+    }
+
+    /// First nodes of its carried frames, and the nodes of the line that they are at.
+    pub fn frames(&self) -> impl Iterator<Item = (usize, usize)> {
+        (0..=self.elements.len()).map(|k| (self.frames + 2 * k, self.line + k))
+    }
+
+    /// Nodes inside its elements.
+    pub fn inner(&self) -> impl Iterator<Item = usize> {
+        self.inner..self.inner + self.elements.len()
+    }
+
+    /// Number of elements.
+    pub fn count(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// First node of the line.
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// Element `j`.
+    pub fn element(&self, j: usize) -> &Rod {
+        &self.elements[j].0
+    }
+
+    /// Whether any element dissipates.
+    pub fn is_damped(&self) -> bool {
+        self.is_damped
+    }
+
+    /// Where element `j` is.
+    pub fn at<const D: usize, N: Number>(&self, j: usize, x: &[Node<D, N>]) -> At<N> {
+        let [a, fa, b, fb, inner] = self.nodes(j);
+        At {
+            e: ends([a, b], x),
+            d: [fa, fb].map(|frame| part(&x[frame + 1], 0)),
+            bubble: x[inner][INNER.0][INNER.1],
+        }
+    }
+
+    /// Velocities of element `j`, or changes.
+    pub fn rates<const D: usize, N: Number>(
+        &self,
+        j: usize,
+        (x, v): (&[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+    ) -> Rates<N> {
+        let [a, _, b, _, inner] = self.nodes(j);
+        let spin = |k: usize| self.frame(k, frames).spin(x, v);
+        Rates {
+            e: ends([a, b], v),
+            spin: [spin(j), spin(j + 1)],
+            bubble: v[inner][INNER.0][INNER.1],
+        }
+    }
+
+    /// Its carried frame at a node.
+    fn frame<'a>(&self, k: usize, frames: &'a Frames) -> &'a Carried {
+        &frames.carried()[self.carried + k]
+    }
+
+    /// Adds elastic and damping forces: those on the line and on internal twists over the nodes, torques about the tangents to those of
+    /// all carried frames. The power that damping takes out, W.
+    pub fn add_force<const D: usize, N: Number>(
+        &self,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+        (force, torques): (&mut [Node<D, N>], &mut [N]),
+    ) -> N {
+        let mut sum = N::of(0.0);
+        for (j, (rod, _)) in self.elements.iter().enumerate() {
+            let at = self.at(j, motion.0);
+            let rates = rod.is_damped().then(|| self.rates(j, motion, frames));
+            let (Force { e, torque, bubble }, power) = rod.force(&at, rates.as_ref());
+            let [a, _, b, _, inner] = self.nodes(j);
+            for (k, vector) in e.iter().enumerate() {
+                let node = &mut force[[a, b][k / 2]][k % 2];
+                for (sum, f) in node.iter_mut().zip(vector) {
+                    *sum += *f;
+                }
+            }
+            for (k, torque) in torque.into_iter().enumerate() {
+                torques[self.carried + j + k] += torque;
+            }
+            force[inner][INNER.0][INNER.1] += bubble;
+            sum += power;
+        }
+        sum
+    }
+
+    /// Power that damping takes out, W.
+    pub fn dissipation<const D: usize, N: Number>(
+        &self,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+    ) -> N {
+        let mut sum = N::of(0.0);
+        for (j, (rod, _)) in self.elements.iter().enumerate() {
+            if rod.is_damped() {
+                let rates = self.rates(j, motion, frames);
+                sum += rod.force(&self.at(j, motion.0), Some(&rates)).1;
+            }
+        }
+        sum
+    }
+
+    /// Strain energy, J.
+    pub fn strain_energy<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> N {
+        let elements = self.elements.iter().enumerate();
+        let energies = elements.map(|(j, (rod, _))| rod.energy(&self.at(j, x)));
+        energies.fold(N::of(0.0), |sum, energy| sum + energy)
+    }
+
+    /// Momenta conjugate to the spins at the ends of element `j` and to its rate of internal twist, N m s.
+    fn momenta<const D: usize, N: Number>(
+        &self,
+        j: usize,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+    ) -> [N; 3] {
+        let (rod, inertia) = &self.elements[j];
+        let Rates { spin, bubble, .. } = self.rates(j, motion, frames);
+        let rates = [spin[0], bubble, spin[1]];
+        let scale = N::of(inertia * rod.length());
+        SPIN_MASS.map(|row| {
+            let terms = row.iter().zip(&rates);
+            terms.fold(N::of(0.0), |sum, (m, rate)| sum + *rate * N::of(*m)) * scale
+        })
+    }
+
+    /// For every carried frame its momentum about the tangent, N m s, part by part of the elements.
+    pub fn for_each_momentum<const D: usize, N: Number>(
+        &self,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+        mut each: impl FnMut(&Carried, N),
+    ) {
+        for j in 0..self.elements.len() {
+            let [a, _, b] = self.momenta(j, motion, frames);
+            each(self.frame(j, frames), a);
+            each(self.frame(j + 1, frames), b);
+        }
+    }
+
+    /// Kinetic energy of spin, J.
+    pub fn spin_energy<const D: usize, N: Number>(
+        &self,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+    ) -> N {
+        let mut sum = N::of(0.0);
+        for j in 0..self.elements.len() {
+            let [a, inner, b] = self.momenta(j, motion, frames);
+            let Rates { spin, bubble, .. } = self.rates(j, motion, frames);
+            sum += a * spin[0] + inner * bubble + b * spin[1];
+        }
+        sum * N::of(0.5)
+    }
+
+    /// Adds the force on slopes that spin asks for where the tangent turns.
+    pub fn add_gyroscopic<const D: usize, N: Number>(
+        &self,
+        (x, v): (&[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+        force: &mut [Node<D, N>],
+    ) {
+        self.for_each_momentum((x, v), frames, |frame, momentum| {
+            let on_slope = frame.gyroscopic(momentum, (x, v));
+            for (sum, f) in force[frame.line][1].iter_mut().zip(on_slope) {
+                *sum += f;
+            }
+        });
+    }
+
+    /// Adds mass times changes of spins and internal twists, over the nodes: forces on axes.
+    pub fn add_spin_inertia<const D: usize>(
+        &self,
+        (x, dx): (&[Node<D>], &[Node<D>]),
+        frames: &Frames,
+        force: &mut [Node<D>],
+    ) {
+        for j in 0..self.elements.len() {
+            let [a, inner, b] = self.momenta(j, (x, dx), frames);
+            for (k, torque) in [(j, a), (j + 1, b)] {
+                let frame = self.frame(k, frames);
+                let [_, _, third] = frame.axes(x);
+                for (sum, axis) in force[frame.node + 1][0].iter_mut().zip(&third) {
+                    *sum += torque * axis;
+                }
+            }
+            force[self.inner + j][INNER.0][INNER.1] += inner;
+        }
+    }
+
+    /// Adds the inertia of spins to a matrix of the system.
+    pub fn add_mass<const D: usize>(&self, assembly: &Assembly<D>, matrix: &mut Matrix<f64>) {
+        for (j, (rod, inertia)) in self.elements.iter().enumerate() {
+            let scale = inertia * rod.length();
+            let [_, a, _, b, inner] = self.nodes(j);
+            let places = [(a, (1, 0)), (inner, INNER), (b, (1, 0))];
+            for (r, (row, at)) in places.iter().enumerate() {
+                for (c, (column, on)) in places.iter().enumerate().take(r + 1) {
+                    let mut block: NodeBlock<D> = no_block();
+                    block[at.0][at.1][on.0][on.1] = scale * SPIN_MASS[r][c];
+                    assembly.add(*row, *column, &block, matrix);
+                }
+            }
+        }
+    }
+
+    /// Adds the tangent stiffness, and damping where there is any, over rotations about tangents.
+    pub fn add_tangent<const D: usize>(
+        &self,
+        motion: (&[Node<D>], &[Node<D>]),
+        frames: &Frames,
+        assembly: &Assembly<D>,
+        [stiffness, damping]: [&mut Matrix<f64>; 2],
+    ) {
+        for (j, (rod, _)) in self.elements.iter().enumerate() {
+            let at = self.at(j, motion.0);
+            let rates = rod.is_damped().then(|| self.rates(j, motion, frames));
+            let [elastic, damped] = rod.tangent(&at, rates.as_ref());
+            self.add_blocks(j, &elastic, assembly, stiffness);
+            if rod.is_damped() {
+                self.add_blocks(j, &damped, assembly, damping);
+            }
+        }
+    }
+
+    fn add_blocks<const D: usize>(
+        &self,
+        j: usize,
+        whole: &ElementMatrix,
+        assembly: &Assembly<D>,
+        matrix: &mut Matrix<f64>,
+    ) {
+        self.for_each_block(j, whole, |row, column, block| {
+            assembly.add(row, column, block, matrix);
+        });
+    }
+
+    /// The blocks of a symmetric matrix over the velocities of element `j`, on and below the diagonal of its nodes.
+    pub fn for_each_block<const D: usize>(
+        &self,
+        j: usize,
+        whole: &ElementMatrix,
+        mut add: impl FnMut(usize, usize, &NodeBlock<D>),
+    ) {
+        let nodes = self.nodes(j);
+        for (row, a) in nodes.iter().enumerate() {
+            for (column, b) in nodes.iter().enumerate().take(row + 1) {
+                let mut block: NodeBlock<D> = no_block();
+                for (r, (p, i)) in entries(row) {
+                    for (c, (q, k)) in entries(column) {
+                        block[p][i][q][k] = whole[r][c];
+                    }
+                }
+                add(*a, *b, &block);
+            }
+        }
+    }
+
+    /// The largest angle, rad, by which an element bends from its middle to an end or twists, and which one.
+    pub fn largest_angle<const D: usize>(&self, x: &[Node<D>]) -> (f64, usize) {
+        let elements = self.elements.iter().enumerate();
+        let angles = elements.map(|(j, (rod, _))| (rod.largest_angle(&self.at(j, x)), j));
+        angles.fold((0.0, 0), |largest, angle| if angle.0 > largest.0 { angle } else { largest })
+    }
+}
+
+/// Velocities of an element at one of its nodes: number, then part and axis.
+fn entries(node: usize) -> impl Iterator<Item = (usize, (usize, usize))> {
+    let mut first = 0;
+    let places = PLACES.iter().map(move |(of, part, axis, count)| {
+        first += count;
+        (*of, *part, *axis, first - count, *count)
+    });
+    let own = places.filter(move |(of, ..)| *of == node);
+    own.flat_map(|(_, part, axis, first, count)| {
+        (0..count).map(move |k| (first + k, (part, axis + k)))
+    })
+}
+
+/// Positions and slopes of two nodes, or their rates.
+fn ends<const D: usize, N: Number>(nodes: [usize; 2], x: &[Node<D, N>]) -> [[N; 3]; 4] {
+    let [a, b] = nodes.map(|node| [0, 1].map(|k| part(&x[node], k)));
+    [a[0], a[1], b[0], b[1]]
+}
+
+fn part<const D: usize, N: Number>(node: &Node<D, N>, k: usize) -> [N; 3] {
+    components(&Vector::<D, N>::from(node[k]))
+}
+
+/// Axes of frames carried along a line from its first tangent on by smallest rotations, the first of them with this second axis:
+/// position and axes in two nodes each.
+pub fn carried_nodes<const D: usize>(line: &[Node<D>], second: [f64; 3]) -> Vec<Node<D>> {
+    let tangent = |node: &Node<D>| Vector3::from(part(node, 1)).normalize();
+    let mut second = Vector3::from(second);
+    let mut before = line.first().map_or_else(Vector3::zeros, tangent);
+    let mut nodes = Vec::with_capacity(2 * line.len());
+    for node in line {
+        let t = tangent(node);
+        second -= (before + t) * (t.dot(&second) / (1.0 + before.dot(&t)));
+        second = (second - t * t.dot(&second)).normalize();
+        let [a, b, c] = [t, second, t.cross(&second)]
+            .map(|axis| crate::math::space::vector::<D, f64>(axis.into()).into());
+        nodes.extend([[node[0], a], [b, c]]);
+        before = t;
+    }
+    nodes
+}

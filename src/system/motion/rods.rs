@@ -1,0 +1,79 @@
+//! Rods in the equations of motion: their torques, and rotations of carried frames among the coordinates, of which spins are no rates.
+
+use crate::body::Node;
+use crate::math::jet::Number;
+use crate::system::{State, System, Work};
+
+impl<const D: usize> System<D> {
+    /// Adds to forces over the nodes that have coordinates the torques of rods about tangents, and what spins ask for.
+    pub(in crate::system) fn add_rod_forces<N: Number>(
+        &self,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        torques: &[N],
+        force: &mut [Node<D, N>],
+    ) {
+        for (frame, torque) in self.frames.carried().iter().zip(torques) {
+            force[frame.node][1][0] += *torque;
+        }
+        for chain in &self.rod_chains {
+            chain.add_gyroscopic(motion, &self.frames, force);
+        }
+    }
+
+    /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
+    /// angular velocities rates.
+    pub(in crate::system) fn to_rotations(&self, work: &mut Work<D>, q: &mut [f64]) {
+        self.frames.to_rotations(&work.turns, q);
+        if self.frames.carried().is_empty() {
+            return;
+        }
+        self.elimination.expand(q, &mut work.y, &mut work.other);
+        let Work { carries, other, y, .. } = work;
+        self.frames.turn_carried(carries, other, y);
+        self.elimination.coordinates_of(y);
+        q.copy_from_slice(y);
+    }
+
+    /// Angular accelerations become second derivatives of rotations.
+    pub(in crate::system) fn to_second(&self, work: &mut Work<D>, a: &mut [f64]) {
+        self.frames.to_second(&work.turns, a);
+        if self.frames.carried().is_empty() {
+            return;
+        }
+        self.elimination.expand(a, &mut work.y, &mut work.other);
+        let Work { carries, other, y, .. } = work;
+        self.frames.turn_carried_twice(carries, other, y);
+        self.elimination.coordinates_of(y);
+        a.copy_from_slice(y);
+    }
+
+    /// Rotations larger than this, rad, begin at zero anew. Whether there were any.
+    pub(in crate::system) fn renew(&self, state: &mut State, size: f64, work: &mut Work<D>) -> bool {
+        let mut is_large = self.frames.largest(&state.coordinates) > size;
+        if !self.frames.carried().is_empty() {
+            self.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
+            is_large |= self.frames.largest_carry(&work.carries) > size;
+        }
+        if !is_large {
+            return false;
+        }
+        let (q, v) = (&mut state.coordinates, &mut state.rates);
+        if !self.frames.carried().is_empty() {
+            // Over the free coordinates.
+            let mut rates = std::mem::take(&mut work.a);
+            self.elimination.displacements(q, &mut work.y);
+            self.elimination.displacements(v, &mut rates);
+            let at = (&work.x[..], &work.carries[..]);
+            self.frames.renew_carried(at, &mut state.frames, [&mut work.y, &mut rates]);
+            self.elimination.coordinates_of(&mut work.y);
+            self.elimination.coordinates_of(&mut rates);
+            q.copy_from_slice(&work.y);
+            v.copy_from_slice(&rates);
+            work.a = rates;
+        }
+        self.frames.renew(&mut state.frames, q, v);
+        work.frames.copy_from_slice(&state.frames);
+        true
+    }
+}
+
