@@ -104,9 +104,19 @@ pub fn turned<N: Number>([a, b, c]: &Axes<N>, spin: &Vector3<N>) -> Axes<N> {
 }
 
 /// The axes in a node and the one after it, or their rates where `x` holds rates.
-fn axes_at<const D: usize, N: Number>(node: usize, x: &[Node<D, N>]) -> Axes<N> {
+pub fn axes_at<const D: usize, N: Number>(node: usize, x: &[Node<D, N>]) -> Axes<N> {
     let [[_, a], [b, c]] = [&x[node], &x[node + 1]];
     [a, b, c].map(|axis| components(&(*axis).into()).into())
+}
+
+/// Angular velocity along these axes, rad/s.
+pub fn spin_at<const D: usize, N: Number>(
+    node: usize,
+    x: &[Node<D, N>],
+    v: &[Node<D, N>],
+) -> Vector3<N> {
+    let ([a, b, c], [ra, rb, rc]) = (axes_at(node, x), axes_at(node, v));
+    Vector3::new(c.dot(&rb), a.dot(&rc), b.dot(&ra))
 }
 
 /// Sets them.
@@ -166,8 +176,7 @@ impl Frame {
         x: &[Node<D, N>],
         v: &[Node<D, N>],
     ) -> Vector3<N> {
-        let ([a, b, c], [ra, rb, rc]) = (self.axes(x), self.axes(v));
-        Vector3::new(c.dot(&rb), a.dot(&rc), b.dot(&ra))
+        spin_at(self.node, x, v)
     }
 
     /// Moment along its axes of forces on them, N m.
@@ -253,6 +262,20 @@ impl Frame {
     }
 }
 
+/// What the vectors of a node are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NodeKind {
+    /// A position and a direction.
+    Point,
+    /// Two axes.
+    Axes,
+    /// Neither: numbers inside an element.
+    Inner,
+}
+
+/// Stands for no frame in [`Frames::of_node`].
+const NO_FRAME: usize = usize::MAX;
+
 /// The rigid bodies of a system in space, and the frames that its rods carry; none in the plane.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
@@ -263,9 +286,14 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// For these bodies and carried frames among so many nodes.
-    pub fn new(list: Vec<Frame>, carried: Vec<Carried>, nodes: usize) -> Self {
+    /// For these bodies and carried frames, among so many nodes, of which these are inside elements.
+    pub fn new(
+        list: Vec<Frame>,
+        (carried, inner): (Vec<Carried>, impl Iterator<Item = usize>),
+        nodes: usize,
+    ) -> Self {
         let mut of_node = vec![None; nodes];
+        inner.for_each(|node| of_node[node] = Some((NO_FRAME, false)));
         let firsts = list.iter().map(|frame| frame.node);
         let firsts = firsts.chain(carried.iter().map(|frame| frame.node));
         for (index, first) in firsts.enumerate() {
@@ -478,7 +506,26 @@ impl Frames {
         })
     }
 
-    /// The place in the list of the body that a node belongs to.
+    /// What the vectors of a node are.
+    pub fn kind(&self, node: usize) -> NodeKind {
+        match self.of_node.get(node).copied().flatten() {
+            Some((NO_FRAME, _)) => NodeKind::Inner,
+            Some((_, true)) => NodeKind::Axes,
+            _ => NodeKind::Point,
+        }
+    }
+
+    /// Whether a node belongs to a frame or is inside an element: rows between its numbers are none that joints see.
+    pub fn holds(&self, node: usize) -> bool {
+        self.of_node.get(node).is_some_and(Option::is_some)
+    }
+
+    /// Whether a node is the first of a frame, which its axes begin in.
+    pub fn has_axes(&self, node: usize) -> bool {
+        self.kind(node) == NodeKind::Point && self.holds(node)
+    }
+
+    /// The place of the frame that a node belongs to, in the order of the state's.
     pub fn index_of(&self, node: usize) -> Option<usize> {
         self.of_node
             .get(node)

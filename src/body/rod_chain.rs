@@ -1,11 +1,14 @@
 //! Bending and torsion of a rod, along the chain that is its line. Its nodes are those of the line, two for the frame carried at each of
 //! them, and one inside every element, which holds the internal twist alone.
 
+use std::ops::Range;
+
 use nalgebra::Vector3;
 
 use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::Node;
 use super::frame::{Carried, Frames};
+use super::marker::Marker;
 use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Rates, Rod};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
@@ -15,8 +18,8 @@ use crate::math::sparse::Matrix;
 /// has a direction.
 pub const INNER: (usize, usize) = (1, 1);
 
-/// Inertia of an element against spins at its ends and the rate of internal twist between them, over density times polar second moment
-/// times length: they are interpolated as the twist is.
+/// Inertia of an element against spins at its ends and the rate of internal twist between them, over density times polar second moment of
+/// area times length: they are interpolated as the twist is.
 const SPIN_MASS: [[f64; 3]; 3] = [
     [1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
     [1.0 / 3.0, 8.0 / 15.0, 1.0 / 3.0],
@@ -37,7 +40,7 @@ const PLACES: [(usize, usize, usize, usize); 7] = [
 /// Bending and torsion of a rod.
 #[derive(Clone, Debug)]
 pub struct RodChain {
-    /// Its elements, and density times polar second moment of area of each, kg m.
+    /// Its elements, and density times polar second moment of area times length of each, kg m^2.
     elements: Vec<(Rod, f64)>,
     /// First node of the line, of the carried frames, and inside the elements.
     line: usize,
@@ -50,7 +53,7 @@ pub struct RodChain {
 
 impl RodChain {
     /// Along the line from node `line` on, whose nodes those of its frames follow and then those inside its elements; each element with its
-    /// density times polar second moment of area, kg m. So many frames are carried before its own.
+    /// density times polar second moment of area times length, kg m^2. So many frames are carried before its own.
     pub fn new(elements: Vec<(Rod, f64)>, line: usize, carried: usize) -> Self {
         let nodes = elements.len() + 1;
         Self {
@@ -74,8 +77,14 @@ impl RodChain {
         (0..=self.elements.len()).map(|k| (self.frames + 2 * k, self.line + k))
     }
 
+    /// First node of the frame at a marker of its line that is at a node.
+    pub fn frame_at(&self, marker: &Marker) -> Option<usize> {
+        let k = marker.nodes[0] - self.line;
+        marker.is_nodal().then_some(self.frames + 2 * k)
+    }
+
     /// Nodes inside its elements.
-    pub fn inner(&self) -> impl Iterator<Item = usize> {
+    pub fn inner(&self) -> Range<usize> {
         self.inner..self.inner + self.elements.len()
     }
 
@@ -189,10 +198,10 @@ impl RodChain {
         motion: (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
     ) -> [N; 3] {
-        let (rod, inertia) = &self.elements[j];
+        let (_, inertia) = &self.elements[j];
         let Rates { spin, bubble, .. } = self.rates(j, motion, frames);
         let rates = [spin[0], bubble, spin[1]];
-        let scale = N::of(inertia * rod.length());
+        let scale = N::of(*inertia);
         SPIN_MASS.map(|row| {
             let terms = row.iter().zip(&rates);
             terms.fold(N::of(0.0), |sum, (m, rate)| sum + *rate * N::of(*m)) * scale
@@ -265,14 +274,13 @@ impl RodChain {
 
     /// Adds the inertia of spins to a matrix of the system.
     pub fn add_mass<const D: usize>(&self, assembly: &Assembly<D>, matrix: &mut Matrix<f64>) {
-        for (j, (rod, inertia)) in self.elements.iter().enumerate() {
-            let scale = inertia * rod.length();
+        for (j, (_, inertia)) in self.elements.iter().enumerate() {
             let [_, a, _, b, inner] = self.nodes(j);
             let places = [(a, (1, 0)), (inner, INNER), (b, (1, 0))];
             for (r, (row, at)) in places.iter().enumerate() {
                 for (c, (column, on)) in places.iter().enumerate().take(r + 1) {
                     let mut block: NodeBlock<D> = no_block();
-                    block[at.0][at.1][on.0][on.1] = scale * SPIN_MASS[r][c];
+                    block[at.0][at.1][on.0][on.1] = inertia * SPIN_MASS[r][c];
                     assembly.add(*row, *column, &block, matrix);
                 }
             }
@@ -290,10 +298,9 @@ impl RodChain {
         for (j, (rod, _)) in self.elements.iter().enumerate() {
             let at = self.at(j, motion.0);
             let rates = rod.is_damped().then(|| self.rates(j, motion, frames));
-            let [elastic, damped] = rod.tangent(&at, rates.as_ref());
-            self.add_blocks(j, &elastic, assembly, stiffness);
+            self.add_blocks(j, &rod.stiffness(&at, rates.as_ref()), assembly, stiffness);
             if rod.is_damped() {
-                self.add_blocks(j, &damped, assembly, damping);
+                self.add_blocks(j, &rod.damping(&at), assembly, damping);
             }
         }
     }

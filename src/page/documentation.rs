@@ -105,16 +105,17 @@ const MOST_BODIES: usize = 12;
 fn body_in_words(body: &Body) -> String {
     let name = escape(body.name());
     match body {
-        Body::Cable(cable) => {
+        Body::Cable(cable) | Body::Rod(cable) => {
             // A length along an arc need not be a short number; four digits are enough to read.
             let length = number((cable.shape.length() * 1e4).round() / 1e4);
+            let kind = if cable.is_rod() { "rod" } else { "cable" };
             let elements = match (cable.model, cable.elements) {
                 (Model::Rigid, _) => {
                     return format!("the rigid rod <em>{name}</em>, {length} m long");
                 }
                 (_, None) => "elements still to be counted".into(),
-                (_, Some(1)) => "1 cable element".into(),
-                (_, Some(count)) => format!("{count} cable elements"),
+                (_, Some(1)) => format!("1 {kind} element"),
+                (_, Some(count)) => format!("{count} {kind} elements"),
             };
             format!("the flexible body <em>{name}</em>, {length} m long, of {elements}")
         }

@@ -55,7 +55,7 @@ impl<'a> Resolved<'a> {
         };
         for (body, described) in scene.bodies.iter().enumerate() {
             let reference = match described {
-                Body::Cable(described) => {
+                Body::Cable(described) | Body::Rod(described) => {
                     let form = match described.model {
                         Model::Rigid => Form::Rod(next(&mut rods)),
                         Model::Auto | Model::Flexible => Form::Chain(next(&mut chains)),
@@ -100,7 +100,7 @@ impl Scene {
     /// A cable, to be changed.
     pub fn cable_mut(&mut self, id: CableId) -> &mut CableBody {
         match &mut self.bodies[id.body] {
-            Body::Cable(body) => body,
+            Body::Cable(body) | Body::Rod(body) => body,
             Body::Rigid(_) => unreachable!("a number of a cable is that of a cable"),
         }
     }
@@ -109,7 +109,7 @@ impl Scene {
     pub fn rigid_mut(&mut self, id: RigidId) -> &mut RigidBody {
         match &mut self.bodies[id.0] {
             Body::Rigid(body) => body,
-            Body::Cable(_) => unreachable!("a number of a rigid body is that of a rigid body"),
+            Body::Cable(_) | Body::Rod(_) => unreachable!("a number of a rigid body is that of a rigid body"),
         }
     }
 }
@@ -168,9 +168,12 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// Whether it has axes, in space: on a rigid body that has inertia.
+    /// Whether it has axes, in space: on a rigid body that has inertia, or on a rod.
     pub(super) fn is_framed(self) -> bool {
-        matches!(self, Self::Point(..)) && self.turns()
+        match self {
+            Self::Point(..) => self.turns(),
+            Self::Along(cable, _) => cable.body.is_rod(),
+        }
     }
 
     /// Quaternion of the frame of a rigid body of space as described, scalar first and not negative.

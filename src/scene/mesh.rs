@@ -47,6 +47,10 @@ impl<'a> Resolved<'a> {
                 Place::Along(..) | Place::Point(..) => None,
             })
             .collect();
+        if cable.body.is_rod() {
+            // What has axes is a node.
+            coordinates.extend(cable.body.markers.values());
+        }
         coordinates.sort_by(f64::total_cmp);
         coordinates.dedup();
         coordinates

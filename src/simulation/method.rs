@@ -155,8 +155,8 @@ fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
     };
     let (material, section, length) = (&cable.material, &cable.section, cable.shape.length());
     let speed = (material.youngs_modulus / material.density).sqrt();
-    if section.second_moment > 0.0 {
-        PI * PI * speed * (section.second_moment / section.area).sqrt() / (length * length)
+    if section.second_moment() > 0.0 {
+        PI * PI * speed * (section.second_moment() / section.area).sqrt() / (length * length)
     } else {
         PI * speed / length
     }

@@ -108,12 +108,10 @@ impl<const D: usize> System<D> {
             line,
             place: (0, 1.0),
         });
-        let carried = carried.collect();
-        let frames = Frames::new(
-            std::mem::take(&mut parts.frames),
-            carried,
-            parts.nodes.len(),
-        );
+        let inner = parts.rod_chains.iter().flat_map(RodChain::inner);
+        let of_rods = (carried.collect(), inner);
+        let bodies = std::mem::take(&mut parts.frames);
+        let frames = Frames::new(bodies, of_rods, parts.nodes.len());
         let described = parts.nodes.clone();
         for chain in &parts.rod_chains {
             unplaced_rod(chain, &mut parts.nodes);

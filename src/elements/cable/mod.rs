@@ -135,11 +135,15 @@ impl<const D: usize> Cable<D> {
             true => Sampling::Lobatto,
             false => Sampling::Between,
         };
+        let own_bending = match p.is_line_of_rod {
+            true => 0.0,
+            false => p.bending_stiffness,
+        };
         let mut kernel = Kernel {
             length: p.length,
             inverse_length: 1.0 / p.length,
             axial_stiffness: p.axial_stiffness,
-            bending_stiffness: p.bending_stiffness,
+            bending_stiffness: own_bending,
             axial_damping_time: p.axial_damping_time,
             bending_damping_time: p.bending_damping_time,
             natural_strain: [0.0; 3],
@@ -147,7 +151,7 @@ impl<const D: usize> Cable<D> {
             sampling,
             strain: p.strain,
             is_damped: p.longest_damping_time() > 0.0,
-            bends: p.bending_stiffness > 0.0 && !p.is_line_of_rod,
+            bends: own_bending > 0.0,
         };
         if let Some(e) = shape {
             (kernel.natural_strain, kernel.natural_curvature) = kernel.strains(&e.data.0);

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::Builder;
-use crate::body::{Frame, Marker};
+use crate::body::{Marker, axes_at};
 use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
 use crate::scene::resolved::{self, Action, Pivot, Place, Turning};
 use crate::system::joints::{Across, Perpendicular, Primitive};
@@ -19,11 +19,10 @@ impl<const D: usize> Builder<'_, D> {
         let End::Body(marker) = end else {
             return Direction::Fixed(direction);
         };
-        let frame = self.parts.frames.iter();
-        let Some(frame) = frame.clone().find(|frame| frame.node == marker.nodes[0]) else {
+        if !marker.is_framed() {
             return Direction::Of(*marker);
-        };
-        let axes = Frame::axes(frame, &self.parts.nodes);
+        }
+        let axes = axes_at(marker.nodes[0], &self.parts.nodes);
         let direction = Vector3::from(components(&direction));
         Direction::Of(marker.directed(axes.map(|axis| axis.dot(&direction))))
     }
@@ -35,6 +34,9 @@ impl<const D: usize> Builder<'_, D> {
             Place::Point(rigid, _) if built.is_framed() => {
                 let unit = Vector::<3>::ith(k, 1.0).into();
                 built.directed(self.resolved.solid(rigid).directed(unit))
+            }
+            Place::Along(..) if built.is_framed() => {
+                built.directed(Vector::<3>::ith(k, 1.0).into())
             }
             _ => built,
         })

@@ -1,10 +1,13 @@
 //! Bodies: a cable becomes a chain of elements or, where it does not bend, a rod; a rigid body a node.
 
 use super::Builder;
-use crate::body::{Frame, Marker};
+use nalgebra::Vector3;
+
+use crate::body::{Frame, Marker, Node, RodChain, carried_nodes};
 use crate::elements::cable::{self, Inertia};
+use crate::elements::rod::{self, At, Rod as RodElement};
 use crate::elements::{self, Nodal};
-use crate::math::space::{Vector, axis, turned, vector};
+use crate::math::space::{Vector, axis, components, turned, vector};
 use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
 use crate::scene::{CableBody, Error, RigidBody, Strain};
 use crate::system::{CableChain, LumpedMass, Rod};
@@ -36,12 +39,13 @@ impl<const D: usize> Builder<'_, D> {
             }
         }
         let nodes = first..self.parts.nodes.len();
-        let has_frame = self
-            .parts
-            .frames
-            .last()
-            .is_some_and(|frame| frame.node == first);
-        self.motions.push((nodes.clone(), has_frame), motion, arm);
+        let mut axes = Vec::new();
+        axes.extend((self.parts.frames.last()).map(|frame| frame.node + 1));
+        let sections = (self.parts.rod_chains.last()).filter(|rod| rod.line() == first);
+        axes.extend(sections.into_iter().flat_map(RodChain::frames).map(|(node, _)| node + 1));
+        axes.retain(|node| nodes.contains(node));
+        let still = sections.map_or(nodes.end, |rod| rod.inner().start);
+        self.motions.push((nodes.clone(), axes, still), motion, arm);
         if let (BodyReference::Cable(cable), Some(field)) =
             (self.resolved.bodies[index], &motion.deformation)
         {
@@ -112,7 +116,44 @@ impl<const D: usize> Builder<'_, D> {
         };
         self.parts.nodes.extend(mesh.iter().map(node));
         self.parts.chains.push(chain);
+        if cable.is_rod() {
+            self.sections(cable, &mesh, first);
+        }
         Ok(())
+    }
+
+    /// The sections of a rod along its line, whose first node is this one: their frames, and the twist inside elements.
+    fn sections(&mut self, rod: &CableBody, mesh: &[f64], first: usize) {
+        let line = self.parts.nodes[first..].to_vec();
+        let axes = carried_nodes(&line, first_axis(rod));
+        let carried = self.parts.rod_chains.iter().map(|chain| chain.count() + 1);
+        let carried = carried.sum();
+        let elements = mesh.windows(2).enumerate().map(|(j, s)| {
+            let length = (s[1] - s[0]) * rod.shape.length();
+            let [[a, u], [b, v]] = [line[j], line[j + 1]].map(|node| node.map(full));
+            let shape = At {
+                e: [a, u, b, v],
+                d: [j, j + 1].map(|k| full(axes[2 * k + 1][0])),
+                bubble: 0.0,
+            };
+            let [about_first, about_second] = rod.section.second_moments();
+            let polar = about_first + about_second;
+            let (material, twist) = (&rod.material, rod.section.torsion_constant);
+            let torsion = material.shear_modulus.unwrap_or_default() * twist.unwrap_or_default();
+            let [first, second] = [about_first, about_second].map(|i| material.youngs_modulus * i);
+            let parameters = rod::Parameters {
+                length,
+                stiffness: [[torsion, 0.0, 0.0], [0.0, first, 0.0], [0.0, 0.0, second]],
+                damping_times: [material.damping_time; 3],
+            };
+            (RodElement::new(parameters, &shape), material.density * polar * length)
+        });
+        let chain = RodChain::new(elements.collect(), first, carried);
+        self.parts.nodes.extend(axes);
+        let inside = chain.inner().map(|_| [[0.0; D]; 2]);
+        let inside: Vec<Node<D>> = inside.collect();
+        self.parts.nodes.extend(inside);
+        self.parts.rod_chains.push(chain);
     }
 
     /// A cable that does not bend, about its middle; gives back how far along it from there its first end is, m.
@@ -156,7 +197,13 @@ impl<const D: usize> Builder<'_, D> {
         match cable.id.form {
             Form::Chain(chain) => {
                 let chain = &self.parts.chains[chain];
-                Marker::along(body, chain, s * chain.length())
+                let marker = Marker::along(body, chain, s * chain.length());
+                let sections = self.parts.rod_chains.iter();
+                let mut sections = sections.filter(|rod| rod.line() == chain.nodes(0)[0]);
+                match sections.next().and_then(|rod| rod.frame_at(&marker)) {
+                    Some(node) => Marker::framed(body, node, [0.0; 3], [1.0, 0.0, 0.0]),
+                    None => marker,
+                }
             }
             Form::Rod(rod) => {
                 let Rod { node, length, .. } = self.parts.rods[rod];
@@ -164,6 +211,25 @@ impl<const D: usize> Builder<'_, D> {
             }
         }
     }
+}
+
+/// Three components of a vector.
+fn full<const D: usize>(v: [f64; D]) -> [f64; 3] {
+    components(&Vector::<D>::from(v))
+}
+
+/// The first axis of a rod's section at its first end: as described, or across the tangent and as far along `z` as can be, along `y`
+/// of a rod along `z`.
+fn first_axis(rod: &CableBody) -> [f64; 3] {
+    let tangent = Vector3::from(rod.shape.tangent(0.0));
+    let across = |axis: Vector3<f64>| axis - tangent * tangent.dot(&axis);
+    let upright = across(Vector3::z());
+    let axis = match rod.axis {
+        Some(axis) => across(axis.full().into()),
+        None if upright.norm() > 1e-6 => upright,
+        None => across(Vector3::y()),
+    };
+    axis.normalize().into()
 }
 
 fn build_elements<const D: usize>(
@@ -182,7 +248,8 @@ fn build_elements<const D: usize>(
         let parameters = cable::Parameters {
             length: (s[1] - s[0]) * body.shape.length(),
             axial_stiffness: material.youngs_modulus * section.area,
-            bending_stiffness: material.youngs_modulus * section.second_moment,
+            bending_stiffness: material.youngs_modulus * section.second_moment(),
+            is_line_of_rod: body.is_rod(),
             line_density: material.density * section.area,
             axial_damping_time,
             bending_damping_time: material.damping_time,

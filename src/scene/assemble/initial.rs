@@ -11,8 +11,10 @@ use crate::scene::{Error, InitialMotion};
 #[derive(Clone, Debug)]
 struct Moving<const D: usize> {
     nodes: Range<usize>,
-    /// Whether its second node holds axes alone.
-    has_frame: bool,
+    /// Those that hold axes alone.
+    axes: Vec<usize>,
+    /// From which node on they hold numbers that do not move.
+    still: usize,
     /// Velocity, m/s, of the point that is so far from the first node along its direction, and along the axes in the second
     /// one where that holds axes, m.
     velocity: Vector<D>,
@@ -30,18 +32,19 @@ pub struct Motions<const D: usize = 2> {
 }
 
 impl<const D: usize> Motions<D> {
-    /// Adds a body by its nodes, and whether the second holds axes alone; the velocity is that of the point
-    /// so far from its first node along the direction there, and along those axes, m.
+    /// Adds a body by its nodes, those of them that hold axes alone, and the one from which on they do not move; the velocity is
+    /// that of the point so far from its first node along the direction there, and along those axes, m.
     pub(super) fn push(
         &mut self,
-        (nodes, has_frame): (Range<usize>, bool),
+        (nodes, axes, still): (Range<usize>, Vec<usize>, usize),
         motion: &InitialMotion,
         arm: [f64; 3],
     ) {
         self.deformation.resize(nodes.end, no_node());
         self.bodies.push(Moving {
             nodes,
-            has_frame,
+            axes,
+            still,
             velocity: vector(motion.velocity.full()),
             arm,
             spin: motion.spin.full(),
@@ -58,11 +61,15 @@ impl<const D: usize> Motions<D> {
     ) -> Result<(), Error> {
         let read = |text: &String| Expression::of(text, "s").map_err(|e| Error::new("bodies", e));
         let field = field.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let Some(Moving { nodes, .. }) = self.bodies.last() else {
+        let Some(Moving { nodes, axes, .. }) = self.bodies.last() else {
             return Ok(());
         };
-        let twice = nodes.len() > mesh.len();
-        for (i, rate) in self.deformation[nodes.clone()].iter_mut().enumerate() {
+        let points = match axes.first() {
+            Some(_) => nodes.start..nodes.start + mesh.len(),
+            None => nodes.clone(),
+        };
+        let twice = points.len() > mesh.len();
+        for (i, rate) in self.deformation[points].iter_mut().enumerate() {
             let s = mesh[if twice { i.div_ceil(2) } else { i }];
             for (k, component) in field.iter().enumerate() {
                 let [value, slope, _] = component.derivatives(s);
@@ -84,7 +91,8 @@ impl<const D: usize> Motions<D> {
         let mut rates = self.deformation.clone();
         for Moving {
             nodes,
-            has_frame,
+            axes,
+            still,
             velocity,
             arm,
             spin,
@@ -92,15 +100,16 @@ impl<const D: usize> Motions<D> {
         {
             let [first, along] = x[nodes.start];
             let mut origin: [f64; D] = std::array::from_fn(|k| first[k] + arm[0] * along[k]);
-            if *has_frame {
+            if arm[1..] != [0.0; 2] {
                 let [second, third] = x[nodes.start + 1];
                 for k in 0..D {
                     origin[k] += arm[1] * second[k] + arm[2] * third[k];
                 }
             }
-            let of_body = rates[nodes.clone()].iter_mut().zip(&x[nodes.clone()]);
-            for (index, (rate, x)) in of_body.enumerate() {
-                if *has_frame && index == 1 {
+            let moved = nodes.start..*still;
+            let of_body = rates[moved.clone()].iter_mut().zip(&x[moved.clone()]);
+            for (node, (rate, x)) in moved.zip(of_body) {
+                if axes.contains(&node) {
                     *rate = x.map(|axis| spun(*spin, axis.into()).into());
                     continue;
                 }

@@ -160,6 +160,7 @@ impl Resolved<'_> {
             chains: Vec::new(),
             lumped_masses: Vec::new(),
             frames: Vec::new(),
+            rod_chains: Vec::new(),
             rods: Vec::new(),
             rigid: Vec::new(),
             joints: Vec::new(),

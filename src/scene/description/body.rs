@@ -17,6 +17,9 @@ pub enum Body {
     /// Flexible, of ANCF cables: two nodes with position and slope; stretches and bends, does not
     /// shear. Where `model` says so, a rigid rod.
     Cable(CableBody),
+    /// The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
+    /// shear. In space.
+    Rod(CableBody),
     /// Rigid.
     Rigid(RigidBody),
 }
@@ -44,6 +47,10 @@ pub struct CableBody {
     /// What becomes of waves of stretching.
     #[serde(default)]
     pub axial: Axial,
+    /// Of rods: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    /// there sections are untwisted. Across the tangent, and as far along `z` as can be, where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<Vector>,
     /// Unstressed shape, and the configuration at the start.
     pub shape: Shape,
     /// Rigid motion at the start; velocity of the first end.
@@ -114,6 +121,10 @@ pub struct Material {
     /// Young's modulus, Pa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub youngs_modulus: f64,
+    /// Of rods: shear modulus, Pa.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub shear_modulus: Option<f64>,
     /// Density, kg/m^3.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density: f64,
@@ -130,9 +141,17 @@ pub struct Section {
     /// Area, m^2.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub area: f64,
-    /// Second moment of area, m^4; 0 is a cable without bending stiffness.
+    /// Of cables: second moment of area, m^4; 0 is a cable without bending stiffness.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
-    pub second_moment: f64,
+    pub second_moment: Option<f64>,
+    /// Of rods: second moments of area for bending about the first and about the second axis of the section, m^4.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_moments: Option<[f64; 2]>,
+    /// Of rods: torsion constant of the section (of Saint-Venant), m^4; of a circle its polar second moment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub torsion_constant: Option<f64>,
 }
 
 /// Strain measures by name; they agree only for small strains.
@@ -224,7 +243,7 @@ pub struct Mass {
 impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let wrong = |found: &str| {
-            let message = format!("expected \"cable\" or \"rigid\", found {found}");
+            let message = format!("expected \"cable\", \"rod\" or \"rigid\", found {found}");
             D::Error::custom(at("element", &message))
         };
         let mut value = Strict::deserialize(deserializer)?.0;
@@ -236,9 +255,31 @@ impl<'de> Deserialize<'de> for Body {
         let element = keys.remove("element").ok_or_else(|| wrong("nothing"))?;
         match element.as_str() {
             Some("cable") => typed(value).map(Self::Cable),
+            Some("rod") => typed(value).map(Self::Rod),
             Some("rigid") => typed(value).map(Self::Rigid),
             _ => Err(wrong(&element.to_string())),
         }
+    }
+}
+
+impl CableBody {
+    /// Whether its sections turn about its line.
+    pub fn is_rod(&self) -> bool {
+        self.section.torsion_constant.is_some()
+    }
+}
+
+impl Section {
+    /// Second moments of area about its axes, m^4.
+    pub fn second_moments(&self) -> [f64; 2] {
+        self.second_moments
+            .unwrap_or([self.second_moment.unwrap_or_default(); 2])
+    }
+
+    /// The larger one, m^4.
+    pub fn second_moment(&self) -> f64 {
+        let [first, second] = self.second_moments();
+        first.max(second)
     }
 }
 
@@ -264,7 +305,7 @@ impl Body {
     /// Name of the body.
     pub fn name(&self) -> &str {
         match self {
-            Self::Cable(body) => &body.name,
+            Self::Cable(body) | Self::Rod(body) => &body.name,
             Self::Rigid(body) => &body.name,
         }
     }
@@ -272,7 +313,7 @@ impl Body {
     /// Motion at the start.
     pub fn motion(&self) -> &InitialMotion {
         match self {
-            Self::Cable(body) => &body.motion,
+            Self::Cable(body) | Self::Rod(body) => &body.motion,
             Self::Rigid(body) => &body.motion,
         }
     }
@@ -280,7 +321,7 @@ impl Body {
     /// Motion at the start, to be changed.
     pub fn motion_mut(&mut self) -> &mut InitialMotion {
         match self {
-            Self::Cable(body) => &mut body.motion,
+            Self::Cable(body) | Self::Rod(body) => &mut body.motion,
             Self::Rigid(body) => &mut body.motion,
         }
     }
@@ -288,15 +329,15 @@ impl Body {
     /// Names of its markers, in alphabetical order.
     pub fn marker_names(&self) -> Vec<&str> {
         match self {
-            Self::Cable(body) => body.markers.keys().map(String::as_str).collect(),
+            Self::Cable(body) | Self::Rod(body) => body.markers.keys().map(String::as_str).collect(),
             Self::Rigid(body) => body.markers.keys().map(String::as_str).collect(),
         }
     }
 
-    /// The body if it is a cable, rigid or not.
+    /// The body if it is a cable or a rod, rigid or not.
     pub fn cable(&self) -> Option<&CableBody> {
         match self {
-            Self::Cable(body) => Some(body),
+            Self::Cable(body) | Self::Rod(body) => Some(body),
             Self::Rigid(_) => None,
         }
     }
@@ -306,10 +347,10 @@ impl Body {
         self.cable().filter(|cable| cable.model != Model::Rigid)
     }
 
-    /// The body, to be changed, if it is a cable.
+    /// The body, to be changed, if it is a cable or a rod.
     pub fn cable_mut(&mut self) -> Option<&mut CableBody> {
         match self {
-            Self::Cable(body) => Some(body),
+            Self::Cable(body) | Self::Rod(body) => Some(body),
             Self::Rigid(_) => None,
         }
     }
@@ -318,7 +359,7 @@ impl Body {
     pub fn rigid(&self) -> Option<&RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
-            Self::Cable(_) => None,
+            Self::Cable(_) | Self::Rod(_) => None,
         }
     }
 
@@ -326,7 +367,7 @@ impl Body {
     pub fn rigid_mut(&mut self) -> Option<&mut RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
-            Self::Cable(_) => None,
+            Self::Cable(_) | Self::Rod(_) => None,
         }
     }
 }

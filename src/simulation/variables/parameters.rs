@@ -65,9 +65,12 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
         ("density", "Density", Some(DENSITY), Density(i), material.density),
         ("damping_time", "Kelvin-Voigt damping time", Some(SECOND), DampingTime(i), material.damping_time),
         ("area", "Area of the cross section", Some(SQUARE_METRE), Area(i), section.area),
-        ("second_moment", "Second moment of area", Some(METRE_4), SecondMoment(i), section.second_moment),
+        ("second_moment", "Second moment of area", Some(METRE_4), SecondMoment(i), section.second_moment()),
         ("elements", "Number of elements", None, Elements(i), elements),
     ];
+    if body.is_rod() {
+        rows.retain(|(.., parameter, _)| !matches!(parameter, SecondMoment(_)));
+    }
     if cable.is_rigid() {
         // What is left without effect is none: a study of it would find nothing.
         rows.retain(|(.., parameter, _)| matches!(parameter, Density(_) | Area(_)));
@@ -205,7 +208,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         Density(id) => scene.cable_mut(id).material.density = value,
         DampingTime(id) => scene.cable_mut(id).material.damping_time = value,
         Area(id) => scene.cable_mut(id).section.area = value,
-        SecondMoment(id) => scene.cable_mut(id).section.second_moment = value,
+        SecondMoment(id) => scene.cable_mut(id).section.second_moment = Some(value),
         Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
         Mass(id) => scene.rigid_mut(id).mass = Some(value),
         SolidDensity(id) => scene.rigid_mut(id).density = Some(value),

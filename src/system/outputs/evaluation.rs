@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::body::{Frame, Marker, Node, combined};
+use crate::body::{Frame, Marker, Node, axes_at, combined, spin_at};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::rotation::{NO_TURN, Quaternion};
@@ -120,9 +120,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Principal axes of the rigid body of space that a marker belongs to, in global components; the global ones where it
     /// belongs to none.
     pub fn axes(&self, system: &System<D>, marker: &Marker) -> [[N; 3]; 3] {
-        match system.frames.of_node::<D>(marker.nodes[0]) {
-            Some((frame, _)) => frame.axes(&self.x).map(<[N; 3]>::from),
-            None => std::array::from_fn(|k| axis::<3, N>(k).into()),
+        match system.frames.has_axes(marker.nodes[0]) {
+            true => axes_at(marker.nodes[0], &self.x).map(<[N; 3]>::from),
+            false => std::array::from_fn(|k| axis::<3, N>(k).into()),
         }
     }
 
@@ -136,23 +136,25 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// Angular velocity at a marker, rad/s: in the plane, its third component, that of the direction; in space that of the rigid
     /// body.
     pub fn spin(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
-        let Some((frame, _)) = system.frames.of_node::<D>(marker.nodes[0]) else {
+        let node = marker.nodes[0];
+        if !system.frames.has_axes(node) {
             let spin = End::<D, N>::Body(marker.lift()).spin(&self.x, &self.v);
             return [N::of(0.0), N::of(0.0), spin];
-        };
-        let spin = frame.spin(&self.x, &self.v);
-        combined(&frame.axes(&self.x), &spin).into()
+        }
+        let spin = spin_at(node, &self.x, &self.v);
+        combined(&axes_at(node, &self.x), &spin).into()
     }
 
     /// Angular acceleration at a marker, rad/s^2.
     pub fn spin_rate(&self, system: &System<D>, marker: &Marker) -> [N; 3] {
         let (x, v, a) = (&self.x, &self.v, &self.acceleration);
-        let Some((frame, _)) = system.frames.of_node::<D>(marker.nodes[0]) else {
+        let node = marker.nodes[0];
+        if !system.frames.has_axes(node) {
             let rate = End::<D, N>::Body(marker.lift()).spin_rate(x, v, a);
             return [N::of(0.0), N::of(0.0), rate];
-        };
+        }
         // Half the sum of e x e'', of which w x (w x e) gives nothing.
-        let (axes, second) = (frame.axes(x), frame.axes(a));
+        let (axes, second) = (axes_at(node, x), axes_at(node, a));
         let sum = (0..3).fold(Vector3::zeros(), |sum, k| sum + axes[k].cross(&second[k]));
         (sum * N::of(0.5)).into()
     }

@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, Vector3};
 
 use super::probe::{Blocks, Nodes, Probe, SKEW};
 use crate::body::{
-    Elimination, Frames, Node, add_node, map_node, no_block, no_node, turning_block,
+    Elimination, Frames, Node, NodeBlock, add_node, map_node, no_block, no_node, turning_block,
 };
 use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number, moving};
@@ -248,12 +248,12 @@ impl<const D: usize> System<D> {
             let is_damped = chain.is_damped() && !at_rest;
             made.is_damped |= is_damped;
             for j in 0..chain.count() {
-                let [elastic, damped] = chain.element(j).tangent(&chain.at(j, &work.x), None);
-                chain.for_each_block(j, &elastic, |a, b, block| {
+                let (rod, at) = (chain.element(j), chain.at(j, &work.x));
+                chain.for_each_block(j, &rod.stiffness(&at, None), |a, b, block| {
                     put((a, b), block, &mut made.stiffness);
                 });
                 if is_damped {
-                    chain.for_each_block(j, &damped, |a, b, block| {
+                    chain.for_each_block(j, &rod.damping(&at), |a, b, block| {
                         put((a, b), block, &mut made.damping);
                     });
                 }

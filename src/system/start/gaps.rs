@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::placement::Gap;
-use crate::body::{Node, product};
+use crate::body::{Node, NodeKind, product};
 use crate::math::space::{Vector, moment, rotated, spins};
 use crate::system::joints::{Constraint, ConstraintKind, Linear, View};
 use crate::system::{System, Work};
@@ -14,7 +14,7 @@ use crate::system::{System, Work};
 impl<const D: usize> System<D> {
     /// Points of nodes, without what are axes.
     fn points<'a>(&'a self, x: &'a [Node<D>]) -> impl Iterator<Item = Vector<D>> + 'a {
-        let is_point = |node: &usize| !matches!(self.frames.of_node::<D>(*node), Some((_, true)));
+        let is_point = |node: &usize| self.frames.kind(*node) == NodeKind::Point;
         (0..x.len()).filter(is_point).map(|node| x[node][0].into())
     }
 
@@ -29,8 +29,9 @@ impl<const D: usize> System<D> {
         if self.frames.of_node::<D>(nodes.start).is_some() {
             return x[nodes.start][0].into();
         }
-        let sum: Vector<D> = x[nodes.clone()].iter().map(|p| Vector::from(p[0])).sum();
-        sum / nodes.len() as f64
+        let points = nodes.filter(|node| self.frames.kind(*node) == NodeKind::Point);
+        let points: Vec<Vector<D>> = points.map(|node| x[node][0].into()).collect();
+        points.iter().sum::<Vector<D>>() / points.len() as f64
     }
 
     /// Moves a body as a whole, turning it about a point.
@@ -43,9 +44,10 @@ impl<const D: usize> System<D> {
     ) {
         for node in nodes {
             let [p, d] = x[node].map(Vector::from);
-            let p = match self.frames.of_node::<D>(node) {
-                Some((_, true)) => rotated(p, turn),
-                _ => about + way + rotated(p - about, turn),
+            let p = match self.frames.kind(node) {
+                NodeKind::Point => about + way + rotated(p - about, turn),
+                NodeKind::Axes => rotated(p, turn),
+                NodeKind::Inner => continue,
             };
             x[node] = [p.into(), rotated(d, turn).into()];
         }
@@ -124,7 +126,7 @@ impl<const D: usize> System<D> {
     /// Whether a row is one of what joints see: not that a rigid body of space has no coordinates but its own.
     fn is_seen(&self, linear: &Linear<D>) -> bool {
         let mut nodes = linear.row.terms.iter().map(|(node, _)| *node);
-        nodes.all(|node| self.frames.of_node::<D>(node).is_none())
+        !nodes.any(|node| self.frames.holds(node))
     }
 
     /// What a row is more than it is to equal.
@@ -166,7 +168,7 @@ impl<const D: usize> System<D> {
             let body = of_node[node];
             let about = self.center(body, x);
             let ([p, d], [on, by]) = (x[node].map(Vector::from), c.map(Vector::from));
-            let is_second = matches!(self.frames.of_node::<D>(node), Some((_, true)));
+            let is_second = self.frames.kind(node) == NodeKind::Axes;
             for k in (0..D).filter(|_| !is_second) {
                 jacobian[(row, free * body + k)] += on[k] * size / scale;
             }
