@@ -4,7 +4,10 @@
 //! Vectors are stored as the columns of a `D` x 4 matrix (position and slope at both ends), so that
 //! one file serves the plane and space. Mass is a scalar 4 x 4 matrix times the identity of space.
 
+#[macro_use]
+mod line;
 pub mod cable;
+pub mod rod;
 pub mod shape;
 
 use nalgebra::{SMatrix, SVector};

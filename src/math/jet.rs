@@ -72,6 +72,20 @@ impl Real for Jet {
     fn times_plus(self, factor: Self, term: Self) -> Self {
         self * factor + term
     }
+
+    fn sine_cosine(self) -> (Self, Self) {
+        self.sin_cos()
+    }
+
+    fn angle(self, cosine: Self) -> Self {
+        // Its own arc tangent takes one of a quotient: not where the cosine is zero.
+        let value = self.re.atan2(cosine.re);
+        let square = self.re * self.re + cosine.re * cosine.re;
+        let first = (cosine.re * self.v1 - self.re * cosine.v1) / square;
+        let turned = (cosine.re * self.v2 - self.re * cosine.v2) / square;
+        let grown = (cosine.re * cosine.v1 + self.re * self.v1) / square;
+        Self::new(value, first, turned - 2.0 * first * grown)
+    }
 }
 
 /// Numbers that change at these rates.

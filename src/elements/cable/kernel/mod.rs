@@ -6,37 +6,15 @@
 //! which is why sums run over three vectors, not four.
 
 use crate::elements::Strain;
+use crate::elements::line::{Sample, Vector, combine, dot, times};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{BETWEEN_3, GAUSS_3, Point, RADAU_3, RADAU_3_LAST};
 
-type Vector<N, const D: usize> = [N; D];
 type Square<N, const D: usize> = [[N; D]; D];
 
 /// The three vectors and, where damping reads them, their rates.
 type Motion<'a, N, const D: usize> = (&'a [Vector<N, D>; 3], &'a Option<[Vector<N, D>; 3]>);
-
-/// Changes numbers one by one. No closures: they are not inlined everywhere, and then not compiled for
-/// the processor at hand.
-macro_rules! each {
-    ($out:expr, $k:ident => $of:expr) => {{
-        let mut out = $out;
-        for $k in 0..out.len() {
-            out[$k] = $of;
-        }
-        out
-    }};
-}
-
-/// Something of rates where damping reads them. No closures here either.
-macro_rules! of_rate {
-    ($rate:expr, $some:ident => $of:expr) => {
-        match $rate {
-            Some($some) => Some($of),
-            None => None,
-        }
-    };
-}
 
 /// Calls a method once for each axial point. Written out: with points known when compiling.
 macro_rules! at_axial_points {
@@ -83,10 +61,10 @@ mod tangent;
 mod vectors;
 
 pub(super) use sampling::Sampling;
-use sampling::{BENDING, BETWEEN, LOBATTO, RADAU, RADAU_LAST, Sample};
+use sampling::{BENDING, BETWEEN, LOBATTO, RADAU, RADAU_LAST};
 pub(super) use tangent::{Factors, transposed};
 pub(super) use vectors::TURNS;
-use vectors::{combine, contract, dot, inner, times, turns, wedge};
+use vectors::{contract, inner, turns, wedge};
 
 /// Curvature times length of an element below which it counts as straight. Roundoff across the plane that it is bent in
 /// is magnified by one over this where a damped cable swings through its straight shape.

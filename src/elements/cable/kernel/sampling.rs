@@ -1,34 +1,10 @@
-//! Points of a cable element at which strains are sampled, with the weights of the three vectors there.
+//! Points of a cable element at which strains are sampled.
 //!
 //! Source: J. Gerstmayr, H. Irschik, J. Sound Vib. 318 (2008), section 3 (separate rules for stretching and bending);
 //! docs/decisions/0003-quadrature.md, 0021-stable-equilibria.md.
 
-use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, Point, RADAU_3, RADAU_3_LAST};
-
-/// Weights of the three vectors in `r'` and `l r''`.
-pub(super) type Combination = [f64; 3];
-
-/// A quadrature point with the weights of the vectors there.
-#[derive(Debug, PartialEq)]
-pub(in crate::elements::cable) struct Sample {
-    pub weight: f64,
-    pub slope: Combination,
-    pub curvature: Combination,
-}
-
-const fn sample(point: Point) -> Sample {
-    let at = point.at;
-    let square = at * at;
-    Sample {
-        weight: point.weight,
-        slope: [
-            6.0 * (at - square),
-            1.0 - 4.0 * at + 3.0 * square,
-            3.0 * square - 2.0 * at,
-        ],
-        curvature: [6.0 - 12.0 * at, 6.0 * at - 4.0, 6.0 * at - 2.0],
-    }
-}
+use crate::elements::line::{Sample, sample};
+use crate::math::quadrature::{BETWEEN_3, GAUSS_3, LOBATTO_3, RADAU_3, RADAU_3_LAST};
 
 pub(super) const BETWEEN: [Sample; 3] = [
     sample(BETWEEN_3[0]),

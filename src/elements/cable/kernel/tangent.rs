@@ -3,10 +3,11 @@
 //! Source: second derivatives of the energy of `cable/mod.rs`.
 
 use super::{
-    BENDING, BETWEEN, Curvature, Kernel, LOBATTO, Line, Motion, RADAU, RADAU_LAST, Sample,
-    Sampling, Square, TURNS, Vector, combine, contract, inner, times, turns,
+    BENDING, BETWEEN, Curvature, Kernel, LOBATTO, Line, Motion, RADAU, RADAU_LAST, Sampling,
+    Square, TURNS, contract, inner, turns,
 };
 use crate::elements::EndBlocks;
+use crate::elements::line::{Sample, Vector, combine, times};
 use crate::math::lanes::Real;
 
 /// What a tangent is made of.

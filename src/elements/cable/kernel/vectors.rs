@@ -1,47 +1,9 @@
-//! Vectors and curvatures of a point of quadrature, as arrays: sums of products, and the exterior product.
+//! Curvatures of a point of quadrature, as arrays: the exterior product and what goes with it.
 //!
 //! Source: D. Hestenes, G. Sobczyk, Clifford Algebra to Geometric Calculus (1984), section 1-1 (exterior product).
 
-use super::Vector;
-use super::sampling::Combination;
+use crate::elements::line::Vector;
 use crate::math::lanes::Real;
-
-#[inline(always)]
-pub(super) fn combine<N: Real, const D: usize>(
-    weights: &Combination,
-    v: &[Vector<N, D>; 3],
-) -> Vector<N, D> {
-    // Ends of an element see one vector alone; known when compiling.
-    match weights {
-        [0.0, 1.0, 0.0] => v[1],
-        [0.0, 0.0, 1.0] => v[2],
-        _ => {
-            let [p, q, r] = weights;
-            let [p, q, r] = [
-                v[0][0].constant(*p),
-                v[0][0].constant(*q),
-                v[0][0].constant(*r),
-            ];
-            each!(v[0], i => {
-                v[2][i].times_plus(r, v[1][i].times_plus(q, v[0][i] * p))
-            })
-        }
-    }
-}
-
-#[inline(always)]
-pub(super) fn dot<N: Real, const K: usize>(a: &[N; K], b: &[N; K]) -> N {
-    let mut sum = a[0] * b[0];
-    for k in 1..K {
-        sum = a[k].times_plus(b[k], sum);
-    }
-    sum
-}
-
-#[inline(always)]
-pub(super) fn times<N: Real, const K: usize>(a: &[N; K], factor: N) -> [N; K] {
-    each!(*a, k => a[k] * factor)
-}
 
 /// Components of a curvature: all of them in space, the first alone in the plane.
 pub(in crate::elements::cable) const TURNS: usize = 3;

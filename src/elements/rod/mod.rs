@@ -1,0 +1,431 @@
+//! A rod in space: bending about two axes of the section and torsion, of one element. Stretching, mass and weight are those of the
+//! cable element without bending stiffness on the same line.
+//!
+//! Source: M. Bergou, M. Wardetzky, S. Robinson, B. Audoly, E. Grinspun, Discrete elastic rods, ACM Trans. Graph. 27 (2008)
+//! (parallel transport and its variation); C. Meier, A. Popp, W. A. Wall, Geometrically exact finite element formulations for
+//! slender beams, Arch. Comput. Methods Eng. 26 (2019), doi 10.1007/s11831-017-9232-5 (shear-free rods on Hermite lines, frames
+//! by the smallest rotation); J. Gerstmayr, H. Irschik, J. Sound Vib. 318 (2008) (curvature by reference length).
+//!
+//! At both ends there are position `r`, slope `u = dr/ds`, and a unit vector `d` of the section across `u`; `t = u / |u|`. The
+//! line is cubic; at a point of it `u = r'` and `w = r''`. The smallest rotation that takes the unit vector `a` to `b` takes what
+//! is across `a` by
+//!
+//! ```text
+//! carry(a, b, v) = v - (b . v) / (1 + a . b) (a + b)
+//! spin about b = spin about a - h(a, b) . (da + db),   h(a, b) = a x b / (1 + a . b)                        (1)
+//! ```
+//!
+//! With `z` the unit tangent at the middle, `D = carry(t, z, d)` of both ends, and the twist `Phi` the angle from the first to
+//! the last about `z`, the section at `xi` in [0, 1] is turned by `phi = Phi xi + 4 xi (1 - xi) beta`, with `beta` the internal
+//! twist of the element: `d1 = carry(z, t, cos(phi) D_A + sin(phi) z x D_A)`, `d2 = t x d1`. Strains are
+//!
+//! ```text
+//! kappa = u x w / (u . u),   K1 = kappa . d1,   K2 = kappa . d2
+//! twist = Phi / l + 4 (1 - 2 xi) beta / l - (z . kappa) / (1 + z . t)                                       (2)
+//! ```
+//!
+//! and the energy `1/2 l sum w (s - s0)^T C (s - s0)` over three Gauss points, with the strains `s0` of the unstressed shape. It
+//! is the same seen from both ends (`beta` changes its sign) and from all frames, and of order 4 in the length.
+//!
+//! Velocities are those of `e`, the angular velocity about the tangent at both ends, and the rate of `beta`; `d` follows by
+//! `d' = spin t x d - (d . u') u / (u . u)`. Forces are the factors of these in the power.
+
+mod dual;
+mod kernel;
+#[cfg(test)]
+mod tests;
+mod vectors;
+
+use crate::elements::line::{dot, sample, times};
+use crate::math::lanes::{Lanes, PACK, Real, Simd};
+use crate::math::quadrature::{GAUSS_3, Point};
+use dual::Dual;
+use kernel::{Kernel, POINTS};
+use vectors::{cross, plus, unit};
+
+/// Velocities of an element: `r`, `u`, spin of the first end, the same of the last, internal twist.
+pub const VELOCITIES: usize = 15;
+
+/// A matrix over the velocities of an element in the order `r_A, u_A, spin_A, r_B, u_B, spin_B, beta`.
+pub type Matrix<N = f64> = [[N; VELOCITIES]; VELOCITIES];
+
+/// Parameters of a rod's bending and torsion. Components of strain are in the order twist, bending about `d`, bending about
+/// `t x d`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Reference length, m.
+    pub length: f64,
+    /// Symmetric positive matrix of torque and moments by twist and curvatures, N m^2.
+    pub stiffness: [[f64; 3]; 3],
+    /// Kelvin-Voigt damping times `T` of the components, s: stress is `C (s - s0) + T^1/2 C T^1/2 s'`.
+    pub damping_times: [f64; 3],
+}
+
+/// Where an element is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At<N> {
+    /// Position (m) and slope at the first end, position and slope at the last.
+    pub e: [[N; 3]; 4],
+    /// Unit vector of the section across the slope at both ends.
+    pub d: [[N; 3]; 2],
+    /// Internal twist, rad.
+    pub bubble: N,
+}
+
+/// Velocities of an element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates<N> {
+    /// Rates of positions (m/s) and slopes (1/s).
+    pub e: [[N; 3]; 4],
+    /// Angular velocity about the tangent at both ends, rad/s.
+    pub spin: [N; 2],
+    /// Rate of the internal twist, rad/s.
+    pub bubble: N,
+}
+
+/// Forces on an element: their power is the sum of products with [`Rates`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Force<N> {
+    /// On positions (N) and slopes (N m).
+    pub e: [[N; 3]; 4],
+    /// Torque about the tangent at both ends, N m.
+    pub torque: [N; 2],
+    /// On the internal twist, N m.
+    pub bubble: N,
+}
+
+/// Bending and torsion of an element of a rod.
+#[derive(Clone, Debug)]
+pub struct Rod {
+    parameters: Parameters,
+    kernel: Kernel<f64>,
+}
+
+/// Up to [`PACK`] rods.
+#[derive(Clone, Debug)]
+pub struct Pack {
+    kernel: Kernel<[f64; PACK]>,
+    count: usize,
+}
+
+/// Strain times length, by the size of numbers that it comes from, below which an unstressed shape counts as straight or
+/// untwisted.
+const ROUNDOFF: f64 = 1e-14;
+
+impl Rod {
+    /// A rod whose unstressed shape is this one; its internal twist does not count. Strains that are roundoff are none.
+    pub fn new(parameters: Parameters, shape: &At<f64>) -> Self {
+        let (l, times) = (parameters.length, parameters.damping_times);
+        let mut kernel = Kernel {
+            length: l,
+            inverse_length: 1.0 / l,
+            stiffness: parameters.stiffness,
+            damping: parameters.stiffness,
+            offset: [[0.0; 3]; 3],
+            held: [[0.0; 3]; 3],
+            is_round: false,
+            is_damped: times.iter().any(|time| *time > 0.0),
+        };
+        for i in 0..3 {
+            for j in 0..3 {
+                kernel.damping[i][j] *= (times[i] * times[j]).sqrt();
+            }
+        }
+        let shape = At {
+            bubble: 0.0,
+            ..*shape
+        };
+        let components = shape.e.as_flattened();
+        let far = components.iter().fold(l, |far, x| far.max(x.abs()));
+        for (index, point) in POINTS.iter().enumerate() {
+            for (k, strain) in kernel.strains(&shape, point).into_iter().enumerate() {
+                if strain.abs() * l * l > ROUNDOFF * far {
+                    kernel.offset[index][k] = -strain;
+                }
+            }
+        }
+        kernel.is_round = is_round(&kernel);
+        Self { parameters, kernel }
+    }
+
+    /// Parameters.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// Whether the element dissipates.
+    pub fn is_damped(&self) -> bool {
+        self.kernel.is_damped
+    }
+
+    /// Strain energy, J.
+    pub fn energy<N: Real>(&self, at: &At<N>) -> N {
+        self.kernel.lift(at.bubble).energy(at)
+    }
+
+    /// Elastic force and, with rates, that of damping; and the power that damping takes out, W.
+    pub fn force<N: Real>(&self, at: &At<N>, rates: Option<&Rates<N>>) -> (Force<N>, N) {
+        self.kernel.lift(at.bubble).force(at, rates)
+    }
+
+    /// Strains at `xi` in [0, 1], those of the unstressed shape included, 1/m.
+    pub fn strains<N: Real>(&self, at: &At<N>, xi: f64) -> [N; 3] {
+        let point = sample(Point {
+            at: xi,
+            weight: 0.0,
+        });
+        self.material().lift(at.bubble).strains(at, &point)
+    }
+
+    /// Strains of the unstressed shape at `xi` in [0, 1]: the parabola through those at the Gauss points, 1/m.
+    pub fn natural_strains(&self, xi: f64) -> [f64; 3] {
+        let (x, mut strains) = (2.0 * xi - 1.0, [0.0; 3]);
+        for (offset, point) in self.kernel.offset.iter().zip(&GAUSS_3) {
+            let y = 2.0 * point.at - 1.0;
+            let second = 5.0 * (1.5 * x * x - 0.5) * (1.5 * y * y - 0.5);
+            let weight = point.weight * (1.0 + 3.0 * x * y + second);
+            for (strain, offset) in strains.iter_mut().zip(offset) {
+                *strain -= weight * offset;
+            }
+        }
+        strains
+    }
+
+    /// Torque and bending moments about `d1` and `d2` of the section at `xi` in [0, 1], without what damping adds, N m.
+    pub fn moments<N: Real>(&self, at: &At<N>, xi: f64) -> [N; 3] {
+        let mut strains = self.strains(at, xi);
+        for (strain, natural) in strains.iter_mut().zip(self.natural_strains(xi)) {
+            *strain = *strain - strain.constant(natural);
+        }
+        let row = |row: [f64; 3]| dot(&row.map(|value| at.bubble.constant(value)), &strains);
+        self.kernel.stiffness.map(row)
+    }
+
+    /// The largest of the angles between the tangents at the ends and that at the middle, and of the size of the twist, rad.
+    /// Frames hold while it is less than a right angle (tangents) and half a turn (twist); a mesh with more than 1 is coarse.
+    pub fn largest_angle(&self, at: &At<f64>) -> f64 {
+        self.kernel.largest_angle(at)
+    }
+
+    /// Tangent stiffness, the derivative of minus the force along velocities, symmetric: the second derivatives of the energy
+    /// where `d` is turned about the tangent after the smallest rotation with it. With rates its symmetric part
+    /// that matters: the stresses that damping adds are taken as given.
+    pub fn stiffness(&self, at: &At<f64>, rates: Option<&Rates<f64>>) -> Matrix {
+        let mut kernel = self.kernel.clone();
+        if let Some(rates) = rates {
+            kernel.held = kernel.damping_stresses(at, rates);
+        }
+        let mut matrix = [[0.0; VELOCITIES]; VELOCITIES];
+        for start in (0..VELOCITIES).step_by(TOGETHER) {
+            let ways: [_; TOGETHER] = std::array::from_fn(|k| unit_velocity(start + k));
+            let moved = moving(at, &ways);
+            let force = kernel.lift(moved.bubble).force(&moved, None).0;
+            put(&force, start, &mut matrix);
+        }
+        for i in 0..VELOCITIES {
+            for j in 0..i {
+                let mean = 0.5 * (matrix[i][j] + matrix[j][i]);
+                (matrix[i][j], matrix[j][i]) = (mean, mean);
+            }
+        }
+        matrix
+    }
+
+    /// Damping matrix, the derivative of minus the force by velocities, symmetric.
+    pub fn damping(&self, at: &At<f64>) -> Matrix {
+        let mut matrix = [[0.0; VELOCITIES]; VELOCITIES];
+        for start in (0..VELOCITIES).step_by(TOGETHER) {
+            let ways: [_; TOGETHER] = std::array::from_fn(|k| unit_velocity(start + k));
+            let fixed = Dual::<f64, TOGETHER>::fixed;
+            let at = At {
+                e: at.e.map(|v| v.map(fixed)),
+                d: at.d.map(|v| v.map(fixed)),
+                bubble: fixed(at.bubble),
+            };
+            let slope = |of: &dyn Fn(&Rates<f64>) -> f64| Dual {
+                value: 0.0,
+                slopes: ways.each_ref().map(of),
+            };
+            let rates = Rates {
+                e: std::array::from_fn(|k| std::array::from_fn(|i| slope(&|way| way.e[k][i]))),
+                spin: std::array::from_fn(|k| slope(&|way| way.spin[k])),
+                bubble: slope(&|way| way.bubble),
+            };
+            let force = self.kernel.lift(at.bubble).force(&at, Some(&rates)).0;
+            put(&force, start, &mut matrix);
+        }
+        matrix
+    }
+
+    /// The formulas with sections as they are turned: round ones do not notice.
+    fn material(&self) -> Kernel<f64> {
+        Kernel {
+            is_round: false,
+            ..self.kernel.clone()
+        }
+    }
+
+    /// Whether this element and another can be in one pack.
+    pub fn goes_with(&self, other: &Self) -> bool {
+        let kind = |k: &Kernel<f64>| (k.is_round, k.is_damped);
+        kind(&self.kernel) == kind(&other.kernel)
+    }
+
+    /// Up to [`PACK`] elements, for [`Self::pack_force`]; entries beyond the number of elements do not count.
+    pub fn pack(elements: &[Self]) -> Pack {
+        let last = elements.len() - 1;
+        let lanes = |of: &dyn Fn(&Kernel<f64>) -> f64| -> [f64; PACK] {
+            std::array::from_fn(|lane| of(&elements[lane.min(last)].kernel))
+        };
+        let square = |of: &dyn Fn(&Kernel<f64>) -> [[f64; 3]; 3]| {
+            std::array::from_fn(|i| std::array::from_fn(|j| lanes(&|kernel| of(kernel)[i][j])))
+        };
+        let first = &elements[0].kernel;
+        let kernel = Kernel {
+            length: lanes(&|k| k.length),
+            inverse_length: lanes(&|k| k.inverse_length),
+            stiffness: square(&|k| k.stiffness),
+            damping: square(&|k| k.damping),
+            offset: square(&|k| k.offset),
+            held: square(&|k| k.held),
+            is_round: first.is_round,
+            is_damped: first.is_damped,
+        };
+        Pack {
+            kernel,
+            count: elements.len(),
+        }
+    }
+
+    /// [`Self::force`] of a pack, with rates where it is damped, and the power that damping takes out of all its elements, W.
+    #[inline(always)]
+    pub fn pack_force<S: Simd>(
+        simd: S,
+        pack: &Pack,
+        (at, rates): (&At<&[f64; PACK]>, Option<&Rates<&[f64; PACK]>>),
+        out: &mut Force<[f64; PACK]>,
+    ) -> f64 {
+        let mut powers = [0.0; PACK];
+        for group in 0..pack.count.div_ceil(S::F64_LANES) {
+            let kernel = pack.kernel.group(simd, group);
+            let at = At {
+                e: read(simd, &at.e, group),
+                d: read(simd, &at.d, group),
+                bubble: Lanes::read(simd, at.bubble, group),
+            };
+            let (force, power) = match rates {
+                Some(rates) => {
+                    let spin = [
+                        Lanes::read(simd, rates.spin[0], group),
+                        Lanes::read(simd, rates.spin[1], group),
+                    ];
+                    let rates = Rates {
+                        e: read(simd, &rates.e, group),
+                        spin,
+                        bubble: Lanes::read(simd, rates.bubble, group),
+                    };
+                    kernel.force(&at, Some(&rates))
+                }
+                None => kernel.force(&at, None),
+            };
+            for k in 0..4 {
+                for d in 0..3 {
+                    force.e[k][d].write(&mut out.e[k][d], group);
+                }
+            }
+            for k in 0..2 {
+                force.torque[k].write(&mut out.torque[k], group);
+            }
+            force.bubble.write(&mut out.bubble, group);
+            if rates.is_some() {
+                power.write(&mut powers, group);
+            }
+        }
+        powers[..pack.count].iter().sum()
+    }
+}
+
+#[inline(always)]
+fn read<S: Simd, const K: usize>(
+    simd: S,
+    pack: &[[&[f64; PACK]; 3]; K],
+    group: usize,
+) -> [[Lanes<S>; 3]; K] {
+    let mut vectors = [[Lanes::read(simd, pack[0][0], group); 3]; K];
+    for k in 0..K {
+        for d in 0..3 {
+            vectors[k][d] = Lanes::read(simd, pack[k][d], group);
+        }
+    }
+    vectors
+}
+
+/// Whether the stresses do not notice a turn of the sections about the tangent.
+fn is_round(kernel: &Kernel<f64>) -> bool {
+    let straight = kernel.offset.iter().all(|offset| offset[1..] == [0.0; 2]);
+    let turns = |m: &[[f64; 3]; 3]| {
+        let coupled = [m[0][1], m[0][2], m[1][2]];
+        coupled == [0.0; 3] && m[1][1] == m[2][2]
+    };
+    straight && turns(&kernel.stiffness) && turns(&kernel.damping)
+}
+
+/// Directions of one sweep of forward differentiation.
+const TOGETHER: usize = 5;
+
+/// One of the velocities of an element.
+fn unit_velocity(index: usize) -> Rates<f64> {
+    let one = |at: usize| f64::from(u8::from(at == index));
+    Rates {
+        e: std::array::from_fn(|k| std::array::from_fn(|i| one(7 * (k / 2) + 3 * (k % 2) + i))),
+        spin: [one(6), one(13)],
+        bubble: one(14),
+    }
+}
+
+/// An element that moves with several velocities.
+fn moving<const K: usize>(at: &At<f64>, ways: &[Rates<f64>; K]) -> At<Dual<f64, K>> {
+    let dual = |value: f64, of: &dyn Fn(&Rates<f64>) -> f64| Dual {
+        value,
+        slopes: ways.each_ref().map(of),
+    };
+    At {
+        e: std::array::from_fn(|k| std::array::from_fn(|i| dual(at.e[k][i], &|way| way.e[k][i]))),
+        d: std::array::from_fn(|k| {
+            std::array::from_fn(|i| dual(at.d[k][i], &|way| at.section_rate(way, k)[i]))
+        }),
+        bubble: dual(at.bubble, &|way| way.bubble),
+    }
+}
+
+impl<N: Real> At<N> {
+    /// Rate of `d` of an end, 1/s.
+    #[inline(always)]
+    pub fn section_rate(&self, rates: &Rates<N>, end: usize) -> [N; 3] {
+        let (u, d) = (&self.e[2 * end + 1], &self.d[end]);
+        let (t, inverse) = unit(u);
+        let back = dot(d, &rates.e[2 * end + 1]) * inverse;
+        plus(&t, -back, &times(&cross(&t, d), rates.spin[end]))
+    }
+}
+
+/// Puts minus the derivatives of a force into the columns of a matrix.
+fn put<const K: usize>(force: &Force<Dual<f64, K>>, start: usize, matrix: &mut Matrix) {
+    for (row, force) in force.flat().iter().enumerate() {
+        for (k, slope) in force.slopes.iter().enumerate() {
+            matrix[row][start + k] = -slope;
+        }
+    }
+}
+
+impl<N: Copy> Force<N> {
+    /// In the order of [`Matrix`].
+    pub fn flat(&self) -> [N; VELOCITIES] {
+        let [ra, ua, rb, ub] = self.e;
+        let ([p, q], b) = (self.torque, self.bubble);
+        [
+            ra[0], ra[1], ra[2], ua[0], ua[1], ua[2], p, rb[0], rb[1], rb[2], ub[0], ub[1], ub[2],
+            q, b,
+        ]
+    }
+}
