@@ -5,7 +5,9 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use flexbody::body::no_node;
+use flexbody::elements::rod;
 use flexbody::math::eigen;
+use flexbody::math::lanes::{self, PACK};
 use flexbody::scene::{Scene, assemble};
 use flexbody::system::{Dynamics, Model, State, System, Work};
 use nalgebra::Complex;
@@ -171,12 +173,80 @@ fn eigenvalues(criterion: &mut Criterion) {
     }
 }
 
+/// Packs of rods that are bent and twisted.
+struct Rods {
+    pack: rod::Pack,
+    packs: usize,
+    at: rod::At<[f64; PACK]>,
+    force: rod::Force<[f64; PACK]>,
+}
+
+impl Rods {
+    fn new(stiffness: [[f64; 3]; 3], packs: usize) -> Self {
+        let parameters = rod::Parameters {
+            length: 0.1,
+            stiffness,
+            damping_times: [0.0; 3],
+        };
+        let straight = rod::At {
+            e: [[0.0; 3], [1.0, 0.0, 0.0], [0.1, 0.0, 0.0], [1.0, 0.0, 0.0]],
+            d: [[0.0, 1.0, 0.0]; 2],
+            bubble: 0.0,
+        };
+        let mut bent = straight;
+        (bent.e[1], bent.d[0]) = ([0.8, 0.0, 0.6], [0.6, 0.0, -0.8]);
+        Self {
+            pack: rod::Rod::pack(&vec![rod::Rod::new(parameters, &straight); PACK]),
+            packs,
+            at: rod::At {
+                e: bent.e.map(|v| v.map(|x| [x; PACK])),
+                d: bent.d.map(|v| v.map(|x| [x; PACK])),
+                bubble: [0.1; PACK],
+            },
+            force: rod::Force {
+                e: [[[0.0; PACK]; 3]; 4],
+                torque: [[0.0; PACK]; 2],
+                bubble: [0.0; PACK],
+            },
+        }
+    }
+}
+
+impl lanes::Work for &mut Rods {
+    #[inline(always)]
+    fn run<S: lanes::Simd>(self, simd: S) {
+        for _ in 0..self.packs {
+            let at = black_box(&self.at);
+            let at = rod::At {
+                e: at.e.each_ref().map(|v| v.each_ref()),
+                d: at.d.each_ref().map(|v| v.each_ref()),
+                bubble: &at.bubble,
+            };
+            rod::Rod::pack_force(simd, &self.pack, (&at, None), black_box(&mut self.force));
+        }
+    }
+}
+
+fn rods(criterion: &mut Criterion) {
+    let packs = 100;
+    let mut group = criterion.benchmark_group(format!("rods, {} elements", packs * PACK));
+    group.throughput(Throughput::Elements((packs * PACK) as u64));
+    for (name, second) in [("round", 1.0), ("general", 2.0)] {
+        let stiffness = [[0.8, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, second]];
+        let mut rods = Rods::new(stiffness, packs);
+        group.bench_function(format!("force, {name}"), |b| {
+            b.iter(|| lanes::vectorized(&mut rods));
+        });
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(20)
         .warm_up_time(std::time::Duration::from_millis(200))
         .measurement_time(std::time::Duration::from_millis(800));
-    targets = kernels, eigenvalues
+    targets = kernels, rods, eigenvalues
 }
 criterion_main!(benches);

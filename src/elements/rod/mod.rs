@@ -33,6 +33,8 @@
 mod dual;
 mod kernel;
 #[cfg(test)]
+mod statics;
+#[cfg(test)]
 mod tests;
 mod vectors;
 
