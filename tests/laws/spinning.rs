@@ -4,7 +4,8 @@
 use flexbody::system::{Evaluation, System, linearized};
 use nalgebra::{DMatrix, DVector, Matrix3};
 
-use crate::laws::linkage::{Chance, Mechanism, V};
+use crate::laws::chance::Chance;
+use crate::laws::linkage::{Mechanism, V};
 
 /// Displacements and rotations of all bodies, in global components, of vectors of `q` (columns).
 fn twists(mechanism: &Mechanism, system: &System<3>, columns: &DMatrix<f64>) -> DMatrix<f64> {
