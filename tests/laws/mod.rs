@@ -6,6 +6,7 @@ mod balance;
 mod bodies;
 mod built;
 mod chain;
+mod chance;
 mod closed;
 mod dense;
 mod differences;
