@@ -84,7 +84,7 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 67] = [
+const INPUTS: [(&str, &str); 87] = [
     ("inputs.force[1]", "N"),
     ("inputs.force[2]", "N"),
     ("inputs.follower_force[1]", "N"),
