@@ -11,6 +11,7 @@ mod closed;
 mod dense;
 mod differences;
 mod driven;
+mod driven_orientation;
 mod elements;
 mod frames;
 mod least;
