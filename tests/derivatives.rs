@@ -26,6 +26,7 @@ fn scenes() -> Vec<PathBuf> {
         "src/scene/example.json",
         "tests/cases/coupled_mass/driven.json",
         "tests/cases/coupled_mass/scene.json",
+        "tests/cases/driven_orientation/scene.json",
         "tests/cases/falling_rod/scene.json",
         "tests/fmpy/mechanism.json",
         "tests/fmpy/swing.json",

@@ -199,6 +199,8 @@ fn in_space() -> impl Iterator<Item = String> {
         include_str!("../scenes/robot_6_axis.json"),
         include_str!("../scenes/stewart_platform.json"),
         include_str!("../scenes/crane_3d.json"),
+        include_str!("cases/driven_orientation/scene.json"),
+        include_str!("cases/driven_orientation/port.json"),
     ];
     ready.into_iter().flat_map(|text| {
         ["radau", "rk4", "dopri853", "auto"].map(|integrator| {

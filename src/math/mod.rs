@@ -11,6 +11,7 @@ mod interval;
 pub mod jet;
 pub mod krylov;
 pub mod lanes;
+pub mod least;
 pub mod quadrature;
 pub mod radau;
 pub mod recent;

@@ -46,6 +46,45 @@ pub fn normalized(q: Quaternion) -> Quaternion {
     q.map(|part| part / size)
 }
 
+/// The rotation by a vector: the angle, rad, along the axis.
+pub fn turn_by(vector: &Vector3<f64>) -> Quaternion {
+    let (sin, cos) = (0.5 * vector.norm()).sin_cos();
+    let [x, y, z] = match vector.norm() {
+        0.0 => [0.0; 3],
+        angle => (vector * (sin / angle)).into(),
+    };
+    [cos, x, y, z]
+}
+
+/// A quaternion of any length and its first two derivatives become those of one of unit length.
+pub fn unit_with_rates<N: Number>([q, rate, second]: [Quaternion<N>; 3]) -> [Quaternion<N>; 3] {
+    let along = |a: &Quaternion<N>, b: &Quaternion<N>| {
+        let terms = a.iter().zip(b);
+        terms.fold(N::of(0.0), |sum, (a, b)| sum + *a * *b)
+    };
+    // The inverse length `s`, from `s^2 q.q = 1`.
+    let s = N::of(1.0) / along(&q, &q).sqrt();
+    let (cube, slope) = (s * s * s, along(&q, &rate));
+    let bend = along(&rate, &rate) + along(&q, &second);
+    let first = -cube * slope;
+    let last = cube * (N::of(3.0) * s * s * slope * slope - bend);
+    let two = N::of(2.0);
+    [
+        q.map(|part| s * part),
+        std::array::from_fn(|k| first * q[k] + s * rate[k]),
+        std::array::from_fn(|k| last * q[k] + two * first * rate[k] + s * second[k]),
+    ]
+}
+
+/// The vector part of `a e b*` for the axis `e` of this number: what a unit quaternion `a = b` takes the axis to; symmetric in
+/// both, so that derivatives follow by the product rule.
+pub fn carried<N: Number>([a, b]: [&Quaternion<N>; 2], axis: usize) -> Vector3<N> {
+    let mut unit = [N::of(0.0); 4];
+    unit[1 + axis] = N::of(1.0);
+    let [_, x, y, z] = product(&product(a, &unit), &inverse(*b));
+    Vector3::new(x, y, z)
+}
+
 /// What a rotation takes the three axes to: the columns of its matrix. Its quaternion may have any length.
 pub fn axes<N: Number>(q: &Quaternion<N>) -> [Vector3<N>; 3] {
     let [w, x, y, z] = *q;

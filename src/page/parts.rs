@@ -207,6 +207,7 @@ fn driven(motion: &Motion<'_>) -> &'static str {
         MotionKind::Angle(Turning::Marker(_), _) => "the direction of",
         MotionKind::Angle(Turning::Pivot(_), _) => "the angle of",
         MotionKind::Position(..) => "the position of",
+        MotionKind::Orientation(..) => "the orientation of",
         MotionKind::Displacement(..) => "the way along",
     }
 }
@@ -214,6 +215,7 @@ fn driven(motion: &Motion<'_>) -> &'static str {
 fn course(motion: &Motion<'_>) -> String {
     let derivatives = motion.kind.drives().iter().find_map(|drive| match drive {
         Drive::Input { derivatives, .. } => Some(*derivatives),
+        Drive::Turned { attitude, .. } => Some(attitude.derivatives),
         Drive::Function(_) => None,
     });
     match derivatives {

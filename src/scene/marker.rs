@@ -436,7 +436,7 @@ impl<'a> MotionKind<'a> {
     pub fn of(&self) -> &'a str {
         match self {
             Self::Angle(turning, _) => turning.name(),
-            Self::Position(marker, _) => marker.name,
+            Self::Position(marker, _) | Self::Orientation(marker, _) => marker.name,
             Self::Displacement(slider, _) => slider.name,
         }
     }
@@ -445,7 +445,7 @@ impl<'a> MotionKind<'a> {
     pub fn marker(&self) -> Marker<'a> {
         match self {
             Self::Angle(turning, _) => turning.marker(),
-            Self::Position(marker, _) => *marker,
+            Self::Position(marker, _) | Self::Orientation(marker, _) => *marker,
             Self::Displacement(slider, _) => slider.ends.second,
         }
     }
@@ -454,11 +454,11 @@ impl<'a> MotionKind<'a> {
     pub fn drives(&self) -> &[Drive] {
         match self {
             Self::Angle(_, drive) | Self::Displacement(_, drive) => std::slice::from_ref(drive),
-            Self::Position(_, drives) => drives,
+            Self::Position(_, drives) | Self::Orientation(_, drives) => drives,
         }
     }
 
-    /// Where what is driven is as described, one number a coordinate, m or rad.
+    /// Where what is driven is as described, one number a coordinate: m, rad, or parts of a quaternion.
     pub fn start(&self) -> Vec<f64> {
         match self {
             Self::Angle(Turning::Marker(marker), _) => {
@@ -469,6 +469,7 @@ impl<'a> MotionKind<'a> {
             Self::Angle(Turning::Pivot(pivot), _) if pivot.axis.is_some() => vec![0.0],
             Self::Angle(Turning::Pivot(pivot), _) => vec![pivot.ends.angle()],
             Self::Position(marker, drives) => marker.position[..drives.len()].to_vec(),
+            Self::Orientation(marker, _) => marker.place.quaternion().to_vec(),
             Self::Displacement(slider, _) => vec![slider.start()],
         }
     }

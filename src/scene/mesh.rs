@@ -61,7 +61,7 @@ impl<'a> Resolved<'a> {
         found.extend(self.ports.iter().map(|port| port.marker));
         found.extend(self.joints.iter().flat_map(|joint| joint.ends.markers()));
         found.extend(self.motions.iter().filter_map(|motion| match motion.kind {
-            MotionKind::Position(marker, _) => Some(marker),
+            MotionKind::Position(marker, _) | MotionKind::Orientation(marker, _) => Some(marker),
             MotionKind::Angle(Turning::Marker(marker), _) => Some(marker),
             // The joint has its nodes.
             MotionKind::Angle(Turning::Pivot(_), _) | MotionKind::Displacement(..) => None,

@@ -270,6 +270,8 @@ pub enum MotionKind<'a> {
     Angle(Turning<'a>, Drive),
     /// The position of a marker, m.
     Position(Marker<'a>, Vec<Drive>),
+    /// How the frame of a rigid body stands in space: the four parts of a quaternion, scalar first.
+    Orientation(Marker<'a>, Vec<Drive>),
     /// The way along a line, m.
     Displacement(Slider<'a>, Drive),
 }
@@ -367,7 +369,7 @@ pub enum PortKind<'a> {
     Motion {
         /// The position.
         position: Box<Motion<'a>>,
-        /// The angle, if it turns.
+        /// The angle, in space the orientation, if it turns.
         angle: Option<Box<Motion<'a>>>,
     },
     /// A motion in, through a spring and a damper; their force out.
@@ -446,7 +448,8 @@ pub struct Resolved<'a> {
     /// Number of couplings.
     pub couplings: usize,
     /// How many numbers the master sets: those of inputs, then those of motions, then those of ports. The
-    /// value of a driven coordinate and as many derivatives as are inputs follow each other.
+    /// value of a driven coordinate and as many derivatives as are inputs follow each other; of an orientation the quaternion,
+    /// then the angular velocity, then the angular acceleration.
     pub numbers: usize,
     pub(super) bodies_by_name: BTreeMap<&'a str, BodyReference<'a>>,
     pub(super) markers_by_name: BTreeMap<(&'a str, &'a str), MarkerId>,

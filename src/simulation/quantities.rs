@@ -68,8 +68,8 @@ pub enum Quantity {
     GearTorque(HolderId),
     /// Component of the force on what drives a marker: opposite to the reaction.
     MotionForce(HolderId, usize),
-    /// Moment on what turns a marker.
-    MotionMoment(HolderId),
+    /// Component of the moment on what turns a marker; in the plane the third.
+    MotionMoment(HolderId, usize),
     /// Component of the force of a coupling on what it couples to.
     CouplingForce(CouplingId, usize),
     /// Component of the moment of a coupling on what it couples to; in the plane the third.
@@ -157,7 +157,7 @@ pub(super) fn value<const D: usize, N: Number>(
         }
         GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
-        MotionMoment(joint) => -values.reaction(system, joint.index()).1[2],
+        MotionMoment(joint, axis) => -values.reaction(system, joint.index()).1[axis],
         CouplingForce(id, axis) => values.coupling(system, assembled.coupling(id)).0[axis],
         CouplingMoment(id, axis) => values.coupling(system, assembled.coupling(id)).1[axis],
         KineticEnergy => values.kinetic_energy(system),
@@ -305,7 +305,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) | GearForce(_) => {
             (Dynamics, |by| Some(by.force))
         }
-        BendingMoment(..) | ReactionMoment(..) | MotionMoment(_) | GearTorque(_) => {
+        BendingMoment(..) | ReactionMoment(..) | MotionMoment(..) | GearTorque(_) => {
             (Dynamics, |by| Some(by.force * by.size))
         }
         CouplingForce(..) => (Kinematics, |by| Some(by.force)),

@@ -303,7 +303,12 @@ impl<const D: usize> System<D> {
             _ => None,
         });
         let travel: Vec<f64> = slides.collect();
-        let drives = vec![[0.0; 3]; self.drives.len()];
+        let mut drives = vec![[0.0; 3]; self.drives.len()];
+        for constraint in &nonlinear {
+            if let ConstraintKind::DrivenOrientation(driven) = &constraint.kind {
+                driven.stand(&x, &mut drives);
+            }
+        }
         let angles = vec![0.0; self.angles.len()];
         let view = View {
             x: &x,

@@ -1,6 +1,7 @@
 //! Floor 3. A system: bodies, joints, motions and loads, constant after assembly; its state, plain
 //! numbers; and scratch. `System` computes with `State` and `Work` and keeps nothing of its own.
 
+mod attitude;
 mod build;
 mod coordinate;
 mod direction;
@@ -18,6 +19,7 @@ mod start;
 mod state;
 mod work;
 
+pub use attitude::Attitude;
 pub use build::{BuildError, LumpedMass, Parts};
 pub use coordinate::{Coordinate, Way};
 pub use direction::{AxisTurn, Direction};
@@ -30,7 +32,7 @@ pub use motion::multipliers::ConstraintRow;
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
 pub use rod::Rod;
-pub use signal::{Drive, Signal, Trajectory, moved};
+pub use signal::{Drive, Given, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;
 pub use spectra::spectrum::{
     Eigenvalue, SpectrumError, eigenvalues, linearized, natural_frequencies,
@@ -258,10 +260,11 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Inputs of every motion that inputs drive: its value and derivatives.
-    fn trajectories(&self) -> impl Iterator<Item = Range<usize>> {
+    /// What inputs say of every coordinate that they drive.
+    fn trajectories(&self) -> impl Iterator<Item = Given> {
         self.drives.iter().filter_map(|drive| match drive {
-            Drive::Input { first, derivatives } => Some(*first..first + derivatives + 1),
+            Drive::Input { first, derivatives } => Some(Given::Coordinate(*first, 1 + derivatives)),
+            Drive::Turned { attitude, part } => Some(Given::Part(*attitude, *part)),
             Drive::Function(_) => None,
         })
     }

@@ -1,8 +1,10 @@
 //! Numbers that change in time: functions of time, and inputs that the master sets.
 
+use super::attitude::Attitude;
 use super::instant::Instant;
 use crate::math::function::Function;
 use crate::math::jet::Number;
+use crate::math::rotation::Quaternion;
 
 /// The size of a load.
 #[derive(Clone, Debug)]
@@ -56,6 +58,124 @@ pub enum Drive {
         /// Derivatives that are inputs too: 0, 1 or 2.
         derivatives: usize,
     },
+    /// One of the four parts, which stand side by side, of the quaternion of an orientation that inputs give.
+    Turned {
+        /// The inputs.
+        attitude: Attitude,
+        /// Which part, scalar first.
+        part: usize,
+    },
+}
+
+/// What inputs say of a driven coordinate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Given {
+    /// Its value, then derivatives: index of the first, and how many numbers there are.
+    Coordinate(usize, usize),
+    /// An orientation, of whose quaternion it is this part.
+    Part(Attitude, usize),
+}
+
+impl Given {
+    /// Whether its second derivative is an input.
+    pub fn has_acceleration(self) -> bool {
+        match self {
+            Self::Coordinate(_, count) => count == 3,
+            Self::Part(attitude, _) => attitude.derivatives == 2,
+        }
+    }
+
+    /// Value, first and second derivative where inputs say that it starts.
+    pub fn start(self, inputs: &[f64]) -> [f64; 3] {
+        match self {
+            Self::Coordinate(first, count) => {
+                std::array::from_fn(|k| if k < count { inputs[first + k] } else { 0.0 })
+            }
+            Self::Part(attitude, part) => attitude.start(inputs).map(|order| order[part]),
+        }
+    }
+
+    /// The second derivative that inputs give, at once; that of the coordinate where they give none. `known` is all that
+    /// inputs drive, of which it has this place.
+    pub fn second<const N: usize>(self, place: usize, known: &[[f64; N]], inputs: &[f64]) -> f64 {
+        match self {
+            Self::Coordinate(first, 3) => inputs[first + 2],
+            Self::Coordinate(..) => known[place][2],
+            Self::Part(attitude, part) => {
+                attitude.second(quaternion(place - part, known), |i| inputs[i])[part]
+            }
+        }
+    }
+
+    /// How that changes along a direction of the inputs.
+    pub fn second_along<const N: usize>(
+        self,
+        place: usize,
+        known: &[[f64; N]],
+        direction: &[f64],
+    ) -> f64 {
+        match self {
+            Self::Coordinate(first, 3) => direction[first + 2],
+            Self::Coordinate(..) => 0.0,
+            Self::Part(attitude, part) => {
+                let [q, ..] = quaternion(place - part, known);
+                attitude.second_along(&q, direction)[part]
+            }
+        }
+    }
+
+    /// Third and fourth derivative where inputs have these derivatives; nothing where they do not give the second.
+    pub fn higher<const N: usize>(
+        self,
+        (place, known): (usize, &[[f64; N]]),
+        inputs: &[f64],
+        slope: impl Fn(usize) -> [f64; 2],
+    ) -> Option<[f64; 2]> {
+        match self {
+            Self::Coordinate(first, 3) => Some(slope(first + 2)),
+            Self::Coordinate(..) => None,
+            Self::Part(attitude, part) => {
+                let now = quaternion(place - part, known);
+                let higher = attitude.higher(now, inputs, slope);
+                higher.map(|orders| orders.map(|order| order[part]))
+            }
+        }
+    }
+
+    /// Its course from a time on, through a step of length `h`: from where it is, with the second derivative that inputs give at
+    /// once, to where they say, each told with two derivatives.
+    pub fn course<const N: usize>(
+        self,
+        (time, h): (f64, f64),
+        (place, known): (usize, &[[f64; N]]),
+        input: impl Fn(usize) -> [f64; 3],
+    ) -> Trajectory {
+        let mut from = std::array::from_fn(|k| known[place][k]);
+        match self {
+            Self::Coordinate(first, count) => {
+                let mut inputs = [[0.0; 3]; 3];
+                for (k, told) in inputs[..count].iter_mut().enumerate() {
+                    *told = input(first + k);
+                }
+                if count == 3 {
+                    from[2] = inputs[2][0];
+                }
+                Trajectory::new(time, h, from, &inputs[..count])
+            }
+            Self::Part(attitude, part) => {
+                let now = quaternion(place - part, known);
+                from[2] = attitude.second(now, |i| input(i)[0])[part];
+                let end = attitude.destination(h, &now[0], input);
+                let ends = [from, end.map(|order| order[part])];
+                Trajectory::between((time, h), ends, self.has_acceleration())
+            }
+        }
+    }
+}
+
+/// The quaternion whose parts stand from a place on, with two derivatives.
+fn quaternion<const N: usize>(first: usize, known: &[[f64; N]]) -> [Quaternion; 3] {
+    std::array::from_fn(|order| std::array::from_fn(|part| known[first + part][order]))
 }
 
 /// The smooth way of a prescribed coordinate through one communication step: a polynomial.
@@ -81,10 +201,16 @@ impl Trajectory {
 
     /// From value and derivatives at `time` to where `inputs` (value, first, second derivative as far as
     /// given, each with its own rate and that one's rate) will be at `time + h`.
-    pub fn new(time: f64, h: f64, [p, v, a]: [f64; 3], inputs: &[[f64; 3]]) -> Self {
-        let [target, rate, second] = destination(h, p, inputs);
+    pub fn new(time: f64, h: f64, from: [f64; 3], inputs: &[[f64; 3]]) -> Self {
+        let end = destination(h, from[0], inputs);
+        Self::between((time, h), [from, end], inputs.len() == 3)
+    }
+
+    /// From value and derivatives at a time to those after `h`, the second derivatives met if `is_smooth`.
+    pub fn between((time, h): (f64, f64), ends: [[f64; 3]; 2], is_smooth: bool) -> Self {
+        let [[p, v, a], [target, rate, second]] = ends;
         let mut c = [p, v, 0.0, 0.0, 0.0, 0.0];
-        if inputs.len() < 3 {
+        if !is_smooth {
             // Hermite cubic.
             let way = (target - p) / h;
             c[2] = (3.0 * way - 2.0 * v - rate) / h;

@@ -46,7 +46,7 @@ named! { label, LABELS, Quantity:
     ReactionMoment(_, 0, Along::Global) => "reaction moment x", ReactionMoment(_, 1, Along::Global) => "reaction moment y", ReactionMoment(_, _, Along::Global) => "reaction moment",
     ReactionMoment(_, 0, Along::Body) => "reaction moment x along the body", ReactionMoment(_, 1, Along::Body) => "reaction moment y along the body", ReactionMoment(_, _, Along::Body) => "reaction moment along the body",
     MotionForce(_, 0) => "motion force x", MotionForce(_, 1) => "motion force y", MotionForce(..) => "motion force z",
-    MotionMoment(_) => "motion moment",
+    MotionMoment(..) => "motion moment",
     CouplingForce(_, 0) => "coupling force x", CouplingForce(_, 1) => "coupling force y", CouplingForce(..) => "coupling force z",
     CouplingMoment(_, 0) => "coupling moment x", CouplingMoment(_, 1) => "coupling moment y", CouplingMoment(..) => "coupling moment",
     KineticEnergy => "kinetic energy", StrainEnergy => "strain energy", GravityEnergy => "gravity energy",

@@ -84,7 +84,7 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 67] = [
+const INPUTS: [(&str, &str); 87] = [
     ("inputs.force[1]", "N"),
     ("inputs.force[2]", "N"),
     ("inputs.follower_force[1]", "N"),
@@ -139,6 +139,26 @@ const INPUTS: [(&str, &str); 67] = [
     ("ports.angle", "rad"),
     ("ports.angular_velocity", "rad/s"),
     ("ports.angular_acceleration", "rad/s2"),
+    ("motions.quaternion[1]", ""),
+    ("motions.quaternion[2]", ""),
+    ("motions.quaternion[3]", ""),
+    ("motions.quaternion[4]", ""),
+    ("motions.angular_velocity[1]", "rad/s"),
+    ("motions.angular_velocity[2]", "rad/s"),
+    ("motions.angular_velocity[3]", "rad/s"),
+    ("motions.angular_acceleration[1]", "rad/s2"),
+    ("motions.angular_acceleration[2]", "rad/s2"),
+    ("motions.angular_acceleration[3]", "rad/s2"),
+    ("ports.quaternion[1]", ""),
+    ("ports.quaternion[2]", ""),
+    ("ports.quaternion[3]", ""),
+    ("ports.quaternion[4]", ""),
+    ("ports.angular_velocity[1]", "rad/s"),
+    ("ports.angular_velocity[2]", "rad/s"),
+    ("ports.angular_velocity[3]", "rad/s"),
+    ("ports.angular_acceleration[1]", "rad/s2"),
+    ("ports.angular_acceleration[2]", "rad/s2"),
+    ("ports.angular_acceleration[3]", "rad/s2"),
     // Through a spring and a damper.
     ("couplings.position[1]", "m"),
     ("couplings.position[2]", "m"),

@@ -77,7 +77,7 @@ impl Frame {
         let drives: Vec<[f64; 3]> = (drives.iter())
             .map(|drive| match drive {
                 Drive::Function(function) => function.derivatives(t),
-                Drive::Input { .. } => [0.0; 3],
+                Drive::Input { .. } | Drive::Turned { .. } => [0.0; 3],
             })
             .collect();
         let travel = match &constraint.kind {

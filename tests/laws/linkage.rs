@@ -6,31 +6,11 @@ use flexbody::system::joints::{Across, Joint, Perpendicular, Primitive};
 use flexbody::system::{Direction, End, Parts, State, System, Work};
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
+use crate::laws::chance::Chance;
 use crate::laws::least::least;
 use crate::laws::sprung::Sprung;
 
 pub type V = Vector3<f64>;
-
-/// Numbers in (-1, 1), the same in every run.
-pub struct Chance(pub u64);
-
-impl Chance {
-    pub fn number(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub fn vector(&mut self) -> V {
-        V::from_fn(|_, _| self.number())
-    }
-
-    pub fn below(&mut self, count: usize) -> usize {
-        ((0.5 + 0.5 * self.number()) * count as f64) as usize % count
-    }
-}
 
 #[derive(Clone)]
 pub struct Body {

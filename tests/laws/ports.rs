@@ -9,12 +9,13 @@ use flexbody::scene::Scene;
 use flexbody::simulation::Simulation;
 use flexbody::system::loads::{Couple, Force, Load, OrientationBushing};
 use flexbody::system::{
-    Derivatives, Direction, End, Evaluation, Model, Parts, Signal, System, Work,
+    Derivatives, Direction, End, Evaluation, Model, Parts, Signal, State, System, Work,
 };
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3};
 
-use crate::laws::least::least;
-use crate::laws::linkage::{Chance, Mechanism, V};
+use crate::laws::chance::Chance;
+use crate::laws::least::{is_near_singular, least};
+use crate::laws::linkage::{Mechanism, V};
 use crate::laws::rigid::stiffness_is_the_derivative;
 
 /// Where a force and a moment come in: a body and a point of it.
@@ -107,61 +108,78 @@ fn mobility(mechanism: &Mechanism, places: &[Place]) -> (DMatrix<f64>, f64) {
 
 #[test]
 fn motions_follow_forces_and_moments_by_the_mobility() {
-    let mut chance = Chance(23);
-    let mut free = 0;
-    for run in 0..150 {
-        let mechanism = Mechanism::random(&mut chance);
-        let count = mechanism.bodies.len();
-        let places = [0; 2].map(|_| (chance.below(count), chance.vector()));
-        let system = System::new(ported(mechanism.parts(), &places)).expect("a system");
-        let (state, mut work) = mechanism.state_of(&system);
-        let inputs: Vec<f64> = (0..12).map(|_| 5.0 * chance.number()).collect();
-        let mut plain = Evaluation::new(&system);
-        let mut at = |inputs: &[f64], work: &mut Work<3>| {
-            plain.kinematics(&system, &state, work);
-            plain.dynamics(&system, &state, inputs, work);
-            (read(&plain, &system, &places), plain.clone())
-        };
-        let (before, _) = at(&inputs, &mut work);
-        let (wanted, size) = mobility(&mechanism, &places);
-        let mut columns = Vec::new();
-        for k in 0..12 {
-            // Motions are linear in what acts: a difference has no error but rounding.
-            let mut more = inputs.clone();
-            more[k] += 1.0;
-            let (after, _) = at(&more, &mut work);
-            let (_, values) = at(&inputs, &mut work);
-            let mut direction = vec![0.0; 12];
-            direction[k] = 1.0;
-            let mut made = Derivatives::new(&system);
-            made.by_inputs(&system, &values, &direction, &mut work);
-            let column = places.iter().flat_map(|place| {
-                let at = marker(*place, axis(0));
-                let a: [_; 3] = at.lift().position(&made.values.acceleration).into();
-                let turning = made.values.spin_rate(&system, &at);
-                a.into_iter().chain(turning).map(|number| number.v1)
-            });
-            let column = DVector::from_vec(column.collect());
-            let miss = (&after - &before - &column).amax();
-            let size = size + before.amax();
-            assert!(miss < 1e-11 * size, "{run}: {miss:e} of {size:e}");
-            columns.push(column);
+    let (mut all, mut compared, mut free) = (0, 0, 0);
+    for mut chance in Chance::several(23) {
+        for run in 0..150 {
+            let mechanism = Mechanism::random(&mut chance);
+            let count = mechanism.bodies.len();
+            let places = [0; 2].map(|_| (chance.below(count), chance.vector()));
+            let system = System::new(ported(mechanism.parts(), &places)).expect("a system");
+            let (state, mut work) = mechanism.state_of(&system);
+            let inputs: Vec<f64> = (0..12).map(|_| 5.0 * chance.number()).collect();
+            all += 1;
+            if is_near_singular(&system, &state, &mut work) {
+                continue;
+            }
+            compared += 1;
+            free += usize::from(mechanism.joints.is_empty());
+            let moving = (&system, &state, &mut work);
+            mobility_fits(run, (&mechanism, &places), moving, &inputs);
         }
-        let found = DMatrix::from_columns(&columns);
-        let skew = (&found - found.transpose()).amax();
-        assert!(skew < 1e-11 * size, "{run}: {skew:e}");
-        let least = found.clone().symmetric_eigenvalues().min();
-        assert!(least > -1e-11 * size, "{run}: {least:e}");
-        let miss = (&found - &wanted).amax() / size;
-        // Joints are differentiated numerically; a free body has none.
-        let within = match mechanism.joints.is_empty() {
-            true => 1e-12,
-            false => 1e-6,
-        };
-        free += usize::from(mechanism.joints.is_empty());
-        assert!(miss < within, "{run}: {miss:e}");
     }
-    assert!(free >= 5, "{free}");
+    assert!(compared * 20 > all * 19, "{compared} of {all}");
+    assert!(free * 50 > all, "{free} free ones of {all}");
+}
+
+fn mobility_fits(
+    run: usize,
+    (mechanism, places): (&Mechanism, &[Place]),
+    (system, state, work): (&System<3>, &State, &mut Work<3>),
+    inputs: &[f64],
+) {
+    let mut plain = Evaluation::new(system);
+    let mut at = |inputs: &[f64], work: &mut Work<3>| {
+        plain.kinematics(system, state, work);
+        plain.dynamics(system, state, inputs, work);
+        (read(&plain, system, places), plain.clone())
+    };
+    let (before, _) = at(inputs, work);
+    let (wanted, size) = mobility(mechanism, places);
+    let mut columns = Vec::new();
+    for k in 0..12 {
+        // Motions are linear in what acts: a difference has no error but rounding.
+        let mut more = inputs.to_vec();
+        more[k] += 1.0;
+        let (after, _) = at(&more, work);
+        let (_, values) = at(inputs, work);
+        let mut direction = vec![0.0; 12];
+        direction[k] = 1.0;
+        let mut made = Derivatives::new(system);
+        made.by_inputs(system, &values, &direction, work);
+        let column = places.iter().flat_map(|place| {
+            let at = marker(*place, axis(0));
+            let a: [_; 3] = at.lift().position(&made.values.acceleration).into();
+            let turning = made.values.spin_rate(system, &at);
+            a.into_iter().chain(turning).map(|number| number.v1)
+        });
+        let column = DVector::from_vec(column.collect());
+        let miss = (&after - &before - &column).amax();
+        let size = size + before.amax();
+        assert!(miss < 1e-11 * size, "{run}: {miss:e} of {size:e}");
+        columns.push(column);
+    }
+    let found = DMatrix::from_columns(&columns);
+    let skew = (&found - found.transpose()).amax();
+    assert!(skew < 1e-11 * size, "{run}: {skew:e}");
+    let least = found.clone().symmetric_eigenvalues().min();
+    assert!(least > -1e-11 * size, "{run}: {least:e}");
+    let miss = (&found - &wanted).amax() / size;
+    // Joints are differentiated numerically; a free body has none.
+    let within = match mechanism.joints.is_empty() {
+        true => 1e-12,
+        false => 1e-6,
+    };
+    assert!(miss < within, "{run}: {miss:e}");
 }
 
 fn held(value: f64) -> Signal {

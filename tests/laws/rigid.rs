@@ -10,68 +10,85 @@ use flexbody::system::{
 };
 use nalgebra::{DMatrix, DVector};
 
-use crate::laws::linkage::{Chance, Held, Kind, Mechanism, V};
+use crate::laws::chance::Chance;
+use crate::laws::least::is_near_singular;
+use crate::laws::linkage::{Held, Kind, Mechanism, V};
 use crate::laws::sprung::Sprung;
 
 #[test]
 fn accelerations_are_those_of_newton_and_euler() {
-    let mut chance = Chance(1);
-    for run in 0..1200 {
-        let mut mechanism = Mechanism::random(&mut chance);
-        if run % 2 == 0 {
-            mechanism.spring(&mut chance, run % 4 == 0);
+    let (mut all, mut compared) = (0, 0);
+    for mut chance in Chance::several(1) {
+        for run in 0..1200 {
+            let mut mechanism = Mechanism::random(&mut chance);
+            if run % 2 == 0 {
+                mechanism.spring(&mut chance, run % 4 == 0);
+            }
+            let (system, state, mut work) = mechanism.started();
+            all += 1;
+            if !is_near_singular(&system, &state, &mut work) {
+                compared += 1;
+                accelerations_fit(run, &mechanism, (&system, &state, &mut work));
+            }
         }
-        let (system, state, mut work) = mechanism.started();
-        let mut evaluation = Evaluation::new(&system);
-        evaluation.kinematics(&system, &state, &mut work);
-        evaluation.dynamics(&system, &state, &[], &mut work);
-        let wanted = mechanism.accelerations();
-        let size = wanted.amax() + mechanism.twists().amax() + mechanism.gravity.norm();
-        let stored = mechanism.sprung_forces().1;
-        let miss = (evaluation.spring_energy(&system) - stored).abs();
-        assert!(
-            miss < 1e-10 * (1.0 + stored),
-            "{run}: {miss:e} of {stored} J"
+    }
+    assert!(compared * 20 > all * 19, "{compared} of {all}");
+}
+
+fn accelerations_fit(
+    run: usize,
+    mechanism: &Mechanism,
+    (system, state, work): (&System<3>, &State, &mut Work<3>),
+) {
+    let mut evaluation = Evaluation::new(system);
+    evaluation.kinematics(system, state, work);
+    evaluation.dynamics(system, state, &[], work);
+    let wanted = mechanism.accelerations();
+    let size = wanted.amax() + mechanism.twists().amax() + mechanism.gravity.norm();
+    let stored = mechanism.sprung_forces().1;
+    let miss = (evaluation.spring_energy(system) - stored).abs();
+    assert!(
+        miss < 1e-10 * (1.0 + stored),
+        "{run}: {miss:e} of {stored} J"
+    );
+    for (i, body) in mechanism.bodies.iter().enumerate() {
+        let part = |k: usize| V::from_fn(|j, _| wanted[6 * i + k + j]);
+        let node = |of: &[Node<3>]| {
+            [
+                of[2 * i][0],
+                of[2 * i][1],
+                of[2 * i + 1][0],
+                of[2 * i + 1][1],
+            ]
+            .map(V::from)
+        };
+        let (x, v, a) = (
+            node(&evaluation.x),
+            node(&evaluation.v),
+            node(&evaluation.acceleration),
         );
-        for (i, body) in mechanism.bodies.iter().enumerate() {
-            let part = |k: usize| V::from_fn(|j, _| wanted[6 * i + k + j]);
-            let node = |of: &[Node<3>]| {
-                [
-                    of[2 * i][0],
-                    of[2 * i][1],
-                    of[2 * i + 1][0],
-                    of[2 * i + 1][1],
-                ]
-                .map(V::from)
-            };
-            let (x, v, a) = (
-                node(&evaluation.x),
-                node(&evaluation.v),
-                node(&evaluation.acceleration),
-            );
-            let names = mechanism.joints.iter().map(|joint| joint.kind);
-            let names: Vec<Kind> = names.collect();
-            let off = [(x[0] - body.center).norm(), (v[0] - body.velocity).norm()];
-            assert!(
-                off[0] < 1e-9 && off[1] < 1e-7,
-                "{run} {names:?} {:?}: {off:?}",
-                mechanism.gears
-            );
-            let miss = (a[0] - part(0)).norm();
+        let names = mechanism.joints.iter().map(|joint| joint.kind);
+        let names: Vec<Kind> = names.collect();
+        let off = [(x[0] - body.center).norm(), (v[0] - body.velocity).norm()];
+        assert!(
+            off[0] < 1e-9 && off[1] < 1e-7,
+            "{run} {names:?} {:?}: {off:?}",
+            mechanism.gears
+        );
+        let miss = (a[0] - part(0)).norm();
+        assert!(
+            miss < 1e-6 * size,
+            "{run} {names:?} {:?}: {miss:e} of {size:e}",
+            mechanism.sprung
+        );
+        for k in 1..4 {
+            let w = body.spin;
+            let turned = part(3).cross(&x[k]) + w.cross(&w.cross(&x[k]));
+            let miss = (a[k] - turned).norm();
             assert!(
                 miss < 1e-6 * size,
-                "{run} {names:?} {:?}: {miss:e} of {size:e}",
-                mechanism.sprung
+                "{run} {names:?} axis {k}: {miss:e} of {size:e}"
             );
-            for k in 1..4 {
-                let w = body.spin;
-                let turned = part(3).cross(&x[k]) + w.cross(&w.cross(&x[k]));
-                let miss = (a[k] - turned).norm();
-                assert!(
-                    miss < 1e-6 * size,
-                    "{run} {names:?} axis {k}: {miss:e} of {size:e}"
-                );
-            }
         }
     }
 }
@@ -79,50 +96,65 @@ fn accelerations_are_those_of_newton_and_euler() {
 #[test]
 fn trees_are_eliminated_as_multipliers_would() {
     // Accelerations with multipliers are those of Newton and Euler, above; without them they must be the same.
-    let mut chance = Chance(23);
-    let mut trees = 0;
-    for run in 0..600 {
-        let mechanism = Mechanism::random(&mut chance);
-        let (system, mut state, mut work) = mechanism.started();
-        let n = system.coordinates();
-        let mut model = Model::new(&system, &[], &mut work, &state);
-        model.renew_beyond(&mut state, 0.0);
-        let (mut with, mut without) = (vec![0.0; n], vec![0.0; n]);
-        let at = (&state.coordinates, &state.rates);
-        model.acceleration(0.0, at.0, at.1, &mut without);
-        let mut other = DVector::from_fn(n, |_, _| chance.number());
-        let kept = other.clone();
-        model.take_out_normal(other.as_mut_slice());
-        model.accelerate(0.0, at.0, at.1, &mut with);
-        let mut along = kept.clone();
-        model.take_out_normal(along.as_mut_slice());
-        let (with, without) = (DVector::from_vec(with), DVector::from_vec(without));
-        let miss = (&with - without).amax() / (1.0 + with.amax());
-        assert!(miss < 1e-11, "{run}: {miss:e}");
-        let miss = (along - other).amax();
-        assert!(miss < 1e-11, "{run}: {miss:e} in the tangent plane");
-
-        // Rates that are off are brought back along the shortest way: across all that joints allow.
-        state
-            .rates
-            .iter_mut()
-            .zip(&kept)
-            .for_each(|(v, off)| *v += off);
-        let off = state.rates.clone();
-        assert!(model.project(&mut state), "{run}");
-        let mut change = DVector::from_fn(n, |k, _| state.rates[k] - off[k]);
-        model.accelerate(0.0, &state.coordinates, &state.rates, &mut vec![0.0; n]);
-        model.take_out_normal(change.as_mut_slice());
-        assert!(change.amax() < 1e-11, "{run}: {:e} along", change.amax());
-        let mut left = 0.0_f64;
-        let (q, v) = (&state.coordinates, &state.rates);
-        system.visit_constraints(0.0, q, Some(v), &mut work, |row| {
-            left = left.max(row.rate().abs());
-        });
-        assert!(left < 1e-12, "{run}: {left:e} left");
-        trees += u32::from(system.is_open_tree());
+    let (mut all, mut compared, mut trees) = (0, 0, 0);
+    for mut chance in Chance::several(23) {
+        for run in 0..600 {
+            let mechanism = Mechanism::random(&mut chance);
+            let (system, state, mut work) = mechanism.started();
+            all += 1;
+            if is_near_singular(&system, &state, &mut work) {
+                continue;
+            }
+            compared += 1;
+            trees += u32::from(system.is_open_tree());
+            elimination_fits(run, (&system, state, &mut work), &mut chance);
+        }
     }
-    assert!(trees > 60, "{trees} trees");
+    assert!(compared * 20 > all * 19, "{compared} of {all}");
+    assert!(trees * 10 > all, "{trees} trees of {all}");
+}
+
+fn elimination_fits(
+    run: usize,
+    (system, mut state, work): (&System<3>, State, &mut Work<3>),
+    chance: &mut Chance,
+) {
+    let n = system.coordinates();
+    let mut model = Model::new(system, &[], work, &state);
+    model.renew_beyond(&mut state, 0.0);
+    let (mut with, mut without) = (vec![0.0; n], vec![0.0; n]);
+    let at = (&state.coordinates, &state.rates);
+    model.acceleration(0.0, at.0, at.1, &mut without);
+    let mut other = DVector::from_fn(n, |_, _| chance.number());
+    let kept = other.clone();
+    model.take_out_normal(other.as_mut_slice());
+    model.accelerate(0.0, at.0, at.1, &mut with);
+    let mut along = kept.clone();
+    model.take_out_normal(along.as_mut_slice());
+    let (with, without) = (DVector::from_vec(with), DVector::from_vec(without));
+    let miss = (&with - without).amax() / (1.0 + with.amax());
+    assert!(miss < 1e-11, "{run}: {miss:e}");
+    let miss = (along - other).amax();
+    assert!(miss < 1e-11, "{run}: {miss:e} in the tangent plane");
+
+    // Rates that are off are brought back along the shortest way: across all that joints allow.
+    state
+        .rates
+        .iter_mut()
+        .zip(&kept)
+        .for_each(|(v, off)| *v += off);
+    let off = state.rates.clone();
+    assert!(model.project(&mut state), "{run}");
+    let mut change = DVector::from_fn(n, |k, _| state.rates[k] - off[k]);
+    model.accelerate(0.0, &state.coordinates, &state.rates, &mut vec![0.0; n]);
+    model.take_out_normal(change.as_mut_slice());
+    assert!(change.amax() < 1e-11, "{run}: {:e} along", change.amax());
+    let mut left = 0.0_f64;
+    let (q, v) = (&state.coordinates, &state.rates);
+    system.visit_constraints(0.0, q, Some(v), work, |row| {
+        left = left.max(row.rate().abs());
+    });
+    assert!(left < 1e-12, "{run}: {left:e} left");
 }
 
 /// Energy, momentum and angular momentum of a state.

@@ -2,9 +2,10 @@
 //! is seen from a frame that turns.
 
 use flexbody::system::{Evaluation, System, linearized};
-use nalgebra::{DMatrix, DVector, Matrix3};
+use nalgebra::{DMatrix, DVector, Matrix3, Rotation3};
 
-use crate::laws::linkage::{Chance, Mechanism, V};
+use crate::laws::chance::Chance;
+use crate::laws::linkage::{Body, Held, Kind, Mechanism, V};
 
 /// Displacements and rotations of all bodies, in global components, of vectors of `q` (columns).
 fn twists(mechanism: &Mechanism, system: &System<3>, columns: &DMatrix<f64>) -> DMatrix<f64> {
@@ -186,5 +187,44 @@ fn a_turning_frame_changes_what_is_seen_alone() {
                 "{compared} axis of {i}: {miss:e} of {size:e}"
             );
         }
+    }
+}
+
+/// A body on two ball joints, wherever they are, turns about the line through them. How fast, joints leave free.
+#[test]
+fn a_steady_turn_about_any_line_that_joints_leave_free_is_found() {
+    let mut chance = Chance(37);
+    for run in 0..200 {
+        let center = chance.vector();
+        let axes = Rotation3::new(chance.vector() * 3.0).into_inner();
+        let points = [0; 2].map(|_| chance.vector());
+        let spin = (points[1] - points[0]).normalize() * 1.5;
+        let held = points.map(|point| Held {
+            kind: Kind::Spherical,
+            bodies: [None, Some(0)],
+            points: [point, axes.transpose() * (point - center)],
+            axes: [Matrix3::identity(); 2],
+            length: 0.0,
+        });
+        let mechanism = Mechanism {
+            bodies: vec![Body {
+                mass: 1.0,
+                moments: V::new(0.3, 0.4, 0.5),
+                center,
+                axes,
+                velocity: spin.cross(&(center - points[0])),
+                spin,
+            }],
+            joints: held.into(),
+            gravity: V::zeros(),
+            sprung: Vec::new(),
+            gears: Vec::new(),
+        };
+        let (system, state, mut work) = mechanism.started();
+        let rates = mechanism.nodes(|body| (body.velocity, spin.cross_matrix() * body.axes));
+        let steady = system.steady(&state, &rates, &mut work);
+        let found = V::from(steady.expect("a steady motion").rate);
+        let miss = (found - spin).norm();
+        assert!(miss < 1e-9, "{run}: {found} for {spin}");
     }
 }

@@ -8,7 +8,8 @@ use flexbody::system::loads::{JointSpring, Load, SixBushing, Stop};
 use flexbody::system::{Angle, AxisTurn, Coordinate, Direction, Drive, End, Parts, Way};
 use nalgebra::{DVector, Matrix3, Rotation3};
 
-use crate::laws::linkage::{Body, Chance, DRIVE, Held, Kind, Mechanism, Of, THREAD, V};
+use crate::laws::chance::Chance;
+use crate::laws::linkage::{Body, DRIVE, Held, Kind, Mechanism, Of, THREAD, V};
 
 /// What acts beside gravity.
 #[derive(Clone, Debug)]

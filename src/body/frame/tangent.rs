@@ -20,6 +20,12 @@ fn entries<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
     (0..2).flat_map(|part| (0..D).map(move |axis| (part, axis)))
 }
 
+/// `to += factor * from`.
+fn add_scaled<const D: usize>(factor: f64, from: &Node<D>, to: &mut Node<D>) {
+    let pairs = to.as_flattened_mut().iter_mut().zip(from.as_flattened());
+    pairs.for_each(|(to, from)| *to += factor * from);
+}
+
 /// `A^T K B`.
 fn transformed<const D: usize>(
     block: &NodeBlock<D>,
@@ -27,16 +33,15 @@ fn transformed<const D: usize>(
     by_b: &NodeBlock<D>,
 ) -> NodeBlock<D> {
     let mut pulled = no_block();
-    for (i, k) in entries::<D>() {
-        for (j, l) in entries::<D>() {
-            let mut sum = 0.0;
-            for (p, r) in entries::<D>() {
-                let inner: f64 = entries::<D>()
-                    .map(|(q, s)| block[p][r][q][s] * by_b[q][s][j][l])
-                    .sum();
-                sum += by_a[p][r][i][k] * inner;
-            }
-            pulled[i][k][j][l] = sum;
+    for (p, r) in entries::<D>() {
+        // A row of the block times the derivatives of the second node; most of both are zero.
+        let mut row = [[0.0; D]; 2];
+        let row_of_block = entries::<D>().map(|(q, s)| (block[p][r][q][s], &by_b[q][s]));
+        for (value, partial) in row_of_block.filter(|(value, _)| *value != 0.0) {
+            add_scaled(value, partial, &mut row);
+        }
+        for (i, k) in entries::<D>().filter(|(i, k)| by_a[p][r][*i][*k] != 0.0) {
+            add_scaled(by_a[p][r][i][k], &row, &mut pulled[i][k]);
         }
     }
     pulled

@@ -179,7 +179,7 @@ impl Picture<'_> {
             let at = self.at(motion.kind.marker().position);
             let unit = self.unit;
             match &motion.kind {
-                MotionKind::Angle(..) => {
+                MotionKind::Angle(..) | MotionKind::Orientation(..) => {
                     symbols::turn(&mut self.canvas, at, unit, symbols::MOTION);
                 }
                 MotionKind::Position(..) => self.ways(at),

@@ -61,7 +61,7 @@ impl Resolved<'_> {
             match &motion.kind {
                 MotionKind::Position(marker, _) => hold(*marker),
                 MotionKind::Displacement(slider, _) => ends_of(slider.ends, &mut hold),
-                MotionKind::Angle(..) => {}
+                MotionKind::Angle(..) | MotionKind::Orientation(..) => {}
             }
         }
         held

@@ -32,6 +32,13 @@ impl<const D: usize> Builder<'_, D> {
                 let drives = std::array::from_fn(|k| self.drive(&drives[k]));
                 self.hold(Primitive::DrivenPosition(drives), self.on_marker(*marker));
             }
+            MotionKind::Orientation(marker, drives) => {
+                let axes = self.frame_axes(*marker);
+                let axes = std::array::from_fn(|k| axes[k]);
+                let drives = std::array::from_fn(|k| self.drive(&drives[k]));
+                let driven = Primitive::DrivenOrientation(axes, drives);
+                self.hold(driven, self.on_marker(*marker));
+            }
             MotionKind::Displacement(slider, drive) => {
                 let (ends, drive) = (self.ends(slider.ends), self.drive(drive));
                 let driven = match slider.ends.is_grounded() {

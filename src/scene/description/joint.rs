@@ -258,13 +258,13 @@ pub struct Motion {
     pub name: String,
     /// What is driven.
     pub kind: MotionKind,
-    /// `position`, `angle`: the driven `body.marker`.
+    /// `position`, `angle`, `orientation`: the driven `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
     /// `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider or of another joint along a line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
-    /// Its course in time: m or rad.
+    /// Its course in time: m or rad; of `orientation` the four parts of a quaternion.
     pub value: MotionValue,
 }
 
@@ -277,6 +277,9 @@ pub enum MotionKind {
     Angle,
     /// Position of a marker, m.
     Position,
+    /// In space how a rigid body stands: the quaternion, scalar first, of the frame of a marker's body in global axes, of any
+    /// length and either sign. As an input with rates: the angular velocity and the angular acceleration, in global axes.
+    Orientation,
     /// Way along the line of a slider, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
     /// that line belongs to a cable.
     Displacement,
@@ -287,7 +290,7 @@ impl Kind for MotionKind {
 
     fn keys(&self) -> &'static [Keys] {
         match self {
-            Self::Position => &[(&["marker"], &[])],
+            Self::Position | Self::Orientation => &[(&["marker"], &[])],
             Self::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
             Self::Displacement => &[(&["joint"], &[])],
         }

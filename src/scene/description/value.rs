@@ -66,8 +66,8 @@ pub enum LoadValue {
 pub enum MotionValue {
     /// An angle or a displacement.
     One(Value),
-    /// The components of a position.
-    Vector(#[schemars(length(min = 2, max = 3))] Vec<Value>),
+    /// The components of a position, or the parts of a quaternion.
+    Vector(#[schemars(length(min = 2, max = 4))] Vec<Value>),
     /// Set by the master.
     Input(MasterInput),
 }

@@ -6,7 +6,7 @@ use super::checks::{Key, components, expected, keys, needed, quoted, shape, valu
 use crate::scene::Error;
 use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue};
 use crate::scene::resolved::{self, Resolved, Turning};
-use crate::system::Drive;
+use crate::system::{Attitude, Drive};
 
 /// Most derivatives that the master sets with a motion.
 const MOST_DERIVATIVES: u8 = 2;
@@ -60,6 +60,10 @@ impl<'a> Resolved<'a> {
                 let marker = self.require_marker(&at_marker, marker()?)?;
                 Kind::Position(marker, self.vector_of_drives(&at_value, &motion.value)?)
             }
+            (MotionKind::Orientation, _) => {
+                let marker = self.require_driven(&at_marker, marker()?)?;
+                Kind::Orientation(marker, self.quaternion_of_drives(&at_value, &motion.value)?)
+            }
             (MotionKind::Angle, None) => {
                 let turning = Turning::Marker(self.require_turning(&at_marker, marker()?)?);
                 Kind::Angle(turning, self.one_drive(&at_value, &motion.value)?)
@@ -99,6 +103,38 @@ impl<'a> Resolved<'a> {
                 value(place, of, true).map(Drive::Function)
             }),
         }
+    }
+
+    fn quaternion_of_drives(
+        &mut self,
+        path: &str,
+        given: &MotionValue,
+    ) -> Result<Vec<Drive>, Error> {
+        match given {
+            MotionValue::Input(input) => Ok(self.turned(derivatives(path, input.input)?)),
+            MotionValue::Vector(values) if values.len() == 4 => {
+                let values = values.iter().enumerate();
+                let part = |(k, of)| value(&format!("{path}[{k}]"), of, true);
+                values.map(|of| part(of).map(Drive::Function)).collect()
+            }
+            MotionValue::One(_) | MotionValue::Vector(_) => {
+                let wanted = "4 values [w, x, y, z] or {\"input\": 0, 1 or 2}";
+                let found = match given {
+                    MotionValue::Vector(values) => format!("{} values", values.len()),
+                    _ => "one value".into(),
+                };
+                Err(expected(path, wanted, found))
+            }
+        }
+    }
+
+    /// The parts of an orientation that the master drives, with as many derivatives.
+    pub(super) fn turned(&mut self, derivatives: usize) -> Vec<Drive> {
+        let first = self.numbers;
+        let attitude = Attitude { first, derivatives };
+        self.place(attitude.count());
+        let part = |part| Drive::Turned { attitude, part };
+        (0..4).map(part).collect()
     }
 
     /// A coordinate that the master drives, with as many derivatives.

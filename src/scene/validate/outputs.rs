@@ -208,7 +208,11 @@ impl<'a> Resolved<'a> {
         let Some(motion) = self.motions.iter().find(|motion| motion.name == name) else {
             return Err(expected(path, "a motion of this scene", quoted(name)));
         };
-        if matches!(motion.kind, MotionKind::Angle(..)) != is_moment {
+        let turns = matches!(
+            motion.kind,
+            MotionKind::Angle(..) | MotionKind::Orientation(..)
+        );
+        if turns != is_moment {
             let wanted = match is_moment {
                 true => "a motion driven by a moment",
                 false => "a motion driven by a force",

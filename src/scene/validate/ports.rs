@@ -57,7 +57,9 @@ impl<'a> Resolved<'a> {
     pub(super) fn resolve_ports(&mut self) -> Result<(), Error> {
         let driven = self.motions.iter().filter_map(|motion| match &motion.kind {
             MotionKind::Position(marker, _) => Some((false, marker.name)),
-            MotionKind::Angle(Turning::Marker(marker), _) => Some((true, marker.name)),
+            MotionKind::Angle(Turning::Marker(marker), _) | MotionKind::Orientation(marker, _) => {
+                Some((true, marker.name))
+            }
             MotionKind::Angle(Turning::Pivot(_), _) | MotionKind::Displacement(..) => None,
         });
         let mut driven: BTreeSet<(bool, &str)> = driven.collect();
@@ -66,15 +68,12 @@ impl<'a> Resolved<'a> {
             let place = format!("{path}.marker");
             port.validate_keys(&path)?;
             port.validate_springs(&path)?;
+            let is_spatial = self.scene.dimension == 3;
             let marker = match port.turns() {
+                true if port.drives() && is_spatial => self.require_driven(&place, &port.marker)?,
                 true => self.require_spinning(&place, &port.marker)?,
                 false => self.require_marker(&place, &port.marker)?,
             };
-            if port.drives() && port.turns() && self.scene.dimension == 3 {
-                let wanted =
-                    "stiffnesses in space, where an orientation drives nothing but by a spring";
-                return Err(expected(&format!("{path}.rotation"), wanted, "true"));
-            }
             if port.drives() {
                 for is_angle in [false, true]
                     .into_iter()
@@ -154,7 +153,10 @@ impl<'a> Resolved<'a> {
     }
 
     fn angle(&mut self, marker: Marker<'a>, derivatives: usize) -> MotionKind<'a> {
-        MotionKind::Angle(Turning::Marker(marker), self.driven(derivatives))
+        match self.scene.dimension {
+            2 => MotionKind::Angle(Turning::Marker(marker), self.driven(derivatives)),
+            _ => MotionKind::Orientation(marker, self.turned(derivatives)),
+        }
     }
 
     fn motion_port(

@@ -53,6 +53,18 @@ impl<'a> Resolved<'a> {
         }
     }
 
+    /// The same of a body with inertia about every axis, as one has whose orientation is driven.
+    pub(super) fn require_driven(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+        let marker = self.require_standing(path, name)?;
+        match marker.place {
+            Place::Point(rigid, _) if rigid.body.inertia().thin().is_some() => {
+                let wanted = "a body with a moment of inertia about every axis";
+                Err(expected(path, wanted, quoted(name)))
+            }
+            _ => Ok(marker),
+        }
+    }
+
     /// A marker with a direction: of a cable, or of a rigid body that has inertia.
     pub(super) fn require_directed(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;

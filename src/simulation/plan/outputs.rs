@@ -144,7 +144,7 @@ fn is_force(source: Source) -> bool {
             | Reaction(..)
             | ReactionMoment(..)
             | MotionForce(..)
-            | MotionMoment(_)
+            | MotionMoment(..)
             | CouplingForce(..)
             | CouplingMoment(..)
     )

@@ -5,7 +5,7 @@ use super::{AXES, List, PARTS, Source, Unit, component};
 use crate::scene::{
     ActionKind, Coupling, Incoming, Input, InputKind, Marker, MotionKind, PortKind, Resolved,
 };
-use crate::system::Drive;
+use crate::system::{Attitude, Drive};
 
 /// Adds the inputs of a scene.
 pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
@@ -46,7 +46,11 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
             motion.drives().len()
         }
         Incoming::Orientation(marker) => {
-            add_orientation(list, coupling.first, (port, marker));
+            let attitude = Attitude {
+                first: coupling.first,
+                derivatives: 1,
+            };
+            add_orientation(list, attitude, (port, "pulls", marker));
             4
         }
     };
@@ -57,19 +61,37 @@ fn add_coupling(list: &mut List, coupling: &Coupling<'_>, port: &str) {
     }
 }
 
-/// How the frame of a rigid body would stand without the spring, and how it would turn.
-fn add_orientation(list: &mut List, first: usize, (port, marker): (&str, &Marker<'_>)) {
-    let what = format!("to which {port} pulls {}", marker.name);
+/// How the frame of a rigid body is to stand, and how it is to turn: what a motion or a port of this name drives, or pulls.
+fn add_orientation(
+    list: &mut List,
+    attitude: Attitude,
+    (of, verb, marker): (&str, &str, &Marker<'_>),
+) {
+    let (first, what) = (
+        attitude.first,
+        format!("to which {of} {verb} {}", marker.name),
+    );
     for (k, start) in marker.place.quaternion().into_iter().enumerate() {
-        let name = component(&format!("{port}.quaternion"), k);
+        let name = component(&format!("{of}.quaternion"), k);
         let what = format!("Quaternion {what}, {}", PARTS[k]);
         list.add(name, what, None, Source::Input(first + k), Some(start));
     }
-    for (k, axis) in AXES.iter().enumerate() {
-        let name = component(&format!("{port}.angular_velocity"), k);
-        let what = format!("Angular velocity {what}, component {axis}");
-        let source = Source::Input(first + 4 + k);
-        list.add(name, what, Some(RADIAN_PER_SECOND), source, Some(0.0));
+    let place = list.variables.len();
+    for (order, (key, kind, unit)) in TURNING.iter().enumerate().skip(1) {
+        for (k, axis) in AXES
+            .iter()
+            .enumerate()
+            .filter(|_| order <= attitude.derivatives)
+        {
+            let name = component(&format!("{of}.{key}"), k);
+            let what = format!("{kind} {what}, component {axis}");
+            let source = Source::Input(first + 1 + 3 * order + k);
+            list.add(name, what, Some(*unit), source, Some(0.0));
+        }
+    }
+    // As of other motions, an acceleration may jump.
+    if attitude.derivatives == 2 {
+        list.mark_direct(place + 3);
     }
 }
 
@@ -148,18 +170,21 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     }
 }
 
+/// Keys, meanings and units of an angle and its derivatives.
+const TURNING: [(&str, &str, Unit); 3] = [
+    ("angle", "Angle", RADIAN),
+    ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND),
+    (
+        "angular_acceleration",
+        "Angular acceleration",
+        RADIAN_PER_SECOND_2,
+    ),
+];
+
 /// Keys, meanings and units of a motion and its derivatives.
 fn orders(kind: &MotionKind<'_>) -> [(&'static str, &'static str, Unit); 3] {
     match kind {
-        MotionKind::Angle(..) => [
-            ("angle", "Angle", RADIAN),
-            ("angular_velocity", "Angular velocity", RADIAN_PER_SECOND),
-            (
-                "angular_acceleration",
-                "Angular acceleration",
-                RADIAN_PER_SECOND_2,
-            ),
-        ],
+        MotionKind::Angle(..) | MotionKind::Orientation(..) => TURNING,
         MotionKind::Position(..) | MotionKind::Displacement(..) => [
             match kind {
                 MotionKind::Position(..) => ("position", "Position", METRE),
@@ -174,12 +199,18 @@ fn orders(kind: &MotionKind<'_>) -> [(&'static str, &'static str, Unit); 3] {
 /// Inputs of a motion that the master sets, if it does. The variables are listed derivative by derivative;
 /// the numbers of each driven coordinate lie side by side.
 fn add_motion(list: &mut List, motion: &MotionKind<'_>, (name, verb): (&str, &str)) {
+    if let MotionKind::Orientation(marker, drives) = motion {
+        if let Some(Drive::Turned { attitude, .. }) = drives.first() {
+            add_orientation(list, *attitude, (name, verb, marker));
+        }
+        return;
+    }
     for (order, (key, what, unit)) in orders(motion).into_iter().enumerate() {
         let coordinates = motion.drives().iter().zip(motion.start());
         for (axis, (drive, start)) in coordinates.enumerate() {
             let first = match drive {
                 Drive::Input { first, derivatives } if order <= *derivatives => *first,
-                Drive::Input { .. } | Drive::Function(_) => continue,
+                Drive::Input { .. } | Drive::Turned { .. } | Drive::Function(_) => continue,
             };
             let what = format!("{what} to which {name} {verb} {}", motion.of());
             let name = format!("{name}.{key}");
@@ -189,7 +220,7 @@ fn add_motion(list: &mut List, motion: &MotionKind<'_>, (name, verb): (&str, &st
                     component(&name, axis),
                     format!("{what}, component {}", AXES[axis]),
                 ),
-                MotionKind::Angle(..) | MotionKind::Displacement(..) => (name, what),
+                _ => (name, what),
             };
             let (place, source) = (list.variables.len(), Source::Input(first + order));
             list.add(name, what, Some(unit), source, Some(start));

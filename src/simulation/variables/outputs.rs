@@ -267,8 +267,8 @@ fn add_port_force(list: &mut List, port: &Port<'_>) {
                 MotionForce(position.holder, axis)
             });
             if let Some(angle) = angle {
-                add(moment.0, moment.1, Shape::Scalar, &|_| {
-                    MotionMoment(angle.holder)
+                add(moment.0, moment.1, Shape::Turn, &|axis| {
+                    MotionMoment(angle.holder, axis)
                 });
             }
         }

@@ -3,6 +3,7 @@
 
 mod direction;
 mod distance;
+mod driven_orientation;
 mod driven_turn;
 mod held_row;
 mod line;
@@ -14,6 +15,7 @@ mod unit;
 
 pub use direction::AngleBetween;
 pub use distance::Distance;
+pub use driven_orientation::DrivenOrientation;
 pub use driven_turn::DrivenTurn;
 pub use held_row::HeldRow;
 pub use line::PointOnLine;
@@ -27,7 +29,7 @@ use super::coordinate::Way;
 use super::direction::AxisTurn;
 use super::end::{Add, End};
 use super::gradient::Gradient;
-use crate::body::{Frames, Node, Row};
+use crate::body::{Frames, Marker, Node, Row};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 
@@ -52,6 +54,9 @@ pub enum Primitive<const D: usize = 2> {
     DrivenDirection(usize),
     /// The angle about an axis in space is driven.
     DrivenTurn(DrivenTurn<D>),
+    /// The orientation in space is driven: a marker in the directions of the axes of the body's frame, and the driven
+    /// coordinates of a quaternion, scalar first.
+    DrivenOrientation([Marker; 3], [usize; 4]),
     /// Coordinates of joints in a linear relation, or one that is driven.
     Related(Related<D>),
     /// The position has driven coordinates (first end: ground).
@@ -175,6 +180,8 @@ pub enum ConstraintKind<const D: usize = 2> {
     Perpendicular(Perpendicular<D>),
     /// A driven turn.
     DrivenTurn(DrivenTurn<D>),
+    /// One condition of a driven orientation.
+    DrivenOrientation(DrivenOrientation),
     /// A relation between coordinates of joints.
     Related(Related<D>),
 }
@@ -190,6 +197,7 @@ macro_rules! each {
             ConstraintKind::HeldRow($c) => $call,
             ConstraintKind::Perpendicular($c) => $call,
             ConstraintKind::DrivenTurn($c) => $call,
+            ConstraintKind::DrivenOrientation($c) => $call,
             ConstraintKind::Related($c) => $call,
         }
     };
@@ -226,6 +234,9 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::HeldRow(c) => call(&c.gradient(view)),
             ConstraintKind::Perpendicular(c) => call(&c.gradient(view)),
             ConstraintKind::DrivenTurn(c) => call(&c.gradient(view)),
+            ConstraintKind::DrivenOrientation(c) => {
+                c.gradients(view).for_each(|pair| call(&pair));
+            }
             ConstraintKind::Related(c) => c.gradients(view).for_each(|pair| call(&pair)),
         }
     }
@@ -261,6 +272,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::AngleBetween(c) => c.rate(view),
             ConstraintKind::HeldRow(c) => c.rate(view),
             ConstraintKind::DrivenTurn(c) => c.rate(view),
+            ConstraintKind::DrivenOrientation(c) => c.rate(view),
             ConstraintKind::Related(c) => c.rate(view),
             _ => N::of(0.0),
         }
@@ -280,7 +292,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::PointOnLine(c) => c.stiffness(lambda, add),
             // Small beside inertia, and the blocks move with the point.
             ConstraintKind::PointOnCurve(_) => {}
-            ConstraintKind::HeldRow(_) => {}
+            ConstraintKind::HeldRow(_) | ConstraintKind::DrivenOrientation(_) => {}
             ConstraintKind::Perpendicular(c) => c.stiffness(lambda, add),
             ConstraintKind::DrivenTurn(c) => c.stiffness(lambda, view, add),
             ConstraintKind::Related(c) => c.stiffness(lambda, view, add),
@@ -292,7 +304,8 @@ impl<const D: usize> Constraint<D> {
         match &self.kind {
             ConstraintKind::UnitLength(_)
             | ConstraintKind::AngleBetween(_)
-            | ConstraintKind::DrivenTurn(_) => 1.0,
+            | ConstraintKind::DrivenTurn(_)
+            | ConstraintKind::DrivenOrientation(_) => 1.0,
             ConstraintKind::Distance(c) => c.length,
             ConstraintKind::PointOnLine(c) => c.size,
             ConstraintKind::HeldRow(c) => c.size,
@@ -313,6 +326,7 @@ impl<const D: usize> Constraint<D> {
             ConstraintKind::HeldRow(c) => c.ends.to_vec(),
             ConstraintKind::Perpendicular(c) => c.ends(),
             ConstraintKind::DrivenTurn(c) => c.ends(),
+            ConstraintKind::DrivenOrientation(c) => c.ends(),
             ConstraintKind::Related(c) => c.ends(),
         }
     }
@@ -339,7 +353,9 @@ impl<const D: usize> Constraint<D> {
     pub fn is_stiff(&self) -> bool {
         !matches!(
             self.kind,
-            ConstraintKind::PointOnCurve(_) | ConstraintKind::HeldRow(_)
+            ConstraintKind::PointOnCurve(_)
+                | ConstraintKind::HeldRow(_)
+                | ConstraintKind::DrivenOrientation(_)
         )
     }
 
@@ -364,6 +380,7 @@ impl<const D: usize> Joint<D> {
                 | Primitive::DrivenDistance(_, drive)
                 | Primitive::DrivenTurn(DrivenTurn { drive, .. }) => std::slice::from_ref(drive),
                 Primitive::DrivenPosition(drives) => drives,
+                Primitive::DrivenOrientation(_, drives) => drives,
                 Primitive::Related(related) => related.drive.as_slice(),
                 _ => &[],
             })
@@ -415,6 +432,19 @@ impl<const D: usize> Joint<D> {
                 }
                 Primitive::DrivenDirection(drive) => motion::direction(&mut rows, *drive),
                 Primitive::DrivenTurn(driven) => Some(ConstraintKind::DrivenTurn(driven.clone())),
+                Primitive::DrivenOrientation(axes, drives) => {
+                    let about = |about| {
+                        let (axes, drives) = (*axes, *drives);
+                        let driven = DrivenOrientation {
+                            axes,
+                            drives,
+                            about,
+                        };
+                        Constraint::of(index, ConstraintKind::DrivenOrientation(driven))
+                    };
+                    nonlinear.extend((0..3).map(about));
+                    None
+                }
                 Primitive::Related(related) => Some(ConstraintKind::Related(related.clone())),
                 Primitive::DrivenPosition(drives) => motion::position(&mut rows, *drives),
                 Primitive::DrivenDistance(along, drive) => {

@@ -34,7 +34,7 @@ impl<const D: usize> System<D> {
         let drives = self.drives.iter().enumerate();
         let of_drives = drives.filter_map(|(index, drive)| match drive {
             Drive::Function(function) => Some((Follower::Drive(index), function)),
-            Drive::Input { .. } => None,
+            Drive::Input { .. } | Drive::Turned { .. } => None,
         });
         let of_loads = self.loads.iter().enumerate().flat_map(|(index, load)| {
             load.signals().filter_map(move |signal| match signal {
@@ -81,7 +81,7 @@ impl<const D: usize> System<D> {
         let drives = self.drives.iter().enumerate();
         drives.filter_map(move |(index, drive)| match drive {
             Drive::Function(function) => Some((index, function.derivatives(clock))),
-            Drive::Input { .. } => None,
+            Drive::Input { .. } | Drive::Turned { .. } => None,
         })
     }
 }

@@ -139,12 +139,12 @@ impl<'a, const D: usize> Model<'a, D> {
         work.input_rates.clear();
         work.input_rates.resize(inputs.len(), 0.0);
         // An acceleration that is an input acts at once.
-        for ((course, given), driven) in
-            (work.trajectories.iter_mut().zip(system.trajectories())).zip(&state.driven)
-        {
-            if given.len() == 3 {
-                let [p, v, ..] = *driven;
-                *course = Trajectory::hold(state.time, [p, v, inputs[given.start + 2]]);
+        let courses = work.trajectories.iter_mut().zip(system.trajectories());
+        for (place, (course, given)) in courses.enumerate() {
+            if given.has_acceleration() {
+                let [p, v, ..] = state.driven[place];
+                let a = given.second(place, &state.driven, inputs);
+                *course = Trajectory::hold(state.time, [p, v, a]);
             }
         }
         if !system.slides.is_empty() {
@@ -179,22 +179,13 @@ impl<'a, const D: usize> Model<'a, D> {
     pub fn until(self, state: &State, until: f64) -> Self {
         let h = until - state.time;
         if h > 0.0 {
-            let trajectories = self
-                .work
-                .trajectories
-                .iter_mut()
-                .zip(self.system.trajectories());
-            for ((course, given), driven) in trajectories.zip(&state.driven) {
-                let mut inputs = [[0.0; 3]; 3];
-                for (input, index) in inputs.iter_mut().zip(given.clone()) {
-                    let [first, second] = self.slopes.get(index).copied().unwrap_or_default();
-                    *input = [self.inputs[index], first, second];
-                }
-                let [p, v, mut a, ..] = *driven;
-                if given.len() == 3 {
-                    a = inputs[2][0];
-                }
-                *course = Trajectory::new(state.time, h, [p, v, a], &inputs[..given.len()]);
+            let input = |index: usize| {
+                let [first, second] = self.slopes.get(index).copied().unwrap_or_default();
+                [self.inputs[index], first, second]
+            };
+            let courses = self.work.trajectories.iter_mut();
+            for (place, (course, given)) in courses.zip(self.system.trajectories()).enumerate() {
+                *course = given.course((state.time, h), (place, &state.driven), input);
             }
         }
         self

@@ -85,19 +85,21 @@ impl<const D: usize> Derivatives<D> {
             let [first, second] = slope(i);
             [[first, second], [second, 0.0]]
         });
-        let mut trajectories = system.trajectories().zip(&state.driven);
+        let mut trajectories = system.trajectories().enumerate();
         for ((drive, set), now) in
             (system.drives.iter().zip(&mut self.values.drives)).zip(&plain.drives)
         {
             let [_, _, _, third, fourth] = match drive {
                 Drive::Function(function) => function.orders(time),
-                Drive::Input { .. } => trajectories.next().map_or([0.0; 5], |(given, driven)| {
-                    let mut orders = *driven;
-                    if given.len() == 3 {
-                        [orders[3], orders[4]] = slope(given.start + 2);
-                    }
-                    orders
-                }),
+                Drive::Input { .. } | Drive::Turned { .. } => {
+                    trajectories.next().map_or([0.0; 5], |(place, given)| {
+                        let (known, mut orders) = (&state.driven[..], state.driven[place]);
+                        if let Some(higher) = given.higher((place, known), &plain.inputs, slope) {
+                            [orders[3], orders[4]] = higher;
+                        }
+                        orders
+                    })
+                }
             };
             let [p, v, a] = *now;
             *set = [
@@ -143,15 +145,13 @@ impl<const D: usize> Derivatives<D> {
         self.values.time = Jet::from_re(plain.time);
         self.set_inputs(plain, |i| [[direction[i], 0.0], [0.0; 2]]);
         let mut trajectories = system.trajectories();
-        for ((drive, set), now) in
-            (system.drives.iter().zip(&mut self.values.drives)).zip(&plain.drives)
-        {
-            *set = now.map(Jet::from_re);
-            if let Drive::Input { .. } = drive
+        let drives = system.drives.iter().zip(&mut self.values.drives);
+        for (place, (drive, set)) in drives.enumerate() {
+            *set = plain.drives[place].map(Jet::from_re);
+            if !matches!(drive, Drive::Function(_))
                 && let Some(given) = trajectories.next()
-                && given.len() == 3
             {
-                set[2].v1 = direction[given.start + 2];
+                set[2].v1 = given.second_along(place, &plain.drives, direction);
             }
         }
         self.one.fill(no_node());

@@ -207,7 +207,8 @@ fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64
     match &constraint.kind {
         ConstraintKind::UnitLength(_)
         | ConstraintKind::AngleBetween(_)
-        | ConstraintKind::DrivenTurn(_) => 1.0,
+        | ConstraintKind::DrivenTurn(_)
+        | ConstraintKind::DrivenOrientation(_) => 1.0,
         ConstraintKind::HeldRow(row) if row.holds_direction() => 1.0,
         ConstraintKind::Perpendicular(right) if right.is_angle() => 1.0,
         ConstraintKind::Related(related) if related.is_angle() => 1.0,

@@ -12,7 +12,7 @@ use super::held::Open;
 use crate::body::{Node, add_node, no_node};
 use crate::math::space::{Vector, spins};
 use crate::system::instant::Instant;
-use crate::system::joints::View;
+use crate::system::joints::{ConstraintKind, View};
 use crate::system::loads::Load;
 use crate::system::{CableChain, Dynamics, Model, State, System, Work};
 
@@ -22,6 +22,9 @@ const ITERATIONS: usize = 200;
 const CLOSE: f64 = 1e-9;
 /// Gap that is roundoff.
 const EXACT: f64 = 1e-15;
+
+/// Turn, rad, from which on a body whose orientation is driven is turned at once.
+const FAR: f64 = 0.1;
 
 /// Gap, in sizes of the largest body, from which on joints as described cannot be meant.
 const ABSURD: f64 = 100.0;
@@ -73,6 +76,7 @@ impl<const D: usize> System<D> {
             return Err(NotAssembled { gaps: drawn });
         }
         let mut x = nodes.to_vec();
+        self.turn_driven(&mut x, work);
         let left = self.fit(&mut x, work);
         self.start_hints(&mut state, &x, inputs);
         self.frames.frames_at(&x, &mut state.frames);
@@ -237,9 +241,29 @@ impl<const D: usize> System<D> {
 
     /// Motions that inputs drive start where the inputs say.
     fn start_courses(&self, state: &mut State, inputs: &[f64]) {
-        for (driven, course) in state.driven.iter_mut().zip(self.trajectories()) {
-            let given = course.len();
-            driven[..given].copy_from_slice(&inputs[course]);
+        for (driven, given) in state.driven.iter_mut().zip(self.trajectories()) {
+            driven[..3].copy_from_slice(&given.start(inputs));
+        }
+    }
+
+    /// Turns bodies, each about its centre, whose orientations are driven to where they are to be: conditions that are sines of
+    /// angles lead there from less than a quarter of a turn away.
+    fn turn_driven(&self, x: &mut [Node<D>], work: &Work<D>) {
+        for constraint in &self.constraints {
+            let ConstraintKind::DrivenOrientation(driven) = &constraint.kind else {
+                continue;
+            };
+            let turn = driven.missing(x, &work.drives);
+            if driven.about == 0 && turn.norm() > FAR {
+                let body = driven.axes[0].body;
+                let about = self.center(body, x);
+                self.move_body(
+                    (self.bodies[body].clone(), about),
+                    Vector::zeros(),
+                    turn.into(),
+                    x,
+                );
+            }
         }
     }
 

@@ -8,10 +8,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::Turning;
 use crate::body::{Node, add_node, carried_node, no_node, product};
+use crate::math::least::Least;
 use crate::math::space::{Vector, spins, spun};
 use crate::system::{State, System, Work};
 
-/// Part of the largest singular value below which motions and joints leave a field free.
+/// Part of the largest entry below which motions and joints leave a field free.
 const FREE: f64 = 1e-9;
 /// Velocity or acceleration, relative to the largest, that joints and motions may miss.
 const MISSED: f64 = 1e-9;
@@ -85,16 +86,12 @@ impl<const D: usize> System<D> {
         let fields: Vec<Vec<Node<D>>> = units.iter().map(|unit| self.field(unit, &x)).collect();
         let (rows, targets) = self.velocity_rows(work, &fields);
         let scale = targets.amax();
-        let svd = rows.clone().svd(true, true);
-        let largest = svd.singular_values.max();
-        let least = FREE * largest;
-        let solved = svd
-            .solve(&targets, least)
-            .unwrap_or_else(|_| DVector::zeros(count));
+        let least = Least::new(&rows, FREE);
+        let solved = least.solve(&targets);
         if (&rows * &solved - &targets).amax() > MISSED * scale {
             return Err(NotSteady::Apart);
         }
-        let free = self.free_part(&rows, &fields, rates, &solved, least);
+        let free = self.free_part(least.free(), &fields, rates, &solved);
         let mut steady = Steady {
             velocity: Vector::zeros(),
             rate: [0.0; 3],
@@ -163,18 +160,12 @@ impl<const D: usize> System<D> {
     /// rod turns about itself, in the sum of squares.
     fn free_part(
         &self,
-        rows: &DMatrix<f64>,
+        mut free: Vec<DVector<f64>>,
         fields: &[Vec<Node<D>>],
         rates: &[Node<D>],
         p: &DVector<f64>,
-        least: f64,
     ) -> DVector<f64> {
         let count = fields.len();
-        let normal = (rows.transpose() * rows).symmetric_eigen();
-        let mut free: Vec<DVector<f64>> = (0..count)
-            .filter(|k| normal.eigenvalues[*k] <= least * least)
-            .map(|k| normal.eigenvectors.column(k).into_owned())
-            .collect();
         let inner = |a: &[Node<D>], b: &[Node<D>]| -> f64 {
             a.iter().zip(b).map(|(a, b)| product(a, b)).sum()
         };

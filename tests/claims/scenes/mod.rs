@@ -20,6 +20,7 @@ mod shapes;
 mod slides;
 mod space;
 mod space_bodies;
+mod space_driven;
 mod space_joints;
 mod space_modes;
 mod space_ports;
@@ -54,6 +55,7 @@ pub fn all() -> Vec<Specimen> {
         coordinates::all(),
         bushings::all(),
         space_ports::all(),
+        space_driven::all(),
         shapes::all(),
     ];
     parts.into_iter().flatten().collect()

@@ -21,7 +21,7 @@ pub fn all() -> Vec<Specimen> {
 const GRAVITY: Vector3<f64> = Vector3::new(0.2, 0.5, -9.0);
 
 /// The quaternion of a rotation vector, scalar first: half the angle.
-fn quaternion(turn: Vector3<f64>) -> [f64; 4] {
+pub fn quaternion(turn: Vector3<f64>) -> [f64; 4] {
     let (sin, cos) = (0.5 * turn.norm()).sin_cos();
     let [x, y, z] = array(turn.normalize() * sin);
     [cos, x, y, z]
@@ -34,7 +34,7 @@ fn four(mut specimen: Specimen, of: &str, value: [f64; 4]) -> Specimen {
     specimen
 }
 
-fn set(mut specimen: Specimen, of: &str, values: &[f64]) -> Specimen {
+pub fn set(mut specimen: Specimen, of: &str, values: &[f64]) -> Specimen {
     for (k, value) in values.iter().enumerate() {
         specimen = specimen.set(&format!("{of}[{}]", k + 1), *value);
     }
@@ -44,7 +44,7 @@ fn set(mut specimen: Specimen, of: &str, values: &[f64]) -> Specimen {
 /// How a body of [`Body::new`] stands.
 const TURN: Vector3<f64> = Vector3::new(0.4, -0.3, 0.6);
 
-fn moving(name: &'static str) -> Body {
+pub fn moving(name: &'static str) -> Body {
     let mut body = Body::new(name, [0.5, 0.8, 1.0]);
     body.inertia = Matrix3::new(1.1, 0.2, -0.1, 0.2, 0.9, 0.3, -0.1, 0.3, 1.3);
     body.velocity = Vector3::new(0.3, -0.5, 0.1);

@@ -340,7 +340,26 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /outputs/0 | {"kind": "reaction", "joint": "elbow", "axes": "joint"} | outputs[0].axes: expected "
         /ports | [{"name": "plug", "marker": "a.in", "kind": "force", "rotation": true}] | accepted
         /ports | [{"name": "plug", "marker": "b.in", "kind": "motion", "stiffness": 1, "rotational_stiffness": 1}] | accepted
-        /ports | [{"name": "plug", "marker": "b.in", "kind": "motion", "rotation": true}] | ports[0].rotation: expected stiffnesses in space, where an orientation drives nothing but by a spring, found true
+        /ports | [{"name": "plug", "marker": "b.in", "kind": "motion", "rotation": true}] | accepted
+        /ports | [{"name": "plug", "marker": "rope.tip", "kind": "motion", "rotation": true}] | ports[0].marker: expected a marker of a rigid body with inertia
+        /ports | [{"name": "plug", "marker": "b.in", "kind": "motion", "rotation": true}, {"name": "socket", "marker": "b.in", "kind": "motion"}] | ports[1].marker: expected a marker that is not driven yet
+    "#,
+    );
+}
+
+#[test]
+fn orientations_are_driven_by_quaternions() {
+    check(
+        mechanism,
+        r#"
+        /motions | [{"name": "turn", "kind": "orientation", "marker": "b.in", "value": {"input": 2}}] | accepted
+        /motions | [{"name": "turn", "kind": "orientation", "marker": "b.in", "value": [1, 0, 0, "sin(t)"]}] | accepted
+        /motions | [{"name": "turn", "kind": "orientation", "marker": "b.in", "value": [1, 0, 0]}] | motions[0].value: expected 4 values [w, x, y, z] or {"input": 0, 1 or 2}, found 3 values
+        /motions | [{"name": "turn", "kind": "orientation", "marker": "b.in", "value": 1}] | motions[0].value: expected 4 values [w, x, y, z] or {"input": 0, 1 or 2}, found one value
+        /motions | [{"name": "turn", "kind": "orientation", "marker": "b.in", "value": {"input": 3}}] | motions[0].value.input: expected 0, 1 or 2, found 3
+        /motions | [{"name": "turn", "kind": "orientation", "marker": "b.in", "value": [1, 0, "sin(", 0]}] | motions[0].value[2]
+        /motions | [{"name": "turn", "kind": "orientation", "marker": "rope.tip", "value": {"input": 2}}] | motions[0].marker: expected a marker of a rigid body with inertia
+        /motions | [{"name": "turn", "kind": "orientation", "value": {"input": 2}}] | motions[0].marker: expected a name, found nothing
     "#,
     );
 }
@@ -369,6 +388,8 @@ fn thin_rods_are_not_turned_about_their_axes() {
         /bodies/0/markers/first | [-0.5, 0.1, 0] | bodies[0].markers.first: expected a point on the axis of a thin rod
         /joints/0/direction | [1, 0, 0] | accepted
         /joints/0/direction | [1, 1, 0] | joints[0].markers[1]: expected a body with a moment of inertia about every axis
+        /motions | [{"name": "m", "kind": "orientation", "marker": "lower.last", "value": {"input": 2}}] | motions[0].marker: expected a body with a moment of inertia about every axis, found "lower.last"
+        /ports | [{"name": "plug", "marker": "lower.last", "kind": "motion", "rotation": true}] | ports[0].marker: expected a body with a moment of inertia about every axis, found "lower.last"
         /joints/0/kind | "planar" | accepted
         /joints/1/kind | "weld" | joints[1].markers[0]: expected a body with a moment of inertia about every axis
         /joints/1 | {"name": "e", "kind": "revolute", "markers": ["upper.last", "lower.first"], "direction": [0, 1, 0]} | joints[1].markers[0]: expected a body with a moment
