@@ -418,7 +418,7 @@ fn ends<const D: usize>(nodes: &NodePack<D>) -> NodalView<'_, D> {
 
 /// All numbers but the last, and all but the first.
 #[inline(always)]
-fn both(numbers: &[f64; PACK + 1]) -> [&[f64; PACK]; 2] {
+pub(super) fn both(numbers: &[f64; PACK + 1]) -> [&[f64; PACK]; 2] {
     let ([first @ .., _], [_, second @ ..]) = (numbers, numbers);
     [first, second]
 }

@@ -1,6 +1,8 @@
 //! Bending and torsion of a rod, along the chain that is its line. Its nodes are those of the line, two for the frame carried at each of
 //! them, and one inside every element, which holds the internal twist alone.
 
+mod lanes;
+
 use std::ops::Range;
 
 use nalgebra::Vector3;
@@ -13,6 +15,7 @@ use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Rates, Rod};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
 use crate::math::sparse::Matrix;
+use lanes::{Packed, packs};
 
 /// Where the internal twist stands in a node inside an element: part and axis. The axis before it stands still at one, so that the node
 /// has a direction.
@@ -40,6 +43,7 @@ const PLACES: [(usize, usize, usize, usize); 7] = [
 /// Bending and torsion of a rod.
 #[derive(Clone, Debug)]
 pub struct RodChain {
+    packs: Vec<Packed>,
     /// Its elements, and density times polar second moment of area times length of each, kg m^2.
     elements: Vec<(Rod, f64)>,
     /// First node of the line, of the carried frames, and inside the elements.
@@ -61,6 +65,7 @@ impl RodChain {
             line,
             frames: line + nodes,
             inner: line + 3 * nodes,
+            packs: packs(&elements),
             elements,
             carried,
         }
@@ -139,9 +144,8 @@ impl RodChain {
         &frames.carried()[self.carried + k]
     }
 
-    /// Adds elastic and damping forces: those on the line and on internal twists over the nodes, torques about the tangents to those of
-    /// all carried frames. The power that damping takes out, W.
-    pub fn add_force<const D: usize, N: Number>(
+    /// [`Self::add_force`] of numbers of any kind, element by element.
+    pub fn add_force_of<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
@@ -342,7 +346,10 @@ impl RodChain {
     pub fn largest_angle<const D: usize>(&self, x: &[Node<D>]) -> (f64, usize) {
         let elements = self.elements.iter().enumerate();
         let angles = elements.map(|(j, (rod, _))| (rod.largest_angle(&self.at(j, x)), j));
-        angles.fold((0.0, 0), |largest, angle| if angle.0 > largest.0 { angle } else { largest })
+        angles.fold(
+            (0.0, 0),
+            |largest, angle| if angle.0 > largest.0 { angle } else { largest },
+        )
     }
 }
 

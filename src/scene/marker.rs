@@ -109,7 +109,9 @@ impl Scene {
     pub fn rigid_mut(&mut self, id: RigidId) -> &mut RigidBody {
         match &mut self.bodies[id.0] {
             Body::Rigid(body) => body,
-            Body::Cable(_) | Body::Rod(_) => unreachable!("a number of a rigid body is that of a rigid body"),
+            Body::Cable(_) | Body::Rod(_) => {
+                unreachable!("a number of a rigid body is that of a rigid body")
+            }
         }
     }
 }

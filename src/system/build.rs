@@ -15,8 +15,8 @@ use super::motion::tree::Tree;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
-    Assembly, Carried, Dependent, Elimination, Frame, Frames, Marker, Node, RodChain, Row, add_node,
-    no_block, no_node, product,
+    Assembly, Carried, Dependent, Elimination, Frame, Frames, Marker, Node, RodChain, Row,
+    add_node, no_block, no_node, product,
 };
 use crate::math::function::Function;
 use crate::math::space::Vector;

@@ -116,7 +116,9 @@ impl<const D: usize> Work<D> {
         let mut still = vec![false; nodes.len()];
         for chain in &system.rod_chains {
             let frames = chain.frames().flat_map(|(node, _)| [node, node + 1]);
-            frames.chain(chain.inner()).for_each(|node| still[node] = true);
+            frames
+                .chain(chain.inner())
+                .for_each(|node| still[node] = true);
         }
         let jacobian = Jacobian::new(&system.elimination, &system.multipliers, |row| {
             system.constraints[row].is_linear()

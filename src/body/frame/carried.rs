@@ -66,7 +66,9 @@ impl Carry {
     /// How far it has turned, rad: as a whole or about the tangent.
     fn size(&self) -> f64 {
         let across = self.from.cross(&self.tangent).norm();
-        across.atan2(self.from.dot(&self.tangent)).max(self.rotation.abs())
+        across
+            .atan2(self.from.dot(&self.tangent))
+            .max(self.rotation.abs())
     }
 }
 
@@ -270,8 +272,7 @@ impl Frames {
             let velocity = angular(&slope, &rate, spin);
             let turn = slope.cross(&rate) / square;
             let tangent_rate = turn.cross(&slope) / square.sqrt();
-            let change = tangent_rate * spin
-                - turn * (N::of(2.0) * slope.dot(&rate) / square);
+            let change = tangent_rate * spin - turn * (N::of(2.0) * slope.dot(&rate) / square);
             let (axes, rates, mut sum) = (frame.axes(x), frame.axes(v), frame.axes(a));
             for k in 0..3 {
                 sum[k] += velocity.cross(&rates[k]) + change.cross(&axes[k]);

@@ -42,7 +42,12 @@ impl<const D: usize> Builder<'_, D> {
         let mut axes = Vec::new();
         axes.extend((self.parts.frames.last()).map(|frame| frame.node + 1));
         let sections = (self.parts.rod_chains.last()).filter(|rod| rod.line() == first);
-        axes.extend(sections.into_iter().flat_map(RodChain::frames).map(|(node, _)| node + 1));
+        axes.extend(
+            sections
+                .into_iter()
+                .flat_map(RodChain::frames)
+                .map(|(node, _)| node + 1),
+        );
         axes.retain(|node| nodes.contains(node));
         let still = sections.map_or(nodes.end, |rod| rod.inner().start);
         self.motions.push((nodes.clone(), axes, still), motion, arm);
@@ -146,7 +151,10 @@ impl<const D: usize> Builder<'_, D> {
                 stiffness: [[torsion, 0.0, 0.0], [0.0, first, 0.0], [0.0, 0.0, second]],
                 damping_times: [material.damping_time; 3],
             };
-            (RodElement::new(parameters, &shape), material.density * polar * length)
+            (
+                RodElement::new(parameters, &shape),
+                material.density * polar * length,
+            )
         });
         let chain = RodChain::new(elements.collect(), first, carried);
         self.parts.nodes.extend(axes);

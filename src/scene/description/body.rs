@@ -329,7 +329,9 @@ impl Body {
     /// Names of its markers, in alphabetical order.
     pub fn marker_names(&self) -> Vec<&str> {
         match self {
-            Self::Cable(body) | Self::Rod(body) => body.markers.keys().map(String::as_str).collect(),
+            Self::Cable(body) | Self::Rod(body) => {
+                body.markers.keys().map(String::as_str).collect()
+            }
             Self::Rigid(body) => body.markers.keys().map(String::as_str).collect(),
         }
     }

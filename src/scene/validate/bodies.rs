@@ -107,14 +107,26 @@ impl CableBody {
             ("axis", self.axis.is_some()),
             ("material.shear_modulus", material.shear_modulus.is_some()),
             ("section.second_moments", section.second_moments.is_some()),
-            ("section.torsion_constant", section.torsion_constant.is_some()),
+            (
+                "section.torsion_constant",
+                section.torsion_constant.is_some(),
+            ),
         ];
         if let Some((key, _)) = of_rods.iter().find(|(_, is_said)| *is_said) {
             let wanted = "nothing of a cable (an element of \"rod\" has sections that turn)";
             return Err(expected(&at(key), wanted, "a value"));
         }
         let key = at("section.second_moment");
-        not_negative(&key, "m^4", needed(path, "section.second_moment", "a value", section.second_moment)?)
+        not_negative(
+            &key,
+            "m^4",
+            needed(
+                path,
+                "section.second_moment",
+                "a value",
+                section.second_moment,
+            )?,
+        )
     }
 
     /// What a rod says of its sections.
@@ -126,28 +138,68 @@ impl CableBody {
             return Err(expected(&at("element"), wanted, "\"rod\""));
         }
         if section.second_moment.is_some() {
-            let (key, wanted) = (at("section.second_moment"), "`second_moments` of a rod, one about each axis");
+            let (key, wanted) = (
+                at("section.second_moment"),
+                "`second_moments` of a rod, one about each axis",
+            );
             return Err(expected(&key, wanted, "`second_moment`"));
         }
         if self.strain != Strain::ThetaPrime {
-            return Err(expected(&at("strain"), "\"thetaPrime\" of a rod", "another measure"));
+            return Err(expected(
+                &at("strain"),
+                "\"thetaPrime\" of a rod",
+                "another measure",
+            ));
         }
         let key = at("material.shear_modulus");
-        positive(&key, "Pa", needed(path, "material.shear_modulus", "a value of a rod", material.shear_modulus)?)?;
+        positive(
+            &key,
+            "Pa",
+            needed(
+                path,
+                "material.shear_modulus",
+                "a value of a rod",
+                material.shear_modulus,
+            )?,
+        )?;
         let key = at("section.torsion_constant");
-        positive(&key, "m^4", needed(path, "section.torsion_constant", "a value of a rod", section.torsion_constant)?)?;
+        positive(
+            &key,
+            "m^4",
+            needed(
+                path,
+                "section.torsion_constant",
+                "a value of a rod",
+                section.torsion_constant,
+            )?,
+        )?;
         let key = at("section.second_moments");
-        for (k, moment) in needed(path, "section.second_moments", "two values of a rod", section.second_moments)?.into_iter().enumerate() {
+        for (k, moment) in needed(
+            path,
+            "section.second_moments",
+            "two values of a rod",
+            section.second_moments,
+        )?
+        .into_iter()
+        .enumerate()
+        {
             positive(&format!("{key}[{k}]"), "m^4", moment)?;
         }
         let Some(axis) = &self.axis else {
             return Ok(());
         };
         vector(&at("axis"), dimension, axis)?;
-        let (tangent, axis) = (Vector3::from(self.shape.tangent(0.0)), Vector3::from(axis.full()));
+        let (tangent, axis) = (
+            Vector3::from(self.shape.tangent(0.0)),
+            Vector3::from(axis.full()),
+        );
         if axis.cross(&tangent).norm() <= 1e-9 * axis.norm() {
             let wanted = "a direction that is not along the tangent at the first end";
-            return Err(expected(&at("axis"), wanted, format!("{:?}", axis.as_slice())));
+            return Err(expected(
+                &at("axis"),
+                wanted,
+                format!("{:?}", axis.as_slice()),
+            ));
         }
         Ok(())
     }

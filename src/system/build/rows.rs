@@ -88,11 +88,7 @@ fn rest<const D: usize>(parts: &Parts<D>, frame: &Frame, linear: &mut Vec<Linear
 }
 
 /// Of a carried frame the rotation about its tangent alone is a coordinate, of a node inside an element the internal twist.
-fn rest_of_rod<const D: usize>(
-    parts: &Parts<D>,
-    chain: &RodChain,
-    linear: &mut Vec<Linear<D>>,
-) {
+fn rest_of_rod<const D: usize>(parts: &Parts<D>, chain: &RodChain, linear: &mut Vec<Linear<D>>) {
     let mut nodes = parts.nodes.clone();
     unplaced_rod(chain, &mut nodes);
     let frames = chain.frames();

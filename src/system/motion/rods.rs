@@ -28,7 +28,9 @@ impl<const D: usize> System<D> {
             return;
         }
         self.elimination.expand(q, &mut work.y, &mut work.other);
-        let Work { carries, other, y, .. } = work;
+        let Work {
+            carries, other, y, ..
+        } = work;
         self.frames.turn_carried(carries, other, y);
         self.elimination.coordinates_of(y);
         q.copy_from_slice(y);
@@ -41,14 +43,21 @@ impl<const D: usize> System<D> {
             return;
         }
         self.elimination.expand(a, &mut work.y, &mut work.other);
-        let Work { carries, other, y, .. } = work;
+        let Work {
+            carries, other, y, ..
+        } = work;
         self.frames.turn_carried_twice(carries, other, y);
         self.elimination.coordinates_of(y);
         a.copy_from_slice(y);
     }
 
     /// Rotations larger than this, rad, begin at zero anew. Whether there were any.
-    pub(in crate::system) fn renew(&self, state: &mut State, size: f64, work: &mut Work<D>) -> bool {
+    pub(in crate::system) fn renew(
+        &self,
+        state: &mut State,
+        size: f64,
+        work: &mut Work<D>,
+    ) -> bool {
         let mut is_large = self.frames.largest(&state.coordinates) > size;
         if !self.frames.carried().is_empty() {
             self.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);
@@ -64,7 +73,8 @@ impl<const D: usize> System<D> {
             self.elimination.displacements(q, &mut work.y);
             self.elimination.displacements(v, &mut rates);
             let at = (&work.x[..], &work.carries[..]);
-            self.frames.renew_carried(at, &mut state.frames, [&mut work.y, &mut rates]);
+            self.frames
+                .renew_carried(at, &mut state.frames, [&mut work.y, &mut rates]);
             self.elimination.coordinates_of(&mut work.y);
             self.elimination.coordinates_of(&mut rates);
             q.copy_from_slice(&work.y);
@@ -76,4 +86,3 @@ impl<const D: usize> System<D> {
         true
     }
 }
-

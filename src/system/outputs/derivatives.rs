@@ -202,7 +202,7 @@ impl<const D: usize> Derivatives<D> {
             for chain in &system.rod_chains {
                 let motion = (&values.x[..], &values.v[..]);
                 let out = (&mut self.f[..], &mut self.torques[..]);
-                chain.add_force(motion, &system.frames, out);
+                chain.add_force_of(motion, &system.frames, out);
             }
         }
         let at = values.instant(system);

@@ -246,7 +246,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let by_rods = system.rod_chains.iter();
         let motion = (&self.x[..], &self.v[..]);
         let by_rods = by_rods.map(|chain| chain.dissipation(motion, &system.frames));
-        let by_cables = powers.chain(by_rods).fold(N::of(0.0), |sum, power| sum + power);
+        let by_cables = powers
+            .chain(by_rods)
+            .fold(N::of(0.0), |sum, power| sum + power);
         system.power(at, &view, (&self.supply, by_cables), multiplied)
     }
 

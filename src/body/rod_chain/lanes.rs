@@ -1,0 +1,178 @@
+//! Forces of a rod in lanes: several elements at once.
+
+use std::ops::Range;
+
+use super::{INNER, RodChain};
+use crate::body::chain::both;
+use crate::body::connectivity::Node;
+use crate::body::frame::Frames;
+use crate::elements::rod::{At, Force, Pack, Rates, Rod};
+use crate::math::lanes::{PACK, Simd, Work, vectorized};
+
+/// Elements that are computed together, at most [`PACK`].
+#[derive(Clone, Debug)]
+pub(super) struct Packed {
+    elements: Range<usize>,
+    kernel: Pack,
+}
+
+/// Runs of elements that are alike.
+pub(super) fn packs(elements: &[(Rod, f64)]) -> Vec<Packed> {
+    let (mut packs, mut start) = (Vec::new(), 0);
+    while start < elements.len() {
+        let rest = elements[start..].iter().map(|(rod, _)| rod);
+        let alike = rest.take_while(|rod| elements[start].0.goes_with(rod));
+        let alike: Vec<Rod> = alike.take(PACK).cloned().collect();
+        packs.push(Packed {
+            elements: start..start + alike.len(),
+            kernel: Rod::pack(&alike),
+        });
+        start += alike.len();
+    }
+    packs
+}
+
+impl RodChain {
+    /// Adds elastic and damping forces: those on the line and on internal twists over the nodes, torques about the tangents to those of
+    /// all carried frames. The power that damping takes out, W.
+    pub fn add_force<const D: usize>(
+        &self,
+        motion: (&[Node<D>], &[Node<D>]),
+        frames: &Frames,
+        out: (&mut [Node<D>], &mut [f64]),
+    ) -> f64 {
+        let (chain, mut power) = (self, 0.0);
+        vectorized(AddForce {
+            chain,
+            motion,
+            frames,
+            out,
+            power: &mut power,
+        });
+        power
+    }
+}
+
+/// Every coordinate of the nodes of a pack side by side: positions and slopes, or their rates; second axes; spins; internal twists.
+struct NodePack {
+    line: [[[f64; PACK + 1]; 3]; 2],
+    second: [[f64; PACK + 1]; 3],
+    spin: [f64; PACK + 1],
+    bubble: [f64; PACK],
+}
+
+impl NodePack {
+    /// A straight line of nodes along the first axis, for lanes without an element.
+    #[inline(always)]
+    fn straight() -> Self {
+        let (zero, one) = ([0.0; PACK + 1], [1.0; PACK + 1]);
+        let mut places = zero;
+        for (k, place) in places.iter_mut().enumerate() {
+            *place = k as f64;
+        }
+        Self {
+            line: [[places, zero, zero], [one, zero, zero]],
+            second: [zero, one, zero],
+            spin: zero,
+            bubble: [0.0; PACK],
+        }
+    }
+
+    #[inline(always)]
+    fn ends(&self) -> [[&[f64; PACK]; 3]; 4] {
+        let [first @ .., _] = &self.line[0][0];
+        let mut ends = [[first; 3]; 4];
+        for p in 0..2 {
+            for d in 0..3 {
+                [ends[p][d], ends[2 + p][d]] = both(&self.line[p][d]);
+            }
+        }
+        ends
+    }
+}
+
+/// [`RodChain::add_force`].
+struct AddForce<'a, const D: usize> {
+    chain: &'a RodChain,
+    motion: (&'a [Node<D>], &'a [Node<D>]),
+    frames: &'a Frames,
+    out: (&'a mut [Node<D>], &'a mut [f64]),
+    power: &'a mut f64,
+}
+
+impl<const D: usize> AddForce<'_, D> {
+    /// Copies what an evaluation needs of the nodes of a pack, or of their rates.
+    #[inline(always)]
+    fn read(&self, elements: &Range<usize>, is_rate: bool, pack: &mut NodePack) {
+        let (chain, (x, v)) = (self.chain, self.motion);
+        let from = if is_rate { v } else { x };
+        for (lane, k) in (elements.start..=elements.end).enumerate() {
+            let (node, frame) = (&from[chain.line + k], &x[chain.frames + 2 * k + 1]);
+            for d in 0..D.min(3) {
+                pack.line[0][d][lane] = node[0][d];
+                pack.line[1][d][lane] = node[1][d];
+                pack.second[d][lane] = frame[0][d];
+            }
+            if is_rate {
+                pack.spin[lane] = chain.frame(k, self.frames).spin(x, v);
+            }
+        }
+        for (lane, j) in elements.clone().enumerate() {
+            pack.bubble[lane] = from[chain.inner + j][INNER.0][INNER.1];
+        }
+    }
+
+    #[inline(always)]
+    fn write(&mut self, elements: &Range<usize>, f: &Force<[f64; PACK]>) {
+        let (chain, (force, torques)) = (self.chain, &mut self.out);
+        for (lane, j) in elements.clone().enumerate() {
+            for end in 0..2 {
+                let node = &mut force[chain.line + j + end];
+                for p in 0..2 {
+                    for d in 0..D.min(3) {
+                        node[p][d] += f.e[2 * end + p][d][lane];
+                    }
+                }
+                torques[chain.carried + j + end] += f.torque[end][lane];
+            }
+            force[chain.inner + j][INNER.0][INNER.1] += f.bubble[lane];
+        }
+    }
+}
+
+impl<const D: usize> Work for AddForce<'_, D> {
+    #[inline(always)]
+    fn run<S: Simd>(mut self, simd: S) {
+        let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
+        let zero = [0.0; PACK];
+        let mut f = Force {
+            e: [[zero; 3]; 4],
+            torque: [zero; 2],
+            bubble: zero,
+        };
+        for Packed { elements, kernel } in &self.chain.packs {
+            self.read(elements, false, &mut place);
+            let mut second = [[&zero; 3]; 2];
+            for d in 0..3 {
+                [second[0][d], second[1][d]] = both(&place.second[d]);
+            }
+            let at = At {
+                e: place.ends(),
+                d: second,
+                bubble: &place.bubble,
+            };
+            if self.chain.is_damped {
+                self.read(elements, true, &mut rate);
+                let rates = Rates {
+                    e: rate.ends(),
+                    spin: both(&rate.spin),
+                    bubble: &rate.bubble,
+                };
+                *self.power += Rod::pack_force(simd, kernel, (&at, Some(&rates)), &mut f);
+            } else {
+                Rod::pack_force(simd, kernel, (&at, None), &mut f);
+            }
+            self.write(elements, &f);
+        }
+    }
+}
