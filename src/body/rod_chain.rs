@@ -29,6 +29,11 @@ const SPIN_MASS: [[f64; 3]; 3] = [
     [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0],
 ];
 
+/// Angles from the middle of an element to an end, and of its twist, rad, from which on its frames are not told: just below a right angle,
+/// where no smallest rotation is stable, and half a turn.
+const MOST_BEND: f64 = 1.5;
+const MOST_TWIST: f64 = 3.0;
+
 /// Where an element's velocities stand among its nodes `[line, frame, line, frame, inner]`: node, part, first axis, how many.
 const PLACES: [(usize, usize, usize, usize); 7] = [
     (0, 0, 0, 3),
@@ -86,6 +91,15 @@ impl RodChain {
     pub fn frame_at(&self, marker: &Marker) -> Option<usize> {
         let k = marker.nodes[0] - self.line;
         marker.is_nodal().then_some(self.frames + 2 * k)
+    }
+
+    /// Element and place inside it of a frame by its first node: the element after it, but at the last end.
+    pub fn element_at(&self, frame: usize) -> (usize, f64) {
+        let k = (frame - self.frames) / 2;
+        match k == self.elements.len() {
+            true => (k - 1, 1.0),
+            false => (k, 0.0),
+        }
     }
 
     /// Nodes inside its elements.
@@ -202,9 +216,13 @@ impl RodChain {
         motion: (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
     ) -> [N; 3] {
+        self.momenta_of(j, &self.rates(j, motion, frames))
+    }
+
+    /// The same of these velocities; of their rates, what changes it.
+    fn momenta_of<N: Number>(&self, j: usize, rates: &Rates<N>) -> [N; 3] {
         let (_, inertia) = &self.elements[j];
-        let Rates { spin, bubble, .. } = self.rates(j, motion, frames);
-        let rates = [spin[0], bubble, spin[1]];
+        let rates = [rates.spin[0], rates.bubble, rates.spin[1]];
         let scale = N::of(*inertia);
         SPIN_MASS.map(|row| {
             let terms = row.iter().zip(&rates);
@@ -342,14 +360,46 @@ impl RodChain {
         }
     }
 
-    /// The largest angle, rad, by which an element bends from its middle to an end or twists, and which one.
-    pub fn largest_angle<const D: usize>(&self, x: &[Node<D>]) -> (f64, usize) {
+    /// The first element that is bent or twisted beyond what its frames hold, and by how much: from its middle to an end, and from end to
+    /// end, rad.
+    pub fn overbent<const D: usize>(&self, x: &[Node<D>]) -> Option<(usize, [f64; 2])> {
         let elements = self.elements.iter().enumerate();
-        let angles = elements.map(|(j, (rod, _))| (rod.largest_angle(&self.at(j, x)), j));
-        angles.fold(
-            (0.0, 0),
-            |largest, angle| if angle.0 > largest.0 { angle } else { largest },
-        )
+        let mut angles = elements.map(|(j, (rod, _))| (j, rod.angles(&self.at(j, x))));
+        angles.find(|(_, [bend, twist])| *bend > MOST_BEND || *twist > MOST_TWIST)
+    }
+
+    /// What element `j` lacks for equilibrium: elastic and damping forces less the inertia of spins, with the force that these ask for
+    /// where tangents turn.
+    pub fn lack<const D: usize, N: Number>(
+        &self,
+        j: usize,
+        (x, v, a): (&[Node<D, N>], &[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+    ) -> Force<N> {
+        let (rod, _) = &self.elements[j];
+        let mut force = rod
+            .force(&self.at(j, x), Some(&self.rates(j, (x, v), frames)))
+            .0;
+        let ends = [self.frame(j, frames), self.frame(j + 1, frames)];
+        let [first, inner, last] = self.momenta_of(
+            j,
+            &Rates {
+                e: self.rates(j, (x, v), frames).e,
+                spin: ends.map(|frame| frame.spin_rate(x, a)),
+                bubble: a[self.inner + j][INNER.0][INNER.1],
+            },
+        );
+        force.torque[0] -= first;
+        force.torque[1] -= last;
+        force.bubble -= inner;
+        let [first, _, last] = self.momenta(j, (x, v), frames);
+        for (k, (frame, momentum)) in ends.into_iter().zip([first, last]).enumerate() {
+            let on_slope = components(&Vector::<D, N>::from(frame.gyroscopic(momentum, (x, v))));
+            for (sum, f) in force.e[2 * k + 1].iter_mut().zip(on_slope) {
+                *sum += f;
+            }
+        }
+        force
     }
 }
 

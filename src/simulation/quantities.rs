@@ -48,6 +48,8 @@ pub enum Quantity {
     AxialForce(MarkerId),
     /// Component of the bending moment at a marker; in the plane the third.
     BendingMoment(MarkerId, usize),
+    /// Torque about the tangent at a marker, N m.
+    Torque(MarkerId),
     /// Component of the force that the part of a cable before a marker exerts on the part after it.
     ConnectivityForce(MarkerId, usize),
     /// Where a slide is on its cable.
@@ -147,6 +149,7 @@ pub(super) fn value<const D: usize, N: Number>(
         Curvature(id) => values.strain(system, at(id)).1,
         AxialForce(id) => values.section(system, at(id)).0,
         BendingMoment(id, axis) => values.section(system, at(id)).1[axis],
+        Torque(id) => values.torque(system, at(id)),
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, ..) | ReactionMoment(joint, ..) => {
@@ -305,7 +308,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) | GearForce(_) => {
             (Dynamics, |by| Some(by.force))
         }
-        BendingMoment(..) | ReactionMoment(..) | MotionMoment(..) | GearTorque(_) => {
+        BendingMoment(..) | Torque(_) | ReactionMoment(..) | MotionMoment(..) | GearTorque(_) => {
             (Dynamics, |by| Some(by.force * by.size))
         }
         CouplingForce(..) => (Kinematics, |by| Some(by.force)),

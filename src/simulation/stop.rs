@@ -52,6 +52,12 @@ impl<const D: usize> Engine<D> {
             Stop::NotFinite => {
                 format!("{method}: velocities or accelerations are no longer finite")
             }
+            Stop::Overbent(body, element) => format!(
+                "expected elements of `{}` that bend by less than a right angle from the middle to an end and twist by less \
+                 than half a turn, found more in element {}: take more elements",
+                self.bodies[body],
+                element + 1
+            ),
             Stop::RanOff(joint) => format!("slider `{}` has left its cable", self.name(joint)),
             Stop::Broken => format!(
                 "{method}: constraints cannot be kept: expected joints and motions that can hold together from \

@@ -99,6 +99,12 @@ impl Carried {
         third.dot(&second)
     }
 
+    /// Rate of its angular velocity about the tangent, rad/s^2, at these accelerations: `t.sum e x e'' / 2`.
+    pub fn spin_rate<const D: usize, N: Number>(&self, x: &[Node<D, N>], a: &[Node<D, N>]) -> N {
+        let ([_, second, third], [_, second_rate, third_rate]) = (self.axes(x), self.axes(a));
+        (third.dot(&second_rate) - second.dot(&third_rate)) * N::of(0.5)
+    }
+
     /// Its angular velocity, rad/s.
     pub fn velocity<const D: usize>(&self, x: &[Node<D>], v: &[Node<D>]) -> Vector3<f64> {
         angular(&self.slope(x), &self.slope(v), self.spin(x, v))

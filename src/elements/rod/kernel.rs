@@ -444,8 +444,8 @@ impl<N: Real> Kernel<N> {
 }
 
 impl Kernel<f64> {
-    /// The largest angle between tangents at the ends and the middle, and the twist, rad.
-    pub fn largest_angle(&self, at: &At<f64>) -> f64 {
+    /// The larger angle between the tangents at the ends and that at the middle, and the size of the twist, rad.
+    pub fn angles(&self, at: &At<f64>) -> [f64; 2] {
         let v = self.vectors(&at.e);
         let frame = self.frame(&v, &at.d);
         let lean = |end: &End<f64>| {
@@ -455,6 +455,6 @@ impl Kernel<f64> {
                 .atan2(dot(&end.tangent, &frame.middle))
         };
         let [first, last] = frame.ends.map(|end| lean(&end));
-        first.max(last).max(frame.twist.abs())
+        [first.max(last), frame.twist.abs()]
     }
 }

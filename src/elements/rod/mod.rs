@@ -203,10 +203,10 @@ impl Rod {
         self.kernel.stiffness.map(row)
     }
 
-    /// The largest of the angles between the tangents at the ends and that at the middle, and of the size of the twist, rad.
-    /// Frames hold while it is less than a right angle (tangents) and half a turn (twist); a mesh with more than 1 is coarse.
-    pub fn largest_angle(&self, at: &At<f64>) -> f64 {
-        self.kernel.largest_angle(at)
+    /// The larger of the angles between the tangents at the ends and that at the middle, and the size of the twist, rad. Frames hold
+    /// while the first is less than a right angle and the second less than half a turn; a mesh with more than 1 is coarse.
+    pub fn angles(&self, at: &At<f64>) -> [f64; 2] {
+        self.kernel.angles(at)
     }
 
     /// Tangent stiffness, the derivative of minus the force along velocities, symmetric: the second derivatives of the energy

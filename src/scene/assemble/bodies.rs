@@ -204,14 +204,25 @@ impl<const D: usize> Builder<'_, D> {
         let body = cable.id.body;
         match cable.id.form {
             Form::Chain(chain) => {
-                let chain = &self.parts.chains[chain];
-                let marker = Marker::along(body, chain, s * chain.length());
+                let (chain, marker) = (&self.parts.chains[chain], self.on_line_of(cable, s));
                 let sections = self.parts.rod_chains.iter();
                 let mut sections = sections.filter(|rod| rod.line() == chain.nodes(0)[0]);
                 match sections.next().and_then(|rod| rod.frame_at(&marker)) {
                     Some(node) => Marker::framed(body, node, [0.0; 3], [1.0, 0.0, 0.0]),
                     None => marker,
                 }
+            }
+            Form::Rod(_) => self.on_line_of(cable, s),
+        }
+    }
+
+    /// A point of the line of a cable or rod at a material coordinate in [0, 1].
+    pub(super) fn on_line_of(&self, cable: Cable<'_>, s: f64) -> Marker {
+        let body = cable.id.body;
+        match cable.id.form {
+            Form::Chain(chain) => {
+                let chain = &self.parts.chains[chain];
+                Marker::along(body, chain, s * chain.length())
             }
             Form::Rod(rod) => {
                 let Rod { node, length, .. } = self.parts.rods[rod];

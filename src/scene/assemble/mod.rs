@@ -233,7 +233,11 @@ impl<const D: usize> Builder<'_, D> {
 
     fn masses(&mut self) {
         for mass in &self.resolved.masses {
-            let marker = self.marker(mass.marker);
+            let marker = match mass.marker.place {
+                // On the line of a rod.
+                Place::Along(cable, s) => self.on_line_of(cable, s),
+                Place::Point(..) => self.marker(mass.marker),
+            };
             // Of a rigid body of space it is in the inertia.
             if marker.is_framed() {
                 continue;

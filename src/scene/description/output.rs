@@ -75,7 +75,7 @@ pub enum OutputKind {
     /// Direction at a marker, or direction of the second marker of a revolute joint or hinge less
     /// that of its first, rad, counted on over full turns.
     Angle,
-    /// How a rigid body in space stands: the matrix whose columns are the axes of its frame in global components, by rows.
+    /// How a rigid body or the section of a rod in space stands: the matrix whose columns are the axes of its frame in global components, by rows.
     Orientation,
     /// The same as a unit quaternion, scalar first: `w >= 0` at the start, and from there on without jumps, so that it changes
     /// its sign with every full turn.
@@ -83,7 +83,7 @@ pub enum OutputKind {
     /// The same as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body turns on beyond,
     /// the vector jumps to its opposite.
     RotationVector,
-    /// Rate of the angle, rad/s; in space the angular velocity of a rigid body (`axes`).
+    /// Rate of the angle, rad/s; in space the angular velocity of a rigid body or of the section of a rod (`axes`).
     AngularVelocity,
     /// Rate of the angular velocity, rad/s^2.
     AngularAcceleration,
@@ -95,8 +95,12 @@ pub enum OutputKind {
     /// positive, from the balance of forces with inertia. Where a load or joint acts, that after it.
     AxialForce,
     /// Bending moment at a marker of a cable, N m: of the part after on the part before, positive where
-    /// curvature is, from the balance of moments with inertia. Where a load or joint acts, that after it.
+    /// curvature is, from the balance of moments with inertia; of a rod the whole moment, with the torque. Where a load or joint acts,
+    /// that after it.
     BendingMoment,
+    /// Torque about the tangent at a marker of a rod, N m: of the part after on the part before, positive where the twist is, from the
+    /// balance of moments with inertia. Where a load or joint acts, that after it.
+    Torque,
     /// Force that the part of a cable before a marker exerts on the part after it, global axes, N.
     ConnectivityForce,
     /// Where along the cable a joint of kind `along` stands: length from the first end, m.
@@ -152,6 +156,8 @@ pub enum ReadAt {
     Directed,
     /// A marker of a cable.
     Cable,
+    /// A marker of a rod.
+    Rod,
     /// A marker of a cable that bends.
     Flexible,
     /// A marker of a cable, where its mesh, if it has one, has a node.
@@ -186,6 +192,7 @@ impl OutputKind {
             Self::Orientation | Self::Quaternion | Self::RotationVector => ReadAt::Standing,
             Self::Strain | Self::Curvature => ReadAt::Flexible,
             Self::AxialForce | Self::BendingMoment => ReadAt::Cable,
+            Self::Torque => ReadAt::Rod,
             Self::ConnectivityForce => ReadAt::Node,
             Self::AngularVelocity | Self::AngularAcceleration => ReadAt::Turning,
             Self::Angle => ReadAt::Angle,
@@ -212,6 +219,7 @@ impl Kind for OutputKind {
             | ReadAt::Directed
             | ReadAt::Standing
             | ReadAt::Cable
+            | ReadAt::Rod
             | ReadAt::Flexible
             | ReadAt::Node => &[(&["marker"], &[])],
             ReadAt::Angle | ReadAt::Moving => &[(&["joint"], &[]), (&["marker"], &[])],

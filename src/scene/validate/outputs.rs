@@ -121,6 +121,7 @@ impl<'a> Resolved<'a> {
             ReadAt::Directed => Of::Marker(marker(Self::require_directed)?),
             ReadAt::Standing => Of::Marker(marker(Self::require_standing)?),
             ReadAt::Cable | ReadAt::Node => Of::Marker(marker(Self::require_cable_marker)?),
+            ReadAt::Rod => Of::Marker(marker(Self::require_rod_marker)?),
             ReadAt::Flexible => Of::Marker(marker(Self::require_flexible_marker)?),
             ReadAt::Turning => Of::Turning(spinning()?),
             ReadAt::Angle => {

@@ -38,13 +38,13 @@ impl<'a> Resolved<'a> {
         }
     }
 
-    /// A marker of a rigid body in space that turns.
+    /// A marker of a rigid body in space that turns, or of a rod.
     pub(super) fn require_standing(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_marker(path, name)?;
         let wanted = match self.scene.dimension {
             2 => "nothing in the plane, where \"angle\" says how a body stands",
             _ => {
-                "a marker of a rigid body with inertia; a cable without torsion has a direction alone"
+                "a marker of a rod, or of a rigid body with inertia; a cable without torsion has a direction alone"
             }
         };
         match self.scene.dimension == 3 && marker.place.is_framed() {
@@ -57,6 +57,10 @@ impl<'a> Resolved<'a> {
     pub(super) fn require_driven(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         let marker = self.require_standing(path, name)?;
         match marker.place {
+            Place::Along(..) => {
+                let wanted = "a rigid body; drive one that is welded to the rod";
+                Err(expected(path, wanted, quoted(name)))
+            }
             Place::Point(rigid, _) if rigid.body.inertia().thin().is_some() => {
                 let wanted = "a body with a moment of inertia about every axis";
                 Err(expected(path, wanted, quoted(name)))
@@ -86,6 +90,19 @@ impl<'a> Resolved<'a> {
             return Ok(marker);
         }
         Err(expected(path, "a marker of a cable", quoted(name)))
+    }
+
+    /// A marker of a rod.
+    pub(super) fn require_rod_marker(
+        &self,
+        path: &str,
+        name: &'a str,
+    ) -> Result<Marker<'a>, Error> {
+        let marker = self.require_cable_marker(path, name)?;
+        match marker.place.is_framed() {
+            true => Ok(marker),
+            false => Err(expected(path, "a marker of a rod", quoted(name))),
+        }
     }
 
     /// A marker of a cable that bends; what is asked for is what a rigid one does not have.

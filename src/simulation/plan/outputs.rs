@@ -140,6 +140,7 @@ fn is_force(source: Source) -> bool {
         quantity,
         AxialForce(_)
             | BendingMoment(..)
+            | Torque(_)
             | ConnectivityForce(..)
             | Reaction(..)
             | ReactionMoment(..)

@@ -85,6 +85,8 @@ pub enum Accepted {
     Moved,
     /// A slide would have left its cable; the joint. The state is that before the step.
     RanOff(usize),
+    /// An element of a rod is bent or twisted beyond what its frames hold: the rod, among the bodies, and the element.
+    Overbent(usize, usize),
     /// It is off the constraints and cannot be brought back.
     Broken,
     /// A driven coordinate jumps; its index.
@@ -323,10 +325,13 @@ impl<'a, const D: usize> Model<'a, D> {
         for (driven, course) in state.driven.iter_mut().zip(&self.work.trajectories) {
             *driven = course.orders(state.time);
         }
-        if state.angles.is_empty() && state.travel.is_empty() {
+        if state.angles.is_empty() && state.travel.is_empty() && system.rod_chains.is_empty() {
             return Accepted::AsIs;
         }
         system.forward_kinematics(state.time, &state.coordinates, None, self.work);
+        if let Some((body, element)) = system.overbent(&self.work.x) {
+            return Accepted::Overbent(body, element);
+        }
         for (i, angle) in system.angles.iter().enumerate() {
             state.angles[i] = angle.value(&self.work.x, self.work.angles[i]);
         }

@@ -5,6 +5,16 @@ use crate::math::jet::Number;
 use crate::system::{State, System, Work};
 
 impl<const D: usize> System<D> {
+    /// The first rod, among the bodies, with an element that is bent or twisted beyond what its frames hold, and which that is.
+    pub(in crate::system) fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
+        let mut found = self.rod_chains.iter().filter_map(|chain| {
+            let (element, _) = chain.overbent(x)?;
+            let body = (self.bodies.iter()).position(|nodes| nodes.start == chain.line())?;
+            Some((body, element))
+        });
+        found.next()
+    }
+
     /// Adds to forces over the nodes that have coordinates the torques of rods about tangents, and what spins ask for.
     pub(in crate::system) fn add_rod_forces<N: Number>(
         &self,

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::body::{Frame, Marker, Node, axes_at, combined, spin_at};
+use crate::body::{Frame, Marker, Node, RodChain, axes_at, combined, spin_at};
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Number;
 use crate::math::rotation::{NO_TURN, Quaternion};
@@ -363,10 +363,19 @@ impl<const D: usize> System<D> {
         &self,
         marker: &Marker,
     ) -> Option<(&CableChain<D>, usize, f64)> {
-        let (j, xi) = marker.element?;
         let first = self.bodies[marker.body].start;
         let chain = self.chains.iter().find(|c| c.nodes(0)[0] == first)?;
+        let (j, xi) = match self.sections(chain) {
+            Some(sections) if marker.is_framed() => sections.element_at(marker.nodes[0]),
+            _ => marker.element?,
+        };
         Some((chain, j, xi))
+    }
+
+    /// Bending and torsion of a rod whose line is this chain.
+    pub(in crate::system) fn sections(&self, chain: &CableChain<D>) -> Option<&RodChain> {
+        let first = chain.nodes(0)[0];
+        self.rod_chains.iter().find(|rod| rod.line() == first)
     }
 
     /// The same; at a node the element after it, but at the last end.

@@ -18,7 +18,7 @@ use crate::elements::cable::Cable;
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_3;
-use crate::math::space::{Vector, carried, moment};
+use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
 use crate::system::loads::Load;
 use crate::system::{CableChain, System};
 
@@ -37,7 +37,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         if element >= chain.elements().len() {
             return Vector::zeros();
         }
-        self.lack(system, (chain, element)).column(2).into()
+        self.lack(system, (chain, element)).0.column(2).into()
     }
 
     /// Axial force (N), the part of the section force along the tangent, and bending moment (N m, in the plane its third component) at a
@@ -51,15 +51,18 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             return (N::of(0.0), [N::of(0.0); 3]);
         };
         let (part, e) = (&chain.elements()[j], chain.element(j, &self.x));
-        let lack = self.lack(system, (chain, j));
+        let (lack, torques) = self.lack(system, (chain, j));
         let column = |k: usize| -> Vector<D, N> { lack.column(k).into() };
         let slope = |xi: f64| -> Vector<D, N> { e * shape::slopes(N::of(xi), part.length()) };
         let tangent = slope(xi).normalize();
         let bends = part.bends();
         let bending = |m: Vector3<N>| if bends { m } else { Vector3::zeros() };
         // At the ends: what the neighbours exert.
-        let first = Vector3::from(moment(&slope(0.0), &column(1)));
-        let last = -Vector3::from(moment(&slope(1.0), &column(3)));
+        let about = |xi: f64, torque: N| -> Vector3<N> {
+            Vector3::from(components(&slope(xi).normalize())) * torque
+        };
+        let first = Vector3::from(moment(&slope(0.0), &column(1))) + about(0.0, torques[0]);
+        let last = -Vector3::from(moment(&slope(1.0), &column(3))) - about(1.0, torques[1]);
         if xi == 1.0 {
             return (-column(2).dot(&tangent), bending(last).into());
         }
@@ -70,6 +73,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let missing = last - first + whole;
         let moment = bending(first - turned + missing * N::of(xi));
         (force.dot(&tangent), moment.into())
+    }
+
+    /// Torque about the tangent at a marker of a rod, N m; zero elsewhere.
+    pub fn torque(&self, system: &System<D>, marker: &Marker) -> N {
+        let moment = Vector3::from(self.section(system, marker).1);
+        let tangent = marker.lift::<N>().direction(&self.x);
+        Vector3::from(components(&tangent)).dot(&moment)
     }
 
     /// Section force at `xi` inside an element from that at its first end, and the integral of `r' x n` up
@@ -101,15 +111,33 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// What an element lacks for equilibrium, on its coordinates: elastic and damping forces and loads less
-    /// inertia, N and N m. Its neighbours exert the opposite.
-    fn lack(&self, system: &System<D>, (chain, j): (&CableChain<D>, usize)) -> Nodal<D, N> {
+    /// inertia, N and N m; and about the tangents at the ends of an element of a rod, N m. Its neighbours exert the opposite.
+    fn lack(
+        &self,
+        system: &System<D>,
+        (chain, j): (&CableChain<D>, usize),
+    ) -> (Nodal<D, N>, [N; 2]) {
         let (e, v) = (chain.element(j, &self.x), chain.element(j, &self.v));
         let part = &chain.elements()[j];
         let mut lack: Nodal<D, N> = part.force(&e, &v);
         lack += (system.gravity * part.weight().transpose()).map(N::of);
         lack -= self.inertia(system, (chain, j)) * part.mass().map(N::of);
         let weights = part.weight() / line_density(part);
-        lack + self.distributed(system, chain.nodes(0)[0]) * weights.map(N::of).transpose()
+        lack += self.distributed(system, chain.nodes(0)[0]) * weights.map(N::of).transpose();
+        let mut torques = [N::of(0.0); 2];
+        if let Some(sections) = system.sections(chain) {
+            let motion = (&self.x[..], &self.v[..], &self.acceleration[..]);
+            let force = sections.lack(j, motion, &system.frames);
+            torques = force.torque;
+            for (k, vector) in force.e.into_iter().enumerate() {
+                let sum: Vector<D, N> = vector_of(vector);
+                lack.column_mut(k)
+                    .iter_mut()
+                    .zip(&sum)
+                    .for_each(|(l, f)| *l += *f);
+            }
+        }
+        (lack, torques)
     }
 
     /// Absolute accelerations of the coordinates of an element, in the axes of the frame, m/s^2.
