@@ -14,7 +14,7 @@ pub(super) type Square<N> = [[N; 3]; 3];
 pub(super) const POINTS: [Sample; 3] = [sample(GAUSS_3[0]), sample(GAUSS_3[1]), sample(GAUSS_3[2])];
 
 /// Weights of the three vectors in the slope at the middle.
-const MIDDLE: [f64; 3] = sample(Point {
+pub(super) const MIDDLE: [f64; 3] = sample(Point {
     at: 0.5,
     weight: 0.0,
 })
@@ -32,8 +32,6 @@ pub(super) struct Kernel<N> {
     /// What is added to the strains at the points before they are multiplied by the stiffness: less those of the
     /// unstressed shape.
     pub offset: Square<N>,
-    /// Stresses at the points that are given.
-    pub held: Square<N>,
     /// Whether the stresses do not notice a turn of the section about the tangent.
     pub is_round: bool,
     pub is_damped: bool,
@@ -41,28 +39,28 @@ pub(super) struct Kernel<N> {
 
 /// One end of an element.
 #[derive(Clone, Copy)]
-struct End<N> {
-    tangent: Vector<N>,
+pub(super) struct End<N> {
+    pub tangent: Vector<N>,
     /// One over the length of the slope.
-    inverse_size: N,
+    pub inverse_size: N,
     /// `t x z / (1 + t . z)`.
-    half: Vector<N>,
+    pub half: Vector<N>,
 }
 
 /// The frames that sections of an element are compared with.
-struct Frame<N> {
+pub(super) struct Frame<N> {
     /// Unit tangent at the middle and one over the length of the slope there.
-    middle: Vector<N>,
-    inverse_size: N,
-    ends: [End<N>; 2],
+    pub middle: Vector<N>,
+    pub inverse_size: N,
+    pub ends: [End<N>; 2],
     /// The first end's frame, carried to the middle.
-    axes: [Vector<N>; 2],
+    pub axes: [Vector<N>; 2],
     /// Twist of the element, rad.
-    twist: N,
+    pub twist: N,
 }
 
 /// Rates of a frame.
-struct FrameRate<N> {
+pub(super) struct FrameRate<N> {
     middle: Vector<N>,
     /// Rate of turning of the first end's frame, carried to the middle.
     turn: N,
@@ -70,19 +68,19 @@ struct FrameRate<N> {
 }
 
 /// A section.
-struct Section<N> {
-    u: Vector<N>,
-    w: Vector<N>,
-    tangent: Vector<N>,
-    inverse_size: N,
-    curvature: Vector<N>,
+pub(super) struct Section<N> {
+    pub u: Vector<N>,
+    pub w: Vector<N>,
+    pub tangent: Vector<N>,
+    pub inverse_size: N,
+    pub curvature: Vector<N>,
     /// `1 / (1 + z . t)`.
-    inverse: N,
+    pub inverse: N,
     /// `z . kappa`.
-    along: N,
-    sine: N,
-    cosine: N,
-    strains: [N; 3],
+    pub along: N,
+    pub sine: N,
+    pub cosine: N,
+    pub strains: [N; 3],
 }
 
 /// Factors of the changes of what a section sees, summed over sections.
@@ -108,7 +106,6 @@ impl Kernel<f64> {
             stiffness: lifted(&self.stiffness),
             damping: lifted(&self.damping),
             offset: lifted(&self.offset),
-            held: lifted(&self.held),
             is_round: self.is_round,
             is_damped: self.is_damped,
         }
@@ -120,8 +117,8 @@ impl Kernel<[f64; PACK]> {
     #[inline(always)]
     pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
         let length = Lanes::read(simd, &self.length, group);
-        let mut squares = [[[length; 3]; 3]; 4];
-        let all = [&self.stiffness, &self.damping, &self.offset, &self.held];
+        let mut squares = [[[length; 3]; 3]; 3];
+        let all = [&self.stiffness, &self.damping, &self.offset];
         for (square, from) in all.iter().enumerate() {
             for i in 0..3 {
                 for j in 0..3 {
@@ -129,14 +126,13 @@ impl Kernel<[f64; PACK]> {
                 }
             }
         }
-        let [stiffness, damping, offset, held] = squares;
+        let [stiffness, damping, offset] = squares;
         Kernel {
             length,
             inverse_length: Lanes::read(simd, &self.inverse_length, group),
             stiffness,
             damping,
             offset,
-            held,
             is_round: self.is_round,
             is_damped: self.is_damped,
         }
@@ -144,18 +140,18 @@ impl Kernel<[f64; PACK]> {
 }
 
 #[inline(always)]
-fn product<N: Real>(matrix: &Square<N>, v: &[N; 3]) -> [N; 3] {
+pub(super) fn product<N: Real>(matrix: &Square<N>, v: &[N; 3]) -> [N; 3] {
     each!(*v, k => dot(&matrix[k], v))
 }
 
 impl<N: Real> Kernel<N> {
     #[inline(always)]
-    fn number(&self, value: f64) -> N {
+    pub fn number(&self, value: f64) -> N {
         self.length.constant(value)
     }
 
     #[inline(always)]
-    fn vectors(&self, e: &[Vector<N>; 4]) -> [Vector<N>; 3] {
+    pub fn vectors(&self, e: &[Vector<N>; 4]) -> [Vector<N>; 3] {
         let chord = each!(e[0], i => (e[2][i] - e[0][i]) * self.inverse_length);
         [chord, e[1], e[3]]
     }
@@ -174,7 +170,7 @@ impl<N: Real> Kernel<N> {
     }
 
     #[inline(always)]
-    fn frame(&self, v: &[Vector<N>; 3], d: &[Vector<N>; 2]) -> Frame<N> {
+    pub fn frame(&self, v: &[Vector<N>; 3], d: &[Vector<N>; 2]) -> Frame<N> {
         let (middle, inverse_size) = unit(&combine(&MIDDLE, v));
         let (first, inverse) = self.end(&v[1], &middle);
         let axis = carry(&first.tangent, &middle, inverse, &d[0]);
@@ -192,7 +188,7 @@ impl<N: Real> Kernel<N> {
 
     /// What the internal twist counts at a point, and its derivative by the reference length times the length.
     #[inline(always)]
-    fn quadratic(&self, at: f64) -> (N, N) {
+    pub fn quadratic(&self, at: f64) -> (N, N) {
         (
             self.number(4.0 * at * (1.0 - at)),
             self.number(4.0 - 8.0 * at),
@@ -200,7 +196,7 @@ impl<N: Real> Kernel<N> {
     }
 
     #[inline(always)]
-    fn section(
+    pub fn section(
         &self,
         point: &Sample,
         v: &[Vector<N>; 3],
@@ -288,7 +284,7 @@ impl<N: Real> Kernel<N> {
         for (index, point) in POINTS.iter().enumerate() {
             let section = self.section(point, &v, &frame, at.bubble);
             let strains = add(&section.strains, &self.offset[index]);
-            let mut stress = add(&product(&self.stiffness, &strains), &self.held[index]);
+            let mut stress = product(&self.stiffness, &strains);
             if let Some((dv, change, bubble)) = &motion {
                 let rate = self.strain_rates(point, &section, &frame, (dv, change, *bubble));
                 let damped = product(&self.damping, &rate);
@@ -374,7 +370,7 @@ impl<N: Real> Kernel<N> {
     }
 
     #[inline(always)]
-    fn frame_rate(&self, frame: &Frame<N>, dv: &[Vector<N>; 3], spin: &[N; 2]) -> FrameRate<N> {
+    pub fn frame_rate(&self, frame: &Frame<N>, dv: &[Vector<N>; 3], spin: &[N; 2]) -> FrameRate<N> {
         let change = across(&frame.middle, &combine(&MIDDLE, dv));
         let middle = times(&change, frame.inverse_size);
         let [first, last] = &frame.ends;
@@ -395,7 +391,7 @@ impl<N: Real> Kernel<N> {
 
     /// Rates of the strains of a section.
     #[inline(always)]
-    fn strain_rates(
+    pub fn strain_rates(
         &self,
         point: &Sample,
         at: &Section<N>,
@@ -425,21 +421,6 @@ impl<N: Real> Kernel<N> {
             at.cosine * p + at.sine * q + at.strains[2] * turn,
             at.cosine * q - at.sine * p - at.strains[1] * turn,
         ]
-    }
-
-    /// Stresses at the points that damping adds.
-    #[inline(always)]
-    pub fn damping_stresses(&self, at: &At<N>, rates: &Rates<N>) -> Square<N> {
-        let (v, dv) = (self.vectors(&at.e), self.vectors(&rates.e));
-        let frame = self.frame(&v, &at.d);
-        let change = self.frame_rate(&frame, &dv, &rates.spin);
-        let mut stresses = self.offset;
-        for (stress, point) in stresses.iter_mut().zip(&POINTS) {
-            let section = self.section(point, &v, &frame, at.bubble);
-            let rate = self.strain_rates(point, &section, &frame, (&dv, &change, rates.bubble));
-            *stress = product(&self.damping, &rate);
-        }
-        stresses
     }
 }
 

@@ -30,10 +30,10 @@
 //! Velocities are those of `e`, the angular velocity about the tangent at both ends, and the rate of `beta`; `d` follows by
 //! `d' = spin t x d - (d . u') u / (u . u)`. Forces are the factors of these in the power.
 
-mod dual;
 mod kernel;
 #[cfg(test)]
 mod statics;
+mod tangent;
 #[cfg(test)]
 mod tests;
 mod vectors;
@@ -41,7 +41,6 @@ mod vectors;
 use crate::elements::line::{dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{GAUSS_3, Point};
-use dual::Dual;
 use kernel::{Kernel, POINTS};
 use vectors::{cross, plus, unit};
 
@@ -124,7 +123,6 @@ impl Rod {
             stiffness: parameters.stiffness,
             damping: parameters.stiffness,
             offset: [[0.0; 3]; 3],
-            held: [[0.0; 3]; 3],
             is_round: false,
             is_damped: times.iter().any(|time| *time > 0.0),
         };
@@ -213,50 +211,12 @@ impl Rod {
     /// where `d` is turned about the tangent after the smallest rotation with it. With rates its symmetric part
     /// that matters: the stresses that damping adds are taken as given.
     pub fn stiffness(&self, at: &At<f64>, rates: Option<&Rates<f64>>) -> Matrix {
-        let mut kernel = self.kernel.clone();
-        if let Some(rates) = rates {
-            kernel.held = kernel.damping_stresses(at, rates);
-        }
-        let mut matrix = [[0.0; VELOCITIES]; VELOCITIES];
-        for start in (0..VELOCITIES).step_by(TOGETHER) {
-            let ways: [_; TOGETHER] = std::array::from_fn(|k| unit_velocity(start + k));
-            let moved = moving(at, &ways);
-            let force = kernel.lift(moved.bubble).force(&moved, None).0;
-            put(&force, start, &mut matrix);
-        }
-        for i in 0..VELOCITIES {
-            for j in 0..i {
-                let mean = 0.5 * (matrix[i][j] + matrix[j][i]);
-                (matrix[i][j], matrix[j][i]) = (mean, mean);
-            }
-        }
-        matrix
+        self.kernel.stiffness(at, rates)
     }
 
     /// Damping matrix, the derivative of minus the force by velocities, symmetric.
     pub fn damping(&self, at: &At<f64>) -> Matrix {
-        let mut matrix = [[0.0; VELOCITIES]; VELOCITIES];
-        for start in (0..VELOCITIES).step_by(TOGETHER) {
-            let ways: [_; TOGETHER] = std::array::from_fn(|k| unit_velocity(start + k));
-            let fixed = Dual::<f64, TOGETHER>::fixed;
-            let at = At {
-                e: at.e.map(|v| v.map(fixed)),
-                d: at.d.map(|v| v.map(fixed)),
-                bubble: fixed(at.bubble),
-            };
-            let slope = |of: &dyn Fn(&Rates<f64>) -> f64| Dual {
-                value: 0.0,
-                slopes: ways.each_ref().map(of),
-            };
-            let rates = Rates {
-                e: std::array::from_fn(|k| std::array::from_fn(|i| slope(&|way| way.e[k][i]))),
-                spin: std::array::from_fn(|k| slope(&|way| way.spin[k])),
-                bubble: slope(&|way| way.bubble),
-            };
-            let force = self.kernel.lift(at.bubble).force(&at, Some(&rates)).0;
-            put(&force, start, &mut matrix);
-        }
-        matrix
+        self.kernel.damping_matrix(at)
     }
 
     /// The formulas with sections as they are turned: round ones do not notice.
@@ -289,7 +249,6 @@ impl Rod {
             stiffness: square(&|k| k.stiffness),
             damping: square(&|k| k.damping),
             offset: square(&|k| k.offset),
-            held: square(&|k| k.held),
             is_round: first.is_round,
             is_damped: first.is_damped,
         };
@@ -308,26 +267,11 @@ impl Rod {
         out: &mut Force<[f64; PACK]>,
     ) -> f64 {
         let mut powers = [0.0; PACK];
-        for group in 0..pack.count.div_ceil(S::F64_LANES) {
+        for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
-            let at = At {
-                e: read(simd, &at.e, group),
-                d: read(simd, &at.d, group),
-                bubble: Lanes::read(simd, at.bubble, group),
-            };
+            let at = at.group(simd, group);
             let (force, power) = match rates {
-                Some(rates) => {
-                    let spin = [
-                        Lanes::read(simd, rates.spin[0], group),
-                        Lanes::read(simd, rates.spin[1], group),
-                    ];
-                    let rates = Rates {
-                        e: read(simd, &rates.e, group),
-                        spin,
-                        bubble: Lanes::read(simd, rates.bubble, group),
-                    };
-                    kernel.force(&at, Some(&rates))
-                }
+                Some(rates) => kernel.force(&at, Some(&rates.group(simd, group))),
                 None => kernel.force(&at, None),
             };
             for k in 0..4 {
@@ -344,6 +288,81 @@ impl Rod {
             }
         }
         powers[..pack.count].iter().sum()
+    }
+
+    /// [`Self::stiffness`] of a pack, with rates where it is damped: rows with columns up to the diagonal.
+    #[inline(always)]
+    pub fn pack_stiffness<S: Simd>(
+        simd: S,
+        pack: &Pack,
+        (at, rates): (&At<&[f64; PACK]>, Option<&Rates<&[f64; PACK]>>),
+        out: &mut Matrix<[f64; PACK]>,
+    ) {
+        for group in 0..pack.groups::<S>() {
+            let kernel = pack.kernel.group(simd, group);
+            let at = at.group(simd, group);
+            let matrix = match rates {
+                Some(rates) => kernel.stiffness(&at, Some(&rates.group(simd, group))),
+                None => kernel.stiffness(&at, None),
+            };
+            write(&matrix, out, group);
+        }
+    }
+
+    /// [`Self::damping`] of a pack: rows with columns up to the diagonal.
+    #[inline(always)]
+    pub fn pack_damping<S: Simd>(
+        simd: S,
+        pack: &Pack,
+        at: &At<&[f64; PACK]>,
+        out: &mut Matrix<[f64; PACK]>,
+    ) {
+        for group in 0..pack.groups::<S>() {
+            let kernel = pack.kernel.group(simd, group);
+            write(&kernel.damping_matrix(&at.group(simd, group)), out, group);
+        }
+    }
+}
+
+impl Pack {
+    /// Number of groups of as many elements as there are lanes.
+    #[inline(always)]
+    fn groups<S: Simd>(&self) -> usize {
+        self.count.div_ceil(S::F64_LANES)
+    }
+}
+
+impl At<&[f64; PACK]> {
+    #[inline(always)]
+    fn group<S: Simd>(&self, simd: S, group: usize) -> At<Lanes<S>> {
+        At {
+            e: read(simd, &self.e, group),
+            d: read(simd, &self.d, group),
+            bubble: Lanes::read(simd, self.bubble, group),
+        }
+    }
+}
+
+impl Rates<&[f64; PACK]> {
+    #[inline(always)]
+    fn group<S: Simd>(&self, simd: S, group: usize) -> Rates<Lanes<S>> {
+        Rates {
+            e: read(simd, &self.e, group),
+            spin: [
+                Lanes::read(simd, self.spin[0], group),
+                Lanes::read(simd, self.spin[1], group),
+            ],
+            bubble: Lanes::read(simd, self.bubble, group),
+        }
+    }
+}
+
+#[inline(always)]
+fn write<S: Simd>(matrix: &Matrix<Lanes<S>>, out: &mut Matrix<[f64; PACK]>, group: usize) {
+    for r in 0..VELOCITIES {
+        for c in 0..=r {
+            matrix[r][c].write(&mut out[r][c], group);
+        }
     }
 }
 
@@ -372,34 +391,6 @@ fn is_round(kernel: &Kernel<f64>) -> bool {
     straight && turns(&kernel.stiffness) && turns(&kernel.damping)
 }
 
-/// Directions of one sweep of forward differentiation.
-const TOGETHER: usize = 5;
-
-/// One of the velocities of an element.
-fn unit_velocity(index: usize) -> Rates<f64> {
-    let one = |at: usize| f64::from(u8::from(at == index));
-    Rates {
-        e: std::array::from_fn(|k| std::array::from_fn(|i| one(7 * (k / 2) + 3 * (k % 2) + i))),
-        spin: [one(6), one(13)],
-        bubble: one(14),
-    }
-}
-
-/// An element that moves with several velocities.
-fn moving<const K: usize>(at: &At<f64>, ways: &[Rates<f64>; K]) -> At<Dual<f64, K>> {
-    let dual = |value: f64, of: &dyn Fn(&Rates<f64>) -> f64| Dual {
-        value,
-        slopes: ways.each_ref().map(of),
-    };
-    At {
-        e: std::array::from_fn(|k| std::array::from_fn(|i| dual(at.e[k][i], &|way| way.e[k][i]))),
-        d: std::array::from_fn(|k| {
-            std::array::from_fn(|i| dual(at.d[k][i], &|way| at.section_rate(way, k)[i]))
-        }),
-        bubble: dual(at.bubble, &|way| way.bubble),
-    }
-}
-
 impl<N: Real> At<N> {
     /// Rate of `d` of an end, 1/s.
     #[inline(always)]
@@ -408,15 +399,6 @@ impl<N: Real> At<N> {
         let (t, inverse) = unit(u);
         let back = dot(d, &rates.e[2 * end + 1]) * inverse;
         plus(&t, -back, &times(&cross(&t, d), rates.spin[end]))
-    }
-}
-
-/// Puts minus the derivatives of a force into the columns of a matrix.
-fn put<const K: usize>(force: &Force<Dual<f64, K>>, start: usize, matrix: &mut Matrix) {
-    for (row, force) in force.flat().iter().enumerate() {
-        for (k, slope) in force.slopes.iter().enumerate() {
-            matrix[row][start + k] = -slope;
-        }
     }
 }
 

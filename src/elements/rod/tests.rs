@@ -2,7 +2,7 @@
 //!
 //! Source: derivatives of the energy by differences; rotations and the exchange of ends.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::*;
 use crate::elements::{Element, Nodal};
@@ -121,32 +121,73 @@ fn force_is_minus_the_gradient_of_the_energy() {
     }
 }
 
+/// One of the velocities of an element.
+fn unit_velocity(index: usize) -> Rates<f64> {
+    let one = |at: usize| f64::from(u8::from(at == index));
+    Rates {
+        e: std::array::from_fn(|k| std::array::from_fn(|i| one(7 * (k / 2) + 3 * (k % 2) + i))),
+        spin: [one(6), one(13)],
+        bubble: one(14),
+    }
+}
+
+/// An element that moves.
+fn moving(at: &At<f64>, rates: &Rates<f64>) -> At<Jet> {
+    let jets = |x: [f64; 3], v: [f64; 3]| std::array::from_fn(|i| Jet::new(x[i], v[i], 0.0));
+    At {
+        e: std::array::from_fn(|k| jets(at.e[k], rates.e[k])),
+        d: std::array::from_fn(|k| jets(at.d[k], at.section_rate(rates, k))),
+        bubble: Jet::new(at.bubble, rates.bubble, 0.0),
+    }
+}
+
 #[test]
 fn stiffness_and_damping_are_derivatives_of_the_force() {
-    let h = 1e-4;
     for (case, rod) in rods().iter().enumerate() {
-        let at = bent(10, 0.5);
-        let (stiffness, damping) = (rod.stiffness(&at, None), rod.damping(&at));
-        let mut differences = [[0.0; VELOCITIES]; VELOCITIES];
-        for j in 0..VELOCITIES {
-            let way = unit_velocity(j);
-            let force = |time: f64| rod.force(&moved(&at, &way, time), None).0.flat();
-            let [a, b, c, d] = [h, -h, 2.0 * h, -2.0 * h].map(force);
-            for i in 0..VELOCITIES {
-                differences[i][j] = -(8.0 * (a[i] - b[i]) - c[i] + d[i]) / (12.0 * h);
-            }
-            let damped = rod.force(&at, Some(&way)).0.flat();
-            let force = rod.force(&at, None).0.flat();
-            for i in 0..VELOCITIES {
-                assert!((damping[i][j] - (force[i] - damped[i])).abs() < 1e-11);
-                assert!((damping[i][j] - damping[j][i]).abs() < 1e-12);
+        for seed in 10..14 {
+            let at = bent(seed, 0.5);
+            let (stiffness, damping) = (rod.stiffness(&at, None), rod.damping(&at));
+            let elastic = rod.force(&at, None).0.flat();
+            let columns: [_; VELOCITIES] = std::array::from_fn(|k| {
+                let force = rod.force(&moving(&at, &unit_velocity(k)), None).0;
+                force.flat().map(|force| -force.v1)
+            });
+            for j in 0..VELOCITIES {
+                let damped = rod.force(&at, Some(&unit_velocity(j))).0.flat();
+                for i in 0..VELOCITIES {
+                    let mean = 0.5 * (columns[i][j] + columns[j][i]);
+                    let size = 1.0 + mean.abs();
+                    assert!(
+                        (stiffness[i][j] - mean).abs() < 1e-13 * size,
+                        "{case} {i} {j}"
+                    );
+                    assert!((damping[i][j] - (elastic[i] - damped[i])).abs() < 1e-11);
+                }
             }
         }
-        for i in 0..VELOCITIES {
-            for j in 0..VELOCITIES {
-                let mean = 0.5 * (differences[i][j] + differences[j][i]);
-                assert!((stiffness[i][j] - mean).abs() < 1e-7, "{case} {i} {j}");
-            }
+    }
+}
+
+#[test]
+fn stresses_that_damping_adds_stiffen_as_any() {
+    let h = 1e-4;
+    for (case, rod) in rods().iter().enumerate() {
+        let (at, rates) = (bent(10, 0.5), Noise(4).rates());
+        let mut other = rod.clone();
+        other.kernel.is_round = false;
+        let matrix = |of: [[f64; 3]; 3]| Matrix3::from_fn(|i, j| of[i][j]);
+        let stiffness = matrix(rod.kernel.stiffness)
+            .try_inverse()
+            .expect("positive");
+        let shift = stiffness * matrix(rod.kernel.damping);
+        for (offset, point) in other.kernel.offset.iter_mut().zip(&POINTS) {
+            let strains = |time: f64| V::from(rod.strains(&moved(&at, &rates, time), point.at));
+            let [near, far] = [h, 2.0 * h].map(|time| strains(time) - strains(-time));
+            *offset = (V::from(*offset) + shift * (8.0 * near - far) / (12.0 * h)).into();
+        }
+        let [found, wanted] = [rod.stiffness(&at, Some(&rates)), other.stiffness(&at, None)];
+        for (a, b) in found.as_flattened().iter().zip(wanted.as_flattened()) {
+            assert!((a - b).abs() < 1e-8 * (1.0 + b.abs()), "{case} {a} {b}");
         }
     }
 }
@@ -257,8 +298,16 @@ impl crate::math::lanes::Work for Packed<'_> {
                 bubble: zero,
             };
             let power = Rod::pack_force(simd, &pack, (&at, rates), &mut force);
+            let mut stiffness = [[zero; VELOCITIES]; VELOCITIES];
+            let mut damping = stiffness;
+            Rod::pack_stiffness(simd, &pack, (&at, rates), &mut stiffness);
+            Rod::pack_damping(simd, &pack, &at, &mut damping);
             for lane in 0..rods.len() {
                 out.extend(force.flat().map(|force| force[lane]));
+                for r in 0..VELOCITIES {
+                    out.extend(stiffness[r][..=r].iter().map(|entry| entry[lane]));
+                    out.extend(damping[r][..=r].iter().map(|entry| entry[lane]));
+                }
             }
             out.push(power);
         }
@@ -280,6 +329,12 @@ fn packs_are_as_their_elements() {
                 for n in 0..count {
                     let (force, power) = rod.force(&at[n], damped.then_some(&rates[n]));
                     wanted.extend(force.flat());
+                    let stiffness = rod.stiffness(&at[n], damped.then_some(&rates[n]));
+                    let damping = rod.damping(&at[n]);
+                    for r in 0..VELOCITIES {
+                        wanted.extend(&stiffness[r][..=r]);
+                        wanted.extend(&damping[r][..=r]);
+                    }
                     sum += power;
                 }
                 wanted.push(sum);
