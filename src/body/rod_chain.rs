@@ -309,36 +309,6 @@ impl RodChain {
         }
     }
 
-    /// Adds the tangent stiffness, and damping where there is any, over rotations about tangents.
-    pub fn add_tangent<const D: usize>(
-        &self,
-        motion: (&[Node<D>], &[Node<D>]),
-        frames: &Frames,
-        assembly: &Assembly<D>,
-        [stiffness, damping]: [&mut Matrix<f64>; 2],
-    ) {
-        for (j, (rod, _)) in self.elements.iter().enumerate() {
-            let at = self.at(j, motion.0);
-            let rates = rod.is_damped().then(|| self.rates(j, motion, frames));
-            self.add_blocks(j, &rod.stiffness(&at, rates.as_ref()), assembly, stiffness);
-            if rod.is_damped() {
-                self.add_blocks(j, &rod.damping(&at), assembly, damping);
-            }
-        }
-    }
-
-    fn add_blocks<const D: usize>(
-        &self,
-        j: usize,
-        whole: &ElementMatrix,
-        assembly: &Assembly<D>,
-        matrix: &mut Matrix<f64>,
-    ) {
-        self.for_each_block(j, whole, |row, column, block| {
-            assembly.add(row, column, block, matrix);
-        });
-    }
-
     /// The blocks of a symmetric matrix over the velocities of element `j`, on and below the diagonal of its nodes.
     pub fn for_each_block<const D: usize>(
         &self,

@@ -3,11 +3,13 @@
 use std::ops::Range;
 
 use super::{INNER, RodChain};
+use crate::body::assembly::Assembly;
 use crate::body::chain::both;
 use crate::body::connectivity::Node;
 use crate::body::frame::Frames;
-use crate::elements::rod::{At, Force, Pack, Rates, Rod};
+use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Pack, Rates, Rod, VELOCITIES};
 use crate::math::lanes::{PACK, Simd, Work, vectorized};
+use crate::math::sparse::Matrix;
 
 /// Elements that are computed together, at most [`PACK`].
 #[derive(Clone, Debug)]
@@ -51,6 +53,50 @@ impl RodChain {
         });
         power
     }
+
+    /// Adds the tangent stiffness, and damping where there is any, over rotations about tangents.
+    pub fn add_tangent<const D: usize>(
+        &self,
+        motion: (&[Node<D>], &[Node<D>]),
+        frames: &Frames,
+        assembly: &Assembly<D>,
+        matrices: [&mut Matrix<f64>; 2],
+    ) {
+        let chain = self;
+        vectorized(AddTangent {
+            chain,
+            motion,
+            frames,
+            assembly,
+            matrices,
+        });
+    }
+
+    /// Copies what an evaluation needs of the nodes of a pack, or of their rates.
+    #[inline(always)]
+    fn read<const D: usize>(
+        &self,
+        (x, v): (&[Node<D>], &[Node<D>]),
+        frames: Option<&Frames>,
+        elements: &Range<usize>,
+        pack: &mut NodePack,
+    ) {
+        let from = if frames.is_some() { v } else { x };
+        for (lane, k) in (elements.start..=elements.end).enumerate() {
+            let (node, axes) = (&from[self.line + k], &x[self.frames + 2 * k + 1]);
+            for d in 0..D.min(3) {
+                pack.line[0][d][lane] = node[0][d];
+                pack.line[1][d][lane] = node[1][d];
+                pack.second[d][lane] = axes[0][d];
+            }
+            if let Some(frames) = frames {
+                pack.spin[lane] = self.frame(k, frames).spin(x, v);
+            }
+        }
+        for (lane, j) in elements.clone().enumerate() {
+            pack.bubble[lane] = from[self.inner + j][INNER.0][INNER.1];
+        }
+    }
 }
 
 /// Every coordinate of the nodes of a pack side by side: positions and slopes, or their rates; second axes; spins; internal twists.
@@ -79,6 +125,28 @@ impl NodePack {
     }
 
     #[inline(always)]
+    fn at(&self) -> At<&[f64; PACK]> {
+        let mut d = [[&self.bubble; 3]; 2];
+        for k in 0..3 {
+            [d[0][k], d[1][k]] = both(&self.second[k]);
+        }
+        At {
+            e: self.ends(),
+            d,
+            bubble: &self.bubble,
+        }
+    }
+
+    #[inline(always)]
+    fn rates(&self) -> Rates<&[f64; PACK]> {
+        Rates {
+            e: self.ends(),
+            spin: both(&self.spin),
+            bubble: &self.bubble,
+        }
+    }
+
+    #[inline(always)]
     fn ends(&self) -> [[&[f64; PACK]; 3]; 4] {
         let [first @ .., _] = &self.line[0][0];
         let mut ends = [[first; 3]; 4];
@@ -101,27 +169,6 @@ struct AddForce<'a, const D: usize> {
 }
 
 impl<const D: usize> AddForce<'_, D> {
-    /// Copies what an evaluation needs of the nodes of a pack, or of their rates.
-    #[inline(always)]
-    fn read(&self, elements: &Range<usize>, is_rate: bool, pack: &mut NodePack) {
-        let (chain, (x, v)) = (self.chain, self.motion);
-        let from = if is_rate { v } else { x };
-        for (lane, k) in (elements.start..=elements.end).enumerate() {
-            let (node, frame) = (&from[chain.line + k], &x[chain.frames + 2 * k + 1]);
-            for d in 0..D.min(3) {
-                pack.line[0][d][lane] = node[0][d];
-                pack.line[1][d][lane] = node[1][d];
-                pack.second[d][lane] = frame[0][d];
-            }
-            if is_rate {
-                pack.spin[lane] = chain.frame(k, self.frames).spin(x, v);
-            }
-        }
-        for (lane, j) in elements.clone().enumerate() {
-            pack.bubble[lane] = from[chain.inner + j][INNER.0][INNER.1];
-        }
-    }
-
     #[inline(always)]
     fn write(&mut self, elements: &Range<usize>, f: &Force<[f64; PACK]>) {
         let (chain, (force, torques)) = (self.chain, &mut self.out);
@@ -151,28 +198,72 @@ impl<const D: usize> Work for AddForce<'_, D> {
             bubble: zero,
         };
         for Packed { elements, kernel } in &self.chain.packs {
-            self.read(elements, false, &mut place);
-            let mut second = [[&zero; 3]; 2];
-            for d in 0..3 {
-                [second[0][d], second[1][d]] = both(&place.second[d]);
-            }
-            let at = At {
-                e: place.ends(),
-                d: second,
-                bubble: &place.bubble,
-            };
+            self.chain.read(self.motion, None, elements, &mut place);
+            let at = place.at();
             if self.chain.is_damped {
-                self.read(elements, true, &mut rate);
-                let rates = Rates {
-                    e: rate.ends(),
-                    spin: both(&rate.spin),
-                    bubble: &rate.bubble,
-                };
-                *self.power += Rod::pack_force(simd, kernel, (&at, Some(&rates)), &mut f);
+                let frames = Some(self.frames);
+                self.chain.read(self.motion, frames, elements, &mut rate);
+                *self.power += Rod::pack_force(simd, kernel, (&at, Some(&rate.rates())), &mut f);
             } else {
                 Rod::pack_force(simd, kernel, (&at, None), &mut f);
             }
             self.write(elements, &f);
+        }
+    }
+}
+
+/// [`RodChain::add_tangent`].
+struct AddTangent<'a, const D: usize> {
+    chain: &'a RodChain,
+    motion: (&'a [Node<D>], &'a [Node<D>]),
+    frames: &'a Frames,
+    assembly: &'a Assembly<D>,
+    /// Stiffness and damping.
+    matrices: [&'a mut Matrix<f64>; 2],
+}
+
+impl<const D: usize> Work for AddTangent<'_, D> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
+        let mut whole = [[[0.0; PACK]; VELOCITIES]; VELOCITIES];
+        let (chain, [stiffness, damping]) = (self.chain, self.matrices);
+        for Packed { elements, kernel } in &chain.packs {
+            chain.read(self.motion, None, elements, &mut place);
+            let at = place.at();
+            if chain.is_damped {
+                chain.read(self.motion, Some(self.frames), elements, &mut rate);
+                Rod::pack_stiffness(simd, kernel, (&at, Some(&rate.rates())), &mut whole);
+                chain.add_lanes(elements, &whole, self.assembly, stiffness);
+                Rod::pack_damping(simd, kernel, &at, &mut whole);
+                chain.add_lanes(elements, &whole, self.assembly, damping);
+            } else {
+                Rod::pack_stiffness(simd, kernel, (&at, None), &mut whole);
+                chain.add_lanes(elements, &whole, self.assembly, stiffness);
+            }
+        }
+    }
+}
+
+impl RodChain {
+    /// Adds the matrices of a pack, of which rows up to the diagonal are given.
+    fn add_lanes<const D: usize>(
+        &self,
+        elements: &Range<usize>,
+        lanes: &ElementMatrix<[f64; PACK]>,
+        assembly: &Assembly<D>,
+        matrix: &mut Matrix<f64>,
+    ) {
+        for (lane, j) in elements.clone().enumerate() {
+            let mut whole = [[0.0; VELOCITIES]; VELOCITIES];
+            for r in 0..VELOCITIES {
+                for c in 0..=r {
+                    (whole[r][c], whole[c][r]) = (lanes[r][c][lane], lanes[r][c][lane]);
+                }
+            }
+            self.for_each_block(j, &whole, |row, column, block| {
+                assembly.add(row, column, block, matrix);
+            });
         }
     }
 }
