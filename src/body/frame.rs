@@ -19,17 +19,19 @@
 
 mod carried;
 mod tangent;
+mod turn;
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::connectivity::Node;
 use super::marker::Marker;
 use crate::math::jet::Number;
-use crate::math::rotation::{Quaternion, axes, normalized, product, quaternion};
+use crate::math::rotation::{Quaternion, axes, normalized, quaternion};
 use crate::math::space::{Vector, components, is_nothing, vector};
 
 pub use carried::{Carried, Carry};
 pub use tangent::turning_block;
+pub use turn::Turn;
 
 /// Size of the rotation `p` from which on the frame that the state holds is renewed.
 pub const RENEWED: f64 = 0.5;
@@ -49,44 +51,6 @@ pub struct Frame {
     /// For every axis where its rotation is among the coordinates `q`, and how many of that make a radian; none about an axis
     /// without inertia.
     pub places: [Option<(usize, f64)>; 3],
-}
-
-/// How a body has turned from the frame that the state holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Turn {
-    /// Rotation, rad.
-    pub rotation: Vector3<f64>,
-    /// Its rate, rad/s.
-    pub rate: Vector3<f64>,
-    /// Angular velocity along the body's axes, rad/s.
-    pub spin: Vector3<f64>,
-}
-
-impl Turn {
-    /// The quaternion, of any length, from that where the rotation is zero: on the same side of it, however far the body turned.
-    fn quaternion(&self, from: &Quaternion) -> Quaternion {
-        let half = self.rotation * 0.5;
-        product(from, &[1.0, half.x, half.y, half.z])
-    }
-
-    /// Angular velocity along the body's axes at this rate.
-    fn spin_of(&self, rate: &Vector3<f64>) -> Vector3<f64> {
-        let p = self.rotation;
-        (rate - p.cross(rate) * 0.5) / (1.0 + 0.25 * p.norm_squared())
-    }
-
-    /// Rate of the rotation, or its change, of a spin, or a small rotation about the body's axes.
-    pub fn rate_of(&self, spin: &Vector3<f64>) -> Vector3<f64> {
-        let p = self.rotation;
-        spin + p.cross(spin) * 0.5 + p * (0.25 * p.dot(spin))
-    }
-
-    /// Second derivative of the rotation, of angular accelerations along the body's axes.
-    fn second_of(&self, spin_rate: &Vector3<f64>) -> Vector3<f64> {
-        let (p, rate, spin) = (self.rotation, self.rate, self.spin);
-        let by_rate = rate.cross(&spin) * 0.5 + rate * (0.25 * p.dot(&spin));
-        self.rate_of(spin_rate) + by_rate + p * (0.25 * rate.dot(&spin))
-    }
 }
 
 /// The vector with these components along axes.
@@ -217,19 +181,6 @@ impl Frame {
         self.places.iter().any(Option::is_none)
     }
 
-    /// The spin, or rate of it, about axes without inertia, for which the rotation about them stays zero.
-    fn complete(&self, turn: &Turn, spin: &mut Vector3<f64>, by_rate: bool) {
-        let (p, w) = (turn.rotation, turn.spin);
-        for k in (0..3).filter(|k| self.places[*k].is_none()) {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            spin[k] = -0.5 * (p[i] * spin[j] - p[j] * spin[i]);
-            if by_rate {
-                let rate = turn.rate;
-                spin[k] -= 0.5 * (rate[i] * w[j] - rate[j] * w[i]);
-            }
-        }
-    }
-
     /// Adds a moment along its axes to forces on the free coordinates.
     pub fn add_moment(&self, moment: &Vector3<f64>, y: &mut [f64]) {
         for (place, moment) in self.places.iter().zip(moment) {
@@ -243,22 +194,6 @@ impl Frame {
     pub fn read(&self, q: &[f64]) -> Vector3<f64> {
         let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| q[at] / scale);
         self.places.map(value).into()
-    }
-
-    /// How it has turned at these coordinates.
-    fn turn(&self, q: &[f64]) -> Turn {
-        Turn {
-            rotation: self.read(q),
-            ..Turn::default()
-        }
-    }
-
-    fn write(&self, rotation: &Vector3<f64>, q: &mut [f64]) {
-        for (place, value) in self.places.iter().zip(rotation) {
-            if let Some((at, scale)) = place {
-                q[*at] = value * scale;
-            }
-        }
     }
 }
 
@@ -446,42 +381,6 @@ impl Frames {
             }
             f[frame.node][1] = vector::<D, N>(moment.into()).into();
             f[frame.node + 1] = [[N::of(0.0); D]; 2];
-        }
-    }
-
-    /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
-    /// angular velocities rates.
-    pub fn to_rotations(&self, turns: &[Turn], q: &mut [f64]) {
-        for (frame, turn) in self.list.iter().zip(turns) {
-            let mut spin = frame.read(q);
-            frame.complete(turn, &mut spin, false);
-            frame.write(&turn.rate_of(&spin), q);
-        }
-    }
-
-    /// Angular accelerations become second derivatives of rotations.
-    pub fn to_second(&self, turns: &[Turn], a: &mut [f64]) {
-        for (frame, turn) in self.list.iter().zip(turns) {
-            let mut rate = frame.read(a);
-            frame.complete(turn, &mut rate, true);
-            frame.write(&turn.second_of(&rate), a);
-        }
-    }
-
-    /// The largest rotation in coordinates, rad.
-    pub fn largest(&self, q: &[f64]) -> f64 {
-        let sizes = self.list.iter().map(|frame| frame.read(q).norm());
-        sizes.fold(0.0, f64::max)
-    }
-
-    /// Rotations begin at zero anew: the frames become what they are, of unit length, and rates spins.
-    pub fn renew(&self, frames: &mut [Quaternion], q: &mut [f64], v: &mut [f64]) {
-        for (frame, from) in self.list.iter().zip(frames) {
-            let mut turn = frame.turn(q);
-            turn.spin = turn.spin_of(&frame.read(v));
-            *from = normalized(turn.quaternion(from));
-            frame.write(&Vector3::zeros(), q);
-            frame.write(&turn.spin, v);
         }
     }
 

@@ -5,5 +5,6 @@ pub(in crate::system) mod frequencies;
 mod iteration;
 pub(in crate::system) mod linearization;
 mod probe;
+mod rods;
 mod shifted;
 pub(in crate::system) mod spectrum;

@@ -1,0 +1,114 @@
+//! Rotations of rigid bodies from the frames that the state holds: vectors of Rodrigues, which begin at zero anew before they are large
+//! (sources in `frame.rs`).
+
+use nalgebra::Vector3;
+
+use super::{Frame, Frames};
+use crate::math::rotation::{Quaternion, normalized, product};
+
+/// How a body has turned from the frame that the state holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turn {
+    /// Rotation, rad.
+    pub rotation: Vector3<f64>,
+    /// Its rate, rad/s.
+    pub rate: Vector3<f64>,
+    /// Angular velocity along the body's axes, rad/s.
+    pub spin: Vector3<f64>,
+}
+
+impl Turn {
+    /// The quaternion, of any length, from that where the rotation is zero: on the same side of it, however far the body turned.
+    pub(super) fn quaternion(&self, from: &Quaternion) -> Quaternion {
+        let half = self.rotation * 0.5;
+        product(from, &[1.0, half.x, half.y, half.z])
+    }
+
+    /// Angular velocity along the body's axes at this rate.
+    pub(super) fn spin_of(&self, rate: &Vector3<f64>) -> Vector3<f64> {
+        let p = self.rotation;
+        (rate - p.cross(rate) * 0.5) / (1.0 + 0.25 * p.norm_squared())
+    }
+
+    /// Rate of the rotation, or its change, of a spin, or a small rotation about the body's axes.
+    pub fn rate_of(&self, spin: &Vector3<f64>) -> Vector3<f64> {
+        let p = self.rotation;
+        spin + p.cross(spin) * 0.5 + p * (0.25 * p.dot(spin))
+    }
+
+    /// Second derivative of the rotation, of angular accelerations along the body's axes.
+    fn second_of(&self, spin_rate: &Vector3<f64>) -> Vector3<f64> {
+        let (p, rate, spin) = (self.rotation, self.rate, self.spin);
+        let by_rate = rate.cross(&spin) * 0.5 + rate * (0.25 * p.dot(&spin));
+        self.rate_of(spin_rate) + by_rate + p * (0.25 * rate.dot(&spin))
+    }
+}
+
+impl Frame {
+    /// The spin, or rate of it, about axes without inertia, for which the rotation about them stays zero.
+    fn complete(&self, turn: &Turn, spin: &mut Vector3<f64>, by_rate: bool) {
+        let (p, w) = (turn.rotation, turn.spin);
+        for k in (0..3).filter(|k| self.places[*k].is_none()) {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            spin[k] = -0.5 * (p[i] * spin[j] - p[j] * spin[i]);
+            if by_rate {
+                let rate = turn.rate;
+                spin[k] -= 0.5 * (rate[i] * w[j] - rate[j] * w[i]);
+            }
+        }
+    }
+
+    /// How it has turned at these coordinates.
+    pub(super) fn turn(&self, q: &[f64]) -> Turn {
+        Turn {
+            rotation: self.read(q),
+            ..Turn::default()
+        }
+    }
+
+    fn write(&self, rotation: &Vector3<f64>, q: &mut [f64]) {
+        for (place, value) in self.places.iter().zip(rotation) {
+            if let Some((at, scale)) = place {
+                q[*at] = value * scale;
+            }
+        }
+    }
+}
+
+impl Frames {
+    /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
+    /// angular velocities rates.
+    pub fn to_rotations(&self, turns: &[Turn], q: &mut [f64]) {
+        for (frame, turn) in self.list.iter().zip(turns) {
+            let mut spin = frame.read(q);
+            frame.complete(turn, &mut spin, false);
+            frame.write(&turn.rate_of(&spin), q);
+        }
+    }
+
+    /// Angular accelerations become second derivatives of rotations.
+    pub fn to_second(&self, turns: &[Turn], a: &mut [f64]) {
+        for (frame, turn) in self.list.iter().zip(turns) {
+            let mut rate = frame.read(a);
+            frame.complete(turn, &mut rate, true);
+            frame.write(&turn.second_of(&rate), a);
+        }
+    }
+
+    /// The largest rotation in coordinates, rad.
+    pub fn largest(&self, q: &[f64]) -> f64 {
+        let sizes = self.list.iter().map(|frame| frame.read(q).norm());
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// Rotations begin at zero anew: the frames become what they are, of unit length, and rates spins.
+    pub fn renew(&self, frames: &mut [Quaternion], q: &mut [f64], v: &mut [f64]) {
+        for (frame, from) in self.list.iter().zip(frames) {
+            let mut turn = frame.turn(q);
+            turn.spin = turn.spin_of(&frame.read(v));
+            *from = normalized(turn.quaternion(from));
+            frame.write(&Vector3::zeros(), q);
+            frame.write(&turn.spin, v);
+        }
+    }
+}
