@@ -179,6 +179,7 @@ impl Mechanism {
             chains: self.chains(),
             lumped_masses,
             frames: Vec::new(),
+            rod_chains: Vec::new(),
             rods: Vec::new(),
             rigid,
             joints,

@@ -433,6 +433,7 @@ impl Mechanism {
             chains: Vec::new(),
             lumped_masses: Vec::new(),
             frames: frames.collect(),
+            rod_chains: Vec::new(),
             rods: Vec::new(),
             rigid: Vec::new(),
             joints: self.joints.iter().map(|joint| self.joint(joint)).collect(),

@@ -56,6 +56,7 @@ impl Chain {
             length: l,
             axial_stiffness: stiffness.1,
             bending_stiffness: 0.0,
+            is_line_of_rod: false,
             line_density: 1.0,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,

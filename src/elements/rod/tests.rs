@@ -357,6 +357,7 @@ fn plane_bending_is_that_of_a_cable() {
         length: 0.7,
         axial_stiffness: 0.0,
         bending_stiffness: 2.0,
+        is_line_of_rod: false,
         line_density: 1.0,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,
