@@ -17,7 +17,7 @@
 
 use super::kernel::{Frame, Kernel, MIDDLE, POINTS, Section, Square, product};
 use super::vectors::{Vector, across, add, carry, cross, plus};
-use super::{At, Matrix, Rates, VELOCITIES};
+use super::{At, Matrix, Rates, Tangent, VELOCITIES};
 use crate::elements::line::{Sample, dot, times};
 use crate::math::lanes::Real;
 
@@ -157,9 +157,10 @@ impl<N: Real> Seen<'_, N> {
 }
 
 impl<N: Real> Kernel<N> {
-    /// Tangent stiffness, with the stresses that damping adds where there are rates.
+    /// The tangent: stiffness with the stresses that damping adds where there are rates, or damping matrix. All in one:
+    /// it is long, and compiled for every kind of processor.
     #[inline(always)]
-    pub fn stiffness(&self, at: &At<N>, rates: Option<&Rates<N>>) -> Matrix<N> {
+    pub fn tangent(&self, at: &At<N>, rates: Option<&Rates<N>>, kind: Tangent) -> Matrix<N> {
         let v = self.vectors(&at.e);
         let frame = self.frame(&v, &at.d);
         let motion = of_rate!(rates, rates => {
@@ -176,6 +177,12 @@ impl<N: Real> Kernel<N> {
         };
         for (index, point) in POINTS.iter().enumerate() {
             let section = self.section(point, &v, &frame, at.bubble);
+            let seen = self.seen(&section, &frame);
+            let by = match kind {
+                Tangent::Stiffness => &self.stiffness,
+                Tangent::Damping => &self.damping,
+            };
+            let mut local = self.squares(point, &seen, by);
             let strains = add(&section.strains, &self.offset[index]);
             let mut stress = product(&self.stiffness, &strains);
             if let Some((dv, change, bubble)) = &motion {
@@ -183,34 +190,14 @@ impl<N: Real> Kernel<N> {
                 stress = add(&stress, &product(&self.damping, &rate));
             }
             let stress = times(&stress, self.number(point.weight));
-            let seen = self.seen(&section, &frame);
-            let mut local = self.squares(point, &seen, &self.stiffness);
-            self.add_stresses(point, &seen, &stress, &mut local);
-            self.add_twisting(&seen, &stress, &mut local);
-            self.add_factors(point, &seen, &stress, &mut factors);
+            if kind == Tangent::Stiffness {
+                self.add_stresses(point, &seen, &stress, &mut local);
+                self.add_twisting(&seen, &stress, &mut local);
+                self.add_factors(point, &seen, &stress, &mut factors);
+            }
             self.gather(point, &local, &mut sum);
         }
         self.add_ends(&frame, &mut factors, &mut sum);
-        self.whole(&frame, &factors, sum)
-    }
-
-    /// Damping matrix.
-    #[inline(always)]
-    pub fn damping_matrix(&self, at: &At<N>) -> Matrix<N> {
-        let v = self.vectors(&at.e);
-        let frame = self.frame(&v, &at.d);
-        let zero = self.number(0.0);
-        let mut sum = Quadratic::nothing(zero);
-        for point in &POINTS {
-            let section = self.section(point, &v, &frame, at.bubble);
-            let local = self.squares(point, &self.seen(&section, &frame), &self.damping);
-            self.gather(point, &local, &mut sum);
-        }
-        let factors = Factors {
-            middle: [zero; 3],
-            turn: zero,
-            twist: zero,
-        };
         self.whole(&frame, &factors, sum)
     }
 
