@@ -31,6 +31,7 @@
 //! `d' = spin t x d - (d . u') u / (u . u)`. Forces are the factors of these in the power.
 
 mod kernel;
+mod quadratic;
 #[cfg(test)]
 mod statics;
 mod tangent;
