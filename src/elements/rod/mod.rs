@@ -31,6 +31,7 @@
 //! `d' = spin t x d - (d . u') u / (u . u)`. Forces are the factors of these in the power.
 
 mod kernel;
+mod quadratic;
 #[cfg(test)]
 mod statics;
 mod tangent;
@@ -93,6 +94,15 @@ pub struct Force<N> {
     pub torque: [N; 2],
     /// On the internal twist, N m.
     pub bubble: N,
+}
+
+/// Which derivative of the force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tangent {
+    /// Minus that along displacements (`d` turned as by [`At::section_rate`]).
+    Stiffness,
+    /// Minus that by velocities.
+    Damping,
 }
 
 /// Bending and torsion of an element of a rod.
@@ -211,12 +221,12 @@ impl Rod {
     /// where `d` is turned about the tangent after the smallest rotation with it. With rates its symmetric part
     /// that matters: the stresses that damping adds are taken as given.
     pub fn stiffness(&self, at: &At<f64>, rates: Option<&Rates<f64>>) -> Matrix {
-        self.kernel.stiffness(at, rates)
+        self.kernel.tangent(at, rates, Tangent::Stiffness)
     }
 
     /// Damping matrix, the derivative of minus the force by velocities, symmetric.
     pub fn damping(&self, at: &At<f64>) -> Matrix {
-        self.kernel.damping_matrix(at)
+        self.kernel.tangent(at, None, Tangent::Damping)
     }
 
     /// The formulas with sections as they are turned: round ones do not notice.
@@ -270,10 +280,8 @@ impl Rod {
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
             let at = at.group(simd, group);
-            let (force, power) = match rates {
-                Some(rates) => kernel.force(&at, Some(&rates.group(simd, group))),
-                None => kernel.force(&at, None),
-            };
+            let rates = of_rate!(rates, rates => rates.group(simd, group));
+            let (force, power) = kernel.force(&at, rates.as_ref());
             for k in 0..4 {
                 for d in 0..3 {
                     force.e[k][d].write(&mut out.e[k][d], group);
@@ -290,36 +298,26 @@ impl Rod {
         powers[..pack.count].iter().sum()
     }
 
-    /// [`Self::stiffness`] of a pack, with rates where it is damped: rows with columns up to the diagonal.
+    /// [`Self::stiffness`], with rates where it is damped, or [`Self::damping`] of a pack: rows with columns up to the
+    /// diagonal.
     #[inline(always)]
-    pub fn pack_stiffness<S: Simd>(
+    pub fn pack_tangent<S: Simd>(
         simd: S,
         pack: &Pack,
         (at, rates): (&At<&[f64; PACK]>, Option<&Rates<&[f64; PACK]>>),
+        kind: Tangent,
         out: &mut Matrix<[f64; PACK]>,
     ) {
         for group in 0..pack.groups::<S>() {
             let kernel = pack.kernel.group(simd, group);
             let at = at.group(simd, group);
-            let matrix = match rates {
-                Some(rates) => kernel.stiffness(&at, Some(&rates.group(simd, group))),
-                None => kernel.stiffness(&at, None),
-            };
-            write(&matrix, out, group);
-        }
-    }
-
-    /// [`Self::damping`] of a pack: rows with columns up to the diagonal.
-    #[inline(always)]
-    pub fn pack_damping<S: Simd>(
-        simd: S,
-        pack: &Pack,
-        at: &At<&[f64; PACK]>,
-        out: &mut Matrix<[f64; PACK]>,
-    ) {
-        for group in 0..pack.groups::<S>() {
-            let kernel = pack.kernel.group(simd, group);
-            write(&kernel.damping_matrix(&at.group(simd, group)), out, group);
+            let rates = of_rate!(rates, rates => rates.group(simd, group));
+            let matrix = kernel.tangent(&at, rates.as_ref(), kind);
+            for r in 0..VELOCITIES {
+                for c in 0..=r {
+                    matrix[r][c].write(&mut out[r][c], group);
+                }
+            }
         }
     }
 }
@@ -353,15 +351,6 @@ impl Rates<&[f64; PACK]> {
                 Lanes::read(simd, self.spin[1], group),
             ],
             bubble: Lanes::read(simd, self.bubble, group),
-        }
-    }
-}
-
-#[inline(always)]
-fn write<S: Simd>(matrix: &Matrix<Lanes<S>>, out: &mut Matrix<[f64; PACK]>, group: usize) {
-    for r in 0..VELOCITIES {
-        for c in 0..=r {
-            matrix[r][c].write(&mut out[r][c], group);
         }
     }
 }

@@ -22,12 +22,12 @@ struct Load {
 struct Chain {
     rods: Vec<Rod>,
     cables: Vec<Cable<3>>,
-    /// Position, slope and `d` of every node.
-    nodes: Vec<[[f64; 3]; 3]>,
+    /// Position, slope and `d` of every station.
+    stations: Vec<[[f64; 3]; 3]>,
     bubbles: Vec<f64>,
 }
 
-/// Of the velocities of a chain: seven a node, then the internal twists.
+/// Of the velocities of a chain: seven a station, then the internal twists.
 fn place(element: usize, elements: usize) -> [usize; VELOCITIES] {
     std::array::from_fn(|k| match k {
         14 => 7 * (elements + 1) + element,
@@ -36,7 +36,7 @@ fn place(element: usize, elements: usize) -> [usize; VELOCITIES] {
 }
 
 impl Chain {
-    /// A chain whose nodes are at these places when nothing acts.
+    /// A chain whose stations are at these places when nothing acts.
     fn new(
         elements: usize,
         length: f64,
@@ -44,7 +44,7 @@ impl Chain {
         at: impl Fn(f64) -> [V; 3],
     ) -> Self {
         let l = length / elements as f64;
-        let nodes: Vec<_> = (0..=elements)
+        let stations: Vec<_> = (0..=elements)
             .map(|k| at(k as f64 * l).map(<[f64; 3]>::from))
             .collect();
         let parameters = Parameters {
@@ -66,7 +66,7 @@ impl Chain {
         let mut chain = Self {
             rods: Vec::new(),
             cables: Vec::new(),
-            nodes,
+            stations,
             bubbles: vec![0.0; elements],
         };
         for k in 0..elements {
@@ -80,7 +80,7 @@ impl Chain {
     }
 
     fn at(&self, k: usize) -> At<f64> {
-        let [a, b] = [&self.nodes[k], &self.nodes[k + 1]];
+        let [a, b] = [&self.stations[k], &self.stations[k + 1]];
         At {
             e: [a[0], a[1], b[0], b[1]],
             d: [a[2], b[2]],
@@ -124,7 +124,7 @@ impl Chain {
 
     fn add_load(&self, load: Load, force: &mut DVector<f64>, tangent: &mut DMatrix<f64>) {
         let tip = 7 * self.rods.len();
-        let (u, m) = (V::from(self.nodes[self.rods.len()][1]), load.moment);
+        let (u, m) = (V::from(self.stations[self.rods.len()][1]), load.moment);
         let (square, t) = (u.norm_squared(), u.normalize());
         let on_slope = m.cross(&u) / square;
         let mut part = force.fixed_rows_mut::<3>(tip);
@@ -142,10 +142,10 @@ impl Chain {
         part -= across.transpose();
     }
 
-    /// Newton's method with the first node clamped but for its stretch; the number of iterations.
+    /// Newton's method with the first station clamped but for its stretch; the number of iterations.
     fn settle(&mut self, load: Load) -> usize {
         let elements = self.rods.len();
-        let along = V::from(self.nodes[0][1]).normalize();
+        let along = V::from(self.stations[0][1]).normalize();
         for iteration in 0..100 {
             let (mut force, mut tangent) = self.balance(load);
             let (held, free) = (
@@ -186,14 +186,14 @@ impl Chain {
                 spin: [step[7 * k + 6], 0.0],
                 bubble: 0.0,
             };
-            let [r, u, d] = self.nodes[k];
+            let [r, u, d] = self.stations[k];
             let at = At {
                 e: [r, u, r, u],
                 d: [d, d],
                 bubble: 0.0,
             };
             let at = moved(&at, &rates, 1.0);
-            self.nodes[k] = [at.e[0], at.e[1], at.d[0]];
+            self.stations[k] = [at.e[0], at.e[1], at.d[0]];
         }
         for k in 0..elements {
             self.bubbles[k] += step[7 * (elements + 1) + k];
@@ -217,7 +217,7 @@ fn errors(
                 moment: load.moment * share,
             });
         }
-        (V::from(chain.nodes[elements][0]) - tip).norm()
+        (V::from(chain.stations[elements][0]) - tip).norm()
     });
     (errors, all)
 }

@@ -16,102 +16,17 @@
 //! with `g_z`, `g_t` the factors of `z'` and `t'` in the gradient, and `alpha` the turn of the first end's frame at the middle.
 
 use super::kernel::{Frame, Kernel, MIDDLE, POINTS, Section, Square, product};
+use super::quadratic::{Form, Quadratic};
 use super::vectors::{Vector, across, add, carry, cross, plus};
-use super::{At, Matrix, Rates, VELOCITIES};
+use super::{At, Matrix, Rates, Tangent, VELOCITIES};
 use crate::elements::line::{Sample, dot, times};
 use crate::math::lanes::Real;
-
-/// A linear form: of four vectors (at a section `u'`, `w'`, `z'`; of an element the three of the line, `z'`), and of the
-/// turn at the middle, the twist and the internal twist (of an element, in the end: both spins and the internal twist).
-#[derive(Clone, Copy)]
-struct Form<N, const K: usize> {
-    vectors: [Vector<N>; K],
-    scalars: [N; 3],
-}
-
-/// A quadratic form: blocks of vectors with vectors not before them, scalars with vectors, scalars.
-struct Quadratic<N, const K: usize> {
-    blocks: [[Square<N>; K]; K],
-    mixed: [[Vector<N>; K]; 3],
-    scalars: Square<N>,
-}
 
 const U: usize = 0;
 const W: usize = 1;
 const Z: usize = 2;
 /// `z'` among the vectors of an element.
 const LAST: usize = 3;
-
-impl<N: Real, const K: usize> Quadratic<N, K> {
-    #[inline(always)]
-    fn nothing(zero: N) -> Self {
-        Self {
-            blocks: [[[[zero; 3]; 3]; K]; K],
-            mixed: [[[zero; 3]; K]; 3],
-            scalars: [[zero; 3]; 3],
-        }
-    }
-
-    /// Adds `a b^T` to a block.
-    #[inline(always)]
-    fn add_block(&mut self, (i, j): (usize, usize), a: &Vector<N>, b: &Vector<N>) {
-        let block = &mut self.blocks[i][j];
-        for r in 0..3 {
-            for c in 0..3 {
-                block[r][c] = a[r].times_plus(b[c], block[r][c]);
-            }
-        }
-    }
-
-    /// Adds the matrix of `x -> factor v x x` to a block.
-    #[inline(always)]
-    fn add_cross(&mut self, (i, j): (usize, usize), v: &Vector<N>, factor: N) {
-        let (block, v) = (&mut self.blocks[i][j], times(v, factor));
-        for k in 0..3 {
-            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
-            block[b][a] += v[k];
-            block[a][b] = block[a][b] - v[k];
-        }
-    }
-
-    #[inline(always)]
-    fn add_multiple(&mut self, (i, j): (usize, usize), factor: N) {
-        for k in 0..3 {
-            self.blocks[i][j][k][k] += factor;
-        }
-    }
-
-    /// Adds `a b^T` of forms: all of it, which is to be symmetric in the end.
-    #[inline(always)]
-    fn add_product(&mut self, a: &Form<N, K>, b: &Form<N, K>) {
-        for i in 0..K {
-            for j in i..K {
-                self.add_block((i, j), &a.vectors[i], &b.vectors[j]);
-            }
-        }
-        for s in 0..3 {
-            for i in 0..K {
-                self.mixed[s][i] = plus(&b.vectors[i], a.scalars[s], &self.mixed[s][i]);
-            }
-            for r in 0..3 {
-                self.scalars[s][r] = a.scalars[s].times_plus(b.scalars[r], self.scalars[s][r]);
-            }
-        }
-    }
-
-    /// Adds `a b^T + b a^T` where `a` is a form of vector `k` alone.
-    #[inline(always)]
-    fn add_symmetric(&mut self, k: usize, a: &Vector<N>, b: &[Vector<N>; K]) {
-        for j in 0..K {
-            if j <= k {
-                self.add_block((j, k), &b[j], a);
-            }
-            if j >= k {
-                self.add_block((k, j), a, &b[j]);
-            }
-        }
-    }
-}
 
 /// Summed factors of what has second derivatives of its own: of `z'`, of the turn at the middle, of the twist.
 struct Factors<N> {
@@ -157,9 +72,10 @@ impl<N: Real> Seen<'_, N> {
 }
 
 impl<N: Real> Kernel<N> {
-    /// Tangent stiffness, with the stresses that damping adds where there are rates.
+    /// The tangent: stiffness with the stresses that damping adds where there are rates, or damping matrix. All in one:
+    /// it is long, and compiled for every kind of processor.
     #[inline(always)]
-    pub fn stiffness(&self, at: &At<N>, rates: Option<&Rates<N>>) -> Matrix<N> {
+    pub fn tangent(&self, at: &At<N>, rates: Option<&Rates<N>>, kind: Tangent) -> Matrix<N> {
         let v = self.vectors(&at.e);
         let frame = self.frame(&v, &at.d);
         let motion = of_rate!(rates, rates => {
@@ -176,6 +92,12 @@ impl<N: Real> Kernel<N> {
         };
         for (index, point) in POINTS.iter().enumerate() {
             let section = self.section(point, &v, &frame, at.bubble);
+            let seen = self.seen(&section, &frame);
+            let by = match kind {
+                Tangent::Stiffness => &self.stiffness,
+                Tangent::Damping => &self.damping,
+            };
+            let mut local = self.squares(point, &seen, by);
             let strains = add(&section.strains, &self.offset[index]);
             let mut stress = product(&self.stiffness, &strains);
             if let Some((dv, change, bubble)) = &motion {
@@ -183,34 +105,14 @@ impl<N: Real> Kernel<N> {
                 stress = add(&stress, &product(&self.damping, &rate));
             }
             let stress = times(&stress, self.number(point.weight));
-            let seen = self.seen(&section, &frame);
-            let mut local = self.squares(point, &seen, &self.stiffness);
-            self.add_stresses(point, &seen, &stress, &mut local);
-            self.add_twisting(&seen, &stress, &mut local);
-            self.add_factors(point, &seen, &stress, &mut factors);
+            if kind == Tangent::Stiffness {
+                self.add_stresses(point, &seen, &stress, &mut local);
+                self.add_twisting(&seen, &stress, &mut local);
+                self.add_factors(point, &seen, &stress, &mut factors);
+            }
             self.gather(point, &local, &mut sum);
         }
         self.add_ends(&frame, &mut factors, &mut sum);
-        self.whole(&frame, &factors, sum)
-    }
-
-    /// Damping matrix.
-    #[inline(always)]
-    pub fn damping_matrix(&self, at: &At<N>) -> Matrix<N> {
-        let v = self.vectors(&at.e);
-        let frame = self.frame(&v, &at.d);
-        let zero = self.number(0.0);
-        let mut sum = Quadratic::nothing(zero);
-        for point in &POINTS {
-            let section = self.section(point, &v, &frame, at.bubble);
-            let local = self.squares(point, &self.seen(&section, &frame), &self.damping);
-            self.gather(point, &local, &mut sum);
-        }
-        let factors = Factors {
-            middle: [zero; 3],
-            turn: zero,
-            twist: zero,
-        };
         self.whole(&frame, &factors, sum)
     }
 

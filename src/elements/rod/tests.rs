@@ -300,8 +300,12 @@ impl crate::math::lanes::Work for Packed<'_> {
             let power = Rod::pack_force(simd, &pack, (&at, rates), &mut force);
             let mut stiffness = [[zero; VELOCITIES]; VELOCITIES];
             let mut damping = stiffness;
-            Rod::pack_stiffness(simd, &pack, (&at, rates), &mut stiffness);
-            Rod::pack_damping(simd, &pack, &at, &mut damping);
+            for (kind, out) in [
+                (Tangent::Stiffness, &mut stiffness),
+                (Tangent::Damping, &mut damping),
+            ] {
+                Rod::pack_tangent(simd, &pack, (&at, rates), kind, out);
+            }
             for lane in 0..rods.len() {
                 out.extend(force.flat().map(|force| force[lane]));
                 for r in 0..VELOCITIES {
