@@ -7,7 +7,9 @@ use crate::body::assembly::Assembly;
 use crate::body::chain::both;
 use crate::body::connectivity::Node;
 use crate::body::frame::Frames;
-use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Pack, Rates, Rod, VELOCITIES};
+use crate::elements::rod::{
+    At, Force, Matrix as ElementMatrix, Pack, Rates, Rod, Tangent, VELOCITIES,
+};
 use crate::math::lanes::{PACK, Simd, Work, vectorized};
 use crate::math::sparse::Matrix;
 
@@ -43,14 +45,28 @@ impl RodChain {
         frames: &Frames,
         out: (&mut [Node<D>], &mut [f64]),
     ) -> f64 {
-        let (chain, mut power) = (self, 0.0);
-        vectorized(AddForce {
-            chain,
-            motion,
-            frames,
-            out,
-            power: &mut power,
-        });
+        let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
+        let (zero, mut power) = ([0.0; PACK], 0.0);
+        let mut force = Force {
+            e: [[zero; 3]; 4],
+            torque: [zero; 2],
+            bubble: zero,
+        };
+        let (nodes, torques) = out;
+        for Packed { elements, kernel } in &self.packs {
+            self.read(motion, None, elements, &mut place);
+            if self.is_damped {
+                self.read(motion, Some(frames), elements, &mut rate);
+            }
+            vectorized(PackForce {
+                kernel,
+                place: &place,
+                rate: self.is_damped.then_some(&rate),
+                force: &mut force,
+                power: &mut power,
+            });
+            self.write(elements, &force, (nodes, torques));
+        }
         power
     }
 
@@ -62,18 +78,29 @@ impl RodChain {
         assembly: &Assembly<D>,
         matrices: [&mut Matrix<f64>; 2],
     ) {
-        let chain = self;
-        vectorized(AddTangent {
-            chain,
-            motion,
-            frames,
-            assembly,
-            matrices,
-        });
+        let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
+        let mut out = [[[0.0; PACK]; VELOCITIES]; VELOCITIES];
+        let kinds = [Tangent::Stiffness, Tangent::Damping];
+        let count = if self.is_damped { 2 } else { 1 };
+        for (kind, matrix) in kinds.into_iter().zip(matrices).take(count) {
+            for Packed { elements, kernel } in &self.packs {
+                self.read(motion, None, elements, &mut place);
+                if self.is_damped {
+                    self.read(motion, Some(frames), elements, &mut rate);
+                }
+                vectorized(PackTangent {
+                    kernel,
+                    place: &place,
+                    rate: self.is_damped.then_some(&rate),
+                    kind,
+                    out: &mut out,
+                });
+                self.add_lanes(elements, &out, assembly, matrix);
+            }
+        }
     }
 
     /// Copies what an evaluation needs of the nodes of a pack, or of their rates.
-    #[inline(always)]
     fn read<const D: usize>(
         &self,
         (x, v): (&[Node<D>], &[Node<D>]),
@@ -95,6 +122,47 @@ impl RodChain {
         }
         for (lane, j) in elements.clone().enumerate() {
             pack.bubble[lane] = from[self.inner + j][INNER.0][INNER.1];
+        }
+    }
+
+    fn write<const D: usize>(
+        &self,
+        elements: &Range<usize>,
+        f: &Force<[f64; PACK]>,
+        (nodes, torques): (&mut [Node<D>], &mut [f64]),
+    ) {
+        for (lane, j) in elements.clone().enumerate() {
+            for end in 0..2 {
+                let node = &mut nodes[self.line + j + end];
+                for p in 0..2 {
+                    for d in 0..D.min(3) {
+                        node[p][d] += f.e[2 * end + p][d][lane];
+                    }
+                }
+                torques[self.carried + j + end] += f.torque[end][lane];
+            }
+            nodes[self.inner + j][INNER.0][INNER.1] += f.bubble[lane];
+        }
+    }
+
+    /// Adds the matrices of a pack, of which rows up to the diagonal are given.
+    fn add_lanes<const D: usize>(
+        &self,
+        elements: &Range<usize>,
+        lanes: &ElementMatrix<[f64; PACK]>,
+        assembly: &Assembly<D>,
+        matrix: &mut Matrix<f64>,
+    ) {
+        for (lane, j) in elements.clone().enumerate() {
+            let mut whole = [[0.0; VELOCITIES]; VELOCITIES];
+            for r in 0..VELOCITIES {
+                for c in 0..=r {
+                    (whole[r][c], whole[c][r]) = (lanes[r][c][lane], lanes[r][c][lane]);
+                }
+            }
+            self.for_each_block(j, &whole, |row, column, block| {
+                assembly.add(row, column, block, matrix);
+            });
         }
     }
 }
@@ -159,111 +227,46 @@ impl NodePack {
     }
 }
 
-/// [`RodChain::add_force`].
-struct AddForce<'a, const D: usize> {
-    chain: &'a RodChain,
-    motion: (&'a [Node<D>], &'a [Node<D>]),
-    frames: &'a Frames,
-    out: (&'a mut [Node<D>], &'a mut [f64]),
+/// Forces of a pack. Neither this nor [`PackTangent`] knows the dimension: that would compile them twice.
+struct PackForce<'a> {
+    kernel: &'a Pack,
+    place: &'a NodePack,
+    rate: Option<&'a NodePack>,
+    force: &'a mut Force<[f64; PACK]>,
     power: &'a mut f64,
 }
 
-impl<const D: usize> AddForce<'_, D> {
-    #[inline(always)]
-    fn write(&mut self, elements: &Range<usize>, f: &Force<[f64; PACK]>) {
-        let (chain, (force, torques)) = (self.chain, &mut self.out);
-        for (lane, j) in elements.clone().enumerate() {
-            for end in 0..2 {
-                let node = &mut force[chain.line + j + end];
-                for p in 0..2 {
-                    for d in 0..D.min(3) {
-                        node[p][d] += f.e[2 * end + p][d][lane];
-                    }
-                }
-                torques[chain.carried + j + end] += f.torque[end][lane];
-            }
-            force[chain.inner + j][INNER.0][INNER.1] += f.bubble[lane];
-        }
-    }
-}
-
-impl<const D: usize> Work for AddForce<'_, D> {
-    #[inline(always)]
-    fn run<S: Simd>(mut self, simd: S) {
-        let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
-        let zero = [0.0; PACK];
-        let mut f = Force {
-            e: [[zero; 3]; 4],
-            torque: [zero; 2],
-            bubble: zero,
-        };
-        for Packed { elements, kernel } in &self.chain.packs {
-            self.chain.read(self.motion, None, elements, &mut place);
-            let at = place.at();
-            if self.chain.is_damped {
-                let frames = Some(self.frames);
-                self.chain.read(self.motion, frames, elements, &mut rate);
-                *self.power += Rod::pack_force(simd, kernel, (&at, Some(&rate.rates())), &mut f);
-            } else {
-                Rod::pack_force(simd, kernel, (&at, None), &mut f);
-            }
-            self.write(elements, &f);
-        }
-    }
-}
-
-/// [`RodChain::add_tangent`].
-struct AddTangent<'a, const D: usize> {
-    chain: &'a RodChain,
-    motion: (&'a [Node<D>], &'a [Node<D>]),
-    frames: &'a Frames,
-    assembly: &'a Assembly<D>,
-    /// Stiffness and damping.
-    matrices: [&'a mut Matrix<f64>; 2],
-}
-
-impl<const D: usize> Work for AddTangent<'_, D> {
+impl Work for PackForce<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
-        let mut whole = [[[0.0; PACK]; VELOCITIES]; VELOCITIES];
-        let (chain, [stiffness, damping]) = (self.chain, self.matrices);
-        for Packed { elements, kernel } in &chain.packs {
-            chain.read(self.motion, None, elements, &mut place);
-            let at = place.at();
-            if chain.is_damped {
-                chain.read(self.motion, Some(self.frames), elements, &mut rate);
-                Rod::pack_stiffness(simd, kernel, (&at, Some(&rate.rates())), &mut whole);
-                chain.add_lanes(elements, &whole, self.assembly, stiffness);
-                Rod::pack_damping(simd, kernel, &at, &mut whole);
-                chain.add_lanes(elements, &whole, self.assembly, damping);
-            } else {
-                Rod::pack_stiffness(simd, kernel, (&at, None), &mut whole);
-                chain.add_lanes(elements, &whole, self.assembly, stiffness);
+        let at = self.place.at();
+        *self.power += match self.rate {
+            Some(rate) => {
+                let motion = (&at, Some(&rate.rates()));
+                Rod::pack_force(simd, self.kernel, motion, self.force)
             }
-        }
+            None => Rod::pack_force(simd, self.kernel, (&at, None), self.force),
+        };
     }
 }
 
-impl RodChain {
-    /// Adds the matrices of a pack, of which rows up to the diagonal are given.
-    fn add_lanes<const D: usize>(
-        &self,
-        elements: &Range<usize>,
-        lanes: &ElementMatrix<[f64; PACK]>,
-        assembly: &Assembly<D>,
-        matrix: &mut Matrix<f64>,
-    ) {
-        for (lane, j) in elements.clone().enumerate() {
-            let mut whole = [[0.0; VELOCITIES]; VELOCITIES];
-            for r in 0..VELOCITIES {
-                for c in 0..=r {
-                    (whole[r][c], whole[c][r]) = (lanes[r][c][lane], lanes[r][c][lane]);
-                }
-            }
-            self.for_each_block(j, &whole, |row, column, block| {
-                assembly.add(row, column, block, matrix);
-            });
-        }
+/// Tangent of a pack.
+struct PackTangent<'a> {
+    kernel: &'a Pack,
+    place: &'a NodePack,
+    rate: Option<&'a NodePack>,
+    kind: Tangent,
+    out: &'a mut ElementMatrix<[f64; PACK]>,
+}
+
+impl Work for PackTangent<'_> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let rates = match self.rate {
+            Some(rate) => Some(rate.rates()),
+            None => None,
+        };
+        let motion = (&self.place.at(), rates.as_ref());
+        Rod::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
 }
