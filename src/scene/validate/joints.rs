@@ -222,7 +222,9 @@ impl<'a> Resolved<'a> {
     /// or such a body can hold.
     fn require_axes(&self, path: &str, joint: &Joint, ends: &Ends<'a>) -> Result<(), Error> {
         let holds = joint.kind.declaration().holds;
-        let is_cable = |marker: &Marker<'_>| matches!(marker.place, Place::Along(..));
+        let is_cable = |marker: &Marker<'_>| {
+            matches!(marker.place, Place::Along(..)) && !marker.place.is_framed()
+        };
         let first = match ends.first {
             First::Marker(marker) => Some(marker),
             First::Ground(_) | First::Cable(_) => None,
@@ -241,7 +243,7 @@ impl<'a> Resolved<'a> {
             };
             let is_clamped = holds_direction && is_cable(&marker);
             if needs_frame && is_cable(&marker) || !marker.place.turns() {
-                let wanted = "a marker of a rigid body with inertia, which has axes";
+                let wanted = "a marker of a rigid body with inertia or of a rod, which has axes";
                 let place = format!("{path}.markers[{side}]");
                 return Err(expected(&place, wanted, quoted(marker.name)));
             }

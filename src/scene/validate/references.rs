@@ -44,7 +44,7 @@ impl<'a> Resolved<'a> {
         let wanted = match self.scene.dimension {
             2 => "nothing in the plane, where \"angle\" says how a body stands",
             _ => {
-                "a marker of a rod, or of a rigid body with inertia; a cable without torsion has a direction alone"
+                "a marker of a rigid body with inertia or of a rod; a cable without torsion has a direction alone"
             }
         };
         match self.scene.dimension == 3 && marker.place.is_framed() {

@@ -91,14 +91,14 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /joints/1/kind | "orientation" | joints[1].markers: expected a rigid body or the ground beside a cable
         /joints/1/kind | "spherical" | accepted
         /joints/1/kind | "prismatic" | joints[1].direction: expected a direction [x, y, z], found nothing
-        /joints/1/direction | [0, 0, 1] | joints[1].markers[0]: expected a marker of a rigid body with inertia, which has axes
+        /joints/1/direction | [0, 0, 1] | joints[1].markers[0]: expected a marker of a rigid body with inertia or of a rod, which has axes
         /joints/2/kind | "cylindrical" | joints[2].markers[1]: expected a marker of a rigid body with inertia
         /joints/2/kind | "planar" | joints[2].markers[1]: expected a marker of a rigid body with inertia
         /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].direction: expected a direction [x, y, z], found nothing
         /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1, "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia
         /motions/0 | {"name": "lift", "kind": "angle", "marker": "rope.tip", "value": 0} | motions[0].marker: expected nothing that has an angle
         /motions/0 | {"name": "lift", "kind": "angle", "joint": "knot", "value": 0} | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one
-        /loads/0 | {"name": "push", "kind": "moment", "marker": "rod.tip", "value": [0, 0, 1]} | loads[0].marker: expected a marker of a rigid body with inertia; a cable without torsion has a direction alone
+        /loads/0 | {"name": "push", "kind": "moment", "marker": "rod.tip", "value": [0, 0, 1]} | loads[0].marker: expected a marker of a rigid body with inertia or of a rod; a cable without torsion has a direction alone
         /loads/0 | {"name": "push", "kind": "torque", "joint": "knot", "value": 1} | loads[0].joint: expected a revolute joint with a direction
         /loads/0/follower | true | loads[0].marker: expected a marker of a rigid body with inertia
         /outputs/0 | {"kind": "angle", "marker": "rod.tip"} | outputs[0].marker: expected nothing that has an angle
@@ -109,7 +109,41 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /outputs/0 | {"kind": "orientation", "marker": "load.eye"} | outputs[0].marker: expected a marker of a rigid body with inertia
         /outputs/1 | {"kind": "reaction_moment", "joint": "clamp"} | accepted
         /outputs/1 | {"kind": "reaction_moment", "joint": "knot"} | outputs[1].joint: expected a joint that transmits a moment, found "knot"
-        /ports/0/rotation | true | ports[0].marker: expected a marker of a rigid body with inertia; a cable without torsion
+        /ports/0/rotation | true | ports[0].marker: expected a marker of a rigid body with inertia or of a rod; a cable without torsion
+    "#,
+    );
+}
+
+/// The scene with nothing but its first body, a rod.
+fn rod() -> Value {
+    let mut scene = scene();
+    for key in ["masses", "motions", "loads", "ports"] {
+        scene[key] = json!([]);
+    }
+    scene["joints"] = json!([]);
+    scene["outputs"] = json!([{ "kind": "position", "marker": "rod.tip" }]);
+    scene["inputs"] = json!([]);
+    let only = scene["bodies"][0].clone();
+    scene["bodies"] = json!([only]);
+    scene
+}
+
+#[test]
+fn rods_say_what_their_sections_are() {
+    check(
+        rod,
+        r#"
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 7e5, "shear_modulus": 3e5, "density": 5540}, "section": {"area": 1.8e-3, "second_moments": [1e-9, 2e-9], "torsion_constant": 1e-9}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}} | accepted
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 2e-09], "torsion_constant": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}, "axis": [0, 1, 0]} | accepted
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 2e-09], "torsion_constant": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}, "axis": [2, 0, 0]} | bodies[0].axis: expected a direction that is not along the tangent at the first end
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 2e-09], "torsion_constant": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}} | bodies[0].material.shear_modulus: expected a value of a rod, found nothing
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 2e-09]}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}} | bodies[0].section.torsion_constant: expected a value of a rod, found nothing
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "torsion_constant": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}} | bodies[0].section.second_moments: expected two values of a rod, found nothing
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 0], "torsion_constant": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}} | bodies[0].section.second_moments[1]: expected
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 2e-09], "torsion_constant": 1e-09, "second_moment": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}} | bodies[0].section.second_moment: expected `second_moments` of a rod, one about each axis
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 2e-09], "torsion_constant": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}, "strain": "GreenLagrange_FrenetKappa"} | bodies[0].strain: expected "thetaPrime" of a rod
+        /bodies/0 | {"name": "rod", "element": "rod", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 2e-09], "torsion_constant": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}, "model": "rigid"} | bodies[0].model: expected "auto" or "flexible"
+        /bodies/0 | {"name": "rod", "element": "cable", "elements": 8, "material": {"youngs_modulus": 700000.0, "shear_modulus": 300000.0, "density": 5540}, "section": {"area": 0.0018, "second_moments": [1e-09, 2e-09], "torsion_constant": 1e-09}, "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}} | bodies[0].material.shear_modulus: expected nothing of a cable
     "#,
     );
 }
@@ -325,7 +359,7 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /inputs/0/start | [1] | inputs[0].start: expected 3 component(s), found 1
         /inputs/2/start | [1, 2, 3] | inputs[2].start: expected 1 component(s), found 3
         /inputs/2/joint | "guide" | inputs[2].joint: expected a revolute joint with a direction
-        /outputs/0/marker | "rope.tip" | outputs[0].marker: expected a marker of a rigid body with inertia; a cable without torsion
+        /outputs/0/marker | "rope.tip" | outputs[0].marker: expected a marker of a rigid body with inertia or of a rod; a cable without torsion
         /outputs/1/marker | "rope.tip" | outputs[1].marker: expected a marker of a rigid body with inertia
         /outputs/2/joint | "cross" | outputs[2].joint: expected a revolute joint with a direction
         /outputs/4/joint | "ball" | outputs[4].joint: expected a joint that transmits a moment, found "ball"
