@@ -163,7 +163,7 @@ pub enum Stop {
     TooMuchWork,
     /// A slide has left its cable; the joint.
     RanOff(usize),
-    /// An element of a rod is bent or twisted beyond what its frames hold: the body, and the element.
+    /// A rod is bent or twisted beyond what its frames hold: which one, and where.
     Overbent(usize, usize),
     /// Constraints cannot be kept.
     Broken,
@@ -395,7 +395,7 @@ fn outcome(accepted: Accepted) -> Result<bool, Stop> {
         Accepted::AsIs => Ok(false),
         Accepted::Moved => Ok(true),
         Accepted::RanOff(joint) => Err(Stop::RanOff(joint)),
-        Accepted::Overbent(body, element) => Err(Stop::Overbent(body, element)),
+        Accepted::Overbent(rod, place) => Err(Stop::Overbent(rod, place)),
         Accepted::Broken => Err(Stop::Broken),
         Accepted::Jumped(drive) => Err(Stop::Jumped(drive)),
         Accepted::NotFinite => Err(Stop::NotFinite),

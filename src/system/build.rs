@@ -97,29 +97,14 @@ impl<const D: usize> System<D> {
         let redundant = redundant(&linear, &dependent)?;
         let mass = mass(&parts, &assembly);
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
-        let chains_damped = parts.chains.iter().any(CableChain::is_damped)
-            || parts.rod_chains.iter().any(RodChain::is_damped);
+        let rods_damped = parts.rod_chains.iter().any(RodChain::is_damped);
+        let chains_damped = rods_damped || parts.chains.iter().any(CableChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let grounded = grounded(&parts, &nonlinear);
         let takes_moments = takes_moments(&parts);
-        let carried = parts.rod_chains.iter().flat_map(RodChain::frames);
-        let carried = carried.map(|(node, line)| Carried {
-            node,
-            line,
-            place: (0, 1.0),
-        });
-        let inner = parts.rod_chains.iter().flat_map(RodChain::inner);
-        let of_rods = (carried.collect(), inner);
-        let bodies = std::mem::take(&mut parts.frames);
-        let frames = Frames::new(bodies, of_rods, parts.nodes.len());
+        let frames = take_frames(&mut parts);
         let described = parts.nodes.clone();
-        for chain in &parts.rod_chains {
-            unplaced_rod(chain, &mut parts.nodes);
-        }
-        for frame in frames.list() {
-            let at = unplaced(&parts.nodes[frame.node]);
-            parts.nodes[frame.node..][..2].fill(at);
-        }
+        unplace(&mut parts, &frames);
         let mut system = Self {
             reference: parts.nodes,
             is_driven_by_time: false,
@@ -158,11 +143,7 @@ impl<const D: usize> System<D> {
             rotation: parts.rotation,
             tracks_work: parts.tracks_work,
         };
-        let has_breaks = system.functions().any(|(_, f)| f.has_breaks());
-        // Tables are smooth between their points.
-        let is_expression = |f: &Function| matches!(f, Function::Expression(_));
-        let is_driven_by_time = system.functions().any(|(_, f)| is_expression(f));
-        (system.has_breaks, system.is_driven_by_time) = (has_breaks, is_driven_by_time);
+        system.find_functions();
         system.move_reference();
         system.find_rotations();
         system.reach = system.find_reach();
@@ -170,6 +151,15 @@ impl<const D: usize> System<D> {
         system.keep(nonlinear, &described);
         system.needs_rates |= !system.constraints.is_empty();
         Ok(system)
+    }
+
+    /// Finds what functions of time there are.
+    fn find_functions(&mut self) {
+        let has_breaks = self.functions().any(|(_, f)| f.has_breaks());
+        // Tables are smooth between their points.
+        let is_expression = |f: &Function| matches!(f, Function::Expression(_));
+        let is_driven_by_time = self.functions().any(|(_, f)| is_expression(f));
+        (self.has_breaks, self.is_driven_by_time) = (has_breaks, is_driven_by_time);
     }
 
     /// Moves the reference onto the fixed rows, and finds how nodes follow the driven ones.
@@ -353,6 +343,31 @@ impl<const D: usize> System<D> {
         }
         self.tree = Tree::of(self);
     }
+}
+
+/// Puts the nodes of frames where nothing has turned.
+fn unplace<const D: usize>(parts: &mut Parts<D>, frames: &Frames) {
+    for chain in &parts.rod_chains {
+        unplaced_rod(chain, &mut parts.nodes);
+    }
+    for frame in frames.list() {
+        let at = unplaced(&parts.nodes[frame.node]);
+        parts.nodes[frame.node..][..2].fill(at);
+    }
+}
+
+/// Frames of rigid bodies, which are taken out of the parts, and those that rods carry.
+fn take_frames<const D: usize>(parts: &mut Parts<D>) -> Frames {
+    let carried = parts.rod_chains.iter().flat_map(RodChain::frames);
+    let carried = carried.map(|(node, line)| Carried {
+        node,
+        line,
+        place: (0, 1.0),
+    });
+    let inner = parts.rod_chains.iter().flat_map(RodChain::inner);
+    let of_rods = (carried.collect(), inner);
+    let bodies = std::mem::take(&mut parts.frames);
+    Frames::new(bodies, of_rods, parts.nodes.len())
 }
 
 fn redundant<const D: usize>(

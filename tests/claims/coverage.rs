@@ -18,7 +18,9 @@ const SINGLE: [&str; 3] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 5] = [
+const REFUSED: [&str; 7] = [
+    "bodies{rod}.strain=",
+    "bodies{rod}.model=rigid",
     "initial.state=as_shaped",
     "initial.loads{spring_damper}",
     "initial.loads{joint_spring}",
@@ -29,12 +31,14 @@ const REFUSED: [&str; 5] = [
 const TOGETHER: [&str; 1] = ["bodies{rigid}.orientation.matrix["];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/plan.rs`.
-const OWN: [&str; 5] = [
+const OWN: [&str; 7] = [
     "about.",
     "method.work_limit",
     "accuracy.for.",
     "bodies{cable}.elements=auto",
     "bodies{cable}.model=",
+    "bodies{rod}.elements=auto",
+    "bodies{rod}.model=",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.
 const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];

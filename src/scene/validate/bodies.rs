@@ -185,21 +185,22 @@ impl CableBody {
         {
             positive(&format!("{key}[{k}]"), "m^4", moment)?;
         }
+        self.validate_axis(&at("axis"), dimension)
+    }
+
+    /// The first axis of a rod's section is across its line.
+    fn validate_axis(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let Some(axis) = &self.axis else {
             return Ok(());
         };
-        vector(&at("axis"), dimension, axis)?;
+        vector(path, dimension, axis)?;
         let (tangent, axis) = (
             Vector3::from(self.shape.tangent(0.0)),
             Vector3::from(axis.full()),
         );
         if axis.cross(&tangent).norm() <= 1e-9 * axis.norm() {
             let wanted = "a direction that is not along the tangent at the first end";
-            return Err(expected(
-                &at("axis"),
-                wanted,
-                format!("{:?}", axis.as_slice()),
-            ));
+            return Err(expected(path, wanted, format!("{:?}", axis.as_slice())));
         }
         Ok(())
     }

@@ -24,6 +24,7 @@ mod space_driven;
 mod space_joints;
 mod space_modes;
 mod space_ports;
+mod space_rods;
 mod tables;
 
 use serde_json::{Value, json};
@@ -56,6 +57,7 @@ pub fn all() -> Vec<Specimen> {
         bushings::all(),
         space_ports::all(),
         space_driven::all(),
+        space_rods::all(),
         shapes::all(),
     ];
     parts.into_iter().flatten().collect()
