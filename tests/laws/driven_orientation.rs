@@ -12,7 +12,8 @@ use flexbody::system::joints::{Constraint, ConstraintKind, DrivenOrientation, Vi
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 
-use crate::laws::linkage::{Chance, V};
+use crate::laws::chance::Chance;
+use crate::laws::linkage::V;
 
 /// Moments of inertia, kg m^2, along the axes of the frame.
 const INERTIA: [f64; 3] = [0.5, 0.7, 1.1];
