@@ -4,4 +4,5 @@ pub(in crate::system) mod breaks;
 pub(in crate::system) mod dynamics;
 pub(in crate::system) mod forces;
 pub(in crate::system) mod multipliers;
+pub(in crate::system) mod rank;
 pub(in crate::system) mod tree;
