@@ -9,7 +9,9 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use flexbody::fmi2;
 use flexbody::scene::{Experiment, Scene};
-use flexbody::simulation::{Causality, Report, SignalError, Signals, Simulation, check};
+use flexbody::simulation::{
+    Causality, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular, check,
+};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use files::{Shapes, Sink, Table};
@@ -82,8 +84,8 @@ struct Simulate {
     #[arg(long)]
     output: Option<PathBuf>,
     /// JSON file for the natural frequencies, for what the steps took (integrator, sub-steps, Newton
-    /// iterations, CPU time in s), for joints that hold what others hold already and for outputs that the
-    /// tolerance does not reach.
+    /// iterations, CPU time in s), for joints that hold what others hold already, exactly or nearly, for
+    /// singular positions and for outputs that the tolerance does not reach.
     #[arg(long)]
     report: Option<PathBuf>,
     /// File for pictures: a line of JSON that names every body and its markers, then one for every
@@ -109,6 +111,8 @@ struct Cost {
     stopwatch: Stopwatch,
     /// Outputs that the tolerance does not reach.
     doubtful: Vec<String>,
+    /// Singular positions.
+    singular: Vec<Singular>,
     /// A mesh that is too coarse, in words.
     unresolved: Option<String>,
 }
@@ -122,6 +126,7 @@ impl Cost {
             newton_iterations: 0,
             stopwatch: Stopwatch::new(),
             doubtful: Vec::new(),
+            singular: Vec::new(),
             unresolved: None,
         }
     }
@@ -134,23 +139,29 @@ impl Cost {
     }
 
     /// One line of JSON; CPU time in seconds. Names of variables and joints need no escapes.
-    fn json(&self, calculated: &[(String, f64)], redundant: &[String]) -> String {
+    fn json(&self, calculated: &[(String, f64)], redundant: &Redundant) -> String {
         let pair = |(name, value): &(String, f64)| format!("\"{name}\": {value:?}");
         let calculated: Vec<String> = calculated.iter().map(pair).collect();
         let quoted = |name: &String| format!("\"{name}\"");
-        let redundant: Vec<String> = redundant.iter().map(quoted).collect();
-        let doubtful: Vec<String> = self.doubtful.iter().map(quoted).collect();
+        let list = |names: &[String]| names.iter().map(quoted).collect::<Vec<_>>().join(", ");
+        let position = |Singular { time, names }: &Singular| {
+            format!("{{\"time\": {time:?}, \"names\": [{}]}}", list(names))
+        };
+        let singular: Vec<String> = self.singular.iter().map(position).collect();
         format!(
             "{{\"method\": \"{}\", \"steps\": {}, \"rejected\": {}, \"newton_iterations\": {}, \
-             \"cpu_time\": {:?}, \"calculated\": {{{}}}, \"redundant\": [{}], \"doubtful\": [{}]}}\n",
+             \"cpu_time\": {:?}, \"calculated\": {{{}}}, \"redundant\": [{}], \
+             \"nearly_redundant\": [{}], \"singular\": [{}], \"doubtful\": [{}]}}\n",
             self.method,
             self.steps,
             self.rejected,
             self.newton_iterations,
             self.stopwatch.seconds(),
             calculated.join(", "),
-            redundant.join(", "),
-            doubtful.join(", ")
+            list(&redundant.exactly),
+            list(&redundant.nearly),
+            singular.join(", "),
+            list(&self.doubtful)
         )
     }
 }
@@ -213,9 +224,13 @@ fn simulate(arguments: &Simulate) -> Outcome<()> {
     let signals = signals(&mut simulation, arguments, stop_time)?;
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
-    let redundant = simulation.redundant_joints();
-    for joint in &redundant {
+    let redundant = simulation.redundant();
+    for joint in &redundant.exactly {
         eprintln!("flexbody: {joint} holds what others hold already");
+    }
+    if !redundant.nearly.is_empty() {
+        let names = redundant.nearly.join(", ");
+        eprintln!("flexbody: {names}: nearly held by others already; {NEARLY}");
     }
     let outputs = Sink::new(arguments.output.as_deref())?;
     let shapes = arguments.shapes.as_deref();
@@ -389,6 +404,9 @@ impl Run {
                 "flexbody: {name}: errors of the steps may have left more than 10 times the relative tolerance"
             );
         }
+        for singular in &self.cost.singular {
+            eprintln!("flexbody: {singular}");
+        }
         if let Some(unresolved) = &self.cost.unresolved {
             eprintln!("flexbody: {unresolved}");
         }
@@ -409,6 +427,7 @@ impl Run {
             while let Some(name) = simulation.next_doubtful() {
                 self.cost.doubtful.push(name.to_owned());
             }
+            self.cost.singular.extend(simulation.next_singular());
             if let Some(unresolved) = simulation.next_unresolved() {
                 self.cost.unresolved = Some(unresolved.to_string());
             }

@@ -1,7 +1,7 @@
 //! What a scene may not say, and how it is told: the place, what was expected, what was found.
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Signals, Simulation, courses, plan};
+use flexbody::simulation::{Redundant, Signals, Simulation, courses, plan};
 use serde_json::{Value, json};
 
 const SCENE: &str = include_str!("../scenes/cantilever.json");
@@ -206,7 +206,8 @@ fn what_is_held_twice_is_reported_and_held_once() {
     scene["joints"].as_array_mut().expect("joints").push(again);
     let mut simulation = Simulation::new(planned(&scene.to_string()).expect("a scene"));
     simulation.initialize(0.0).expect("an equilibrium");
-    assert_eq!(simulation.redundant_joints(), ["again"]);
+    let told = simulation.redundant();
+    assert_eq!((told.exactly, told.nearly), (vec!["again".into()], vec![]));
 }
 
 /// What becomes of the four-bar linkage with a value changed: the message, or the redundant joints.
@@ -217,7 +218,7 @@ fn started(change: impl Fn(&mut Value)) -> Result<Vec<String>, String> {
     let told = simulation
         .initialize(0.0)
         .map_err(|error| error.to_string());
-    told.map(|_| simulation.redundant_joints())
+    told.map(|_| simulation.redundant().exactly)
 }
 
 fn push(list: &mut Value, item: Value) {
@@ -304,7 +305,8 @@ fn experiment(path: &std::path::Path) -> (u64, u64) {
             rejected += simulation.report().rejected;
         }
     }
-    assert_eq!(simulation.redundant_joints(), [""; 0]);
+    assert_eq!(simulation.redundant(), Redundant::default());
+    assert_eq!(simulation.next_singular(), None);
     for index in 0..simulation.variables().len() {
         let variable = &simulation.variables()[index];
         if !variable.is_integer() {

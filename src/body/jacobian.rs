@@ -121,8 +121,9 @@ pub struct Jacobian {
     place: Vec<usize>,
     /// Where rows meet themselves.
     corners: Vec<usize>,
-    /// Squares of rows, and whether each counts, as `pattern` has them.
+    /// Squares of rows, what those before leave of them (the pivots), and whether each counts, as `pattern` has them.
     squares: Vec<f64>,
+    pivots: Vec<f64>,
     counts: Vec<bool>,
     /// The bound that `factors` were made with; nothing where rows have changed since.
     factored: Option<f64>,
@@ -174,6 +175,7 @@ impl Jacobian {
             corners: (0..rows.count()).map(|i| entry(i, i)).collect(),
             factors: Matrix::zeros(&pattern),
             squares: vec![0.0; rows.count()],
+            pivots: vec![0.0; rows.count()],
             counts: vec![false; rows.count()],
             factored: None,
             missing: vec![0.0; rows.count()],
@@ -193,6 +195,30 @@ impl Jacobian {
     /// Whether a row counts: the others do not give it.
     pub fn is_independent(&self, row: usize) -> bool {
         self.counts[self.place[row]]
+    }
+
+    /// How many rows count.
+    pub fn rank(&self) -> usize {
+        self.counts.iter().filter(|counts| **counts).count()
+    }
+
+    /// Whether the pivot of a row says that others leave more of it than a part of its size: right where that is well above
+    /// the roundoff of pivots, which are squares.
+    pub fn may_leave(&self, row: usize, part: f64) -> bool {
+        let place = self.place[row];
+        self.pivots[place] > part * part * self.squares[place]
+    }
+
+    /// What those that count leave of a row, relative to its size; into `rest` as a vector, relative as well.
+    pub fn part_left(&mut self, row: usize, rest: &mut [f64]) -> f64 {
+        let size = self.squares[self.place[row]].sqrt();
+        if size == 0.0 {
+            return 0.0;
+        }
+        rest.fill(0.0);
+        self.rows.add(row, 1.0 / size, rest);
+        self.bring(3, |_| 0.0, rest);
+        short_dot(rest, rest).sqrt()
     }
 
     /// Whether all rows count.
@@ -238,7 +264,8 @@ impl Jacobian {
             self.squares[*place] = self.factors.values[*corner];
         }
         let (factors, least) = (&mut self.factors, least * least);
-        factors.factor_semidefinite(&self.pattern, (least, &self.squares), &mut self.counts);
+        let found = (&mut self.counts[..], &mut self.pivots[..]);
+        factors.factor_semidefinite(&self.pattern, (least, &self.squares), found);
     }
 
     /// Changes `q` by the least that makes `J q = right` as far as rows count. Two passes do so to roundoff; one is

@@ -12,7 +12,7 @@ use super::names::Names;
 use super::state::SavedState;
 use super::status::{Fault, Status};
 use crate::scene::Scene;
-use crate::simulation::{self, Simulation};
+use crate::simulation::{self, NEARLY, Simulation};
 
 /// Relative difference up to which two times are the same; masters add up their time in many ways.
 const SAME_TIME: f64 = 1e-5;
@@ -171,12 +171,7 @@ impl Instance {
         self.passed_on(outcome, State::StepComplete)?;
         let time = self.simulation.time();
         self.log_event(format_args!("initialized at time {time} s"));
-        let redundant = self.simulation.redundant_joints();
-        if !redundant.is_empty() {
-            let names = redundant.join(", ");
-            let message = format_args!("joints that hold what others hold already: {names}");
-            self.logger.log(Status::Ok, Category::Warning, message);
-        }
+        self.log_redundant();
         if let Some(gaps) = self.simulation.misfits() {
             let message = format_args!(
                 "bodies were moved to close joints that are far apart as described: {gaps}"
@@ -188,6 +183,22 @@ impl Instance {
                 "the simulation starts from an equilibrium that is not stable, and no stable one was found beside it",
             )),
             false => Ok(()),
+        }
+    }
+
+    /// Tells of what holds what others hold already, and of what nearly does.
+    fn log_redundant(&mut self) {
+        let redundant = self.simulation.redundant();
+        let names = redundant.exactly.join(", ");
+        if !names.is_empty() {
+            let message = format_args!("joints that hold what others hold already: {names}");
+            self.logger.log(Status::Ok, Category::Warning, message);
+        }
+        let names = redundant.nearly.join(", ");
+        if !names.is_empty() {
+            let message =
+                format_args!("joints that nearly hold what others hold already: {names}; {NEARLY}");
+            self.logger.log(Status::Warning, Category::Warning, message);
         }
     }
 
@@ -238,6 +249,10 @@ impl Instance {
                 "{name}: errors of the steps may have left more than 10 times the relative tolerance; \
                  tighten it where this output counts"
             );
+            self.logger.log(Status::Warning, Category::Warning, message);
+        }
+        if let Some(singular) = self.simulation.next_singular() {
+            let message = format_args!("{singular}");
             self.logger.log(Status::Warning, Category::Warning, message);
         }
         if let Some(unresolved) = self.simulation.next_unresolved() {

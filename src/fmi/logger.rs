@@ -41,8 +41,8 @@ impl Category {
         match self {
             Self::Error => "Calls that were refused and computations that failed, with the reason",
             Self::Warning => {
-                "Steps that were done only in part, outputs that the tolerance does not reach, and statuses that do \
-                 not exist"
+                "Steps that were done only in part, outputs that the tolerance does not reach, singular positions, and \
+                 statuses that do not exist"
             }
             Self::Events => "Course of the simulation: initialization, reset, restored states, end",
             Self::Solver => {

@@ -2,7 +2,9 @@
 
 use super::engine::{Engine, Remarks};
 use super::inputs::Inputs;
-use super::{Error, Quantity, Report, Spectra, StepFailure, Unresolved, Variable};
+use super::{
+    Error, Quantity, Redundant, Report, Singular, Spectra, StepFailure, Unresolved, Variable,
+};
 use crate::scene::{Error as SceneError, Resolved, Scene};
 use crate::system::State;
 
@@ -34,11 +36,12 @@ macro_rules! handed_on {
 handed_on! {
     fn initial_state([&mut] self, time: f64, inputs: &[f64]) -> Result<(State, Spectra), Error>;
     fn remarks([&] self) -> &Remarks;
-    fn redundant([&mut] self, state: &State) -> Vec<String>;
+    fn redundant([&mut] self, state: &State) -> Redundant;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
     fn size([&] self) -> f64;
     fn natural([&] self, quantity: Quantity) -> Option<f64>;
     fn next_doubtful([&mut] self) -> Option<&str>;
+    fn next_singular([&mut] self) -> Option<Singular>;
     fn next_unresolved([&mut] self) -> Option<Unresolved<'_>>;
     fn fits([&] self, state: &State) -> bool;
     fn forget([&mut] self);

@@ -173,6 +173,7 @@ impl<const D: usize> Engine<D> {
             }
         }
         self.assembled.begin(&mut state);
+        self.work.begin();
         if !misfits.is_empty() {
             self.remarks.misfits = Some(self.gaps(&misfits));
         }
@@ -239,17 +240,6 @@ impl<const D: usize> Engine<D> {
     /// Name of a joint, motion or port that holds something in the system.
     pub(super) fn name(&self, index: usize) -> &str {
         &self.holders[index].1
-    }
-
-    /// Names of the joints and motions that hold, at least in part, what others hold already, and of
-    /// rigid bodies that joints alone keep in shape, at a state.
-    pub(super) fn redundant(&mut self, state: &State) -> Vec<String> {
-        let system = &self.assembled.system;
-        let (joints, bodies) = system.redundant_at(state, &mut self.work);
-        self.forget();
-        let joints = joints.into_iter().map(|joint| self.name(joint).to_owned());
-        let bodies = bodies.into_iter().map(|body| self.bodies[body].clone());
-        joints.chain(bodies).collect()
     }
 
     /// Advances the state to `until`, moving inputs with it; what it did is told of a failure as well.

@@ -11,6 +11,7 @@ mod plan;
 mod quantities;
 mod shapes;
 mod signals;
+mod singular;
 mod snapshot;
 mod stop;
 #[cfg(test)]
@@ -25,6 +26,7 @@ pub use plan::{
 };
 pub use quantities::Quantity;
 pub use signals::{SignalError, Signals};
+pub use singular::{NEARLY, Redundant, Singular};
 pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Causality, Parameter, Source, Unit, Variable, variables};
 
@@ -223,10 +225,15 @@ impl Simulation {
         self.engine.as_mut().and_then(AnyEngine::next_unresolved)
     }
 
+    /// A singular position that steps came to or passed by closely, where joints count as holding what others hold already
+    /// which do not do so everywhere; every joint is told once.
+    pub fn next_singular(&mut self) -> Option<Singular> {
+        self.engine.as_mut().and_then(AnyEngine::next_singular)
+    }
+
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
-    /// rigid bodies that joints alone keep in shape, in the present position; empty before
-    /// [`Self::initialize`]. They do no harm: what is held twice is held once.
-    pub fn redundant_joints(&mut self) -> Vec<String> {
+    /// rigid bodies that joints alone keep in shape, in the present position; none before [`Self::initialize`].
+    pub fn redundant(&mut self) -> Redundant {
         let (engine, state) = (self.engine.as_mut(), &self.state);
         engine
             .map(|engine| engine.redundant(state))

@@ -5,9 +5,6 @@ use crate::integrators::{Counts, Stop};
 use crate::scene::finite_near;
 use crate::system::State;
 
-/// Part of a constraint that is left beside the others near a dead point.
-const NEAR: f64 = 1e-2;
-
 /// Part of a communication step below which a sub-step comes to nothing.
 const CRAWL: f64 = 1e-5;
 
@@ -69,19 +66,5 @@ impl<const D: usize> Engine<D> {
                 format!("expected a motion without jumps, found one of `{name}`")
             }
         }
-    }
-
-    /// Names of joints and motions that hold what others hold already at this state but not anywhere, and of
-    /// rigid bodies that joints alone keep in shape there.
-    fn newly_redundant(&mut self, state: &State) -> Option<String> {
-        let system = &self.assembled.system;
-        let (joints, bodies) = system.redundant_within(NEAR, state, &mut self.work);
-        self.forget();
-        let always = self.assembled.system.redundant();
-        let joints = joints.iter().filter(|joint| !always.contains(joint));
-        let joints = joints.map(|joint| self.name(*joint));
-        let names = joints.chain(bodies.iter().map(|body| &self.bodies[*body][..]));
-        let names: Vec<_> = names.map(|name| format!("`{name}`")).collect();
-        (!names.is_empty()).then(|| names.join(", "))
     }
 }

@@ -29,6 +29,7 @@ pub use instant::Instant;
 pub use motion::breaks::Follower;
 pub use motion::dynamics::{Accepted, Dynamics, Model};
 pub use motion::multipliers::ConstraintRow;
+pub use motion::rank::{Held, Redundant};
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
 pub use rod::Rod;

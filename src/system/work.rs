@@ -1,5 +1,6 @@
 //! Scratch of a system: nothing allocates in a step.
 
+use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
 use super::{State, System};
@@ -50,6 +51,8 @@ pub struct Work<const D: usize = 2> {
     pub(super) jacobian: Jacobian,
     pub(super) jacobian_at: Configuration<D>,
     pub(super) lambda: Vec<f64>,
+    /// Constraints that did not count at states that were accepted.
+    pub(super) rank: RankWatch,
     /// Factors of the tree that constraints make, what they were made from, and whether they could be.
     pub(super) articulated: Articulated,
     tree_at: Configuration<D>,
@@ -124,6 +127,7 @@ impl<const D: usize> Work<D> {
             system.constraints[row].is_linear()
         });
         let lambda = vec![0.0; system.constraints.len()];
+        let rank = RankWatch::new(lambda.len(), system.coordinates());
         Self {
             x: nodes.clone(),
             v: nodes.clone(),
@@ -148,6 +152,7 @@ impl<const D: usize> Work<D> {
             before: system.blank_state(0.0),
             right: lambda.clone(),
             lambda,
+            rank,
             tangent: Tangent::new(
                 &system.elimination,
                 system.is_damped,
@@ -164,6 +169,11 @@ impl<const D: usize> Work<D> {
             power: [0.0; 2],
             dissipated: 0.0,
         }
+    }
+
+    /// Begins a motion: nothing has been said of its constraints.
+    pub fn begin(&mut self) {
+        self.rank = RankWatch::new(self.lambda.len(), self.a.len());
     }
 
     /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.

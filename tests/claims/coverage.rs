@@ -18,7 +18,8 @@ const SINGLE: [&str; 3] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 7] = [
+const REFUSED: [&str; 8] = [
+    "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain=",
     "bodies{rod}.model=rigid",
     "initial.state=as_shaped",

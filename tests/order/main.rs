@@ -3,6 +3,7 @@
 
 mod control;
 mod problem;
+mod trees;
 mod work;
 
 use flexbody::integrators::{

@@ -430,18 +430,20 @@ fn rows_with_little_pivots_drop_out() {
             .flat_map(|v| (0..sizes[v]).map(move |r| place(v, r)))
             .collect();
         let (mut squares, mut counts, mut b) = ([0.0; 6], [true; 6], [0.0; 6]);
+        let mut pivots = [0.0; 6];
         let x = [0.3, -0.7, 0.4];
         for &(row, at) in &places {
             squares[at] = dot(row, row);
             b[at] = (0..3).map(|k| rows[row][k] * x[k]).sum();
         }
-        a.factor_semidefinite(&pattern, (1e-8, &squares), &mut counts);
+        a.factor_semidefinite(&pattern, (1e-8, &squares), (&mut counts, &mut pivots));
         assert_eq!(
             counts.iter().filter(|stays| **stays).count(),
             3,
             "{sizes:?}"
         );
         for &(row, at) in &places {
+            assert_eq!(counts[at], pivots[at] > 1e-8 * squares[at], "{sizes:?}");
             if !counts[at] {
                 b[at] = 0.0;
             }

@@ -449,6 +449,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         if !self.project(state) {
             return Accepted::Broken;
         }
+        self.system.watch_rank(state.time, self.work);
         match self.count(state) {
             Accepted::AsIs => Accepted::Moved,
             other => other,

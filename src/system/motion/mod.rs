@@ -4,5 +4,6 @@ pub(in crate::system) mod breaks;
 pub(in crate::system) mod dynamics;
 pub(in crate::system) mod forces;
 pub(in crate::system) mod multipliers;
+pub(in crate::system) mod rank;
 mod rods;
 pub(in crate::system) mod tree;

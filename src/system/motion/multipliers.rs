@@ -14,7 +14,7 @@
 use crate::body::{Jacobian, Node, SparseRows, no_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
-use crate::system::joints::{Constraint, ConstraintKind, View};
+use crate::system::joints::{Constraint, View};
 use crate::system::{System, Work};
 
 /// Most iterations of a projection.
@@ -22,7 +22,7 @@ const ITERATIONS: usize = 20;
 /// Part of a row of the Jacobian that others must leave for it to count. Close to a singular configuration (at a
 /// distance `d`) a residual of roundoff tilts the dependent row by `1e-15 / d^2`; leaving it out lets inertia rule for
 /// a time in proportion to `d`. This is in between (docs/decisions/0029-constraints-at-linear-cost.md).
-const RANK: f64 = 1e-3;
+pub(super) const RANK: f64 = 1e-3;
 /// The same for a state that rows which do not count have left by more than roundoff: where a motion dwells at a
 /// singular configuration.
 const FINE_RANK: f64 = 1e-5;
@@ -62,7 +62,7 @@ impl<const D: usize> ConstraintRow<'_, D> {
 
 impl<const D: usize> System<D> {
     /// Fills in the Jacobian at the nodal coordinates in `work`, unless it is that already.
-    fn jacobians(&self, work: &mut Work<D>) {
+    pub(super) fn jacobians(&self, work: &mut Work<D>) {
         if !work.outdates_jacobian() {
             return;
         }
@@ -313,45 +313,6 @@ impl<const D: usize> System<D> {
         let residual =
             |c: &Constraint<D>| constraint_rate(c, view).plain().abs() / c.size(&self.chains);
         self.constraints.iter().map(residual).fold(0.0, larger)
-    }
-
-    /// Joints that hold, at least in part, what others hold already, at the start; and bodies that need
-    /// not be kept rigid, since joints do.
-    pub fn redundant_at(
-        &self,
-        state: &crate::system::State,
-        work: &mut Work<D>,
-    ) -> (Vec<usize>, Vec<usize>) {
-        self.redundant_within(RANK, state, work)
-    }
-
-    /// The same of what is held but for this part, relative.
-    pub fn redundant_within(
-        &self,
-        part: f64,
-        state: &crate::system::State,
-        work: &mut Work<D>,
-    ) -> (Vec<usize>, Vec<usize>) {
-        let (mut joints, mut bodies) = (self.redundant.clone(), Vec::new());
-        work.resume(state);
-        self.forward_kinematics(state.time, &state.coordinates, None, work);
-        self.jacobians(work);
-        work.jacobian.factor(part);
-        for (row, constraint) in self.constraints.iter().enumerate() {
-            if work.jacobian.is_independent(row) {
-                continue;
-            }
-            match (constraint.joint, &constraint.kind) {
-                (Some(joint), _) => joints.push(joint),
-                (None, ConstraintKind::UnitLength(unit)) => {
-                    bodies.extend(self.bodies.iter().position(|b| b.contains(&unit.node)));
-                }
-                (None, _) => {}
-            }
-        }
-        joints.sort_unstable();
-        joints.dedup();
-        (joints, bodies)
     }
 }
 

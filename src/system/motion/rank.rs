@@ -1,0 +1,199 @@
+//! Constraints that do not count because others leave next to nothing of them: those that repeat others exactly, which does
+//! no harm, and those that nearly do, without which accelerations and multipliers are found. The latter are looked
+//! for at the start and at every state that a step is accepted at.
+
+use super::multipliers::RANK;
+use crate::body::Jacobian;
+use crate::math::vector::dot;
+use crate::system::joints::ConstraintKind;
+use crate::system::{State, System, Work};
+
+/// Part of a row of the Jacobian below which others give it exactly, but for the residuals of the state.
+const EXACT: f64 = 1e-6;
+
+/// Joints, motions and ports by their index, and bodies that joints keep rigid.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Held {
+    /// Joints, motions and ports.
+    pub holders: Vec<usize>,
+    /// Rigid bodies.
+    pub bodies: Vec<usize>,
+}
+
+/// Constraints that others give.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Redundant {
+    /// Exactly.
+    pub exactly: Held,
+    /// Nearly: accelerations and multipliers are found as if these were not there.
+    pub nearly: Held,
+}
+
+/// What has been said of a constraint that does not count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Word {
+    /// Nothing.
+    None,
+    /// It is to be told.
+    Due,
+    /// It was told.
+    Told,
+}
+
+/// Constraints that did not count at a state that was accepted, though they are not redundant.
+#[derive(Clone, Debug)]
+pub struct RankWatch {
+    words: Vec<Word>,
+    /// When the first of those that are to be told did not count, s.
+    time: Option<f64>,
+    /// Which constraints counted where most of them did, and how many.
+    counted: Vec<bool>,
+    most: usize,
+    /// Scratch: a vector of free coordinates.
+    rest: Vec<f64>,
+}
+
+impl RankWatch {
+    /// For so many constraints and coordinates.
+    pub fn new(constraints: usize, coordinates: usize) -> Self {
+        Self {
+            words: vec![Word::None; constraints],
+            time: None,
+            counted: vec![false; constraints],
+            most: 0,
+            rest: vec![0.0; coordinates],
+        }
+    }
+
+    /// Keeps which constraints count where most of them do. Whether these are as many.
+    fn keep(&mut self, jacobian: &Jacobian) -> bool {
+        let rank = jacobian.rank();
+        if rank > self.most {
+            self.most = rank;
+            let counted = self.counted.iter_mut().enumerate();
+            counted.for_each(|(row, counted)| *counted = jacobian.is_independent(row));
+        }
+        rank == self.most
+    }
+}
+
+impl<const D: usize> System<D> {
+    /// Looks for constraints that do not count at an accepted state, at the configuration in `work`. Those that others give
+    /// exactly are none of them: where as many constraints count as anywhere, and others leave nothing of the rest.
+    pub(in crate::system) fn watch_rank(&self, time: f64, work: &mut Work<D>) {
+        if self.constraints.is_empty() || work.is_tree {
+            return;
+        }
+        let (jacobian, watch) = (&mut work.jacobian, &mut work.rank);
+        // As the next acceleration does.
+        jacobian.factor(RANK);
+        let is_most = watch.keep(jacobian);
+        if jacobian.has_full_rank() {
+            return;
+        }
+        for row in 0..self.constraints.len() {
+            if watch.words[row] != Word::None || jacobian.is_independent(row) {
+                continue;
+            }
+            let is_near = !is_most && watch.counted[row]
+                || jacobian.may_leave(row, EXACT)
+                    && jacobian.part_left(row, &mut watch.rest) > EXACT;
+            if is_near {
+                watch.words[row] = Word::Due;
+                watch.time.get_or_insert(time);
+            }
+        }
+    }
+
+    /// What did not count at accepted states since the last call, but for what was told before, and since when (s).
+    pub fn newly_singular(&self, work: &mut Work<D>) -> Option<(f64, Held)> {
+        let watch = &mut work.rank;
+        let time = watch.time.take()?;
+        let words = &watch.words;
+        let rows = |word: Word| (0..words.len()).filter(move |row| words[*row] == word);
+        let mut due = self.holding(rows(Word::Due));
+        let told = self.holding(rows(Word::Told));
+        due.holders.retain(|holder| !told.holders.contains(holder));
+        due.bodies.retain(|body| !told.bodies.contains(body));
+        for word in &mut watch.words {
+            if *word == Word::Due {
+                *word = Word::Told;
+            }
+        }
+        (!due.holders.is_empty() || !due.bodies.is_empty()).then_some((time, due))
+    }
+
+    /// What holds, at least in part, what others hold already at a state, and bodies that need not be kept rigid, since joints
+    /// do. What is told to hold nearly so is not told again.
+    pub fn redundant_at(&self, state: &State, work: &mut Work<D>) -> Redundant {
+        let dependent = self.dependent(RANK, state, work);
+        work.rank.keep(&work.jacobian);
+        let mut rest = vec![0.0; self.coordinates()];
+        // What is left of rows, orthonormal: a row that others give together with one of these is none of them.
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        let (mut exactly, mut nearly) = (Vec::new(), Vec::new());
+        for row in dependent {
+            let mut left = work.jacobian.part_left(row, &mut rest);
+            for _ in 0..2 {
+                for other in &basis {
+                    let part = dot(other, &rest);
+                    let pairs = rest.iter_mut().zip(other);
+                    pairs.for_each(|(rest, other)| *rest -= part * other);
+                    left = dot(&rest, &rest).sqrt();
+                }
+            }
+            if left > EXACT {
+                basis.push(rest.iter().map(|rest| rest / left).collect());
+                work.rank.words[row] = Word::Told;
+                nearly.push(row);
+            } else {
+                exactly.push(row);
+            }
+        }
+        let (mut exactly, nearly) = (self.holding(exactly), self.holding(nearly));
+        exactly.holders.extend(&self.redundant);
+        exactly.holders.sort_unstable();
+        exactly.holders.dedup();
+        exactly.holders.retain(|h| !nearly.holders.contains(h));
+        exactly.bodies.retain(|body| !nearly.bodies.contains(body));
+        Redundant { exactly, nearly }
+    }
+
+    /// What is held by others at a state but for less than a part, relative, and not everywhere.
+    pub fn held_within(&self, part: f64, state: &State, work: &mut Work<D>) -> Held {
+        let rows = self.dependent(part, state, work);
+        let mut held = self.holding(rows);
+        (held.holders).retain(|holder| !self.redundant.contains(holder));
+        held
+    }
+
+    /// Constraints of which others leave less than a part.
+    fn dependent(&self, part: f64, state: &State, work: &mut Work<D>) -> Vec<usize> {
+        work.resume(state);
+        self.forward_kinematics(state.time, &state.coordinates, None, work);
+        self.jacobians(work);
+        work.jacobian.factor(part);
+        let rows = 0..self.constraints.len();
+        rows.filter(|row| !work.jacobian.is_independent(*row))
+            .collect()
+    }
+
+    /// What constraints belong to.
+    fn holding(&self, rows: impl IntoIterator<Item = usize>) -> Held {
+        let mut held = Held::default();
+        for row in rows {
+            let constraint = &self.constraints[row];
+            match (constraint.joint, &constraint.kind) {
+                (Some(joint), _) => held.holders.push(joint),
+                (None, ConstraintKind::UnitLength(unit)) => {
+                    let body = self.bodies.iter().position(|b| b.contains(&unit.node));
+                    held.bodies.extend(body);
+                }
+                (None, _) => {}
+            }
+        }
+        held.holders.sort_unstable();
+        held.holders.dedup();
+        held
+    }
+}
