@@ -20,7 +20,7 @@ const SINGLE: [&str; 3] = [
 /// What stands in the schema and is refused.
 const REFUSED: [&str; 8] = [
     "bodies{rod}.motion.spin#number",
-    "bodies{rod}.strain=",
+    "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
     "initial.state=as_shaped",
     "initial.loads{spring_damper}",
@@ -39,7 +39,7 @@ const OWN: [&str; 7] = [
     "bodies{cable}.elements=auto",
     "bodies{cable}.model=",
     "bodies{rod}.elements=auto",
-    "bodies{rod}.model=",
+    "bodies{rod}.model",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.
 const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];

@@ -28,7 +28,7 @@ const MOMENTS: [f64; 2] = [3.0e-7, 7.0e-7];
 const TORSION: f64 = 5.0e-7;
 
 fn rod(shape: Value) -> Value {
-    json!({"name": "rod", "element": "rod", "elements": 4, "axial": "waves", "strain": "thetaPrime",
+    json!({"name": "rod", "element": "rod", "elements": 4, "axial": "waves",
            "material": {"youngs_modulus": YOUNG, "shear_modulus": SHEAR, "density": DENSITY},
            "section": {"area": AREA, "second_moments": MOMENTS, "torsion_constant": TORSION},
            "axis": [0.3, -0.2, 0.9], "shape": shape, "markers": {"root": 0.0, "mid": 0.4, "tip": 1.0}})
@@ -47,7 +47,7 @@ fn clamped(body: Value, rest: Value) -> Value {
     scene
 }
 
-/// Under a torque `M` at the end a section at `s` turns by `M s / (G J)`, and the torque is `M` everywhere.
+/// Under a torque `M` inside it a section there, at `s`, turns by `M s / (G J)`, and the torque is `M` up to there.
 fn twisted() -> Specimen {
     let (from, to, torque) = (
         Vector3::new(0.2, -0.4, 0.1),
@@ -58,9 +58,9 @@ fn twisted() -> Specimen {
     let along = way / length;
     let scene = clamped(
         rod(straight(from, to)),
-        json!({"loads": [{"name": "twist", "kind": "moment", "marker": "rod.tip", "value": array(along * torque)}],
+        json!({"loads": [{"name": "twist", "kind": "moment", "marker": "rod.mid", "value": array(along * torque)}],
                "initial": "static_equilibrium", "accuracy": {"relative_tolerance": 1e-9},
-               "outputs": [{"kind": "orientation", "marker": "rod.mid"}, {"kind": "torque", "marker": "rod.mid"},
+               "outputs": [{"kind": "orientation", "marker": "rod.mid"}, {"kind": "torque", "marker": "rod.root"},
                            {"kind": "position", "marker": "rod.mid"}]}),
     );
     let given = Vector3::new(0.3, -0.2, 0.9);
@@ -68,7 +68,7 @@ fn twisted() -> Specimen {
     let angle = torque * 0.4 * length / (SHEAR * TORSION);
     let second = first * angle.cos() + along.cross(&first) * angle.sin();
     let axes = [along, second, along.cross(&second)];
-    let mut specimen = Specimen::new("twisted rod", scene).claim("rod.mid.torque", "N.m", torque);
+    let mut specimen = Specimen::new("twisted rod", scene).claim("rod.root.torque", "N.m", torque);
     for (row, column) in (0..3).flat_map(|row| (0..3).map(move |column| (row, column))) {
         let of = format!("rod.mid.orientation[{}]", 3 * row + column + 1);
         specimen = specimen.claim(&of, "", axes[column][row]);
@@ -123,13 +123,17 @@ fn moving() -> Specimen {
 /// A free rod at rest, which nothing refers to: its centre of mass stays, its parameters bear its name.
 fn named() -> Specimen {
     let (from, to) = (Vector3::new(0.5, 0.1, -0.3), Vector3::new(1.1, 0.9, -0.2));
-    let scene = json!({"name": "rod", "dimension": 3, "bodies": [rod(straight(from, to))],
+    let mut other = rod(straight(to, from));
+    (other["name"], other["material"]["density"]) = (json!("other"), json!(2.0 * DENSITY));
+    let scene = json!({"name": "rod", "dimension": 3, "bodies": [rod(straight(from, to)), other],
         "outputs": [{"kind": "momentum"}, {"kind": "energy"}]});
     let specimen = Specimen::new("named rod", scene)
         .claim("rod.density", "kg/m3", DENSITY)
+        .claim("rod.elements", "", 4.0)
+        .claim("other.density", "kg/m3", 2.0 * DENSITY)
         .claim("energy.kinetic", "J", 0.0);
-    let specimen = vector(specimen, "momentum", "kg.m/s", Vector3::zeros());
-    vector(specimen, "angular_momentum", "kg.m2/s", Vector3::zeros())
+    let specimen = vector(specimen, "momentum", "N.s", Vector3::zeros());
+    vector(specimen, "angular_momentum", "N.m.s", Vector3::zeros())
 }
 
 /// A rod that is curved without stress stands as it is drawn: on an arc, through the ends, and as deep as its length says.
