@@ -343,7 +343,7 @@ impl RodChain {
     pub fn lack<const D: usize, N: Number>(
         &self,
         j: usize,
-        (x, v, a): (&[Node<D, N>], &[Node<D, N>], &[Node<D, N>]),
+        [x, v, a]: [&[Node<D, N>]; 3],
         frames: &Frames,
     ) -> Force<N> {
         let (rod, _) = &self.elements[j];

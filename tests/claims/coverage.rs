@@ -31,14 +31,14 @@ const REFUSED: [&str; 8] = [
 /// Keys that are refused where one of them alone is changed.
 const TOGETHER: [&str; 1] = ["bodies{rigid}.orientation.matrix["];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
-/// what the planner reads in `tests/plan.rs`.
+/// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`.
 const OWN: [&str; 7] = [
     "about.",
     "method.work_limit",
     "accuracy.for.",
     "bodies{cable}.elements=auto",
     "bodies{cable}.model=",
-    "bodies{rod}.elements=auto",
+    "bodies{rod}.elements",
     "bodies{rod}.model",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.

@@ -64,6 +64,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         chains: vec![chain],
         lumped_masses: Vec::new(),
         frames: Vec::new(),
+        rod_chains: Vec::new(),
         rods: Vec::new(),
         rigid: Vec::new(),
         joints: vec![pin],

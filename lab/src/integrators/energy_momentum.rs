@@ -80,7 +80,7 @@ impl Bar {
                 let length = element.length();
                 let stiffness = |size: f64| cable.material.youngs_modulus * size;
                 let axial_stiffness = stiffness(cable.section.area);
-                let bending_stiffness = stiffness(cable.section.second_moment);
+                let bending_stiffness = stiffness(cable.section.second_moment());
                 let slender = axial_stiffness * length * length > SLENDER * bending_stiffness;
                 let mut bar = Self {
                     nodes: chain.nodes(j),

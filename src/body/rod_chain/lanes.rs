@@ -262,10 +262,7 @@ struct PackTangent<'a> {
 impl Work for PackTangent<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let rates = match self.rate {
-            Some(rate) => Some(rate.rates()),
-            None => None,
-        };
+        let rates = self.rate.map(NodePack::rates);
         let motion = (&self.place.at(), rates.as_ref());
         Rod::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }

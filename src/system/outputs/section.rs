@@ -126,7 +126,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         lack += self.distributed(system, chain.nodes(0)[0]) * weights.map(N::of).transpose();
         let mut torques = [N::of(0.0); 2];
         if let Some(sections) = system.sections(chain) {
-            let motion = (&self.x[..], &self.v[..], &self.acceleration[..]);
+            let motion = [&self.x[..], &self.v[..], &self.acceleration[..]];
             let force = sections.lack(j, motion, &system.frames);
             torques = force.torque;
             for (k, vector) in force.e.into_iter().enumerate() {

@@ -129,7 +129,6 @@ fn named() -> Specimen {
         "outputs": [{"kind": "momentum"}, {"kind": "energy"}]});
     let specimen = Specimen::new("named rod", scene)
         .claim("rod.density", "kg/m3", DENSITY)
-        .claim("rod.elements", "", 4.0)
         .claim("other.density", "kg/m3", 2.0 * DENSITY)
         .claim("energy.kinetic", "J", 0.0);
     let specimen = vector(specimen, "momentum", "N.s", Vector3::zeros());
