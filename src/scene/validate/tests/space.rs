@@ -298,7 +298,7 @@ fn joints_hold_axes_of_the_ground_and_of_rigid_bodies() {
         /joints/2/second_direction | [0, 0, 0] | joints[2].second_direction: expected a direction that is not zero
         /joints/2/second_direction | [0, 1] | joints[2].second_direction: expected 3 components [x, y, z], found 2
         /joints/2/second_direction | [1, 1, 0] | joints[2].second_direction: expected a direction across `direction`, found one at 0.785398
-        /joints/2/markers | ["b.out", "rope.tip"] | joints[2].markers[1]: expected a marker of a rigid body with inertia, which has axes
+        /joints/2/markers | ["b.out", "rope.tip"] | joints[2].markers[1]: expected a marker of a rigid body with inertia or of a rod, which has axes
         /joints/3/direction | null | joints[3].direction: expected a direction [x, y, z], found nothing
         /joints/3/markers | ["rope.tip", "c.out"] | joints[3].markers[0]: expected a marker of a rigid body with inertia
         /joints/4/markers | ["ground", "rope.tip"] | joints[4].markers[1]: expected a marker of a rigid body with inertia
