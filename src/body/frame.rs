@@ -29,7 +29,7 @@ use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, axes, normalized, quaternion};
 use crate::math::space::{Vector, components, is_nothing, vector};
 
-pub use carried::{Carried, Carry};
+pub use carried::{Carried, Carry, Derivative};
 pub use tangent::turning_block;
 pub use turn::Turn;
 

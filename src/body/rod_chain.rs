@@ -11,9 +11,10 @@ use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::Node;
 use super::frame::{Carried, Frames};
 use super::marker::Marker;
+use super::stages::rotated;
 use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Rates, Rod};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, components};
+use crate::math::space::{Vector, components, vector};
 use crate::math::sparse::Matrix;
 use lanes::{Packed, packs};
 
@@ -310,7 +311,7 @@ impl RodChain {
     }
 
     /// The blocks of a symmetric matrix over the velocities of element `j`, on and below the diagonal of its nodes.
-    pub fn for_each_block<const D: usize>(
+    fn for_each_block<const D: usize>(
         &self,
         j: usize,
         whole: &ElementMatrix,
@@ -330,12 +331,12 @@ impl RodChain {
         }
     }
 
-    /// The first element that is bent or twisted beyond what its frames hold, and by how much: from its middle to an end, and from end to
-    /// end, rad.
-    pub fn overbent<const D: usize>(&self, x: &[Node<D>]) -> Option<(usize, [f64; 2])> {
-        let elements = self.elements.iter().enumerate();
-        let mut angles = elements.map(|(j, (rod, _))| (j, rod.angles(&self.at(j, x))));
-        angles.find(|(_, [bend, twist])| *bend > MOST_BEND || *twist > MOST_TWIST)
+    /// The first element that is bent or twisted beyond what its frames hold.
+    pub fn overbent<const D: usize>(&self, x: &[Node<D>]) -> Option<usize> {
+        (0..self.count()).find(|j| {
+            let [bend, twist] = self.element(*j).angles(&self.at(*j, x));
+            bend > MOST_BEND || twist > MOST_TWIST
+        })
     }
 
     /// What element `j` lacks for equilibrium: elastic and damping forces less the inertia of spins, with the force that these ask for
@@ -405,10 +406,10 @@ pub fn carried_nodes<const D: usize>(line: &[Node<D>], second: [f64; 3]) -> Vec<
     let mut nodes = Vec::with_capacity(2 * line.len());
     for node in line {
         let t = tangent(node);
-        second -= (before + t) * (t.dot(&second) / (1.0 + before.dot(&t)));
+        second = rotated(&before, &t, &second);
         second = (second - t * t.dot(&second)).normalize();
-        let [a, b, c] = [t, second, t.cross(&second)]
-            .map(|axis| crate::math::space::vector::<D, f64>(axis.into()).into());
+        let [a, b, c] =
+            [t, second, t.cross(&second)].map(|axis| vector::<D, f64>(axis.into()).into());
         nodes.extend([[node[0], a], [b, c]]);
         before = t;
     }

@@ -448,7 +448,7 @@ fn turn<const D: usize>(from: &SVector<f64, D>, to: &SVector<f64, D>, x: &mut No
 }
 
 /// A vector turned by the smallest rotation that takes the unit vector `from` to `to`.
-fn rotated<const D: usize>(
+pub(super) fn rotated<const D: usize>(
     from: &SVector<f64, D>,
     to: &SVector<f64, D>,
     v: &SVector<f64, D>,

@@ -15,6 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::{Axes, Frames, axes_at, set_axes_at};
 use crate::body::assembly::{NodeBlock, no_block};
 use crate::body::connectivity::Node;
+use crate::body::stages::rotated;
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, axes, normalized, quaternion_near};
 use crate::math::space::{components, vector};
@@ -28,6 +29,15 @@ pub struct Carried {
     pub line: usize,
     /// Where its rotation is among the free coordinates, and how many of that make a radian.
     pub place: (usize, f64),
+}
+
+/// Which derivative of rotations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derivative {
+    /// Rates, or small changes.
+    First,
+    /// Second derivatives in time.
+    Second,
 }
 
 /// How a carried frame has turned from the one that the state holds.
@@ -220,8 +230,7 @@ impl Frames {
             let slope = frame.slope(x);
             let (t, stretch) = (slope / slope.norm(), slope.norm());
             let rotation = x[frame.node][1][0];
-            let middle = (tangent + t) * (t.dot(&second) / (1.0 + tangent.dot(&t)));
-            let base = second - middle;
+            let base = rotated(&tangent, &t, &second);
             let second = base * rotation.cos() + t.cross(&base) * rotation.sin();
             *carry = Carry {
                 from: tangent,
@@ -374,25 +383,22 @@ impl Frames {
         [((a, a), line), ((b, a), both), ((b, b), turn)]
     }
 
-    /// Adds to the changes of rotations among free coordinates, which are small rotations about tangents, what those of
-    /// slopes make of them; `dx` are the changes over the nodes, with rotations in the places of axes.
-    pub fn turn_carried<const D: usize>(&self, carries: &[Carry], dx: &[Node<D>], y: &mut [f64]) {
-        for (frame, carry) in self.carried.iter().zip(carries) {
-            let (at, scale) = frame.place;
-            y[at] += scale * carry.rate_of(0.0, &frame.slope(dx));
-        }
-    }
-
-    /// The same of second derivatives of spins.
-    pub fn turn_carried_twice<const D: usize>(
+    /// Adds to what stands among free coordinates for rotations, small rotations about tangents or derivatives of spins, what the same
+    /// derivatives of slopes make of them; `dx` are those over the nodes.
+    pub fn turn_carried<const D: usize>(
         &self,
+        order: Derivative,
         carries: &[Carry],
-        a: &[Node<D>],
+        dx: &[Node<D>],
         y: &mut [f64],
     ) {
         for (frame, carry) in self.carried.iter().zip(carries) {
-            let (at, scale) = frame.place;
-            y[at] += scale * carry.second_of(0.0, &frame.slope(a));
+            let ((at, scale), slope) = (frame.place, frame.slope(dx));
+            y[at] += scale
+                * match order {
+                    Derivative::First => carry.rate_of(0.0, &slope),
+                    Derivative::Second => carry.second_of(0.0, &slope),
+                };
         }
     }
 

@@ -239,14 +239,9 @@ struct PackForce<'a> {
 impl Work for PackForce<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let at = self.place.at();
-        *self.power += match self.rate {
-            Some(rate) => {
-                let motion = (&at, Some(&rate.rates()));
-                Rod::pack_force(simd, self.kernel, motion, self.force)
-            }
-            None => Rod::pack_force(simd, self.kernel, (&at, None), self.force),
-        };
+        let rates = self.rate.map(NodePack::rates);
+        let motion = (&self.place.at(), rates.as_ref());
+        *self.power += Rod::pack_force(simd, self.kernel, motion, self.force);
     }
 }
 

@@ -59,8 +59,15 @@ pub(super) struct Frame<N> {
     pub twist: N,
 }
 
+/// Rates of the three vectors, of the frame, and of the internal twist.
+pub(super) struct Motion<N> {
+    dv: [Vector<N>; 3],
+    change: FrameRate<N>,
+    bubble: N,
+}
+
 /// Rates of a frame.
-pub(super) struct FrameRate<N> {
+struct FrameRate<N> {
     middle: Vector<N>,
     /// Rate of turning of the first end's frame, carried to the middle.
     turn: N,
@@ -267,11 +274,7 @@ impl<N: Real> Kernel<N> {
     pub fn force(&self, at: &At<N>, rates: Option<&Rates<N>>) -> (Force<N>, N) {
         let v = self.vectors(&at.e);
         let frame = self.frame(&v, &at.d);
-        let motion = of_rate!(rates, rates => {
-            let dv = self.vectors(&rates.e);
-            let change = self.frame_rate(&frame, &dv, &rates.spin);
-            (dv, change, rates.bubble)
-        });
+        let motion = of_rate!(rates, rates => self.motion(&frame, rates));
         let zero = self.number(0.0);
         let mut sum = Sum {
             vectors: [[zero; 3]; 3],
@@ -285,8 +288,8 @@ impl<N: Real> Kernel<N> {
             let section = self.section(point, &v, &frame, at.bubble);
             let strains = add(&section.strains, &self.offset[index]);
             let mut stress = product(&self.stiffness, &strains);
-            if let Some((dv, change, bubble)) = &motion {
-                let rate = self.strain_rates(point, &section, &frame, (dv, change, *bubble));
+            if let Some(motion) = &motion {
+                let rate = self.strain_rates(point, &section, &frame, motion);
                 let damped = product(&self.damping, &rate);
                 sum.power = (self.number(point.weight) * dot(&damped, &rate)) + sum.power;
                 stress = add(&stress, &damped);
@@ -369,8 +372,19 @@ impl<N: Real> Kernel<N> {
         }
     }
 
+    /// What rates of strains are found from.
     #[inline(always)]
-    pub fn frame_rate(&self, frame: &Frame<N>, dv: &[Vector<N>; 3], spin: &[N; 2]) -> FrameRate<N> {
+    pub fn motion(&self, frame: &Frame<N>, rates: &Rates<N>) -> Motion<N> {
+        let dv = self.vectors(&rates.e);
+        Motion {
+            change: self.frame_rate(frame, &dv, &rates.spin),
+            dv,
+            bubble: rates.bubble,
+        }
+    }
+
+    #[inline(always)]
+    fn frame_rate(&self, frame: &Frame<N>, dv: &[Vector<N>; 3], spin: &[N; 2]) -> FrameRate<N> {
         let change = across(&frame.middle, &combine(&MIDDLE, dv));
         let middle = times(&change, frame.inverse_size);
         let [first, last] = &frame.ends;
@@ -396,9 +410,9 @@ impl<N: Real> Kernel<N> {
         point: &Sample,
         at: &Section<N>,
         frame: &Frame<N>,
-        (dv, change, bubble): (&[Vector<N>; 3], &FrameRate<N>, N),
+        Motion { dv, change, bubble }: &Motion<N>,
     ) -> [N; 3] {
-        let (shape, slope) = self.quadratic(point.at);
+        let ((shape, slope), bubble) = (self.quadratic(point.at), *bubble);
         let du = combine(&point.slope, dv);
         let dw = times(&combine(&point.curvature, dv), self.inverse_length);
         let (z, t) = (&frame.middle, &at.tangent);

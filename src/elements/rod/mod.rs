@@ -41,7 +41,7 @@ mod vectors;
 
 use crate::elements::line::{dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{GAUSS_3, Point};
+use crate::math::quadrature::Point;
 use kernel::{Kernel, POINTS};
 use vectors::{cross, plus, unit};
 
@@ -108,7 +108,6 @@ pub enum Tangent {
 /// Bending and torsion of an element of a rod.
 #[derive(Clone, Debug)]
 pub struct Rod {
-    parameters: Parameters,
     kernel: Kernel<f64>,
 }
 
@@ -155,12 +154,7 @@ impl Rod {
             }
         }
         kernel.is_round = is_round(&kernel);
-        Self { parameters, kernel }
-    }
-
-    /// Parameters.
-    pub fn parameters(&self) -> &Parameters {
-        &self.parameters
+        Self { kernel }
     }
 
     /// Whether the element dissipates.
@@ -185,30 +179,6 @@ impl Rod {
             weight: 0.0,
         });
         self.material().lift(at.bubble).strains(at, &point)
-    }
-
-    /// Strains of the unstressed shape at `xi` in [0, 1]: the parabola through those at the Gauss points, 1/m.
-    pub fn natural_strains(&self, xi: f64) -> [f64; 3] {
-        let (x, mut strains) = (2.0 * xi - 1.0, [0.0; 3]);
-        for (offset, point) in self.kernel.offset.iter().zip(&GAUSS_3) {
-            let y = 2.0 * point.at - 1.0;
-            let second = 5.0 * (1.5 * x * x - 0.5) * (1.5 * y * y - 0.5);
-            let weight = point.weight * (1.0 + 3.0 * x * y + second);
-            for (strain, offset) in strains.iter_mut().zip(offset) {
-                *strain -= weight * offset;
-            }
-        }
-        strains
-    }
-
-    /// Torque and bending moments about `d1` and `d2` of the section at `xi` in [0, 1], without what damping adds, N m.
-    pub fn moments<N: Real>(&self, at: &At<N>, xi: f64) -> [N; 3] {
-        let mut strains = self.strains(at, xi);
-        for (strain, natural) in strains.iter_mut().zip(self.natural_strains(xi)) {
-            *strain = *strain - strain.constant(natural);
-        }
-        let row = |row: [f64; 3]| dot(&row.map(|value| at.bubble.constant(value)), &strains);
-        self.kernel.stiffness.map(row)
     }
 
     /// The larger of the angles between the tangents at the ends and that at the middle, and the size of the twist, rad. Frames hold

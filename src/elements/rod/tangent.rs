@@ -78,11 +78,7 @@ impl<N: Real> Kernel<N> {
     pub fn tangent(&self, at: &At<N>, rates: Option<&Rates<N>>, kind: Tangent) -> Matrix<N> {
         let v = self.vectors(&at.e);
         let frame = self.frame(&v, &at.d);
-        let motion = of_rate!(rates, rates => {
-            let dv = self.vectors(&rates.e);
-            let change = self.frame_rate(&frame, &dv, &rates.spin);
-            (dv, change, rates.bubble)
-        });
+        let motion = of_rate!(rates, rates => self.motion(&frame, rates));
         let zero = self.number(0.0);
         let mut sum = Quadratic::nothing(zero);
         let mut factors = Factors {
@@ -100,8 +96,8 @@ impl<N: Real> Kernel<N> {
             let mut local = self.squares(point, &seen, by);
             let strains = add(&section.strains, &self.offset[index]);
             let mut stress = product(&self.stiffness, &strains);
-            if let Some((dv, change, bubble)) = &motion {
-                let rate = self.strain_rates(point, &section, &frame, (dv, change, *bubble));
+            if let Some(motion) = &motion {
+                let rate = self.strain_rates(point, &section, &frame, motion);
                 stress = add(&stress, &product(&self.damping, &rate));
             }
             let stress = times(&stress, self.number(point.weight));

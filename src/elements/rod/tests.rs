@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use super::*;
 use crate::elements::{Element, Nodal};
 use crate::math::jet::Jet;
+use crate::math::quadrature::GAUSS_3;
 
 type V = Vector3<f64>;
 

@@ -1,6 +1,6 @@
 //! Rods in the equations of motion: their torques, and rotations of carried frames among the coordinates, of which spins are no rates.
 
-use crate::body::Node;
+use crate::body::{Derivative, Node};
 use crate::math::jet::Number;
 use crate::system::{State, System, Work};
 
@@ -8,7 +8,7 @@ impl<const D: usize> System<D> {
     /// The first rod, among the bodies, with an element that is bent or twisted beyond what its frames hold, and which that is.
     pub(in crate::system) fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
         let mut found = self.rod_chains.iter().filter_map(|chain| {
-            let (element, _) = chain.overbent(x)?;
+            let element = chain.overbent(x)?;
             let body = (self.bodies.iter()).position(|nodes| nodes.start == chain.line())?;
             Some((body, element))
         });
@@ -34,6 +34,17 @@ impl<const D: usize> System<D> {
     /// angular velocities rates.
     pub(in crate::system) fn to_rotations(&self, work: &mut Work<D>, q: &mut [f64]) {
         self.frames.to_rotations(&work.turns, q);
+        self.turn_carried(Derivative::First, work, q);
+    }
+
+    /// Angular accelerations become second derivatives of rotations.
+    pub(in crate::system) fn to_second(&self, work: &mut Work<D>, a: &mut [f64]) {
+        self.frames.to_second(&work.turns, a);
+        self.turn_carried(Derivative::Second, work, a);
+    }
+
+    /// Changes of `q` that stand for spins of carried frames, or second derivatives, become those of their rotations.
+    fn turn_carried(&self, order: Derivative, work: &mut Work<D>, q: &mut [f64]) {
         if self.frames.carried().is_empty() {
             return;
         }
@@ -41,24 +52,9 @@ impl<const D: usize> System<D> {
         let Work {
             carries, other, y, ..
         } = work;
-        self.frames.turn_carried(carries, other, y);
+        self.frames.turn_carried(order, carries, other, y);
         self.elimination.coordinates_of(y);
         q.copy_from_slice(y);
-    }
-
-    /// Angular accelerations become second derivatives of rotations.
-    pub(in crate::system) fn to_second(&self, work: &mut Work<D>, a: &mut [f64]) {
-        self.frames.to_second(&work.turns, a);
-        if self.frames.carried().is_empty() {
-            return;
-        }
-        self.elimination.expand(a, &mut work.y, &mut work.other);
-        let Work {
-            carries, other, y, ..
-        } = work;
-        self.frames.turn_carried_twice(carries, other, y);
-        self.elimination.coordinates_of(y);
-        a.copy_from_slice(y);
     }
 
     /// Rotations larger than this, rad, begin at zero anew. Whether there were any.

@@ -1,8 +1,8 @@
 //! Rods in the linearized equations of motion.
 
 use super::linearization::Linearization;
-use crate::body::{Frames, NodeBlock, no_block};
-use crate::math::sparse::General;
+use crate::body::{Frames, RodChain};
+use crate::math::sparse::Matrix;
 use crate::system::{System, Work};
 
 impl<const D: usize> System<D> {
@@ -13,43 +13,25 @@ impl<const D: usize> System<D> {
         at_rest: bool,
         made: &mut Linearization<'_, D>,
     ) {
+        if self.rod_chains.is_empty() {
+            return;
+        }
         let assembly = &self.elimination.assembly;
-        let mut none = |_: usize, _: usize, _: f64| {};
-        let mut put = |(a, b): (usize, usize), block: &NodeBlock<D>, matrix: &mut General<f64>| {
-            assembly.add_block((a, b), block, matrix, &mut none);
-            if a != b {
-                let mut back = no_block();
-                for (p, r, q, c) in entries::<D>() {
-                    back[q][c][p][r] = block[p][r][q][c];
-                }
-                assembly.add_block((b, a), &back, matrix, &mut none);
-            }
-        };
+        let [mut stiffness, mut damping] = [0, 1].map(|_| Matrix::zeros(assembly.pattern()));
+        let motion = (&work.x[..], &work.v[..]);
         for chain in &self.rod_chains {
-            let is_damped = chain.is_damped() && !at_rest;
-            made.is_damped |= is_damped;
-            for j in 0..chain.count() {
-                let (rod, at) = (chain.element(j), chain.at(j, &work.x));
-                chain.for_each_block(j, &rod.stiffness(&at, None), |a, b, block| {
-                    put((a, b), block, &mut made.stiffness);
-                });
-                if is_damped {
-                    chain.for_each_block(j, &rod.damping(&at), |a, b, block| {
-                        put((a, b), block, &mut made.damping);
-                    });
-                }
-            }
+            let matrices = [&mut stiffness, &mut damping];
+            chain.add_tangent(motion, &self.frames, assembly, matrices);
         }
         for frame in self.frames.carried() {
-            for (nodes, block) in Frames::geometric_of_carried(frame, &work.supply, &work.x) {
-                put(nodes, &block, &mut made.stiffness);
+            for ((a, b), block) in Frames::geometric_of_carried(frame, &work.supply, &work.x) {
+                assembly.add(a, b, &block, &mut stiffness);
             }
         }
+        made.stiffness.add_symmetric(1.0, &stiffness);
+        if !at_rest && self.rod_chains.iter().any(RodChain::is_damped) {
+            made.is_damped = true;
+            made.damping.add_symmetric(1.0, &damping);
+        }
     }
-}
-
-/// Parts and axes of the rows and columns of a block.
-fn entries<const D: usize>() -> impl Iterator<Item = (usize, usize, usize, usize)> {
-    let places = || (0..2).flat_map(|part| (0..D).map(move |axis| (part, axis)));
-    places().flat_map(move |(p, r)| places().map(move |(q, c)| (p, r, q, c)))
 }
