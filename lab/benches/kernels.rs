@@ -185,7 +185,7 @@ impl Rods {
     fn new(stiffness: [[f64; 3]; 3], packs: usize) -> Self {
         let parameters = rod::Parameters {
             length: 0.1,
-            stiffness,
+            stiffness: [stiffness; 3],
             damping_times: [0.0; 3],
         };
         let straight = rod::At {

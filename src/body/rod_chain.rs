@@ -22,14 +22,6 @@ use lanes::{Packed, packs};
 /// has a direction.
 pub const INNER: (usize, usize) = (1, 1);
 
-/// Inertia of an element against spins at its ends and the rate of internal twist between them, over density times polar second moment of
-/// area times length: they are interpolated as the twist is.
-const SPIN_MASS: [[f64; 3]; 3] = [
-    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
-    [1.0 / 3.0, 8.0 / 15.0, 1.0 / 3.0],
-    [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0],
-];
-
 /// Angles from the middle of an element to an end, and of its twist, rad, from which on its frames are not told: just below a right angle,
 /// where no smallest rotation is stable, and half a turn.
 const MOST_BEND: f64 = 1.5;
@@ -46,12 +38,15 @@ const PLACES: [(usize, usize, usize, usize); 7] = [
     (4, INNER.0, INNER.1, 1),
 ];
 
+/// Inertia of an element against spins at its ends and the rate of internal twist between them, in the order first end, inside, last end.
+type SpinInertia = [[f64; 3]; 3];
+
 /// Bending and torsion of a rod.
 #[derive(Clone, Debug)]
 pub struct RodChain {
     packs: Vec<Packed>,
-    /// Its elements, and density times polar second moment of area times length of each, kg m^2.
-    elements: Vec<(Rod, f64)>,
+    /// Its elements, each with its inertia against spins at its ends and the rate of internal twist between them, kg m^2.
+    elements: Vec<(Rod, SpinInertia)>,
     /// First node of the line, of the carried frames, and inside the elements.
     line: usize,
     frames: usize,
@@ -63,8 +58,8 @@ pub struct RodChain {
 
 impl RodChain {
     /// Along the line from node `line` on, whose nodes those of its frames follow and then those inside its elements; each element with its
-    /// density times polar second moment of area times length, kg m^2. So many frames are carried before its own.
-    pub fn new(elements: Vec<(Rod, f64)>, line: usize, carried: usize) -> Self {
+    /// inertia against spins ([`spin_inertia`](crate::elements::rod::spin_inertia)). So many frames are carried before its own.
+    pub fn new(elements: Vec<(Rod, SpinInertia)>, line: usize, carried: usize) -> Self {
         let nodes = elements.len() + 1;
         Self {
             is_damped: elements.iter().any(|(rod, _)| rod.is_damped()),
@@ -224,10 +219,9 @@ impl RodChain {
     fn momenta_of<N: Number>(&self, j: usize, rates: &Rates<N>) -> [N; 3] {
         let (_, inertia) = &self.elements[j];
         let rates = [rates.spin[0], rates.bubble, rates.spin[1]];
-        let scale = N::of(*inertia);
-        SPIN_MASS.map(|row| {
+        inertia.map(|row| {
             let terms = row.iter().zip(&rates);
-            terms.fold(N::of(0.0), |sum, (m, rate)| sum + *rate * N::of(*m)) * scale
+            terms.fold(N::of(0.0), |sum, (m, rate)| sum + *rate * N::of(*m))
         })
     }
 
@@ -303,7 +297,7 @@ impl RodChain {
             for (r, (row, at)) in places.iter().enumerate() {
                 for (c, (column, on)) in places.iter().enumerate().take(r + 1) {
                     let mut block: NodeBlock<D> = no_block();
-                    block[at.0][at.1][on.0][on.1] = inertia * SPIN_MASS[r][c];
+                    block[at.0][at.1][on.0][on.1] = inertia[r][c];
                     assembly.add(*row, *column, &block, matrix);
                 }
             }
@@ -397,19 +391,25 @@ fn part<const D: usize, N: Number>(node: &Node<D, N>, k: usize) -> [N; 3] {
     components(&Vector::<D, N>::from(node[k]))
 }
 
-/// Axes of frames carried along a line from its first tangent on by smallest rotations, the first of them with this second axis:
-/// position and axes in two nodes each.
-pub fn carried_nodes<const D: usize>(line: &[Node<D>], second: [f64; 3]) -> Vec<Node<D>> {
+/// Axes of frames carried along a line from its first tangent on by smallest rotations, the first of them with this second axis, and
+/// then turned about the tangent by the angles of these twists, rad: position and axes in two nodes each.
+pub fn carried_nodes<const D: usize>(
+    line: &[Node<D>],
+    second: [f64; 3],
+    twists: impl Iterator<Item = f64>,
+) -> Vec<Node<D>> {
     let tangent = |node: &Node<D>| Vector3::from(part(node, 1)).normalize();
     let mut second = Vector3::from(second);
     let mut before = line.first().map_or_else(Vector3::zeros, tangent);
     let mut nodes = Vec::with_capacity(2 * line.len());
-    for node in line {
+    for (node, twist) in line.iter().zip(twists) {
         let t = tangent(node);
         second = rotated(&before, &t, &second);
         second = (second - t * t.dot(&second)).normalize();
+        let (sin, cos) = twist.sin_cos();
+        let turned = second * cos + t.cross(&second) * sin;
         let [a, b, c] =
-            [t, second, t.cross(&second)].map(|axis| vector::<D, f64>(axis.into()).into());
+            [t, turned, t.cross(&turned)].map(|axis| vector::<D, f64>(axis.into()).into());
         nodes.extend([[node[0], a], [b, c]]);
         before = t;
     }

@@ -6,10 +6,12 @@
 
 #[macro_use]
 mod line;
+mod along;
 pub mod cable;
 pub mod rod;
 pub mod shape;
 
+pub use along::Along;
 use nalgebra::{SMatrix, SVector};
 
 use crate::math::jet::Number;

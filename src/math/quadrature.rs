@@ -23,6 +23,15 @@ pub const GAUSS_3: [Point; 3] = [
     point(0.5 + SQRT_15_10, 5.0 / 18.0),
 ];
 
+/// Gauss-Legendre, exact to degree 9.
+pub const GAUSS_5: [Point; 5] = [
+    point(0.046_910_077_030_668_004, 0.118_463_442_528_094_54),
+    point(0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
+    point(0.5, 64.0 / 225.0),
+    point(0.769_234_655_052_841_5, 0.239_314_335_249_683_23),
+    point(0.953_089_922_969_332, 0.118_463_442_528_094_54),
+];
+
 /// sqrt(13/15) / 2.
 const SQRT_13_15_2: f64 = 0.465_474_668_125_631_4;
 
@@ -69,6 +78,7 @@ mod tests {
     fn rules_are_exact_to_their_degree_and_no_further() {
         for (rule, degree) in [
             (&GAUSS_3[..], 5),
+            (&GAUSS_5, 9),
             (&BETWEEN_3, 3),
             (&LOBATTO_3, 3),
             (&RADAU_3, 4),

@@ -97,7 +97,15 @@ impl<'a> Resolved<'a> {
 }
 
 impl Scene {
-    /// A cable, to be changed.
+    /// A cable.
+    pub fn cable(&self, id: CableId) -> &CableBody {
+        match &self.bodies[id.body] {
+            Body::Cable(body) | Body::Rod(body) => body,
+            Body::Rigid(_) => unreachable!("a number of a cable is that of a cable"),
+        }
+    }
+
+    /// The same, to be changed.
     pub fn cable_mut(&mut self, id: CableId) -> &mut CableBody {
         match &mut self.bodies[id.body] {
             Body::Cable(body) | Body::Rod(body) => body,

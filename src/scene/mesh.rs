@@ -8,7 +8,7 @@ use super::resolved::{
 
 /// Shortest stretch between two nodes, in elements of even length: shorter ones swing so fast that they
 /// would set the steps of the whole scene.
-const SHORTEST: f64 = 1e-3;
+pub(super) const SHORTEST: f64 = 1e-3;
 /// Part of the shortest stretch, and of the length of a body, by which roundoff moves a marker.
 const ROUNDOFF: f64 = 1e-9;
 
@@ -51,6 +51,8 @@ impl<'a> Resolved<'a> {
             // What has axes is a node.
             coordinates.extend(cable.body.markers.values());
         }
+        // Where the section begins to change otherwise is a node.
+        coordinates.extend(cable.body.stations.iter().map(|station| station.at));
         coordinates.sort_by(f64::total_cmp);
         coordinates.dedup();
         coordinates

@@ -153,10 +153,11 @@ fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
     let Some(cable) = cables.next() else {
         return 0.0;
     };
-    let (material, section, length) = (&cable.material, &cable.section, cable.shape.length());
+    let (material, length) = (&cable.material, cable.shape.length());
+    let (area, second) = (cable.section_at(0.5).area, cable.second_moment());
     let speed = (material.youngs_modulus / material.density).sqrt();
-    if section.second_moment() > 0.0 {
-        PI * PI * speed * (section.second_moment() / section.area).sqrt() / (length * length)
+    if second > 0.0 {
+        PI * PI * speed * (second / area).sqrt() / (length * length)
     } else {
         PI * speed / length
     }

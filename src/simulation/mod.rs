@@ -412,7 +412,7 @@ impl Simulation {
             Source::Parameter(_) if self.started => {
                 return Err(self.refuse(index, "parameters may be set until initialization ends"));
             }
-            Source::Parameter(parameter) if self.is_one_of_three(parameter) => {
+            Source::Parameter(parameter) if self.is_bound_by_others(parameter) => {
                 if value < 0.0 {
                     let message = format!("expected zero or a positive number, found {value}");
                     return Err(self.refuse(index, &message));
@@ -421,7 +421,7 @@ impl Simulation {
             }
             Source::Parameter(_) => {
                 self.values[index] = value;
-                let scene = self.parametrized_but(|parameter| self.is_one_of_three(parameter));
+                let scene = self.parametrized_but(|parameter| self.is_bound_by_others(parameter));
                 if let Err(error) = scene.resolve() {
                     self.values[index] = before;
                     return Err(self.refuse(index, &error.message));
@@ -440,10 +440,18 @@ impl Simulation {
         self.parametrized_but(|_| false)
     }
 
-    /// Whether a parameter is a moment of inertia in space, which bounds the other two: they are set one after another and
-    /// checked together when initialization computes the state.
-    fn is_one_of_three(&self, parameter: Parameter) -> bool {
-        self.scene.dimension == 3 && matches!(parameter, Parameter::Inertia(..))
+    /// Whether a parameter bounds others: a moment of inertia in space, a length of a cross section, a stiffness of a rod that
+    /// couples twist and bending. They are set one after another and checked together when initialization computes the state.
+    fn is_bound_by_others(&self, parameter: Parameter) -> bool {
+        match parameter {
+            Parameter::Inertia(..) => self.scene.dimension == 3,
+            Parameter::SectionLength(..) => true,
+            Parameter::YoungsModulus(id)
+            | Parameter::ShearModulus(id)
+            | Parameter::SecondMoments(id, _)
+            | Parameter::TorsionConstant(id) => self.scene.cable(id).is_coupled(),
+            _ => false,
+        }
     }
 
     /// The same without some of the parameters.

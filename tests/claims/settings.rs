@@ -15,7 +15,7 @@ use crate::specimen::{Outcome, Specimen, limits, units};
 /// Names all parameters, with the list and the key of the scene that they stand for and their units.
 macro_rules! keys {
     ($($variant:ident => $list:literal, $key:literal, $unit:literal;)*) => {
-        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Inertia", "Gravity", "Rotation", "RelativeTolerance"];
+        const PARAMETERS: &[&str] = &[$(stringify!($variant)),*, "Inertia", "SecondMoments", "SectionLength", "Gravity", "Rotation", "RelativeTolerance"];
         /// Name, place in the scene and unit of a parameter whose variable bears the name of a part.
         fn key(parameter: Parameter, scene: &Value, variable: &str) -> (&'static str, String, &'static str) {
             match parameter {
@@ -33,6 +33,17 @@ macro_rules! keys {
                         Some(true) => format!("{place}/{axis}/{axis}"),
                     };
                     ("Inertia", place, "kg.m2")
+                }
+                Parameter::SecondMoments(_, axis) => {
+                    let place = part(scene, "bodies", variable);
+                    ("SecondMoments", format!("/bodies/{place}/section/second_moments/{axis}"), "m4")
+                }
+                Parameter::SectionLength(..) => {
+                    let (_, key) = variable.rsplit_once('.').expect("a key");
+                    let section = format!("/bodies/{}/section/shape", part(scene, "bodies", variable));
+                    let shape = scene.pointer(&section).and_then(Value::as_object);
+                    let shape = shape.and_then(|kinds| kinds.keys().next()).expect("a shape");
+                    ("SectionLength", format!("{section}/{shape}/{key}"), "m")
                 }
                 Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
                 Parameter::Rotation(axis) => {
@@ -66,6 +77,8 @@ keys! {
     DampingTime => "bodies", "/material/damping_time", "s";
     Area => "bodies", "/section/area", "m2";
     SecondMoment => "bodies", "/section/second_moment", "m4";
+    ShearModulus => "bodies", "/material/shear_modulus", "Pa";
+    TorsionConstant => "bodies", "/section/torsion_constant", "m4";
     Elements => "bodies", "/elements", "";
     Mass => "bodies", "/mass", "kg";
     LumpedMass => "masses", "/mass", "kg";

@@ -79,8 +79,8 @@ impl Bar {
             for (j, element) in chain.elements().iter().enumerate() {
                 let length = element.length();
                 let stiffness = |size: f64| cable.material.youngs_modulus * size;
-                let axial_stiffness = stiffness(cable.section.area);
-                let bending_stiffness = stiffness(cable.section.second_moment());
+                let axial_stiffness = stiffness(cable.section_at(0.5).area);
+                let bending_stiffness = stiffness(cable.second_moment());
                 let slender = axial_stiffness * length * length > SLENDER * bending_stiffness;
                 let mut bar = Self {
                     nodes: chain.nodes(j),

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{INNER, RodChain};
+use super::{INNER, RodChain, SpinInertia};
 use crate::body::assembly::Assembly;
 use crate::body::chain::both;
 use crate::body::connectivity::Node;
@@ -21,7 +21,7 @@ pub(super) struct Packed {
 }
 
 /// Runs of elements that are alike.
-pub(super) fn packs(elements: &[(Rod, f64)]) -> Vec<Packed> {
+pub(super) fn packs(elements: &[(Rod, SpinInertia)]) -> Vec<Packed> {
     let (mut packs, mut start) = (Vec::new(), 0);
     while start < elements.len() {
         let rest = elements[start..].iter().map(|(rod, _)| rod);

@@ -17,9 +17,12 @@ mod tests;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, Strain, shape};
+use super::{
+    Along, BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, Strain, shape,
+};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
+use crate::math::quadrature::{GAUSS_3, GAUSS_5};
 use kernel::{Factors, Kernel, Line, Sampling, TURNS, transposed};
 
 /// Slenderness EA l^2 / EI up to which axial strain is sampled at Gauss points: they halve the error
@@ -56,6 +59,28 @@ impl Parameters {
     }
 }
 
+/// What the stiffnesses and the mass of [`Parameters`] are multiplied by along an element; one everywhere by default.
+#[derive(Clone, Copy, Debug)]
+pub struct Taper {
+    /// Of axial stiffness.
+    pub axial: Along,
+    /// Of bending stiffness.
+    pub bending: Along,
+    /// Of mass per reference length.
+    pub density: Along,
+}
+
+impl Default for Taper {
+    fn default() -> Self {
+        let [axial, bending, density] = [Along::from(1.0); 3];
+        Self {
+            axial,
+            bending,
+            density,
+        }
+    }
+}
+
 /// Mass matrices; they differ in what the quadratic and cubic parts of the velocity in an element
 /// (Legendre polynomials) count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +99,7 @@ pub enum Inertia {
 #[derive(Clone, Debug)]
 pub struct Cable<const D: usize = 2> {
     parameters: Parameters,
+    taper: Taper,
     kernel: Kernel<f64>,
     mass: SMatrix<f64, 4, 4>,
 }
@@ -129,6 +155,11 @@ impl<const D: usize> Cable<D> {
     /// A cable whose unstressed shape is the straight line or, with `shape` its coordinates, the
     /// curve through them.
     pub fn new(parameters: Parameters, shape: Option<&Nodal<D>>) -> Self {
+        Self::tapered(parameters, Taper::default(), shape)
+    }
+
+    /// The same of a section that changes along the element.
+    pub fn tapered(parameters: Parameters, taper: Taper, shape: Option<&Nodal<D>>) -> Self {
         let p = &parameters;
         let stretching = p.axial_stiffness * p.length * p.length;
         let sampling = match stretching > SLENDER * p.bending_stiffness {
@@ -142,8 +173,8 @@ impl<const D: usize> Cable<D> {
         let mut kernel = Kernel {
             length: p.length,
             inverse_length: 1.0 / p.length,
-            axial_stiffness: p.axial_stiffness,
-            bending_stiffness: own_bending,
+            axial_stiffness: sampling.of(p.axial_stiffness, &taper.axial),
+            bending_stiffness: GAUSS_3.map(|point| own_bending * taper.bending.at(point.at)),
             axial_damping_time: p.axial_damping_time,
             bending_damping_time: p.bending_damping_time,
             natural_strain: [0.0; 3],
@@ -157,8 +188,9 @@ impl<const D: usize> Cable<D> {
             (kernel.natural_strain, kernel.natural_curvature) = kernel.strains(&e.data.0);
         }
         Self {
-            mass: mass(&parameters, p.bending_stiffness > 0.0),
+            mass: mass(&parameters, &taper.density, p.bending_stiffness > 0.0),
             parameters,
+            taper,
             kernel,
         }
     }
@@ -168,6 +200,24 @@ impl<const D: usize> Cable<D> {
         let (xi, l) = (N::of(xi), self.parameters.length);
         let [u, w] = [shape::slopes(xi, l), shape::curvatures(xi, l)].map(|s| (e * s).into());
         Line { u, w }
+    }
+
+    /// [`Element::weight`] of the part of the element up to `xi` in [0, 1], kg and kg m.
+    pub fn weight_before(&self, xi: f64) -> SVector<f64, 4> {
+        let Parameters {
+            length: l,
+            line_density,
+            ..
+        } = self.parameters;
+        let taper = &self.taper.density;
+        if taper.is_uniform() {
+            return shape::integrals(xi, l) * (line_density * taper.mean());
+        }
+        let terms = GAUSS_5.iter().map(|point| {
+            let at = point.at * xi;
+            shape::values(at, l) * (point.weight * xi * l * line_density * taper.at(at))
+        });
+        terms.sum()
     }
 
     /// Curvature of the position field at `xi` in [0, 1] less that of the unstressed shape, in the planes that vectors
@@ -183,12 +233,22 @@ impl<const D: usize> Cable<D> {
 }
 
 /// Mass matrix of a cable with or without bending stiffness.
-fn mass(parameters: &Parameters, bends: bool) -> SMatrix<f64, 4, 4> {
+fn mass(parameters: &Parameters, taper: &Along, bends: bool) -> SMatrix<f64, 4, 4> {
     let l = parameters.length;
     let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
     let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);
     let (f, g) = (l * l / 105.0, l * l / 140.0);
-    let consistent = SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]]);
+    let density = parameters.line_density * taper.mean();
+    let mut consistent =
+        SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]]);
+    if !taper.is_uniform() {
+        let terms = GAUSS_5.iter().map(|point| {
+            let values = shape::values(point.at, l);
+            let weight = point.weight * taper.at(point.at) / taper.mean();
+            values * values.transpose() * weight
+        });
+        consistent = terms.sum();
+    }
     let [quadratic, cubic] = match parameters.inertia {
         Inertia::Consistent => [0.0, 0.0],
         Inertia::Corrected if bends => [1.0, 23.0 / 3.0],
@@ -199,7 +259,7 @@ fn mass(parameters: &Parameters, bends: bool) -> SMatrix<f64, 4, 4> {
     let mass = consistent
         + second * second.transpose() * (quadratic / 5.0)
         + third * third.transpose() * (cubic / 7.0);
-    mass * (parameters.line_density * l)
+    mass * (density * l)
 }
 
 /// Its sign where there is one, its size in space.
@@ -235,6 +295,8 @@ impl<const D: usize> Element<D> for Cable<D> {
             [true, false] => Sampling::FreeFirst,
             [true, true] => Sampling::Between,
         };
+        let (stiffness, sampling) = (self.parameters.axial_stiffness, element.kernel.sampling);
+        element.kernel.axial_stiffness = sampling.of(stiffness, &self.taper.axial);
         if self.kernel.natural_strain != [0.0; 3] {
             element.kernel.natural_strain = element.kernel.strains(&shape.data.0).0;
         }
@@ -242,7 +304,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     fn axial_stiffness(&self) -> f64 {
-        self.parameters.axial_stiffness
+        self.parameters.axial_stiffness * self.taper.axial.mean()
     }
 
     fn with_bending(&self, shape: &Nodal<D>, stiffness: f64) -> Self {
@@ -250,8 +312,8 @@ impl<const D: usize> Element<D> for Cable<D> {
             return self.clone();
         }
         let mut element = self.clone();
-        (element.kernel.bends, element.kernel.bending_stiffness) = (true, stiffness);
-        element.mass = mass(&self.parameters, true);
+        (element.kernel.bends, element.kernel.bending_stiffness) = (true, [stiffness; 3]);
+        element.mass = mass(&self.parameters, &self.taper.density, true);
         if self.kernel.natural_strain != [0.0; 3] {
             element.kernel.natural_curvature = element.kernel.strains(&shape.data.0).1;
         }
@@ -263,8 +325,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     fn weight(&self) -> SVector<f64, 4> {
-        let l = self.parameters.length;
-        SVector::from([0.5, l / 12.0, 0.5, -l / 12.0]) * (self.parameters.line_density * l)
+        self.weight_before(1.0)
     }
 
     fn energy<N: Number>(&self, e: &Nodal<D, N>) -> N {
@@ -329,8 +390,8 @@ impl<const D: usize> Element<D> for Cable<D> {
         let kernel = Kernel {
             length: lanes(&|k| k.length),
             inverse_length: lanes(&|k| k.inverse_length),
-            axial_stiffness: lanes(&|k| k.axial_stiffness),
-            bending_stiffness: lanes(&|k| k.bending_stiffness),
+            axial_stiffness: std::array::from_fn(|i| lanes(&|k| k.axial_stiffness[i])),
+            bending_stiffness: std::array::from_fn(|i| lanes(&|k| k.bending_stiffness[i])),
             axial_damping_time: lanes(&|k| k.axial_damping_time),
             bending_damping_time: lanes(&|k| k.bending_damping_time),
             natural_strain: std::array::from_fn(|i| lanes(&|k| k.natural_strain[i])),

@@ -25,10 +25,10 @@ pub(super) const MIDDLE: [f64; 3] = sample(Point {
 pub(super) struct Kernel<N> {
     pub length: N,
     pub inverse_length: N,
-    /// Stress by strain: torque and moments by twist and curvatures.
-    pub stiffness: Square<N>,
+    /// Stress by strain at the points: torque and moments by twist and curvatures.
+    pub stiffness: [Square<N>; 3],
     /// Stress by rate of strain.
-    pub damping: Square<N>,
+    pub damping: [Square<N>; 3],
     /// What is added to the strains at the points before they are multiplied by the stiffness: less those of the
     /// unstressed shape.
     pub offset: Square<N>,
@@ -110,8 +110,8 @@ impl Kernel<f64> {
         Kernel {
             length: like.constant(self.length),
             inverse_length: like.constant(self.inverse_length),
-            stiffness: lifted(&self.stiffness),
-            damping: lifted(&self.damping),
+            stiffness: self.stiffness.each_ref().map(lifted),
+            damping: self.damping.each_ref().map(lifted),
             offset: lifted(&self.offset),
             is_round: self.is_round,
             is_damped: self.is_damped,
@@ -124,8 +124,9 @@ impl Kernel<[f64; PACK]> {
     #[inline(always)]
     pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
         let length = Lanes::read(simd, &self.length, group);
-        let mut squares = [[[length; 3]; 3]; 3];
-        let all = [&self.stiffness, &self.damping, &self.offset];
+        let mut squares = [[[length; 3]; 3]; 7];
+        let ([a, b, c], [d, e, f]) = (&self.stiffness, &self.damping);
+        let all = [a, b, c, d, e, f, &self.offset];
         for (square, from) in all.iter().enumerate() {
             for i in 0..3 {
                 for j in 0..3 {
@@ -133,12 +134,12 @@ impl Kernel<[f64; PACK]> {
                 }
             }
         }
-        let [stiffness, damping, offset] = squares;
+        let [a, b, c, d, e, f, offset] = squares;
         Kernel {
             length,
             inverse_length: Lanes::read(simd, &self.inverse_length, group),
-            stiffness,
-            damping,
+            stiffness: [a, b, c],
+            damping: [d, e, f],
             offset,
             is_round: self.is_round,
             is_damped: self.is_damped,
@@ -264,7 +265,7 @@ impl<N: Real> Kernel<N> {
             let section = self.section(point, &v, &frame, at.bubble);
             let strains = add(&section.strains, &self.offset[index]);
             sum += self.number(0.5 * point.weight)
-                * dot(&strains, &product(&self.stiffness, &strains));
+                * dot(&strains, &product(&self.stiffness[index], &strains));
         }
         sum * self.length
     }
@@ -287,10 +288,10 @@ impl<N: Real> Kernel<N> {
         for (index, point) in POINTS.iter().enumerate() {
             let section = self.section(point, &v, &frame, at.bubble);
             let strains = add(&section.strains, &self.offset[index]);
-            let mut stress = product(&self.stiffness, &strains);
+            let mut stress = product(&self.stiffness[index], &strains);
             if let Some(motion) = &motion {
                 let rate = self.strain_rates(point, &section, &frame, motion);
-                let damped = product(&self.damping, &rate);
+                let damped = product(&self.damping[index], &rate);
                 sum.power = (self.number(point.weight) * dot(&damped, &rate)) + sum.power;
                 stress = add(&stress, &damped);
             }

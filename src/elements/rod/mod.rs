@@ -39,9 +39,10 @@ mod tangent;
 mod tests;
 mod vectors;
 
+use crate::elements::Along;
 use crate::elements::line::{dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::Point;
+use crate::math::quadrature::{GAUSS_5, Point};
 use kernel::{Kernel, POINTS};
 use vectors::{cross, plus, unit};
 
@@ -57,8 +58,8 @@ pub type Matrix<N = f64> = [[N; VELOCITIES]; VELOCITIES];
 pub struct Parameters {
     /// Reference length, m.
     pub length: f64,
-    /// Symmetric positive matrix of torque and moments by twist and curvatures, N m^2.
-    pub stiffness: [[f64; 3]; 3],
+    /// Symmetric positive matrices of torque and moments by twist and curvatures at the three Gauss points, N m^2.
+    pub stiffness: [[[f64; 3]; 3]; 3],
     /// Kelvin-Voigt damping times `T` of the components, s: stress is `C (s - s0) + T^1/2 C T^1/2 s'`.
     pub damping_times: [f64; 3],
 }
@@ -118,6 +119,9 @@ pub struct Pack {
     count: usize,
 }
 
+/// Numbers of the points.
+const POINT: [usize; 3] = [0, 1, 2];
+
 /// Strain times length, by the size of numbers that it comes from, below which an unstressed shape counts as straight or
 /// untwisted.
 const ROUNDOFF: f64 = 1e-14;
@@ -137,7 +141,9 @@ impl Rod {
         };
         for i in 0..3 {
             for j in 0..3 {
-                kernel.damping[i][j] *= (times[i] * times[j]).sqrt();
+                for damping in &mut kernel.damping {
+                    damping[i][j] *= (times[i] * times[j]).sqrt();
+                }
             }
         }
         let shape = At {
@@ -226,8 +232,8 @@ impl Rod {
         let kernel = Kernel {
             length: lanes(&|k| k.length),
             inverse_length: lanes(&|k| k.inverse_length),
-            stiffness: square(&|k| k.stiffness),
-            damping: square(&|k| k.damping),
+            stiffness: POINT.map(|i| square(&|k| k.stiffness[i])),
+            damping: POINT.map(|i| square(&|k| k.damping[i])),
             offset: square(&|k| k.offset),
             is_round: first.is_round,
             is_damped: first.is_damped,
@@ -292,6 +298,21 @@ impl Rod {
     }
 }
 
+/// Inertia of an element of this length (m) against spins at its ends and the rate of internal twist between them, from density times
+/// polar second moment of area along it (kg m), kg m^2: spins are interpolated as the twist is.
+pub fn spin_inertia(length: f64, density: &Along) -> [[f64; 3]; 3] {
+    let mut inertia = [[0.0; 3]; 3];
+    for Point { at, weight } in GAUSS_5 {
+        let shapes = [1.0 - at, 4.0 * at * (1.0 - at), at];
+        for (row, a) in inertia.iter_mut().zip(shapes) {
+            for (entry, b) in row.iter_mut().zip(shapes) {
+                *entry += a * b * (weight * length * density.at(at));
+            }
+        }
+    }
+    inertia
+}
+
 impl Pack {
     /// Number of groups of as many elements as there are lanes.
     #[inline(always)]
@@ -347,7 +368,8 @@ fn is_round(kernel: &Kernel<f64>) -> bool {
         let coupled = [m[0][1], m[0][2], m[1][2]];
         coupled == [0.0; 3] && m[1][1] == m[2][2]
     };
-    straight && turns(&kernel.stiffness) && turns(&kernel.damping)
+    let mut all = kernel.stiffness.iter().chain(&kernel.damping);
+    straight && all.all(turns)
 }
 
 impl<N: Real> At<N> {

@@ -49,7 +49,7 @@ impl Chain {
             .collect();
         let parameters = Parameters {
             length: l,
-            stiffness: stiffness.0,
+            stiffness: [stiffness.0; 3],
             damping_times: [0.0; 3],
         };
         let stretching = cable::Parameters {

@@ -90,15 +90,15 @@ impl<N: Real> Kernel<N> {
             let section = self.section(point, &v, &frame, at.bubble);
             let seen = self.seen(&section, &frame);
             let by = match kind {
-                Tangent::Stiffness => &self.stiffness,
-                Tangent::Damping => &self.damping,
+                Tangent::Stiffness => &self.stiffness[index],
+                Tangent::Damping => &self.damping[index],
             };
             let mut local = self.squares(point, &seen, by);
             let strains = add(&section.strains, &self.offset[index]);
-            let mut stress = product(&self.stiffness, &strains);
+            let mut stress = product(&self.stiffness[index], &strains);
             if let Some(motion) = &motion {
                 let rate = self.strain_rates(point, &section, &frame, motion);
-                stress = add(&stress, &product(&self.damping, &rate));
+                stress = add(&stress, &product(&self.damping[index], &rate));
             }
             let stress = times(&stress, self.number(point.weight));
             if kind == Tangent::Stiffness {

@@ -56,22 +56,33 @@ fn bent(seed: u64, by: f64) -> At<f64> {
 
 const GENERAL: Parameters = Parameters {
     length: 0.7,
-    stiffness: [[1.3, 0.2, -0.1], [0.2, 2.0, 0.3], [-0.1, 0.3, 0.9]],
+    stiffness: [[[1.3, 0.2, -0.1], [0.2, 2.0, 0.3], [-0.1, 0.3, 0.9]]; 3],
+    damping_times: [0.1, 0.02, 0.3],
+};
+
+const TAPERED: Parameters = Parameters {
+    length: 0.7,
+    stiffness: [
+        [[1.3, 0.2, -0.1], [0.2, 2.0, 0.3], [-0.1, 0.3, 0.9]],
+        [[1.0, 0.1, 0.0], [0.1, 1.5, 0.2], [0.0, 0.2, 0.8]],
+        [[0.4, 0.0, 0.1], [0.0, 1.1, 0.1], [0.1, 0.1, 0.7]],
+    ],
     damping_times: [0.1, 0.02, 0.3],
 };
 
 const ROUND: Parameters = Parameters {
     length: 0.7,
-    stiffness: [[1.3, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]],
+    stiffness: [[[1.3, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]]; 3],
     damping_times: [0.1, 0.3, 0.3],
 };
 
-fn rods() -> [Rod; 3] {
+fn rods() -> [Rod; 4] {
     let straight = bent(1, 0.0);
     [
         Rod::new(GENERAL, &bent(2, 0.3)),
         Rod::new(GENERAL, &straight),
         Rod::new(ROUND, &straight),
+        Rod::new(TAPERED, &bent(3, 0.3)),
     ]
 }
 
@@ -177,11 +188,10 @@ fn stresses_that_damping_adds_stiffen_as_any() {
         let mut other = rod.clone();
         other.kernel.is_round = false;
         let matrix = |of: [[f64; 3]; 3]| Matrix3::from_fn(|i, j| of[i][j]);
-        let stiffness = matrix(rod.kernel.stiffness)
-            .try_inverse()
-            .expect("positive");
-        let shift = stiffness * matrix(rod.kernel.damping);
-        for (offset, point) in other.kernel.offset.iter_mut().zip(&POINTS) {
+        let offsets = other.kernel.offset.iter_mut().zip(&POINTS);
+        for (k, (offset, point)) in offsets.enumerate() {
+            let stiffness = matrix(rod.kernel.stiffness[k]);
+            let shift = stiffness.try_inverse().expect("positive") * matrix(rod.kernel.damping[k]);
             let strains = |time: f64| V::from(rod.strains(&moved(&at, &rates, time), point.at));
             let [near, far] = [h, 2.0 * h].map(|time| strains(time) - strains(-time));
             *offset = (V::from(*offset) + shift * (8.0 * near - far) / (12.0 * h)).into();
@@ -220,12 +230,15 @@ fn from_the_last_end(at: &At<f64>) -> At<f64> {
 
 #[test]
 fn both_ends_are_alike() {
-    let mut parameters = GENERAL;
+    let mut parameters = TAPERED;
     for (i, j) in [(0, 1), (1, 0), (1, 2), (2, 1)] {
-        parameters.stiffness[i][j] *= -1.0;
+        for stiffness in &mut parameters.stiffness {
+            stiffness[i][j] *= -1.0;
+        }
     }
+    parameters.stiffness.reverse();
     let shape = bent(2, 0.3);
-    let rod = Rod::new(GENERAL, &shape);
+    let rod = Rod::new(TAPERED, &shape);
     let turned = Rod::new(parameters, &from_the_last_end(&shape));
     for seed in 30..40 {
         let at = bent(seed, 0.5);
@@ -388,7 +401,10 @@ fn plane_bending_is_that_of_a_cable() {
         }
         if angle == 0.0 {
             let mut parameters = ROUND;
-            parameters.stiffness[2][2] = 100.0;
+            parameters.stiffness = parameters.stiffness.map(|mut stiffness| {
+                stiffness[2][2] = 100.0;
+                stiffness
+            });
             let energy = Rod::new(parameters, &bent(1, 0.0)).energy(&at);
             assert!((energy - wanted).abs() < 1e-13 * wanted);
         }
@@ -479,7 +495,7 @@ fn a_helix_has_its_strains() {
 
 /// Energy of a metre of that helix, J.
 fn exact(parameters: &Parameters) -> f64 {
-    let c = parameters.stiffness;
+    let [c, ..] = parameters.stiffness;
     let rule = |s: f64| {
         let strains = V::new(1.8, 2.0 * (0.8 * s).sin(), 2.0 * (0.8 * s).cos());
         let stress = V::from(c.map(|row| V::from(row).dot(&strains)));

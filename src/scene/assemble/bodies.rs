@@ -6,10 +6,11 @@ use nalgebra::Vector3;
 use crate::body::{Frame, Marker, Node, RodChain, carried_nodes};
 use crate::elements::cable::{self, Inertia};
 use crate::elements::rod::{self, At, Rod as RodElement};
-use crate::elements::{self, Nodal};
+use crate::elements::{self, Along, Nodal};
+use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
 use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
-use crate::scene::{CableBody, Error, RigidBody, Strain};
+use crate::scene::{CableBody, Error, RigidBody, SectionNumbers, Strain};
 use crate::system::{CableChain, LumpedMass, Rod};
 
 /// A rigid body about its centre of mass: where that is, m, the angle of its frame, rad, mass, kg, and inertia, kg m^2.
@@ -130,7 +131,8 @@ impl<const D: usize> Builder<'_, D> {
     /// The sections of a rod along its line, whose first node is this one: their frames, and the twist inside elements.
     fn sections(&mut self, rod: &CableBody, mesh: &[f64], first: usize) {
         let line = self.parts.nodes[first..].to_vec();
-        let axes = carried_nodes(&line, first_axis(rod));
+        let twists = mesh.iter().map(|s| rod.sections_about(*s)(*s).1);
+        let axes = carried_nodes(&line, first_axis(rod), twists);
         let carried = self.parts.rod_chains.iter().map(|chain| chain.count() + 1);
         let carried = carried.sum();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {
@@ -141,20 +143,18 @@ impl<const D: usize> Builder<'_, D> {
                 d: [j, j + 1].map(|k| full(axes[2 * k + 1][0])),
                 bubble: 0.0,
             };
-            let [about_first, about_second] = rod.section.second_moments();
-            let polar = about_first + about_second;
-            let (material, twist) = (&rod.material, rod.section.torsion_constant);
-            let torsion = material.shear_modulus.unwrap_or_default() * twist.unwrap_or_default();
-            let [first, second] = [about_first, about_second].map(|i| material.youngs_modulus * i);
+            let numbers = numbers_along(rod, s);
             let parameters = rod::Parameters {
                 length,
-                stiffness: [[torsion, 0.0, 0.0], [0.0, first, 0.0], [0.0, 0.0, second]],
-                damping_times: [material.damping_time; 3],
+                stiffness: GAUSS_3.map(|point| rod.stiffness(&numbers(point.at)).into()),
+                damping_times: [rod.material.damping_time; 3],
             };
-            (
-                RodElement::new(parameters, &shape),
-                material.density * polar * length,
-            )
+            let polar = |xi: f64| {
+                let [first, second] = numbers(xi).second_moments;
+                rod.material.density * (first + second)
+            };
+            let inertia = rod::spin_inertia(length, &Along::through(polar));
+            (RodElement::new(parameters, &shape), inertia)
         });
         let chain = RodChain::new(elements.collect(), first, carried);
         self.parts.nodes.extend(axes);
@@ -167,7 +167,7 @@ impl<const D: usize> Builder<'_, D> {
     /// A cable that does not bend, about its middle; gives back how far along it from there its first end is, m.
     fn rod(&mut self, index: usize, cable: &CableBody) -> f64 {
         let length = cable.shape.length();
-        let mass = cable.material.density * cable.section.area * length;
+        let mass = cable.material.density * cable.section_at(0.5).area * length;
         let [x, y, _] = cable.shape.tangent(0.5);
         self.parts.rods.push(Rod {
             node: self.parts.nodes.len(),
@@ -251,12 +251,19 @@ fn first_axis(rod: &CableBody) -> [f64; 3] {
     axis.normalize().into()
 }
 
+/// Numbers of the section at `xi` in [0, 1] between two neighbouring nodes.
+fn numbers_along(body: &CableBody, s: &[f64]) -> impl Fn(f64) -> SectionNumbers {
+    let (from, to) = (s[0], s[1]);
+    let sections = body.sections_about(0.5 * (from + to));
+    move |xi| sections(from + xi * (to - from)).0
+}
+
 fn build_elements<const D: usize>(
     body: &CableBody,
     axial_damping_time: f64,
     nodes: &[f64],
 ) -> Vec<cable::Cable<D>> {
-    let (material, section) = (&body.material, &body.section);
+    let material = &body.material;
     let strain = match body.strain {
         Strain::ThetaPrime => elements::Strain::ThetaPrime,
         Strain::GreenLagrangeFrenetKappa => elements::Strain::GreenLagrangeFrenetKappa,
@@ -264,21 +271,34 @@ fn build_elements<const D: usize>(
     };
     let end = |s: f64| [body.shape.point(s), body.shape.tangent(s)].map(vector);
     let build = |s: &[f64]| {
+        let numbers = numbers_along(body, s);
+        let (area, second) = (
+            |xi| numbers(xi).area,
+            |xi| body.second_moment_of(&numbers(xi)),
+        );
         let parameters = cable::Parameters {
             length: (s[1] - s[0]) * body.shape.length(),
-            axial_stiffness: material.youngs_modulus * section.area,
-            bending_stiffness: material.youngs_modulus * section.second_moment(),
+            axial_stiffness: material.youngs_modulus * area(0.5),
+            bending_stiffness: material.youngs_modulus * second(0.5),
             is_line_of_rod: body.is_rod(),
-            line_density: material.density * section.area,
+            line_density: material.density * area(0.5),
             axial_damping_time,
             bending_damping_time: material.damping_time,
             strain,
             inertia: Inertia::Corrected,
         };
+        let mut taper = cable::Taper::default();
+        if !body.stations.is_empty() {
+            taper.axial = Along::through(|xi| area(xi) / area(0.5));
+            taper.density = taper.axial;
+        }
+        if !body.stations.is_empty() && second(0.5) > 0.0 {
+            taper.bending = Along::through(|xi| second(xi) / second(0.5));
+        }
         let [a, b]: [[Vector<D>; 2]; 2] = [end(s[0]), end(s[1])];
         let e = Nodal::from_columns(&[a[0], a[1], b[0], b[1]]);
         let curved = (!body.shape.is_straight()).then_some(&e);
-        cable::Cable::new(parameters, curved)
+        cable::Cable::tapered(parameters, taper, curved)
     };
     nodes.windows(2).map(build).collect()
 }

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Matrix3;
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::accuracy::elements;
+use super::section::between;
 use super::strict::{Strict, at, typed};
-use super::{Inertia, Orientation, Solid, Spin, Vector};
+use super::{Inertia, Orientation, Section, SectionNumbers, Solid, Spin, Station, Vector};
 
 /// A body; `element` says of which kind.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -39,8 +41,12 @@ pub struct CableBody {
     pub model: Model,
     /// Material.
     pub material: Material,
-    /// Cross section.
+    /// Cross section, where it is the same all along.
+    #[serde(default, skip_serializing_if = "Section::is_unsaid")]
     pub section: Section,
+    /// Cross sections that change along the body, from its first end to its last; instead of `section`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stations: Vec<Station>,
     /// Strain measure.
     #[serde(default)]
     pub strain: Strain,
@@ -48,7 +54,7 @@ pub struct CableBody {
     #[serde(default)]
     pub axial: Axial,
     /// Of rods: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
-    /// there sections are untwisted. Across the tangent, and as far along `z` as can be, where nothing is said.
+    /// there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<Vector>,
     /// Unstressed shape, and the configuration at the start.
@@ -132,26 +138,6 @@ pub struct Material {
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub damping_time: f64,
-}
-
-/// Cross section of a cable.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Section {
-    /// Area, m^2.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub area: f64,
-    /// Of cables: second moment of area, m^4; 0 is a cable without bending stiffness.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(range(min = 0.0))]
-    pub second_moment: Option<f64>,
-    /// Of rods: second moments of area for bending about the first and about the second axis of the section, m^4.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub second_moments: Option<[f64; 2]>,
-    /// Of rods: torsion constant of the section (of Saint-Venant), m^4; of a circle its polar second moment.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub torsion_constant: Option<f64>,
 }
 
 /// Strain measures by name; they agree only for small strains.
@@ -265,21 +251,54 @@ impl<'de> Deserialize<'de> for Body {
 impl CableBody {
     /// Whether its sections turn about its line.
     pub fn is_rod(&self) -> bool {
-        self.section.torsion_constant.is_some()
-    }
-}
-
-impl Section {
-    /// Second moments of area about its axes, m^4.
-    pub fn second_moments(&self) -> [f64; 2] {
-        self.second_moments
-            .unwrap_or([self.second_moment.unwrap_or_default(); 2])
+        self.material.shear_modulus.is_some()
     }
 
-    /// The larger one, m^4.
+    /// Whether sections couple twist and bending.
+    pub fn is_coupled(&self) -> bool {
+        let at_stations = self.stations.iter().map(|station| &station.section);
+        let mut all = at_stations.chain([&self.section]);
+        all.any(|section| section.coupling.is_some())
+    }
+
+    /// Numbers of its section, and how it is twisted without stress (rad), over a part without stations inside that this
+    /// material coordinate is in.
+    pub fn sections_about(&self, inside: f64) -> impl Fn(f64) -> (SectionNumbers, f64) {
+        let is_around = |pair: &&[Station]| pair[0].at <= inside && inside <= pair[1].at;
+        let pairs = self.stations.windows(2);
+        let pair = pairs.filter(|pair| pair[0].at < pair[1].at).find(is_around);
+        move |s| match pair {
+            Some([first, last]) => between([first, last], (s - first.at) / (last.at - first.at)),
+            _ => (self.section.numbers(), 0.0),
+        }
+    }
+
+    /// Numbers of its section at a material coordinate, on one side of a step.
+    pub fn section_at(&self, s: f64) -> SectionNumbers {
+        self.sections_about(s)(s).0
+    }
+
+    /// Second moment of area in its middle, m^4: the larger of a rod, in the plane that about the axis across it.
     pub fn second_moment(&self) -> f64 {
-        let [first, second] = self.second_moments();
-        first.max(second)
+        self.second_moment_of(&self.section_at(0.5))
+    }
+
+    /// The same of these numbers.
+    pub fn second_moment_of(&self, numbers: &SectionNumbers) -> f64 {
+        let [first, second] = numbers.second_moments;
+        match self.is_rod() {
+            true => first.max(second),
+            false => first,
+        }
+    }
+
+    /// Of a rod: torque and moments about both axes by twist and curvatures, N m^2.
+    pub fn stiffness(&self, numbers: &SectionNumbers) -> Matrix3<f64> {
+        let young = self.material.youngs_modulus;
+        let torsion = self.material.shear_modulus.unwrap_or_default() * numbers.torsion_constant;
+        let [first, second] = numbers.second_moments.map(|moment| young * moment);
+        let [p, q, r] = numbers.coupling;
+        Matrix3::from([[torsion, p, q], [p, first, r], [q, r, second]])
     }
 }
 

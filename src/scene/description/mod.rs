@@ -11,6 +11,7 @@ mod output;
 mod port;
 mod reader;
 mod rotation;
+mod section;
 mod solid;
 mod strict;
 mod value;
@@ -22,7 +23,7 @@ use serde::{Deserialize, Serialize};
 pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
 pub use body::{
-    Axial, Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Section, Shape, Strain,
+    Axial, Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Shape, Strain,
 };
 pub use initial::{Initial, InitialState};
 pub use joint::{
@@ -34,6 +35,7 @@ pub use output::{Along, Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;
 pub use rotation::{Inertia, Orientation};
+pub use section::{Section, SectionNumbers, Station};
 pub use solid::Solid;
 pub use strict::Strict;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};

@@ -12,18 +12,18 @@ use super::checks::{
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
 use crate::scene::{
-    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Solid, Strain, Vector,
+    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Solid, Vector,
 };
 
 impl Body {
     pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         match self {
             Self::Cable(body) => {
-                body.refuse_sections(path)?;
+                body.validate_sections(path, dimension, false)?;
                 body.validate(path, dimension)
             }
             Self::Rod(body) => {
-                body.validate_sections(path, dimension)?;
+                body.validate_sections(path, dimension, true)?;
                 body.validate(path, dimension)
             }
             Self::Rigid(body) => body.validate(path, dimension),
@@ -63,7 +63,7 @@ impl InitialMotion {
 
 impl CableBody {
     fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        let (material, section) = (&self.material, &self.section);
+        let material = &self.material;
         let at = |key: &str| format!("{path}.{key}");
         if let Some(count) = self.elements
             && !ELEMENTS.contains(&count)
@@ -78,11 +78,11 @@ impl CableBody {
         )?;
         positive(&at("material.density"), "kg/m^3", material.density)?;
         not_negative(&at("material.damping_time"), "s", material.damping_time)?;
-        positive(&at("section.area"), "m^2", section.area)?;
         self.shape.validate(&at("shape"), dimension)?;
         self.validate_model(&at("model"), dimension)?;
-        if !self.shape.is_straight() && section.second_moment.is_some_and(|found| found > 0.0) {
-            let (place, found) = (at("section.second_moment"), section.second_moment());
+        let found = self.second_moment();
+        if !self.shape.is_straight() && !self.is_rod() && found > 0.0 {
+            let place = at("section.second_moment");
             planar(
                 &place,
                 dimension,
@@ -95,112 +95,6 @@ impl CableBody {
                 let place = at(&format!("markers.{marker}"));
                 return Err(expected(&place, "a number from 0 to 1", coordinate));
             }
-        }
-        Ok(())
-    }
-
-    /// What a cable says of its section, and nothing that rods alone have.
-    fn refuse_sections(&self, path: &str) -> Result<(), Error> {
-        let at = |key: &str| format!("{path}.{key}");
-        let (material, section) = (&self.material, &self.section);
-        let of_rods = [
-            ("axis", self.axis.is_some()),
-            ("material.shear_modulus", material.shear_modulus.is_some()),
-            ("section.second_moments", section.second_moments.is_some()),
-            (
-                "section.torsion_constant",
-                section.torsion_constant.is_some(),
-            ),
-        ];
-        if let Some((key, _)) = of_rods.iter().find(|(_, is_said)| *is_said) {
-            let wanted = "nothing of a cable (an element of \"rod\" has sections that turn)";
-            return Err(expected(&at(key), wanted, "a value"));
-        }
-        let key = at("section.second_moment");
-        not_negative(
-            &key,
-            "m^4",
-            needed(
-                path,
-                "section.second_moment",
-                "a value",
-                section.second_moment,
-            )?,
-        )
-    }
-
-    /// What a rod says of its sections.
-    fn validate_sections(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        let at = |key: &str| format!("{path}.{key}");
-        let (material, section) = (&self.material, &self.section);
-        if dimension == 2 {
-            let wanted = "\"cable\" or \"rigid\" in the plane, where nothing twists";
-            return Err(expected(&at("element"), wanted, "\"rod\""));
-        }
-        if section.second_moment.is_some() {
-            let (key, wanted) = (
-                at("section.second_moment"),
-                "`second_moments` of a rod, one about each axis",
-            );
-            return Err(expected(&key, wanted, "`second_moment`"));
-        }
-        if self.strain != Strain::ThetaPrime {
-            return Err(expected(
-                &at("strain"),
-                "\"thetaPrime\" of a rod",
-                "another measure",
-            ));
-        }
-        let key = at("material.shear_modulus");
-        positive(
-            &key,
-            "Pa",
-            needed(
-                path,
-                "material.shear_modulus",
-                "a value of a rod",
-                material.shear_modulus,
-            )?,
-        )?;
-        let key = at("section.torsion_constant");
-        positive(
-            &key,
-            "m^4",
-            needed(
-                path,
-                "section.torsion_constant",
-                "a value of a rod",
-                section.torsion_constant,
-            )?,
-        )?;
-        let key = at("section.second_moments");
-        for (k, moment) in needed(
-            path,
-            "section.second_moments",
-            "two values of a rod",
-            section.second_moments,
-        )?
-        .into_iter()
-        .enumerate()
-        {
-            positive(&format!("{key}[{k}]"), "m^4", moment)?;
-        }
-        self.validate_axis(&at("axis"), dimension)
-    }
-
-    /// The first axis of a rod's section is across its line.
-    fn validate_axis(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        let Some(axis) = &self.axis else {
-            return Ok(());
-        };
-        vector(path, dimension, axis)?;
-        let (tangent, axis) = (
-            Vector3::from(self.shape.tangent(0.0)),
-            Vector3::from(axis.full()),
-        );
-        if axis.cross(&tangent).norm() <= 1e-9 * axis.norm() {
-            let wanted = "a direction that is not along the tangent at the first end";
-            return Err(expected(path, wanted, format!("{:?}", axis.as_slice())));
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ mod motions;
 mod outputs;
 mod ports;
 mod references;
+mod sections;
 mod springs;
 #[cfg(test)]
 mod tests;

@@ -105,7 +105,7 @@ fn told(mut scene: Value, pointer: &str, value: Value) -> String {
 }
 
 /// Lines of `pointer | value | message`.
-fn check(scene: fn() -> Value, cases: &str) {
+fn check(scene: impl Fn() -> Value, cases: &str) {
     for line in cases.lines().map(str::trim).filter(|line| !line.is_empty()) {
         let cells: Vec<&str> = line.splitn(3, " | ").collect();
         let (pointer, value, expected) = (cells[0], cells[1], cells[2]);

@@ -71,6 +71,14 @@ pub enum Parameter {
     Area(CableId),
     /// Second moment of area of a cable's cross section.
     SecondMoment(CableId),
+    /// Shear modulus of a rod.
+    ShearModulus(CableId),
+    /// Second moment of area of a rod's cross section, about its first axis (0) or its second (1).
+    SecondMoments(CableId, usize),
+    /// Torsion constant of a rod's cross section.
+    TorsionConstant(CableId),
+    /// Length of a cross section that is given by its shape, by its place among them.
+    SectionLength(CableId, usize),
     /// Number of elements of a cable; the one integer variable.
     Elements(CableId),
     /// Mass of a rigid body.

@@ -57,25 +57,77 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
 fn add_cable(list: &mut List, cable: &Cable<'_>) {
     use Parameter::*;
     let (i, body) = (cable.id, cable.body);
-    let (material, section) = (&body.material, &body.section);
+    let material = &body.material;
+    let numbers = body.section.numbers();
     let elements = f64::from(body.elements.unwrap_or(1));
     #[rustfmt::skip] // a table
     let mut rows: Vec<Row<'_>> = vec![
         ("youngs_modulus", "Young's modulus", Some(PASCAL), YoungsModulus(i), material.youngs_modulus),
         ("density", "Density", Some(DENSITY), Density(i), material.density),
         ("damping_time", "Kelvin-Voigt damping time", Some(SECOND), DampingTime(i), material.damping_time),
-        ("area", "Area of the cross section", Some(SQUARE_METRE), Area(i), section.area),
-        ("second_moment", "Second moment of area", Some(METRE_4), SecondMoment(i), section.second_moment()),
+        ("area", "Area of the cross section", Some(SQUARE_METRE), Area(i), numbers.area),
+        ("second_moment", "Second moment of area", Some(METRE_4), SecondMoment(i), numbers.second_moments[0]),
         ("elements", "Number of elements", None, Elements(i), elements),
     ];
     if body.is_rod() {
         rows.retain(|(.., parameter, _)| !matches!(parameter, SecondMoment(_)));
+        let modulus = material.shear_modulus.unwrap_or_default();
+        rows.push((
+            "shear_modulus",
+            "Shear modulus",
+            Some(PASCAL),
+            ShearModulus(i),
+            modulus,
+        ));
+    }
+    if body.section.area.is_none() {
+        rows.retain(|(.., parameter, _)| !matches!(parameter, Area(_) | SecondMoment(_)));
+    } else if body.is_rod() {
+        add_numbers(list, cable);
     }
     if cable.is_rigid() {
         // What is left without effect is none: a study of it would find nothing.
         rows.retain(|(.., parameter, _)| matches!(parameter, Density(_) | Area(_)));
     }
     list.parameters(&body.name, "of", &rows);
+    add_lengths(list, cable);
+}
+
+/// Second moments and torsion constant of a rod's section that is given by numbers.
+fn add_numbers(list: &mut List, cable: &Cable<'_>) {
+    let (i, name, numbers) = (cable.id, &cable.body.name, cable.body.section.numbers());
+    for (k, moment) in numbers.second_moments.into_iter().enumerate() {
+        let axis = ["first", "second"][k];
+        let what = format!("Second moment of area about the {axis} axis of the section of {name}");
+        let key = component(&format!("{name}.second_moments"), k);
+        let parameter = Parameter::SecondMoments(i, k);
+        list.parameter(key, what, Some(METRE_4), parameter, moment);
+    }
+    let (what, constant) = ("Torsion constant of the section", numbers.torsion_constant);
+    let parameter = Parameter::TorsionConstant(i);
+    let row = ("torsion_constant", what, Some(METRE_4), parameter, constant);
+    list.parameters(name, "of", &[row]);
+}
+
+/// Lengths of a cross section that is given by its shape.
+fn add_lengths(list: &mut List, cable: &Cable<'_>) {
+    let Some(mut shape) = cable.body.section.shape else {
+        return;
+    };
+    for (k, (key, length)) in shape.lengths().into_iter().enumerate() {
+        let what = match key {
+            "width" => "Width of the cross section",
+            "height" => "Height of the cross section",
+            "radius" => "Radius of the cross section",
+            _ => "Radius of the hole in the cross section",
+        };
+        let parameter = Parameter::SectionLength(cable.id, k);
+        list.parameters(
+            &cable.body.name,
+            "of",
+            &[(key, what, Some(METRE), parameter, *length)],
+        );
+    }
 }
 
 fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
@@ -207,8 +259,20 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = value,
         Density(id) => scene.cable_mut(id).material.density = value,
         DampingTime(id) => scene.cable_mut(id).material.damping_time = value,
-        Area(id) => scene.cable_mut(id).section.area = value,
+        Area(id) => scene.cable_mut(id).section.area = Some(value),
         SecondMoment(id) => scene.cable_mut(id).section.second_moment = Some(value),
+        ShearModulus(id) => scene.cable_mut(id).material.shear_modulus = Some(value),
+        SecondMoments(id, k) => {
+            let moments = &mut scene.cable_mut(id).section.second_moments;
+            moments.get_or_insert_default()[k] = value;
+        }
+        TorsionConstant(id) => scene.cable_mut(id).section.torsion_constant = Some(value),
+        SectionLength(id, k) => {
+            let shape = &mut scene.cable_mut(id).section.shape;
+            if let Some((_, length)) = shape.iter_mut().flat_map(|s| s.lengths()).nth(k) {
+                *length = value;
+            }
+        }
         Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
         Mass(id) => scene.rigid_mut(id).mass = Some(value),
         SolidDensity(id) => scene.rigid_mut(id).density = Some(value),

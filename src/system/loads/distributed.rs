@@ -2,7 +2,7 @@
 
 use super::Instant;
 use crate::body::Node;
-use crate::elements::Element;
+use crate::elements::{Element, shape};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
 use crate::system::signal::Signal;
@@ -40,16 +40,15 @@ impl<const D: usize> Distributed<D> {
         }
     }
 
-    /// Forces on the nodes of a load of one N/m along every axis, on position and direction: on a chain as weight does,
-    /// but for the density; on a rod in the middle.
+    /// Forces on the nodes of a load of one N/m along every axis, on position and direction: on a chain the integrals of its
+    /// shape functions; on a rod in the middle.
     fn each(&self, chains: &[CableChain<D>], mut add: impl FnMut(usize, [f64; 2])) {
         let chain = match self.on {
             Line::Chain(chain) => &chains[chain],
             Line::Rod(rod) => return add(rod.node, [rod.length, 0.0]),
         };
         for (j, element) in chain.elements().iter().enumerate() {
-            let weight = element.weight();
-            let weights = weight * (element.length() / (weight[0] + weight[2]));
+            let weights = shape::integrals(1.0, element.length());
             let [a, b] = chain.nodes(j);
             add(a, [weights[0], weights[1]]);
             add(b, [weights[2], weights[3]]);

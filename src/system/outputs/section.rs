@@ -14,7 +14,6 @@ use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
 use crate::body::Marker;
-use crate::elements::cable::Cable;
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_3;
@@ -92,13 +91,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         xi: f64,
     ) -> (Vector<D, N>, Vector3<N>) {
         let part = &chain.elements()[j];
-        let (l, density) = (part.length(), N::of(line_density(part)));
+        let l = part.length();
         let (e, inertia) = (chain.element(j, &self.x), self.inertia(system, (chain, j)));
-        let load =
-            self.distributed(system, chain.nodes(0)[0]) + system.gravity.map(N::of) * density;
+        let load = self.distributed(system, chain.nodes(0)[0]);
         let force = |xi: f64| {
-            let inertia = inertia * shape::integrals(N::of(xi), l) * density;
-            first - load * N::of(xi * l) + inertia
+            let weight = part.weight_before(xi);
+            let gravity = system.gravity * (weight[0] + weight[2]);
+            first - load * N::of(xi * l) - gravity.map(N::of) + inertia * weight.map(N::of)
         };
         // Gauss's rule is exact to degree 5; the part of degree 6 is of that order in the length.
         let mut turned = Vector3::zeros();
@@ -122,8 +121,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut lack: Nodal<D, N> = part.force(&e, &v);
         lack += (system.gravity * part.weight().transpose()).map(N::of);
         lack -= self.inertia(system, (chain, j)) * part.mass().map(N::of);
-        let weights = part.weight() / line_density(part);
-        lack += self.distributed(system, chain.nodes(0)[0]) * weights.map(N::of).transpose();
+        let weights = shape::integrals(N::of(1.0), part.length());
+        lack += self.distributed(system, chain.nodes(0)[0]) * weights.transpose();
         let mut torques = [N::of(0.0); 2];
         if let Some(sections) = system.sections(chain) {
             let motion = [&self.x[..], &self.v[..], &self.acceleration[..]];
@@ -161,10 +160,4 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         sum
     }
-}
-
-/// Mass per reference length, kg/m.
-fn line_density<const D: usize>(element: &Cable<D>) -> f64 {
-    let weight = element.weight();
-    (weight[0] + weight[2]) / element.length()
 }

@@ -26,6 +26,7 @@ mod space_modes;
 mod space_ports;
 mod space_rods;
 mod tables;
+mod tapers;
 
 use serde_json::{Value, json};
 
@@ -59,6 +60,7 @@ pub fn all() -> Vec<Specimen> {
         space_driven::all(),
         space_rods::all(),
         shapes::all(),
+        tapers::all(),
     ];
     parts.into_iter().flatten().collect()
 }

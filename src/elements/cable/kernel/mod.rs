@@ -92,8 +92,10 @@ pub(super) struct Curvature<N> {
 pub(super) struct Kernel<N> {
     pub length: N,
     pub inverse_length: N,
-    pub axial_stiffness: N,
-    pub bending_stiffness: N,
+    /// Axial stiffness at the axial points, N.
+    pub axial_stiffness: [N; 3],
+    /// Bending stiffness at the bending points, N m^2.
+    pub bending_stiffness: [N; 3],
     pub axial_damping_time: N,
     pub bending_damping_time: N,
     /// Axial strain of the unstressed shape at the axial points.
@@ -113,8 +115,8 @@ impl Kernel<f64> {
         Kernel {
             length: N::of(self.length),
             inverse_length: N::of(self.inverse_length),
-            axial_stiffness: N::of(self.axial_stiffness),
-            bending_stiffness: N::of(self.bending_stiffness),
+            axial_stiffness: self.axial_stiffness.map(N::of),
+            bending_stiffness: self.bending_stiffness.map(N::of),
             axial_damping_time: N::of(self.axial_damping_time),
             bending_damping_time: N::of(self.bending_damping_time),
             natural_strain: self.natural_strain.map(N::of),
@@ -133,8 +135,11 @@ impl Kernel<[f64; PACK]> {
     pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
         let read = |numbers: &[f64; PACK]| Lanes::read(simd, numbers, group);
         let length = read(&self.length);
+        let (mut axial_stiffness, mut bending_stiffness) = ([length; 3], [length; 3]);
         let (mut natural_strain, mut natural_curvature) = ([length; 3], [[length; TURNS]; 3]);
         for i in 0..3 {
+            axial_stiffness[i] = read(&self.axial_stiffness[i]);
+            bending_stiffness[i] = read(&self.bending_stiffness[i]);
             natural_strain[i] = read(&self.natural_strain[i]);
         }
         for i in 0..3 {
@@ -145,8 +150,8 @@ impl Kernel<[f64; PACK]> {
         Kernel {
             length,
             inverse_length: read(&self.inverse_length),
-            axial_stiffness: read(&self.axial_stiffness),
-            bending_stiffness: read(&self.bending_stiffness),
+            axial_stiffness,
+            bending_stiffness,
             axial_damping_time: read(&self.axial_damping_time),
             bending_damping_time: read(&self.bending_damping_time),
             natural_strain,
@@ -327,7 +332,7 @@ impl<N: Real> Kernel<N> {
         if let Some(change) = change {
             total += self.axial_damping_time * change;
         }
-        ((self.axial_stiffness * total, f, g), change)
+        ((self.axial_stiffness[index] * total, f, g), change)
     }
 
     /// Moment at a point; then, where damping reads it, the product of the rate of curvature with what damping acts
@@ -350,7 +355,7 @@ impl<N: Real> Kernel<N> {
             }
             inner::<N, D>(&damped, change)
         });
-        (times(&m, self.bending_stiffness), square)
+        (times(&m, self.bending_stiffness[index]), square)
     }
 
     /// What of the rate of curvature damping acts against: in space a cable without torsion has no frame that turns
@@ -371,15 +376,15 @@ impl<N: Real> Kernel<N> {
     pub fn energy<const D: usize>(&self, e: &[Vector<N, D>; 4]) -> N {
         let (axial, bending) = self.strains(e);
         let mut sum = self.number(0.0);
-        let points = self.sampling.points();
-        for ((point, strain), natural) in points.iter().zip(axial).zip(self.natural_strain) {
-            let strain = strain - natural;
-            sum += self.number(point.weight) * self.axial_stiffness * strain * strain;
+        for (k, point) in self.sampling.points().iter().enumerate() {
+            let strain = axial[k] - self.natural_strain[k];
+            sum += self.number(point.weight) * self.axial_stiffness[k] * strain * strain;
         }
-        for ((point, value), natural) in BENDING.iter().zip(bending).zip(self.natural_curvature) {
-            let change: [N; TURNS] = each!(value, k => value[k] - natural[k]);
+        for (k, point) in BENDING.iter().enumerate() {
+            let natural = &self.natural_curvature[k];
+            let change: [N; TURNS] = each!(bending[k], i => bending[k][i] - natural[i]);
             sum += self.number(point.weight)
-                * self.bending_stiffness
+                * self.bending_stiffness[k]
                 * inner::<N, D>(&change, &change);
         }
         self.number(0.5) * self.length * sum
@@ -424,7 +429,7 @@ impl<N: Real> Kernel<N> {
         let ((force, f, _), change) = self.axial_force(index, &u, du);
         let weight = self.number(point.weight);
         if let Some(change) = change {
-            power[0] += weight * self.axial_stiffness * change * change;
+            power[0] += weight * self.axial_stiffness[index] * change * change;
         }
         let gradient = times(&u, weight * force * f);
         for i in 0..3 {
@@ -450,7 +455,7 @@ impl<N: Real> Kernel<N> {
         let (m, square) = self.moment(index, &at, rate, &now);
         let weight = self.number(point.weight);
         if let Some(square) = square {
-            power[1] += weight * self.bending_stiffness * square;
+            power[1] += weight * self.bending_stiffness[index] * square;
         }
         let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);

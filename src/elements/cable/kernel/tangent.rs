@@ -118,7 +118,7 @@ impl<N: Real> Kernel<N> {
         let du = of_rate!(dv, dv => combine(&point.slope, dv));
         let ((force, f, g), _) = self.axial_force(index, &u, du);
         let force = factors.stress * force;
-        let along = factors.axial * self.axial_stiffness * f * f + force * g;
+        let along = factors.axial * self.axial_stiffness[index] * f * f + force * g;
         let (scaled, multiple) = (times(&u, along), force * f);
         for i in 0..3 {
             for j in 0..=i {
@@ -158,7 +158,7 @@ impl<N: Real> Kernel<N> {
         let c: [N; 3] = each!([weight; 3], i => {
             self.number(point.curvature[i]) * self.inverse_length
         });
-        let stiffness = factors.bending * self.bending_stiffness * weight;
+        let stiffness = factors.bending * self.bending_stiffness[index] * weight;
         self.add_material((&at, &now), (&s, &c), (stiffness, factors.of_size), sum);
         let along = now.decay * inner::<N, D>(&m, &now.value);
         let m = times(&m, now.scale);

@@ -148,6 +148,69 @@ fn rods_say_what_their_sections_are() {
     );
 }
 
+#[test]
+fn sections_are_shapes_or_numbers_or_at_stations() {
+    let scene = || {
+        let mut scene = rod();
+        scene["bodies"][0] = json!({"name": "rod", "element": "rod", "elements": 8,
+            "material": {"youngs_modulus": 7e5, "shear_modulus": 3e5, "density": 5540},
+            "section": {"shape": {"tube": {"radius": 0.02, "inner_radius": 0.01}}},
+            "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "markers": {"root": 0, "tip": 1}});
+        scene
+    };
+    check(
+        &scene,
+        r#"
+        /bodies/0/section | {"shape": {"rectangle": {"width": 0.01, "height": 0.02}}} | accepted
+        /bodies/0/section | {"shape": {"circle": {"radius": 0}}} | bodies[0].section.shape.circle.radius: expected
+        /bodies/0/section | {"shape": {"tube": {"radius": 0.01, "inner_radius": 0.01}}} | bodies[0].section.shape.tube.inner_radius: expected less than the outer radius
+        /bodies/0/section | {"shape": {"star": {"radius": 0.01}}} | bodies[0].section.shape: expected
+        /bodies/0/section | {"shape": {"circle": {"radius": 0.01}}, "area": 1} | bodies[0].section.area: expected nothing beside `shape`
+        /bodies/0/section | {} | bodies[0].section: expected a cross section, or `stations`
+        /bodies/0/section | {"shape": {"circle": {"radius": 0.01}}, "coupling": [1e3, 0, 0]} | bodies[0].section.coupling: expected stiffness that couples less
+        /bodies/0/stations | [] | accepted
+        /bodies/0/stations | [{"at": 0, "section": {"shape": {"circle": {"radius": 0.01}}}}] | bodies[0].section: expected nothing beside `stations`
+        "#,
+    );
+    let tapered = || {
+        let mut scene = scene();
+        let station =
+            |at: f64| json!({"at": at, "section": {"shape": {"circle": {"radius": 0.02}}}});
+        scene["bodies"][0]["stations"] =
+            json!([station(0.0), station(0.4), station(0.4), station(1.0)]);
+        if let Some(body) = scene["bodies"][0].as_object_mut() {
+            body.remove("section");
+        }
+        scene
+    };
+    check(
+        &tapered,
+        r#"
+        /bodies/0/stations/0/at | 0.1 | bodies[0].stations[0].at: expected stations from 0 to 1 in order
+        /bodies/0/stations/3/at | 0.9 | bodies[0].stations[3].at: expected stations from 0 to 1 in order
+        /bodies/0/stations/3/at | 0.4 | bodies[0].stations[3].at: expected stations from 0 to 1 in order
+        /bodies/0/stations/1/at | 0.6 | bodies[0].stations[2].at: expected stations from 0 to 1 in order
+        /bodies/0/stations/2/twist | 0.1 | bodies[0].stations[2].twist: expected the twist of the other station at this place
+        /bodies/0/stations/1/section | {"shape": {"rectangle": {"width": 0.01, "height": 0}}} | bodies[0].stations[1].section.shape.rectangle.height: expected
+        "#,
+    );
+    let cable = || {
+        let mut scene = tapered();
+        scene["bodies"][0]["element"] = json!("cable");
+        scene["bodies"][0]["material"] = json!({"youngs_modulus": 7e5, "density": 5540});
+        scene
+    };
+    check(
+        cable,
+        r#"
+        /bodies/0/stations/1/section | {"shape": {"rectangle": {"width": 0.01, "height": 0.02}}} | bodies[0].stations[1].section.shape.rectangle: expected a circle or a tube of a cable
+        /bodies/0/stations/1/section | {"shape": {"rectangle": {"width": 0.02, "height": 0.02}}} | accepted
+        /bodies/0/stations/3/twist | 0.1 | bodies[0].stations[3].twist: expected 0 of a cable
+        /bodies/0/model | "rigid" | bodies[0].stations: expected none of a rigid rod
+        "#,
+    );
+}
+
 /// Rigid bodies and every joint between them.
 fn mechanism() -> Value {
     let body = |name: &str, position: [f64; 3]| {

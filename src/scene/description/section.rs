@@ -1,0 +1,307 @@
+//! Cross sections of cables and rods.
+
+use std::f64::consts::PI;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Cross section of a cable or a rod: its shape, or its numbers.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// Its shape, from which all numbers follow; or the numbers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<Profile>,
+    /// Area, m^2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub area: Option<f64>,
+    /// Of cables: second moment of area, m^4; 0 is a cable without bending stiffness.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub second_moment: Option<f64>,
+    /// Of rods: second moments of area for bending about the first and about the second axis of the section, m^4.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_moments: Option<[f64; 2]>,
+    /// Of rods: torsion constant of the section (of Saint-Venant), m^4; of a circle its polar second moment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub torsion_constant: Option<f64>,
+    /// Of rods of layered or otherwise anisotropic material: stiffness that couples twist with bending about the first axis, twist
+    /// with bending about the second, and both bendings, N m^2; none where nothing is said. Torque is the first times the curvature
+    /// about the first axis, and so on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<[f64; 3]>,
+}
+
+/// Shape of a massive cross section, its centre on the line of the body. Axes are those of the section of a rod; a cable in
+/// the plane has the first across the plane, so that its height lies in it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Profile {
+    /// Rectangle.
+    Rectangle {
+        /// Edge along the first axis, m.
+        width: f64,
+        /// Edge along the second axis, m.
+        height: f64,
+    },
+    /// Ellipse.
+    Ellipse {
+        /// Diameter along the first axis, m.
+        width: f64,
+        /// Diameter along the second axis, m.
+        height: f64,
+    },
+    /// Circle.
+    Circle {
+        /// Radius, m.
+        radius: f64,
+    },
+    /// Circle with a round hole in its middle.
+    Tube {
+        /// Outer radius, m.
+        radius: f64,
+        /// Radius of the hole, m.
+        inner_radius: f64,
+    },
+}
+
+/// The cross section at a place along a body. Between two stations shapes of one kind change their sizes linearly, numbers
+/// change linearly themselves; two stations at one place are a step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Station {
+    /// Material coordinate: 0 is the first end, 1 the last.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub at: f64,
+    /// Cross section there.
+    pub section: Section,
+    /// Of rods: angle about the tangent by which the section's axes are turned there, without stress, from where they would be
+    /// untwisted, rad.
+    #[serde(default)]
+    pub twist: f64,
+}
+
+/// Numbers of a cross section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SectionNumbers {
+    /// Area, m^2.
+    pub area: f64,
+    /// Second moments of area about the first and the second axis, m^4; in the plane the first counts.
+    pub second_moments: [f64; 2],
+    /// Torsion constant of Saint-Venant, m^4.
+    pub torsion_constant: f64,
+    /// Stiffness that couples twist with bending about both axes, and both bendings, N m^2.
+    pub coupling: [f64; 3],
+}
+
+impl Profile {
+    /// Its lengths by their keys, m.
+    pub fn lengths(&mut self) -> Vec<(&'static str, &mut f64)> {
+        match self {
+            Self::Rectangle { width, height } | Self::Ellipse { width, height } => {
+                vec![("width", width), ("height", height)]
+            }
+            Self::Circle { radius } => vec![("radius", radius)],
+            Self::Tube {
+                radius,
+                inner_radius,
+            } => vec![("radius", radius), ("inner_radius", inner_radius)],
+        }
+    }
+
+    /// Its key in a scene.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Rectangle { .. } => "rectangle",
+            Self::Ellipse { .. } => "ellipse",
+            Self::Circle { .. } => "circle",
+            Self::Tube { .. } => "tube",
+        }
+    }
+
+    /// Area, second moments and torsion constant (S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), sections
+    /// 106, 107 and 109).
+    pub fn numbers(&self) -> SectionNumbers {
+        let (area, second_moments, torsion_constant) = match *self {
+            Self::Rectangle { width, height } => {
+                let area = width * height;
+                let moments = [height, width].map(|edge| area * edge * edge / 12.0);
+                (area, moments, torsion_of_rectangle(width, height))
+            }
+            Self::Ellipse { width, height } => {
+                let area = 0.25 * PI * width * height;
+                let moments = [height, width].map(|axis| area * axis * axis / 16.0);
+                let [first, second] = moments;
+                (area, moments, 4.0 * first * second / (first + second))
+            }
+            Self::Circle { radius } => {
+                let area = PI * radius * radius;
+                let moment = 0.25 * area * radius * radius;
+                (area, [moment; 2], 2.0 * moment)
+            }
+            Self::Tube {
+                radius,
+                inner_radius,
+            } => {
+                let area = PI * (radius - inner_radius) * (radius + inner_radius);
+                let squares = radius * radius + inner_radius * inner_radius;
+                let moment = 0.25 * area * squares;
+                (area, [moment; 2], 2.0 * moment)
+            }
+        };
+        SectionNumbers {
+            area,
+            second_moments,
+            torsion_constant,
+            coupling: [0.0; 3],
+        }
+    }
+
+    /// The shape between this one and another of its kind, whose part counts.
+    fn between(&self, other: &Self, part: f64) -> Option<Self> {
+        let (mut shape, mut other) = (*self, *other);
+        if shape.key() != other.key() {
+            return None;
+        }
+        let lengths = shape.lengths().into_iter().zip(other.lengths());
+        for ((_, length), (_, end)) in lengths {
+            *length += part * (*end - *length);
+        }
+        Some(shape)
+    }
+}
+
+/// Torsion constant of a rectangle, m^4: the series for the stress function, whose terms fall with the fifth power.
+fn torsion_of_rectangle(width: f64, height: f64) -> f64 {
+    let (long, short) = (width.max(height), width.min(height));
+    let term = |k: u32| {
+        let n = f64::from(2 * k + 1);
+        (0.5 * n * PI * long / short).tanh() / n.powi(5)
+    };
+    let sum: f64 = (0..200).rev().map(term).sum();
+    long * short.powi(3) * (1.0 / 3.0 - 64.0 / PI.powi(5) * short / long * sum)
+}
+
+impl Section {
+    /// Whether nothing is said of it.
+    pub fn is_unsaid(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Its numbers: as said, or of its shape.
+    pub fn numbers(&self) -> SectionNumbers {
+        if let Some(shape) = &self.shape {
+            return SectionNumbers {
+                coupling: self.coupling.unwrap_or_default(),
+                ..shape.numbers()
+            };
+        }
+        let alike = [self.second_moment.unwrap_or_default(); 2];
+        SectionNumbers {
+            area: self.area.unwrap_or_default(),
+            second_moments: self.second_moments.unwrap_or(alike),
+            torsion_constant: self.torsion_constant.unwrap_or_default(),
+            coupling: self.coupling.unwrap_or_default(),
+        }
+    }
+
+    /// Numbers of the section between this one and another, whose part counts.
+    fn between(&self, other: &Self, part: f64) -> SectionNumbers {
+        if let (Some(shape), Some(end)) = (&self.shape, &other.shape)
+            && let Some(shape) = shape.between(end, part)
+        {
+            let section = Self {
+                shape: Some(shape),
+                coupling: Some(self.numbers().mixed(&other.numbers(), part).coupling),
+                ..Self::default()
+            };
+            return section.numbers();
+        }
+        self.numbers().mixed(&other.numbers(), part)
+    }
+}
+
+impl SectionNumbers {
+    /// Linear between these and others, whose part counts.
+    fn mixed(&self, other: &Self, part: f64) -> Self {
+        let mix = |a: f64, b: f64| a + part * (b - a);
+        let [first, second] = self.second_moments;
+        let [p, q, r] = self.coupling;
+        Self {
+            area: mix(self.area, other.area),
+            second_moments: [
+                mix(first, other.second_moments[0]),
+                mix(second, other.second_moments[1]),
+            ],
+            torsion_constant: mix(self.torsion_constant, other.torsion_constant),
+            coupling: [
+                mix(p, other.coupling[0]),
+                mix(q, other.coupling[1]),
+                mix(r, other.coupling[2]),
+            ],
+        }
+    }
+}
+
+/// Numbers of the section at a part in [0, 1] of the way from one station to the next, and its twist, rad.
+pub fn between([first, last]: [&Station; 2], part: f64) -> (SectionNumbers, f64) {
+    let numbers = first.section.between(&last.section, part);
+    (numbers, first.twist + part * (last.twist - first.twist))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Timoshenko and Goodier, section 109, table: `J / (long short^3)`.
+    #[test]
+    fn torsion_constants_of_rectangles_are_those_of_the_table() {
+        for (ratio, wanted) in [
+            (1.0, 0.1406),
+            (1.5, 0.196),
+            (2.0, 0.229),
+            (4.0, 0.281),
+            (10.0, 0.312),
+        ] {
+            let found = torsion_of_rectangle(3.0, 3.0 * ratio) / (81.0 * ratio);
+            assert!((found - wanted).abs() < 6e-4, "{ratio} {found}");
+        }
+        // A square, to ten digits (144 times 0.140577014955).
+        let square = torsion_of_rectangle(1.0, 1.0);
+        assert!((square - 0.140_577_014_955).abs() < 1e-11, "{square}");
+        assert_eq!(
+            torsion_of_rectangle(0.3, 0.1),
+            torsion_of_rectangle(0.1, 0.3)
+        );
+    }
+
+    #[test]
+    fn shapes_that_coincide_have_the_same_numbers() {
+        let circle = Profile::Circle { radius: 0.02 }.numbers();
+        let ellipse = Profile::Ellipse {
+            width: 0.04,
+            height: 0.04,
+        };
+        let tube = Profile::Tube {
+            radius: 0.02,
+            inner_radius: 0.0,
+        };
+        for shape in [ellipse, tube] {
+            let found = shape.numbers();
+            assert!((found.area / circle.area - 1.0).abs() < 1e-15);
+            assert!((found.second_moments[0] / circle.second_moments[0] - 1.0).abs() < 1e-15);
+            assert!((found.torsion_constant / circle.torsion_constant - 1.0).abs() < 1e-15);
+        }
+        let flat = Profile::Rectangle {
+            width: 0.3,
+            height: 0.1,
+        };
+        let [first, second] = flat.numbers().second_moments;
+        assert!(
+            (first - 0.3 * 1e-3 / 12.0).abs() < 1e-18
+                && (second - 0.1 * 0.027 / 12.0).abs() < 1e-18
+        );
+    }
+}

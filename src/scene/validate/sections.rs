@@ -1,0 +1,231 @@
+//! Checks of cross sections.
+
+use nalgebra::Vector3;
+
+use super::checks::{expected, finite, needed, not_negative, planar, positive, vector};
+use crate::scene::mesh::SHORTEST;
+use crate::scene::{CableBody, Error, Model, Section, Strain};
+
+impl CableBody {
+    /// Its cross section, or those at stations, and nothing of a cable that rods alone have.
+    pub(super) fn validate_sections(
+        &self,
+        path: &str,
+        dimension: usize,
+        is_rod: bool,
+    ) -> Result<(), Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        match is_rod {
+            true => self.validate_rod(path, dimension)?,
+            false => self.refuse_what_is_of_rods(path)?,
+        }
+        if self.stations.is_empty() && self.section.is_unsaid() {
+            let wanted = "a cross section, or `stations`";
+            return Err(expected(&at("section"), wanted, "nothing"));
+        }
+        if self.stations.is_empty() {
+            return self.section.validate(&at("section"), dimension, is_rod);
+        }
+        if !self.section.is_unsaid() {
+            let wanted = "nothing beside `stations`, each of which has its section";
+            return Err(expected(&at("section"), wanted, "a section"));
+        }
+        if self.model == Model::Rigid {
+            let wanted = "none of a rigid rod, which is uniform along its length";
+            return Err(expected(&at("stations"), wanted, "some"));
+        }
+        self.validate_stations(&at("stations"), dimension, is_rod)
+    }
+
+    fn validate_stations(&self, path: &str, dimension: usize, is_rod: bool) -> Result<(), Error> {
+        let last = self.stations.len() - 1;
+        let wanted =
+            "stations from 0 to 1 in order, two at one place at most, others at least 1e-3 apart";
+        for (k, station) in self.stations.iter().enumerate() {
+            let place = format!("{path}[{k}]");
+            finite(&format!("{place}.at"), station.at)?;
+            let from = |j: usize| station.at - self.stations[j].at;
+            let is_right = match k {
+                0 => station.at == 0.0 && last > 0,
+                _ => from(k - 1) == 0.0 || from(k - 1) >= SHORTEST,
+            };
+            let is_step = k > 0 && from(k - 1) == 0.0;
+            let is_alone = !is_step || (k > 1 && k < last && from(k - 2) != 0.0);
+            if !is_right || !is_alone || (k == last && station.at != 1.0) {
+                return Err(expected(&format!("{place}.at"), wanted, station.at));
+            }
+            finite(&format!("{place}.twist"), station.twist)?;
+            if is_step && station.twist != self.stations[k - 1].twist {
+                let wanted = "the twist of the other station at this place";
+                return Err(expected(&format!("{place}.twist"), wanted, station.twist));
+            }
+            if !is_rod && station.twist != 0.0 {
+                let wanted = "0 of a cable, whose sections have no axes";
+                return Err(expected(&format!("{place}.twist"), wanted, station.twist));
+            }
+            (station.section).validate(&format!("{place}.section"), dimension, is_rod)?;
+        }
+        Ok(())
+    }
+
+    /// Nothing that rods alone have.
+    fn refuse_what_is_of_rods(&self, path: &str) -> Result<(), Error> {
+        let of_rods = [
+            ("axis", self.axis.is_some()),
+            (
+                "material.shear_modulus",
+                self.material.shear_modulus.is_some(),
+            ),
+        ];
+        match of_rods.iter().find(|(_, is_said)| *is_said) {
+            Some((key, _)) => Err(expected(&format!("{path}.{key}"), OF_RODS, "a value")),
+            None => Ok(()),
+        }
+    }
+
+    /// What a rod says beside its sections.
+    fn validate_rod(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        if dimension == 2 {
+            let wanted = "\"cable\" or \"rigid\" in the plane, where nothing twists";
+            return Err(expected(&at("element"), wanted, "\"rod\""));
+        }
+        if self.strain != Strain::ThetaPrime {
+            let wanted = "\"thetaPrime\" of a rod";
+            return Err(expected(&at("strain"), wanted, "another measure"));
+        }
+        let (key, modulus) = ("material.shear_modulus", self.material.shear_modulus);
+        positive(
+            &at(key),
+            "Pa",
+            needed(path, key, "a value of a rod", modulus)?,
+        )?;
+        self.validate_axis(&at("axis"), dimension)?;
+        self.validate_coupling(path)
+    }
+
+    /// Stiffness is positive with what couples twist and bending.
+    fn validate_coupling(&self, path: &str) -> Result<(), Error> {
+        let one = [(&self.section, format!("{path}.section"))];
+        let stations = self.stations.iter().enumerate();
+        let all = stations.map(|(k, s)| (&s.section, format!("{path}.stations[{k}].section")));
+        for (section, place) in one.into_iter().chain(all) {
+            let Some(coupling) = section.coupling else {
+                continue;
+            };
+            let place = format!("{place}.coupling");
+            for entry in coupling {
+                finite(&place, entry)?;
+            }
+            if self.stiffness(&section.numbers()).cholesky().is_none() {
+                let wanted = "stiffness that couples less than twist and bending alone have";
+                return Err(expected(&place, wanted, format!("{coupling:?}")));
+            }
+        }
+        Ok(())
+    }
+
+    /// The first axis of a rod's section is across its line.
+    fn validate_axis(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let Some(axis) = &self.axis else {
+            return Ok(());
+        };
+        vector(path, dimension, axis)?;
+        let tangent = Vector3::from(self.shape.tangent(0.0));
+        let axis = Vector3::from(axis.full());
+        if axis.cross(&tangent).norm() <= 1e-9 * axis.norm() {
+            let wanted = "a direction that is not along the tangent at the first end";
+            return Err(expected(path, wanted, format!("{:?}", axis.as_slice())));
+        }
+        Ok(())
+    }
+}
+
+const OF_RODS: &str = "nothing of a cable (an element of \"rod\" has sections that turn)";
+
+impl Section {
+    fn validate(&self, path: &str, dimension: usize, is_rod: bool) -> Result<(), Error> {
+        if self.shape.is_some() {
+            return self.validate_shape(path, dimension, is_rod);
+        }
+        let at = |key: &str| format!("{path}.{key}");
+        if is_rod {
+            self.validate_numbers_of_rod(path)?;
+        } else {
+            self.refuse_numbers_of_rods(path)?;
+            let moment = needed(path, "second_moment", "a value", self.second_moment)?;
+            not_negative(&at("second_moment"), "m^4", moment)?;
+        }
+        let area = needed(path, "area", "a value, or a `shape`", self.area)?;
+        positive(&at("area"), "m^2", area)
+    }
+
+    fn validate_shape(&self, path: &str, dimension: usize, is_rod: bool) -> Result<(), Error> {
+        let numbers = [
+            ("area", self.area.is_some()),
+            ("second_moment", self.second_moment.is_some()),
+            ("second_moments", self.second_moments.is_some()),
+            ("torsion_constant", self.torsion_constant.is_some()),
+        ];
+        if let Some((key, _)) = numbers.iter().find(|(_, is_said)| *is_said) {
+            let wanted = "nothing beside `shape`, which it follows from";
+            return Err(expected(&format!("{path}.{key}"), wanted, "a value"));
+        }
+        let Some(mut shape) = self.shape else {
+            return Ok(());
+        };
+        let place = format!("{path}.shape.{}", shape.key());
+        for (key, length) in shape.lengths() {
+            positive(&format!("{place}.{key}"), "m", *length)?;
+        }
+        if shape.numbers().area <= 0.0 {
+            let wanted = "less than the outer radius";
+            let [.., (_, inner)] = &shape.lengths()[..] else {
+                return Ok(());
+            };
+            return Err(expected(&format!("{place}.inner_radius"), wanted, **inner));
+        }
+        if !is_rod && self.coupling.is_some() {
+            return Err(expected(&format!("{path}.coupling"), OF_RODS, "a value"));
+        }
+        let [first, second] = shape.numbers().second_moments;
+        if is_rod || first == second {
+            return Ok(());
+        }
+        let instead = "a circle or a tube of a cable, which bends alike to all sides (an element of \"rod\" does not),";
+        planar(&place, dimension, instead, &format!("a {}", shape.key()))
+    }
+
+    fn refuse_numbers_of_rods(&self, path: &str) -> Result<(), Error> {
+        let of_rods = [
+            ("second_moments", self.second_moments.is_some()),
+            ("torsion_constant", self.torsion_constant.is_some()),
+            ("coupling", self.coupling.is_some()),
+        ];
+        match of_rods.iter().find(|(_, is_said)| *is_said) {
+            Some((key, _)) => Err(expected(&format!("{path}.{key}"), OF_RODS, "a value")),
+            None => Ok(()),
+        }
+    }
+
+    fn validate_numbers_of_rod(&self, path: &str) -> Result<(), Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        if self.second_moment.is_some() {
+            let wanted = "`second_moments` of a rod, one about each axis";
+            return Err(expected(&at("second_moment"), wanted, "`second_moment`"));
+        }
+        let torsion = needed(
+            path,
+            "torsion_constant",
+            "a value of a rod",
+            self.torsion_constant,
+        )?;
+        positive(&at("torsion_constant"), "m^4", torsion)?;
+        let key = "second_moments";
+        let moments = needed(path, key, "two values of a rod", self.second_moments)?;
+        for (k, moment) in moments.into_iter().enumerate() {
+            positive(&format!("{path}.{key}[{k}]"), "m^4", moment)?;
+        }
+        Ok(())
+    }
+}

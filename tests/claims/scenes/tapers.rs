@@ -1,0 +1,387 @@
+//! Cross sections by shape, at stations, and coupled.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use serde_json::{Value, json};
+
+use super::space::array;
+use crate::specimen::Specimen;
+
+pub fn all() -> Vec<Specimen> {
+    let mut all = Vec::new();
+    for is_rod in [false, true] {
+        all.extend([shapes(is_rod, false), shapes(is_rod, true), numbers(is_rod)]);
+        all.push(bent(is_rod));
+    }
+    all.extend([twisted(), coupled(false), coupled(true)]);
+    all
+}
+
+const YOUNG: f64 = 3.0e6;
+const SHEAR: f64 = 1.1e6;
+const DENSITY: f64 = 700.0;
+const LENGTH: f64 = 0.9;
+const GRAVITY: f64 = 4.0;
+const TORQUE: f64 = 3e-3;
+/// Where the middle station of tapered bodies is.
+const MIDDLE: f64 = 0.4;
+
+/// A body along -y (plane) or -z (space) from a point, held at its first end.
+fn body(name: &str, is_rod: bool, place: f64) -> Value {
+    let (from, to) = match is_rod {
+        true => (json!([place, 0.0, 0.0]), json!([place, 0.0, -LENGTH])),
+        false => (json!([place, 0.0]), json!([place, -LENGTH])),
+    };
+    let mut material = json!({"youngs_modulus": YOUNG, "density": DENSITY});
+    if is_rod {
+        material["shear_modulus"] = json!(SHEAR);
+    }
+    json!({"name": name, "element": if is_rod { "rod" } else { "cable" }, "elements": 16, "axial": "waves",
+           "model": "flexible", "material": material, "shape": {"line": {"from": from, "to": to}},
+           "markers": {"root": 0.0, "tip": 1.0}})
+}
+
+/// Bodies that hang at walls and, if they are rods, are twisted by a torque at the tip.
+fn hung(name: &str, is_rod: bool, bodies: Vec<Value>) -> Value {
+    let names: Vec<String> = bodies
+        .iter()
+        .map(|body| body["name"].as_str().expect("a name").into())
+        .collect();
+    let joint = |name: &String| json!({"name": format!("wall_{name}"), "kind": "weld", "markers": ["ground", format!("{name}.root")]});
+    let load = |name: &String| {
+        json!({"name": format!("twist_{name}"), "kind": "moment", "marker": format!("{name}.tip"),
+                                      "value": [0.0, 0.0, -TORQUE]})
+    };
+    let mut outputs = Vec::new();
+    for name in &names {
+        outputs.push(json!({"kind": "reaction", "joint": format!("wall_{name}")}));
+        outputs.push(json!({"kind": "position", "marker": format!("{name}.tip")}));
+        if is_rod {
+            outputs.push(json!({"kind": "orientation", "marker": format!("{name}.tip")}));
+        }
+    }
+    let joints: Vec<Value> = names.iter().map(joint).collect();
+    let loads: Vec<Value> = names.iter().filter(|_| is_rod).map(load).collect();
+    let gravity = match is_rod {
+        true => json!([0.0, 0.0, -GRAVITY]),
+        false => json!([0.0, -GRAVITY]),
+    };
+    json!({"name": name, "dimension": if is_rod { 3 } else { 2 }, "gravity": gravity, "bodies": bodies,
+           "joints": joints, "loads": loads, "initial": "static_equilibrium",
+           "accuracy": {"relative_tolerance": 1e-9}, "outputs": outputs})
+}
+
+/// Integral over the length of the body, by Simpson's rule between stations, of a function of the material coordinate.
+fn integral(of: impl Fn(f64) -> f64) -> f64 {
+    let mut sum = 0.0;
+    for [from, to] in [[0.0, MIDDLE], [MIDDLE, 1.0]] {
+        let pieces = 400;
+        let h = (to - from) / f64::from(pieces);
+        for k in 0..pieces {
+            let at = from + h * f64::from(k);
+            // Just inside: at a step both sides differ.
+            let [a, b, c] = [at + 1e-12, at + 0.5 * h, at + h - 1e-12].map(&of);
+            sum += (a + 4.0 * b + c) * h / 6.0;
+        }
+    }
+    sum * LENGTH
+}
+
+/// A quantity that goes through three values at the stations, linear between them.
+fn through([a, b, c]: [f64; 3]) -> impl Fn(f64) -> f64 {
+    move |s| match s < MIDDLE {
+        true => a + (b - a) * s / MIDDLE,
+        false => b + (c - b) * (s - MIDDLE) / (1.0 - MIDDLE),
+    }
+}
+
+/// What hangs is as heavy as its area says, longer by its weight, and a rod turns by its torsion constant.
+fn claimed(
+    specimen: Specimen,
+    (name, is_rod, place): (&str, bool, f64),
+    area: impl Fn(f64) -> f64,
+    torsion: impl Fn(f64) -> f64,
+) -> Specimen {
+    let weight = DENSITY * GRAVITY * integral(&area);
+    let up = if is_rod { 3 } else { 2 };
+    let mut specimen =
+        specimen.claim_within(&format!("wall_{name}.reaction[{up}]"), "N", weight, 2e-6);
+    if is_rod {
+        let angle = TORQUE * integral(|s| 1.0 / (SHEAR * torsion(s)));
+        // About -z, from where the first axis of the section is along y: the second column.
+        let turned = [angle.sin(), angle.cos(), 0.0];
+        for (row, value) in turned.into_iter().enumerate() {
+            let of = format!("{name}.tip.orientation[{}]", 3 * row + 2);
+            specimen = specimen.claim_within(&of, "", value, 2e-5);
+        }
+    }
+    let side = format!("{name}.tip.position[1]");
+    specimen.claim(&side, "m", place)
+}
+
+/// All shapes, uniform or tapered.
+fn shapes(is_rod: bool, is_tapered: bool) -> Specimen {
+    // Lengths at the stations, m.
+    let sizes: [(&str, [&str; 2], [[f64; 2]; 3]); 4] = [
+        (
+            "rectangle",
+            ["width", "height"],
+            [[0.05, 0.03], [0.04, 0.03], [0.04, 0.02]],
+        ),
+        (
+            "ellipse",
+            ["width", "height"],
+            [[0.03, 0.05], [0.03, 0.03], [0.025, 0.03]],
+        ),
+        (
+            "circle",
+            ["radius", ""],
+            [[0.02, 0.0], [0.025, 0.0], [0.01, 0.0]],
+        ),
+        (
+            "tube",
+            ["radius", "inner_radius"],
+            [[0.03, 0.02], [0.03, 0.01], [0.02, 0.01]],
+        ),
+    ];
+    let title = match (is_tapered, is_rod) {
+        (false, false) => "shaped cables",
+        (false, true) => "shaped rods",
+        (true, false) => "tapered cables",
+        (true, true) => "tapered rods",
+    };
+    let mut bodies = Vec::new();
+    for (k, (shape, keys, lengths)) in sizes.iter().enumerate() {
+        let section = |lengths: &[f64; 2]| {
+            let mut of = json!({});
+            for (key, length) in keys.iter().zip(lengths).filter(|(key, _)| !key.is_empty()) {
+                of[key] = json!(length);
+            }
+            let mut shapes = json!({});
+            shapes[shape] = of;
+            json!({"shape": shapes})
+        };
+        let mut made = body(shape, is_rod, k as f64);
+        if is_tapered {
+            let places = [0.0, MIDDLE, 1.0].into_iter().zip(lengths);
+            let station =
+                |(at, lengths): (f64, &[f64; 2])| json!({"at": at, "section": section(lengths)});
+            made["stations"] = places.map(station).collect();
+        } else {
+            made["section"] = section(&lengths[0]);
+        }
+        bodies.push(made);
+    }
+    let mut specimen = Specimen::new(title, hung("shapes", is_rod, bodies));
+    for (k, (shape, _, lengths)) in sizes.iter().enumerate() {
+        let at = |s: f64| {
+            [0, 1].map(|i| match is_tapered {
+                true => through([0, 1, 2].map(|j| lengths[j][i]))(s),
+                false => lengths[0][i],
+            })
+        };
+        let (area, torsion) = (
+            |s: f64| geometry(shape, at(s))[0],
+            |s: f64| geometry(shape, at(s))[1],
+        );
+        specimen = claimed(specimen, (shape, is_rod, k as f64), area, torsion);
+    }
+    specimen
+}
+
+/// Area and torsion constant of a shape with these lengths. Rectangles: S. P. Timoshenko, J. N. Goodier, section 109.
+fn geometry(shape: &str, [a, b]: [f64; 2]) -> [f64; 2] {
+    match shape {
+        "rectangle" => {
+            let (long, short) = (a.max(b), a.min(b));
+            let terms = (0..50).map(|k| f64::from(2 * k + 1));
+            let sum: f64 = terms
+                .map(|n| (0.5 * n * PI * long / short).tanh() / n.powi(5))
+                .sum();
+            let factor = 1.0 - 192.0 / PI.powi(5) * short / long * sum;
+            [a * b, long * short.powi(3) * factor / 3.0]
+        }
+        "ellipse" => {
+            let [p, q] = [0.5 * a, 0.5 * b];
+            [PI * p * q, PI * (p * q).powi(3) / (p * p + q * q)]
+        }
+        "circle" => [PI * a * a, 0.5 * PI * a.powi(4)],
+        _ => [PI * (a * a - b * b), 0.5 * PI * (a.powi(4) - b.powi(4))],
+    }
+}
+
+/// Sections by numbers at stations, with a step in the middle.
+fn numbers(is_rod: bool) -> Specimen {
+    let (before, after) = ([2.0e-3, 1.5e-3], [1.0e-3, 1.2e-3]);
+    let torsion = [[5.0e-7, 4.0e-7], [3.0e-7, 2.0e-7]];
+    let section = |area: f64, torsion: f64| match is_rod {
+        true => json!({"area": area, "second_moments": [3e-7, 7e-7], "torsion_constant": torsion}),
+        false => json!({"area": area, "second_moment": 3e-7}),
+    };
+    let mut made = body("stepped", is_rod, 0.0);
+    made["stations"] = json!([
+        {"at": 0.0, "section": section(before[0], torsion[0][0])},
+        {"at": MIDDLE, "section": section(before[1], torsion[0][1])},
+        {"at": MIDDLE, "section": section(after[0], torsion[1][0])},
+        {"at": 1.0, "section": section(after[1], torsion[1][1])}]);
+    let title = if is_rod {
+        "stepped rod"
+    } else {
+        "stepped cable"
+    };
+    let specimen = Specimen::new(title, hung("stepped", is_rod, vec![made]));
+    let stepped = |before: [f64; 2], after: [f64; 2]| {
+        move |s: f64| match s < MIDDLE {
+            true => before[0] + (before[1] - before[0]) * s / MIDDLE,
+            false => after[0] + (after[1] - after[0]) * (s - MIDDLE) / (1.0 - MIDDLE),
+        }
+    };
+    let [first, last] = torsion;
+    claimed(
+        specimen,
+        ("stepped", is_rod, 0.0),
+        stepped(before, after),
+        stepped(first, last),
+    )
+}
+
+/// Under moments at its tip alone a body bends by the integral of moment over bending stiffness: rods about the first axis
+/// and, each for itself, about the second.
+fn bent(is_rod: bool) -> Specimen {
+    let (first, second) = ([3.0e-7, 2.0e-7, 1.5e-7], [7.0e-7, 5.0e-7, 6.0e-7]);
+    let moment = 0.4;
+    let made = |name: &str, place: f64| {
+        let mut made = body(name, is_rod, place);
+        let station = |k: usize| {
+            let section = match is_rod {
+                true => {
+                    json!({"area": 2e-3, "second_moments": [first[k], second[k]], "torsion_constant": 5e-7})
+                }
+                false => json!({"area": 2e-3, "second_moment": first[k]}),
+            };
+            json!({"at": ([0.0, MIDDLE, 1.0][k]), "section": section})
+        };
+        made["stations"] = [0, 1, 2].map(station).into();
+        made
+    };
+    let title = if is_rod { "bent rods" } else { "bent cable" };
+    let angle = |moments: [f64; 3]| integral(|s| moment / (YOUNG * through(moments)(s)));
+    if !is_rod {
+        let mut scene = hung("bent", false, vec![made("bow", 0.0)]);
+        scene["gravity"] = json!([0.0, 0.0]);
+        scene["loads"] =
+            json!([{"name": "end", "kind": "moment", "marker": "bow.tip", "value": moment}]);
+        scene["outputs"] = json!([{"kind": "angle", "marker": "bow.tip"}]);
+        return Specimen::new(title, scene).claim_within(
+            "bow.tip.angle",
+            "rad",
+            angle(first) - 0.5 * PI,
+            1e-6,
+        );
+    }
+    let mut scene = hung("bent", true, vec![made("one", 0.0), made("two", 1.0)]);
+    scene["gravity"] = json!([0.0, 0.0, 0.0]);
+    // Sections have their first axis along y: the second is along x.
+    scene["loads"] = json!([
+        {"name": "a", "kind": "moment", "marker": "one.tip", "value": [0.0, moment, 0.0]},
+        {"name": "b", "kind": "moment", "marker": "two.tip", "value": [moment, 0.0, 0.0]}]);
+    let (about_first, about_second) = (angle(first), angle(second));
+    // The tangent, the first column: -z turned about y and about x.
+    let tangents = [
+        ("one", [-about_first.sin(), 0.0, -about_first.cos()]),
+        ("two", [0.0, about_second.sin(), -about_second.cos()]),
+    ];
+    let mut specimen = Specimen::new(title, scene);
+    for (name, tangent) in tangents {
+        for (row, value) in tangent.into_iter().enumerate() {
+            let of = format!("{name}.tip.orientation[{}]", 3 * row + 1);
+            specimen = specimen.claim_within(&of, "", value, 1e-6);
+        }
+    }
+    specimen
+}
+
+/// Sections that are twisted without stress stand so.
+fn twisted() -> Specimen {
+    let section = json!({"shape": {"rectangle": {"width": 0.05, "height": 0.02}}});
+    let mut made = body("blade", true, 0.0);
+    made["markers"]["mid"] = json!(MIDDLE);
+    made["stations"] = json!([{"at": 0.0, "section": section, "twist": 0.2},
+        {"at": MIDDLE, "section": section, "twist": -0.5}, {"at": 1.0, "section": section, "twist": 0.9}]);
+    made["axis"] = json!([0.0, 1.0, 0.0]);
+    let scene = json!({"name": "twisted", "dimension": 3, "bodies": [made], "initial": "static_equilibrium",
+        "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "blade.root"]}],
+        "outputs": [{"kind": "orientation", "marker": "blade.root"}, {"kind": "orientation", "marker": "blade.mid"},
+                    {"kind": "orientation", "marker": "blade.tip"}]});
+    let mut specimen = Specimen::new("twisted sections", scene);
+    for (marker, angle) in [("root", 0.2_f64), ("mid", -0.5), ("tip", 0.9)] {
+        for (row, value) in [angle.sin(), angle.cos(), 0.0].into_iter().enumerate() {
+            let of = format!("blade.{marker}.orientation[{}]", 3 * row + 2);
+            specimen = specimen.claim(&of, "", value);
+        }
+    }
+    specimen
+}
+
+/// Under a dead moment along an eigenvector of its stiffness a rod of coupled sections bends to a helix about it, of the
+/// rate moment over eigenvalue.
+fn coupled(is_at_stations: bool) -> Specimen {
+    let (moments, torsion, coupling) = ([3.0e-7, 7.0e-7], 5.0e-7, [0.2, -0.3, 0.25]);
+    let section = json!({"area": 2e-2, "second_moments": moments, "torsion_constant": torsion, "coupling": coupling});
+    let mut made = body("rod", true, 0.0);
+    made["elements"] = json!(32);
+    if is_at_stations {
+        made["stations"] =
+            json!([{"at": 0.0, "section": section}, {"at": 1.0, "section": section}]);
+    } else {
+        made["section"] = section;
+    }
+    made["axis"] = json!([0.0, 1.0, 0.0]);
+    let [p, q, r] = coupling;
+    let stiffness = Matrix3::new(
+        SHEAR * torsion,
+        p,
+        q, //
+        p,
+        YOUNG * moments[0],
+        r, //
+        q,
+        r,
+        YOUNG * moments[1],
+    );
+    let eigen = stiffness.symmetric_eigen();
+    let k = eigen.eigenvalues.imin();
+    // In the axes of the section at the root: tangent -z, first axis y, second x.
+    let own: Vector3<f64> = eigen.eigenvectors.column(k).into();
+    let axes = Matrix3::from_columns(&[-Vector3::z(), Vector3::y(), Vector3::x()]);
+    let way = axes * own * own.iter().sum::<f64>().signum();
+    let rate = 1.2;
+    let moment = way * rate * eigen.eigenvalues[k];
+    let scene = json!({"name": "coupled", "dimension": 3, "bodies": [made], "initial": "static_equilibrium",
+        "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.root"]}],
+        "loads": [{"name": "end", "kind": "moment", "marker": "rod.tip", "value": array(moment)}],
+        "accuracy": {"relative_tolerance": 1e-9},
+        "outputs": [{"kind": "position", "marker": "rod.tip"}, {"kind": "orientation", "marker": "rod.tip"}]});
+    let angle = rate * LENGTH;
+    let tangent = -Vector3::z();
+    let along = way * way.dot(&tangent);
+    let tip = along * LENGTH
+        + (tangent - along) * (angle.sin() / rate)
+        + way.cross(&tangent) * ((1.0 - angle.cos()) / rate);
+    let turned = Rotation3::from_axis_angle(&Unit::new_normalize(way), angle) * axes;
+    let title = match is_at_stations {
+        true => "coupled sections at stations",
+        false => "coupled sections",
+    };
+    let mut specimen = Specimen::new(title, scene);
+    for row in 0..3 {
+        for column in 0..3 {
+            let of = format!("rod.tip.orientation[{}]", 3 * row + column + 1);
+            specimen = specimen.claim_within(&of, "", turned[(row, column)], 2e-6);
+        }
+        let of = format!("rod.tip.position[{}]", row + 1);
+        specimen = specimen.claim_within(&of, "m", tip[row], 2e-6);
+    }
+    specimen
+}
