@@ -1,61 +1,16 @@
 //! What is told of constraints that do not count: those that others give exactly, those that they nearly give, and singular
 //! positions along the way.
 
-use std::f64::consts::PI;
+#[path = "abi/parallelogram.rs"]
+mod parallelogram;
+
+use std::process::Command;
 
 use flexbody::scene::Scene;
 use flexbody::simulation::{Redundant, Simulation, Singular};
 use serde_json::{Value, json};
 
-/// Length of the cranks of the parallelogram, and of its coupler and ground, m.
-const CRANK: f64 = 0.2;
-const COUPLER: f64 = 0.5;
-/// Rate of the cranks, rad/s.
-const SPIN: f64 = 10.0;
-
-/// A bar along the first axis at an angle, by its lower end.
-fn bar(name: &str, length: f64, [x, y]: [f64; 2], angle: f64) -> Value {
-    let half = length / 2.0;
-    json!({
-        "name": name, "element": "rigid", "mass": 0.3, "inertia": 1e-3, "angle": angle,
-        "position": [x + half * angle.cos(), y + half * angle.sin()],
-        "markers": {"root": [-half, 0.0], "pin": [half, 0.0], "middle": [0.0, 0.0]}
-    })
-}
-
-/// A parallelogram at an angle whose cranks turn freely, without gravity, the rocker longer by so much (m).
-fn four_bars(angle: f64, longer: f64) -> Value {
-    let (sin, cos) = angle.sin_cos();
-    let mut bodies = [
-        bar("crank", CRANK, [0.0, 0.0], angle),
-        bar("coupler", COUPLER, [CRANK * cos, CRANK * sin], 0.0),
-        bar("rocker", CRANK + longer, [COUPLER, 0.0], angle),
-    ];
-    for (body, part) in bodies.iter_mut().zip([0.5, 1.0, 0.5]) {
-        let velocity = [-sin, cos].map(|v| v * part * CRANK * SPIN);
-        let spin = if part == 1.0 { 0.0 } else { SPIN };
-        body["motion"] = json!({"velocity": velocity, "spin": spin});
-    }
-    let ground = |name: &str, marker: &str, x: f64| json!({"name": name, "kind": "revolute", "markers": ["ground", marker], "point": [x, 0.0]});
-    let pin = |name: &str, markers: [&str; 2]| json!({"name": name, "kind": "revolute", "markers": markers});
-    json!({
-        "name": "four_bars", "dimension": 2, "gravity": [0.0, 0.0], "bodies": bodies,
-        "joints": [
-            ground("pivot", "crank.root", 0.0),
-            pin("crank_pin", ["crank.pin", "coupler.root"]),
-            pin("rocker_pin", ["coupler.pin", "rocker.pin"]),
-            ground("rocker_pivot", "rocker.root", COUPLER),
-        ],
-        "outputs": [{"kind": "reaction", "joint": "rocker_pivot"}],
-        "accuracy": {"relative_tolerance": 1e-9},
-        "experiment": {"stop_time": 2.0, "step": 0.05}
-    })
-}
-
-/// When it is flat for the first time, and the second, s.
-fn flat(angle: f64) -> [f64; 2] {
-    [1.0, 2.0].map(|turns| (turns * PI - angle) / SPIN)
-}
+use parallelogram::{NEAR, flat, four_bars, three_cranks};
 
 fn started(scene: &Value) -> Simulation {
     let scene = Scene::from_json(&scene.to_string()).expect("a scene");
@@ -79,9 +34,6 @@ fn shipped(place: &str) -> Simulation {
     let text = std::fs::read_to_string(path).expect("a scene");
     started(&serde_json::from_str(&text).expect("JSON"))
 }
-
-/// Time from the flat position at which a condition leaves a few ten-thousandths of itself, s.
-const NEAR: f64 = 3e-5;
 
 #[test]
 fn a_singular_position_on_the_way_is_told_once_by_name() {
@@ -127,16 +79,8 @@ fn a_restored_state_is_told_of_where_nobody_was() {
 
 #[test]
 fn what_nearly_repeats_others_is_told_apart_at_the_start() {
-    // A third crank between the others, along them or not quite.
     for turned in [0.0, 1e-4] {
-        let mut scene = four_bars(0.5, 0.0);
-        let [(sin, cos), (s, c)] = [0.5, 0.5 + turned].map(f64::sin_cos);
-        let root = [COUPLER / 2.0 + CRANK * (cos - c), CRANK * (sin - s)];
-        let third = bar("third", CRANK, root, 0.5 + turned);
-        scene["bodies"].as_array_mut().expect("a list").push(third);
-        let joints = scene["joints"].as_array_mut().expect("a list");
-        joints.push(json!({"name": "third_pivot", "kind": "revolute", "markers": ["ground", "third.root"], "point": root}));
-        joints.push(json!({"name": "third_pin", "kind": "revolute", "markers": ["coupler.middle", "third.pin"]}));
+        let scene = three_cranks(turned);
         let Redundant { exactly, nearly } = started(&scene).redundant();
         let is_near = turned > 0.0;
         let expected = [usize::from(!is_near), usize::from(is_near)];
@@ -166,5 +110,76 @@ fn linkages_that_hold_what_they_hold_exactly_are_not_told_of() {
                 "{place}"
             );
         }
+    }
+}
+
+/// What `flexbody simulate` prints beside its outputs, and its report.
+fn simulated(scene: &Value, step: f64, stop_time: f64) -> (Vec<String>, Value) {
+    let name = format!("flexbody-singular-{}-{step}", std::process::id());
+    let folder = std::env::temp_dir().join(name);
+    std::fs::create_dir_all(&folder).expect("a writable temporary directory");
+    let [file, output, report] = ["scene.json", "run.csv", "report.json"].map(|f| folder.join(f));
+    std::fs::write(&file, scene.to_string()).expect("a writable temporary directory");
+    let run = Command::new(env!("CARGO_BIN_EXE_flexbody"))
+        .arg("simulate")
+        .arg(&file)
+        .arg(format!("--step={step}"))
+        .arg(format!("--stop-time={stop_time}"))
+        .arg("--output")
+        .arg(&output)
+        .arg("--report")
+        .arg(&report)
+        .output()
+        .expect("the program runs");
+    let printed = String::from_utf8(run.stderr).expect("UTF-8");
+    assert!(run.status.success(), "{printed}");
+    let report = std::fs::read_to_string(&report).expect("a report");
+    std::fs::remove_dir_all(&folder).expect("a writable temporary directory");
+    let printed = printed.lines().map(str::to_owned).collect();
+    (printed, serde_json::from_str(&report).expect("JSON"))
+}
+
+#[test]
+fn what_repeats_others_is_printed_and_reported() {
+    for (turned, step, lists, end) in [
+        (0.0, 1e-3, [json!(["third"]), json!([])], "already"),
+        (
+            1e-4,
+            2e-3,
+            [json!([]), json!(["third"])],
+            "from another position",
+        ),
+    ] {
+        let (printed, report) = simulated(&three_cranks(turned), step, step);
+        let [line] = &printed[..] else {
+            panic!("expected one line, found {printed:?}");
+        };
+        assert!(line.starts_with("flexbody: third"), "{line}");
+        assert_eq!(line.contains("nearly held by others"), turned > 0.0);
+        assert!(line.ends_with(end), "{line}");
+        let found = ["redundant", "nearly_redundant"].map(|key| report[key].clone());
+        assert_eq!(found, lists, "{report}");
+        assert_eq!(report["singular"], json!([]), "{report}");
+    }
+}
+
+#[test]
+fn a_singular_position_on_the_way_is_printed_and_reported() {
+    let [first, _] = flat(0.25);
+    let (printed, report) = simulated(&four_bars(0.25, 0.0), first, first + 0.05);
+    let [line] = &printed[..] else {
+        panic!("expected one line, found {printed:?}");
+    };
+    let [position] = &report["singular"].as_array().expect("a list")[..] else {
+        panic!("expected one position: {report}");
+    };
+    let (time, names) = (&position["time"], &position["names"]);
+    assert!((time.as_f64().expect("a time") - first).abs() < 1e-4);
+    let name = names[0].as_str().expect("a name");
+    assert_eq!(names, &json!([name]), "{report}");
+    let expected = format!("flexbody: {name}: at {time} s at or near a singular position, ");
+    assert!(line.starts_with(&expected), "{line}");
+    for key in ["redundant", "nearly_redundant"] {
+        assert_eq!(report[key], json!([]), "{report}");
     }
 }

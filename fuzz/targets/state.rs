@@ -1,33 +1,14 @@
 //! Bytes as a saved state: refused, or restored and simulated, and never in the way of what follows.
 #![no_main]
 
+mod saved;
 #[path = "../../tests/abi/support.rs"]
 #[allow(dead_code, reason = "shared with the tests of the C interface")]
 mod support;
 
-use flexbody::scene::Scene;
 use libfuzzer_sys::fuzz_target;
-use sha2::{Digest, Sha256};
+use saved::{SCENES, sealed, written};
 use support::{Instance, Status, Unit, call};
-
-/// A flexible pendulum; rigid bodies with constraints, and a trolley that inputs drive; rigid bodies of space.
-const SCENES: [&str; 3] = [
-    support::SCENE,
-    include_str!("crane.json"),
-    include_str!("arm.json"),
-];
-
-/// Bytes of what says whose state it is: magic, version, GUID.
-const HEADER: usize = 8 + 4 + 38;
-
-/// A state in bytes with the header and the scene of another and a checksum that fits, so that the
-/// fuzzer gets beyond them.
-fn sealed(other: &[u8], body: &[u8], scene: &str) -> Vec<u8> {
-    let mut bytes = [&other[..HEADER], body, scene.as_bytes()].concat();
-    let hash = Sha256::digest(&bytes);
-    bytes.extend(hash);
-    bytes
-}
 
 /// Steps, outputs and the end of an instance in whatever state it is.
 fn used(instance: &Instance<'_>) {
@@ -55,8 +36,7 @@ fuzz_target!(|data: &[u8]| {
     let instance = Instance::new(&unit);
     let fresh = instance.fingerprint();
     assert_eq!(instance.deserialize(body), None, "without its checksum");
-    let scene = Scene::from_json(text).expect("a valid scene").to_json();
-    if let Some(state) = instance.deserialize(&sealed(&fresh, body, &scene)) {
+    if let Some(state) = instance.deserialize(&sealed(&fresh, body, &written(text))) {
         let bare = Instance::bare(&unit);
         let restored = [&instance, &bare].map(|instance| instance.restore(state));
         assert_eq!(restored[0], restored[1]);

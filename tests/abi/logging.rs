@@ -3,7 +3,8 @@
 use std::ffi::{CStr, c_char};
 use std::ptr;
 
-use crate::support::{Instance, SCENE, Status, Unit, call};
+use crate::parallelogram::{NEAR, flat, four_bars, three_cranks};
+use crate::support::{Instance, Line, SCENE, Status, Unit, call};
 
 fn enable(instance: &Instance<'_>, on: bool, categories: &[&CStr]) -> Status {
     let names: Vec<*const c_char> = categories.iter().map(|name| name.as_ptr()).collect();
@@ -140,4 +141,63 @@ fn a_mesh_that_is_too_coarse_is_warned_of_once_where_that_is_read() {
             "{told:?}"
         );
     }
+}
+
+/// What was said since the last time of joints that hold what others hold already.
+fn said_of_joints(instance: &Instance<'_>) -> Vec<Line> {
+    let mut lines = instance.record.take();
+    lines.retain(|line| line.3.contains("others hold"));
+    lines
+}
+
+#[test]
+fn joints_that_repeat_others_are_told_of_and_those_that_nearly_do_are_warned_of() {
+    for (turned, status, start, end) in [
+        (0.0, Status::Ok, "joints that hold ", "already: third"),
+        (
+            1e-4,
+            Status::Warning,
+            "joints that nearly hold ",
+            "from another position",
+        ),
+    ] {
+        let unit = Unit::of(&three_cranks(turned).to_string());
+        let instance = Instance::started(&unit);
+        let [(_, found, category, message)] = &said_of_joints(&instance)[..] else {
+            panic!("expected one message, turned by {turned}");
+        };
+        assert_eq!((*found, &category[..]), (status, "logStatusWarning"));
+        assert!(message.starts_with(start), "{message}");
+        assert!(message.contains(""), "{message}");
+        assert!(message.ends_with(end), "{message}");
+        assert_eq!(instance.step(0.0, 1e-3), Status::Ok);
+        assert_eq!(said_of_joints(&instance), [], "again");
+    }
+}
+
+#[test]
+fn a_singular_position_on_the_way_is_warned_of_once() {
+    let unit = Unit::of(&four_bars(0.25, 0.0).to_string());
+    let instance = Instance::started(&unit);
+    let (mut now, mut said) = (0.0, Vec::new());
+    let [first, second] = flat(0.25);
+    for until in [first - 0.05, first - NEAR, first + 0.05, second - NEAR] {
+        assert_eq!(instance.step(now, until - now), Status::Ok);
+        said.push(said_of_joints(&instance));
+        now = until;
+    }
+    let [before, at, after, again] = &said[..] else {
+        unreachable!("four steps");
+    };
+    assert_eq!([before, after, again], [&vec![]; 3]);
+    let [(_, status, category, message)] = &at[..] else {
+        panic!("expected one message, found {at:?}");
+    };
+    let found = (*status, &category[..]);
+    assert_eq!(found, (Status::Warning, "logStatusWarning"));
+    assert!(message.starts_with("rocker: at 0.289"), "{message}");
+    assert!(
+        message.contains("at or near a singular position"),
+        "{message}"
+    );
 }

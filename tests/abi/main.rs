@@ -5,6 +5,7 @@ mod hostile;
 mod instantiation;
 mod lifecycle;
 mod logging;
+mod parallelogram;
 mod random;
 mod resources;
 mod runs;

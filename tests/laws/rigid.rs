@@ -407,3 +407,39 @@ pub fn stiffness_is_the_derivative(run: usize, mechanism: &Mechanism, parts: Par
     assert!(miss < LIMIT, "{run}: {miss:e}");
     true
 }
+
+/// Bodies are moved to where joints that are there twice fit as to where they fit once: what repeats others leads nowhere else.
+#[test]
+fn joints_that_are_held_twice_are_closed_as_those_held_once() {
+    let mut chance = Chance(47);
+    let mut compared = 0;
+    for run in 0..400 {
+        let mut mechanism = Mechanism::random(&mut chance);
+        if mechanism.is_driven() || mechanism.joints.is_empty() {
+            continue;
+        }
+        compared += 1;
+        mechanism.gears.clear();
+        let count = 6 * mechanism.bodies.len();
+        let twists = DVector::from_fn(count, |_, _| 0.1 * chance.number());
+        mechanism.bodies = mechanism.twisted(&twists, 1.0);
+        let described = mechanism.nodes(|body| (body.center, body.axes));
+        let still = vec![[[0.0; 3]; 2]; described.len()];
+        let mut placed = || {
+            let system = System::new(mechanism.parts()).expect("a system");
+            let mut work = Work::new(&system);
+            let state = system.initial_state(0.0, &[], (&described, &still), &mut work);
+            let state = state.unwrap_or_else(|error| panic!("{run}: {error:?}"));
+            let x = system.nodes_of(&state, &mut work);
+            mechanism.joints.extend(mechanism.joints.clone());
+            x
+        };
+        let [once, twice] = [placed(), placed()];
+        let mut miss = 0.0_f64;
+        for (once, twice) in once.as_flattened().iter().zip(twice.as_flattened()) {
+            miss = miss.max((V::from(*once) - V::from(*twice)).norm());
+        }
+        assert!(miss < 1e-6, "{run}: {miss:e} m apart");
+    }
+    assert!(compared > 200, "{compared}");
+}

@@ -190,6 +190,89 @@ fn a_turning_frame_changes_what_is_seen_alone() {
     }
 }
 
+/// Small displacements and rotations `p` with `p'' + R p' + K p = 0` outside move by `p'' + (R + 2 W) p' + (K + R W + W W) p = 0`
+/// in a frame that turns, `W` the matrix of the cross product with its rate: there they have the rates `p' - W p`.
+#[test]
+fn small_motions_in_a_turning_frame_are_those_outside_seen_from_it() {
+    let mut chance = Chance(41);
+    let mut sizes = 0.0_f64;
+    for run in 0..40 {
+        let mut mechanism = Mechanism {
+            bodies: Mechanism::random(&mut chance).bodies,
+            joints: Vec::new(),
+            gravity: V::zeros(),
+            sprung: Vec::new(),
+            gears: Vec::new(),
+        };
+        let small = |mechanism: &Mechanism, rotation: V| {
+            let mut parts = mechanism.parts();
+            parts.rotation = rotation.into();
+            let system = System::new(parts).expect("a system");
+            let (state, mut work) = mechanism.state_of(&system);
+            let [basis, stiffness, damping] = linearized(&system, &[], &mut work, &state);
+            let basis = twists(mechanism, &system, &basis);
+            let inverse = basis.clone().try_inverse().expect("free bodies");
+            [stiffness, damping].map(|matrix| &basis * matrix * &inverse)
+        };
+        let [stiffness, damping] = small(&mechanism, V::zeros());
+        let rate = chance.vector() * 2.0;
+        for body in &mut mechanism.bodies {
+            body.velocity -= rate.cross(&body.center);
+            body.spin -= rate;
+        }
+        let found = small(&mechanism, rate);
+        let mut turn = DMatrix::zeros(damping.nrows(), damping.nrows());
+        for at in (0..turn.nrows()).step_by(3) {
+            turn.fixed_view_mut::<3, 3>(at, at)
+                .copy_from(&rate.cross_matrix());
+        }
+        let wanted = [
+            stiffness + (&damping + &turn) * &turn,
+            damping + &turn * 2.0,
+        ];
+        for (found, wanted) in found.iter().zip(&wanted) {
+            let miss = (found - wanted).amax() / (wanted.amax() + 1.0);
+            assert!(miss < 1e-9, "{run}: {miss:e}, {found} for {wanted}");
+            sizes = sizes.max(wanted.amax());
+        }
+    }
+    assert!(sizes > 1.0, "{sizes}");
+}
+
+/// A free body is found to move as it does; a thin rod, too, of which the energy does not tell how it turns about itself.
+#[test]
+fn a_free_body_moves_steadily_as_it_moves() {
+    let mut chance = Chance(43);
+    for run in 0..200 {
+        // About its own axis a thin rod has none.
+        let own = 0.4 * f64::from(run % 2);
+        let mechanism = Mechanism {
+            bodies: vec![Body {
+                mass: 1.0,
+                moments: V::new(own, 0.4, 0.4),
+                center: chance.vector() * 2.0,
+                axes: Rotation3::new(chance.vector() * 3.0).into_inner(),
+                velocity: chance.vector(),
+                spin: chance.vector(),
+            }],
+            joints: Vec::new(),
+            gravity: V::zeros(),
+            sprung: Vec::new(),
+            gears: Vec::new(),
+        };
+        let body = &mechanism.bodies[0];
+        let (system, state, mut work) = mechanism.started();
+        let rates = mechanism.nodes(|body| (body.velocity, body.spin.cross_matrix() * body.axes));
+        let steady = system.steady(&state, &rates, &mut work);
+        let steady = steady.expect("a steady motion");
+        let miss = (V::from(steady.rate) - body.spin).norm();
+        assert!(miss < 1e-9, "{run}: turns at {steady:?}, {miss:e} off");
+        let found = steady.velocity + V::from(steady.rate).cross(&body.center);
+        let miss = (found - body.velocity).norm();
+        assert!(miss < 1e-9, "{run}: moves at {steady:?}, {miss:e} off");
+    }
+}
+
 /// A body on two ball joints, wherever they are, turns about the line through them. How fast, joints leave free.
 #[test]
 fn a_steady_turn_about_any_line_that_joints_leave_free_is_found() {

@@ -11,9 +11,13 @@ use serde_json::Value;
 use crate::cargo::{Workspace, executables};
 use crate::process::{self, prepared, shown};
 
-/// Fuzz targets, and the program that only AddressSanitizer watches.
+/// Fuzz targets, the program that only AddressSanitizer watches, and the one that writes what `state` starts from: saved
+/// states of another format than today's are refused before much is read of them.
 const TARGETS: [&str; 3] = ["scene", "state", "calls"];
 const LIVES: &str = "lives";
+const SEEDS: &str = "seeds";
+/// Where those states are.
+const STATES: &str = "fuzz/seeds/state";
 
 /// How long each target runs, s.
 const SECONDS: u32 = 20;
@@ -56,6 +60,7 @@ pub fn test(workspace: &Workspace) -> Result<()> {
     }
     let programs = build(workspace)?;
     process::run(&mut program(&programs, LIVES)?)?;
+    process::run(program(&programs, SEEDS)?.arg(workspace.target(STATES)))?;
     let dictionary = dictionary(workspace)?;
     let start = |target| start(workspace, program(&programs, target)?, target, &dictionary);
     let runs = TARGETS.map(|target| (target, start(target)));
@@ -107,6 +112,9 @@ fn start(
         .with_context(|| format!("cannot create the folder {}", shown(&found)))?;
     program.arg(found);
     program.arg(workspace.path(&format!("fuzz/corpus/{target}")));
+    if target == "state" {
+        program.arg(workspace.target(STATES));
+    }
     if target == "scene" {
         program.arg(workspace.path("scenes"));
         program.arg(format!("-dict={}", dictionary.display()));

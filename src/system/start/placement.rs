@@ -10,6 +10,7 @@ use nalgebra::{DVector, Vector3};
 use super::equilibrium;
 use super::held::Open;
 use crate::body::{Node, add_node, no_node};
+use crate::math::least::Least;
 use crate::math::space::{Vector, spins};
 use crate::system::instant::Instant;
 use crate::system::joints::{ConstraintKind, View};
@@ -22,6 +23,9 @@ const ITERATIONS: usize = 200;
 const CLOSE: f64 = 1e-9;
 /// Gap that is roundoff.
 const EXACT: f64 = 1e-15;
+
+/// Part of the largest entry below which what others leave of a joint is nothing.
+const DEPENDENT: f64 = 1e-9;
 
 /// Turn, rad, from which on a body whose orientation is driven is turned at once.
 const FAR: f64 = 0.1;
@@ -290,10 +294,12 @@ impl<const D: usize> System<D> {
         self.find_slides(x, &mut state.travel);
     }
 
-    /// Moves bodies as a whole until rows and constraints hold.
+    /// Moves bodies as a whole until rows and constraints hold, or else to where the least of them is missing that was found.
     fn fit(&self, x: &mut [Node<D>], work: &mut Work<D>) -> Result<(), NotAssembled> {
         let (size, free) = (self.extent(x), D + spins(D).len());
         let mut best = f64::INFINITY;
+        // Sum of squares of gaps where it is least, and where that is.
+        let (mut least, mut nearest) = (f64::INFINITY, x.to_vec());
         for iteration in 0..=ITERATIONS {
             self.find_slides(x, &mut work.travel);
             let gaps = self.gaps(x, work, size);
@@ -306,11 +312,14 @@ impl<const D: usize> System<D> {
                 break;
             }
             best = largest.min(best);
+            let squares = gaps.iter().map(|gap| gap * gap).sum();
+            if squares < least {
+                least = squares;
+                nearest.copy_from_slice(x);
+            }
             let jacobian = self.rigid_jacobian(x, work, size);
-            let step = jacobian
-                .svd(true, true)
-                .solve(&DVector::from_vec(gaps), 1e-9)
-                .unwrap_or_else(|_| DVector::zeros(free * self.bodies.len()));
+            let gaps = DVector::from_vec(gaps);
+            let step = Least::new(&jacobian, DEPENDENT).solve(&gaps);
             // Far from the solution a long step may turn bodies over.
             let turn = |body: usize| {
                 let mut turn = [0.0; 3];
@@ -329,6 +338,8 @@ impl<const D: usize> System<D> {
                 self.move_body((nodes.clone(), about), way, turn, x);
             }
         }
+        // Steps do not end where they come closest: joints depend on each other there.
+        x.copy_from_slice(&nearest);
         self.find_slides(x, &mut work.travel);
         let gaps = self.gaps_by_joint(x, work, CLOSE);
         Err(NotAssembled { gaps })
