@@ -391,27 +391,33 @@ fn part<const D: usize, N: Number>(node: &Node<D, N>, k: usize) -> [N; 3] {
     components(&Vector::<D, N>::from(node[k]))
 }
 
-/// Axes of frames carried along a line from its first tangent on by smallest rotations, the first of them with this second axis, and
-/// then turned about the tangent by the angles of these twists, rad: position and axes in two nodes each.
+/// Steps an element in which axes are carried along an unstressed shape that no plane holds: the angle that they miss falls with the
+/// square of their number.
+const STEPS: u32 = 256;
+
+/// Axes of frames carried along a line, whose tangents are those at parts in [0, 1] of its elements, by smallest rotations, the first of
+/// them with this second axis, and then turned about the tangent by the angles of these twists, rad: position and axes in two nodes each.
 pub fn carried_nodes<const D: usize>(
     line: &[Node<D>],
     second: [f64; 3],
+    tangent: impl Fn(usize, f64) -> [f64; 3],
     twists: impl Iterator<Item = f64>,
 ) -> Vec<Node<D>> {
-    let tangent = |node: &Node<D>| Vector3::from(part(node, 1)).normalize();
     let mut second = Vector3::from(second);
-    let mut before = line.first().map_or_else(Vector3::zeros, tangent);
+    let mut t = Vector3::from(tangent(0, 0.0));
     let mut nodes = Vec::with_capacity(2 * line.len());
-    for (node, twist) in line.iter().zip(twists) {
-        let t = tangent(node);
-        second = rotated(&before, &t, &second);
+    for (j, (node, twist)) in line.iter().zip(twists).enumerate() {
+        for step in (1..=STEPS).take_while(|_| j > 0) {
+            let next = Vector3::from(tangent(j - 1, f64::from(step) / f64::from(STEPS)));
+            second = rotated(&t, &next, &second);
+            t = next;
+        }
         second = (second - t * t.dot(&second)).normalize();
         let (sin, cos) = twist.sin_cos();
         let turned = second * cos + t.cross(&second) * sin;
         let [a, b, c] =
             [t, turned, t.cross(&turned)].map(|axis| vector::<D, f64>(axis.into()).into());
         nodes.extend([[node[0], a], [b, c]]);
-        before = t;
     }
     nodes
 }

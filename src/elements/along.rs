@@ -1,4 +1,7 @@
 //! Quantities that change along an element with its section: stiffness and density of a tapered body.
+//!
+//! Source: forward differences and Boole's rule, M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions (1964), 25.2.28 and
+//! 25.4.14.
 
 /// A number along an element: a polynomial of degree 4 in `xi` in [0, 1], as second moments of area are where a section
 /// changes its size linearly.

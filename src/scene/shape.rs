@@ -1,5 +1,9 @@
 //! Geometry of unstressed shapes.
 
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
 use super::marker::{difference, length};
 use super::{Shape, Vector};
 use crate::math::vector::dot;
@@ -9,15 +13,25 @@ fn sum(from: [f64; 3], [a, b]: [([f64; 3], f64); 2]) -> [f64; 3] {
     std::array::from_fn(|k| from[k] + a.0[k] * a.1 + b.0[k] * b.1)
 }
 
+/// The unit vector along what of a vector is across a unit vector.
+fn across(of: [f64; 3], along: [f64; 3]) -> [f64; 3] {
+    unit(sum(of, [(along, -dot(&of, &along)), (along, 0.0)]))
+}
+
+fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    Vector3::from(*a).cross(&Vector3::from(*b)).into()
+}
+
 /// The unit vector along another.
 fn unit(of: [f64; 3]) -> [f64; 3] {
     of.map(|part| part / length(of))
 }
 
 impl Shape {
-    /// First and last end.
+    /// First and last end; of a helix those of its axis.
     pub fn ends(&self) -> [Vector; 2] {
-        let (Self::Line { from, to } | Self::Arc { from, to, .. }) = self;
+        let (Self::Line { from, to } | Self::Arc { from, to, .. } | Self::Helix { from, to, .. }) =
+            self;
         [*from, *to]
     }
 
@@ -32,12 +46,18 @@ impl Shape {
         match self {
             Self::Line { .. } => self.chord(),
             Self::Arc { length, .. } => *length,
+            Self::Helix { radius, turns, .. } => self.chord().hypot(TAU * turns * radius),
         }
     }
 
     /// Point at `s` in [0, 1] of the length, m.
     pub fn point(&self, s: f64) -> [f64; 3] {
         let [from, to] = self.ends().map(|end| end.full());
+        if let Self::Helix { radius, turns, .. } = self {
+            let ([along, out], (sin, cos)) = (self.axes(), (TAU * turns * s).sin_cos());
+            let on_axis = sum(from, [(along, s * self.chord()), (out, radius * cos)]);
+            return sum(on_axis, [(cross(&along, &out), radius * sin), (along, 0.0)]);
+        }
         match self.half_angle() {
             None => std::array::from_fn(|i| from[i] + s * (to[i] - from[i])),
             Some(_) if s == 1.0 => to,
@@ -52,6 +72,13 @@ impl Shape {
 
     /// Unit tangent at `s` in [0, 1] of the length.
     pub fn tangent(&self, s: f64) -> [f64; 3] {
+        if let Self::Helix { radius, turns, .. } = self {
+            let ([along, out], (sin, cos)) = (self.axes(), (TAU * turns * s).sin_cos());
+            let around = TAU * turns * radius / self.length();
+            let rise = (along, self.chord() / self.length());
+            let tangent = sum([0.0; 3], [rise, (out, -around * sin)]);
+            return sum(tangent, [(cross(&along, &out), around * cos), (along, 0.0)]);
+        }
         let ([along, out], half) = (self.axes(), self.half_angle().unwrap_or(0.0));
         let angle = half * (2.0 * s - 1.0);
         sum([0.0; 3], [(along, angle.cos()), (out, -angle.sin())])
@@ -63,17 +90,15 @@ impl Shape {
     }
 
     /// Unit vectors from end to end, and to the side that an arc bulges to: to the right in the plane, down in space.
-    /// The second is not finite where that is along the first.
+    /// The second is not finite where that is along the first. Of a helix: along its axis, and to its first end.
     fn axes(&self) -> [[f64; 3]; 2] {
         let [from, to] = self.ends();
         let along = unit(difference(to.full(), from.full()));
         let out = match (self, to.given().len()) {
             (Self::Line { .. }, _) => [0.0; 3],
+            (Self::Helix { start, .. }, _) => across(start.full(), along),
             (_, 2) => [along[1], -along[0], 0.0],
-            _ => {
-                let down = [0.0, 0.0, -1.0];
-                unit(sum(down, [(along, -dot(&down, &along)), (along, 0.0)]))
-            }
+            _ => across([0.0, 0.0, -1.0], along),
         };
         [along, out]
     }
@@ -125,6 +150,33 @@ mod tests {
         let tangent = arc.tangent(0.3);
         assert!(((b[0] - a[0]) / 1.4e-6 - tangent[0]).abs() < 1e-5);
         assert!(((b[1] - a[1]) / 1.4e-6 - tangent[1]).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_helix_turns_about_its_axis_at_even_pace() {
+        let helix = Shape::Helix {
+            from: [1.0, 2.0, 3.0].into(),
+            to: [1.0, 2.0, 3.5].into(),
+            radius: 0.2,
+            turns: -2.5,
+            start: [0.0, 3.0, 4.0].into(),
+        };
+        // Left-handed: from +y it turns to +x on its way up.
+        let at = |s: f64| {
+            let angle = 5.0 * std::f64::consts::PI * s;
+            [
+                1.0 + 0.2 * angle.sin(),
+                2.0 + 0.2 * angle.cos(),
+                3.0 + 0.5 * s,
+            ]
+        };
+        let (h, pace) = (1e-4, helix.length());
+        assert!((pace - 0.5_f64.hypot(std::f64::consts::PI)).abs() < 1e-15);
+        for s in [0.0, 0.3, 1.0] {
+            assert!(length(difference(helix.point(s), at(s))) < 1e-15);
+            let way = difference(at(s + h), at(s - h)).map(|way| way / (2.0 * h * pace));
+            assert!(length(difference(helix.tangent(s), way)) < 1e-6);
+        }
     }
 
     #[test]

@@ -12,18 +12,21 @@
 //! Radau (docs/decisions/0021-stable-equilibria.md).
 
 mod kernel;
+mod taper;
 #[cfg(test)]
 mod tests;
 
 use nalgebra::{SMatrix, SVector};
 
 use super::{
-    Along, BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, Strain, shape,
+    BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, Strain, shape,
 };
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{GAUSS_3, GAUSS_5};
 use kernel::{Factors, Kernel, Line, Sampling, TURNS, transposed};
+pub use taper::Taper;
+use taper::mass;
 
 /// Slenderness EA l^2 / EI up to which axial strain is sampled at Gauss points: they halve the error
 /// of stretching waves and cost bending less than they gain; beyond it they lock.
@@ -56,28 +59,6 @@ impl Parameters {
     /// The longer of both damping times, s.
     pub fn longest_damping_time(&self) -> f64 {
         self.axial_damping_time.max(self.bending_damping_time)
-    }
-}
-
-/// What the stiffnesses and the mass of [`Parameters`] are multiplied by along an element; one everywhere by default.
-#[derive(Clone, Copy, Debug)]
-pub struct Taper {
-    /// Of axial stiffness.
-    pub axial: Along,
-    /// Of bending stiffness.
-    pub bending: Along,
-    /// Of mass per reference length.
-    pub density: Along,
-}
-
-impl Default for Taper {
-    fn default() -> Self {
-        let [axial, bending, density] = [Along::from(1.0); 3];
-        Self {
-            axial,
-            bending,
-            density,
-        }
     }
 }
 
@@ -230,36 +211,6 @@ impl<const D: usize> Cable<D> {
         }
         change
     }
-}
-
-/// Mass matrix of a cable with or without bending stiffness.
-fn mass(parameters: &Parameters, taper: &Along, bends: bool) -> SMatrix<f64, 4, 4> {
-    let l = parameters.length;
-    let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
-    let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);
-    let (f, g) = (l * l / 105.0, l * l / 140.0);
-    let density = parameters.line_density * taper.mean();
-    let mut consistent =
-        SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]]);
-    if !taper.is_uniform() {
-        let terms = GAUSS_5.iter().map(|point| {
-            let values = shape::values(point.at, l);
-            let weight = point.weight * taper.at(point.at) / taper.mean();
-            values * values.transpose() * weight
-        });
-        consistent = terms.sum();
-    }
-    let [quadratic, cubic] = match parameters.inertia {
-        Inertia::Consistent => [0.0, 0.0],
-        Inertia::Corrected if bends => [1.0, 23.0 / 3.0],
-        Inertia::Corrected => [0.6, 23.0 / 3.0],
-    };
-    let second = SVector::from([0.0, -l / 12.0, 0.0, l / 12.0]);
-    let third = SVector::from([0.1, 0.05 * l, -0.1, 0.05 * l]);
-    let mass = consistent
-        + second * second.transpose() * (quadratic / 5.0)
-        + third * third.transpose() * (cubic / 7.0);
-    mass * (density * l)
 }
 
 /// Its sign where there is one, its size in space.

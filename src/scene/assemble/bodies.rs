@@ -132,7 +132,11 @@ impl<const D: usize> Builder<'_, D> {
     fn sections(&mut self, rod: &CableBody, mesh: &[f64], first: usize) {
         let line = self.parts.nodes[first..].to_vec();
         let twists = mesh.iter().map(|s| rod.sections_about(*s)(*s).1);
-        let axes = carried_nodes(&line, first_axis(rod), twists);
+        let tangent = |j: usize, part: f64| {
+            let s = mesh[j] + part * (mesh[j + 1] - mesh[j]);
+            rod.shape.tangent(s)
+        };
+        let axes = carried_nodes(&line, first_axis(rod), tangent, twists);
         let carried = self.parts.rod_chains.iter().map(|chain| chain.count() + 1);
         let carried = carried.sum();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {

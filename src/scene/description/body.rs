@@ -192,6 +192,20 @@ pub enum Shape {
         /// Length along the arc, m; more than the distance between the ends.
         length: f64,
     },
+    /// Circular helix in space: of rods, and of cables without bending stiffness.
+    Helix {
+        /// Where its axis begins, m.
+        from: Vector,
+        /// Where its axis ends, m.
+        to: Vector,
+        /// Distance of the line from the axis, m.
+        #[schemars(extend("exclusiveMinimum" = 0))]
+        radius: f64,
+        /// Number of turns; positive of a right-handed helix, negative of a left-handed one.
+        turns: f64,
+        /// Direction from the axis to the first end, of any length; what of it is along the axis does not count.
+        start: Vector,
+    },
 }
 
 /// Rigid motion of a body at the start.

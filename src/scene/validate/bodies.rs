@@ -12,7 +12,7 @@ use super::checks::{
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
 use crate::scene::{
-    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Shape, Solid, Vector,
+    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Solid, Vector,
 };
 
 impl Body {
@@ -322,33 +322,6 @@ impl Solid {
                     wanted,
                     format!("{axis:?}"),
                 ));
-            }
-        }
-        Ok(())
-    }
-}
-
-impl Shape {
-    fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
-        let kind = if self.is_straight() { "line" } else { "arc" };
-        let [from, to] = self.ends();
-        vector(&format!("{path}.{kind}.from"), dimension, &from)?;
-        vector(&format!("{path}.{kind}.to"), dimension, &to)?;
-        let distance = self.chord();
-        if distance <= 0.0 {
-            let wanted = "two ends that differ";
-            return Err(expected(path, wanted, "the same point twice"));
-        }
-        if !self.is_straight() && dimension == 3 && from.full()[..2] == to.full()[..2] {
-            let wanted = "ends of an arc that are not one above the other";
-            return Err(expected(path, wanted, "an upright chord"));
-        }
-        if let Self::Arc { length, .. } = self {
-            let place = format!("{path}.arc.length");
-            finite(&place, *length)?;
-            if *length <= distance {
-                let wanted = format!("more than the distance between the ends ({distance} m)");
-                return Err(expected(&place, &wanted, length));
             }
         }
         Ok(())

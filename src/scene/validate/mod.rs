@@ -5,6 +5,7 @@ mod checks;
 mod gears;
 mod inputs;
 mod joints;
+mod lines;
 mod loads;
 mod motions;
 mod outputs;

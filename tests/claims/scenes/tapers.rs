@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use serde_json::{Value, json};
 
-use super::space::array;
+use super::space::{array, vector};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
@@ -15,6 +15,7 @@ pub fn all() -> Vec<Specimen> {
         all.push(bent(is_rod));
     }
     all.extend([twisted(), coupled(false), coupled(true)]);
+    all.extend([helix(false), helix(true)]);
     all
 }
 
@@ -320,6 +321,36 @@ fn twisted() -> Specimen {
             let of = format!("blade.{marker}.orientation[{}]", 3 * row + 2);
             specimen = specimen.claim(&of, "", value);
         }
+    }
+    specimen
+}
+
+/// A helix at rest stands as it is drawn: left-handed from the direction that it starts in.
+fn helix(is_rod: bool) -> Specimen {
+    let (radius, turns, rise) = (0.3, -0.8, 0.9);
+    let mut made = body("coil", is_rod, 0.0);
+    made["shape"] = json!({"helix": {"from": [0.2, -0.1, 0.4], "to": [0.2 + rise, -0.1, 0.4],
+        "radius": radius, "turns": turns, "start": [0.5, 0.0, 2.0]}});
+    // With a node at the marker in between.
+    (made["elements"], made["markers"]["mid"]) = (json!(20), json!(0.4));
+    made["section"] = match is_rod {
+        true => json!({"shape": {"circle": {"radius": 0.01}}}),
+        false => json!({"area": 1e-4, "second_moment": 0.0}),
+    };
+    let places = [("root", 0.0), ("mid", 0.4), ("tip", 1.0)];
+    let outputs = places.map(|(at, _)| json!({"kind": "position", "marker": format!("coil.{at}")}));
+    let scene = json!({"name": "helix", "dimension": 3, "bodies": [made], "outputs": outputs});
+    let title = if is_rod {
+        "helix of a rod"
+    } else {
+        "helix of a cable"
+    };
+    let mut specimen = Specimen::new(title, scene);
+    for (at, s) in places {
+        // Along x, from +z: x cross z is -y, and the turns are negative.
+        let (sin, cos) = (2.0 * PI * turns * s).sin_cos();
+        let place = Vector3::new(0.2 + rise * s, -0.1 - radius * sin, 0.4 + radius * cos);
+        specimen = vector(specimen, &format!("coil.{at}.position"), "m", place);
     }
     specimen
 }
