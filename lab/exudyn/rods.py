@@ -46,11 +46,12 @@ def path(name, case, **more):
 def extrapolated(name, case, stiffer):
     """The answer at no step and no element length, both of order 2, and what the last of each changed."""
     every = case["every"]
+    meshes = [count * case.get("finer_mesh", 1) for count in MESHES]
     fine = STEPS * case.get("finer", 1)
-    runs = [path(name, case, elements=count, step=every / fine, stiffer=stiffer) for count in MESHES]
+    runs = [path(name, case, elements=count, step=every / fine, stiffer=stiffer) for count in meshes]
     first = [run + (run - coarse) / 3 for coarse, run in zip(runs, runs[1:])]
     mesh = first[1] + (first[1] - first[0]) / 15
-    steps = [runs[1]] + [path(name, case, elements=MESHES[1], step=every / (fine * k), stiffer=stiffer) for k in (2, 4)]
+    steps = [runs[1]] + [path(name, case, elements=meshes[1], step=every / (fine * k), stiffer=stiffer) for k in (2, 4)]
     once = [b + (b - a) / 3 for a, b in zip(steps, steps[1:])]
     result = mesh + once[1] - runs[1]
     changes = {"mesh": apart(first[1], first[0]) / case["length"], "step": apart(once[1], once[0]) / case["length"]}
