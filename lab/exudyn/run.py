@@ -13,6 +13,7 @@ import time
 import exudyn as exu
 
 from model import Model
+from space import SpaceModel
 
 LINEAR = {"dense": exu.LinearSolverType.EXUdense, "sparse": exu.LinearSolverType.EigenSparse}
 EXPLICIT = {
@@ -20,6 +21,7 @@ EXPLICIT = {
     "rk4": exu.DynamicSolverType.RK44,
     "rk67": exu.DynamicSolverType.RK67,
     "dopri5": exu.DynamicSolverType.DOPRI5,
+    "ode23": exu.DynamicSolverType.ODE23,
 }
 
 
@@ -54,8 +56,8 @@ def settings_of(options):
         alpha.useNewmark = True
         alpha.useIndex2Constraints = True
     integration.explicit.computeEndOfStepAccelerations = False
-    integration.explicit.useLieGroupIntegration = False
-    if options.get("solver") == "dopri5":
+    integration.explicit.useLieGroupIntegration = options.get("nodes") == "vectors"
+    if options.get("solver") in ("dopri5", "ode23"):
         integration.automaticStepSize = True
         integration.relativeTolerance = options["tolerance"]
         integration.absoluteTolerance = options["tolerance"]
@@ -68,7 +70,7 @@ def run(options):
         scene = json.load(file)
     for index, share in enumerate(options.get("shares", [])):
         scene["bodies"][index]["share"] = share
-    model = Model(scene, options)
+    model = (SpaceModel if scene.get("dimension") == 3 else Model)(scene, options)
     settings = settings_of(options)
     solver = options.get("solver", "alpha")
     if solver in EXPLICIT:
@@ -84,7 +86,7 @@ def run(options):
         good = main.SolveSteps(model.mbs, settings)
     cpu, whole = time.thread_time() - started, time.process_time() - process
     main.FinalizeSolver(model.mbs, settings)
-    path = model.mbs.GetSensorStoredData(model.sensor)[:, :3].tolist()
+    path = model.mbs.GetSensorStoredData(model.sensor)[:, : 1 + scene["dimension"]].tolist()
     return {
         "good": bool(good),
         "cpu_time": cpu,

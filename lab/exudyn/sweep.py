@@ -71,7 +71,7 @@ class Sweep:
         self.cache.parent.mkdir(parents=True, exist_ok=True)
         self.tried = json.loads(self.cache.read_text(encoding="utf-8")) if self.cache.exists() else {}
         reference = (ROOT / case["reference"]).read_text(encoding="utf-8").split()
-        rows = [[float(cell) for cell in row.split(",")[:3]] for row in reference[1:]]
+        rows = [[float(cell) for cell in row.split(",")] for row in reference[1:]]
         self.reference = {round(row[0], 6): row[1:] for row in rows}
 
     def run(self, choice):
@@ -92,9 +92,9 @@ class Sweep:
         if not answer["good"] or len(answer["path"]) != round(options["stop_time"] / options["every"]) + 1:
             return None
         error = 0.0
-        for at_time, x, y in answer["path"]:
+        for at_time, *place in answer["path"]:
             at = self.reference[round(at_time, 6)]
-            distance = math.hypot(x - at[0], y - at[1]) / self.case["length"]
+            distance = math.dist(place, at[: len(place)]) / self.case["length"]
             # An unstable run ends in what is no number, which no comparison sees.
             error = max(error, distance if math.isfinite(distance) else 1e9)
         if not error < 0.3:

@@ -60,15 +60,20 @@ impl Table {
 
     /// A curve in the plane, from its two columns.
     pub fn points(&self, x: &str, y: &str) -> Result<Vec<[f64; 2]>> {
-        let pairs = self.column(x)?.into_iter().zip(self.column(y)?);
-        Ok(pairs.map(|(x, y)| [x, y]).collect())
+        self.curve([x, y])
     }
 
-    /// The path of a marker in the plane.
-    pub fn marker(&self, name: &str) -> Result<Vec<[f64; 2]>> {
-        self.points(
-            &format!("{name}.position[1]"),
-            &format!("{name}.position[2]"),
-        )
+    /// A curve, from its columns.
+    pub fn curve<const D: usize>(&self, names: [&str; D]) -> Result<Vec<[f64; D]>> {
+        let columns = names.map(|name| self.column(name));
+        let columns = columns.into_iter().collect::<Result<Vec<_>>>()?;
+        let row = |index: usize| std::array::from_fn(|k| columns[k][index]);
+        Ok((0..self.rows.len()).map(row).collect())
+    }
+
+    /// The path of a marker in the plane or in space.
+    pub fn marker<const D: usize>(&self, name: &str) -> Result<Vec<[f64; D]>> {
+        let names: [String; D] = std::array::from_fn(|k| format!("{name}.position[{}]", k + 1));
+        self.curve(names.each_ref().map(String::as_str))
     }
 }

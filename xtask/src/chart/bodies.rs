@@ -193,7 +193,7 @@ fn peers(bench: &Bench) -> Result<()> {
         let (mut own, mut other, mut steps, mut apart) = (vec![], vec![], 0.0, 0.0);
         for _ in 0..REPEATS {
             let ran = bench.run(&title, &run)?.remove(0)?;
-            let answer = exudyn.run(&json!({
+            let answer = exudyn.run::<2>(&json!({
                 "scene": bench.write(&scene)?, "marker": MARKER, "solver": "alpha", "newton": "modified",
                 "linear": "sparse", "step": PEER_STEP, "stop_time": STOP_TIME, "every": STOP_TIME,
             }))?;

@@ -27,6 +27,7 @@ mod overhead;
 mod peers;
 mod planned;
 mod rivals;
+mod rods;
 mod server;
 mod space;
 mod tolerances;
@@ -39,7 +40,7 @@ type Chart = (&'static str, &'static str, fn(&Bench) -> Result<()>);
 
 /// All charts, in the order of the page.
 #[rustfmt::skip]
-const CHARTS: [Chart; 18] = [
+const CHARTS: [Chart; 19] = [
     ("mesh", "Error against the number of elements", mesh::measure),
     ("space", "Shape functions, meshes, quadratures and masses", space::measure),
     ("methods", "Integrators: error in time against CPU time", methods::measure),
@@ -53,6 +54,7 @@ const CHARTS: [Chart; 18] = [
     ("constraints", "Projection and partitioning: error against CPU time", constraints::measure),
     ("energies", "Energy and residuals of mechanisms over a minute", energies::energies),
     ("peers", "Exudyn at its best and the product as it plans: error against CPU time", peers::measure),
+    ("rods", "Rods in space beside Exudyn's geometrically exact beam: error against CPU time", rods::measure),
     ("trees", "Trees of bodies in space beside MuJoCo, Pinocchio and Exudyn", trees::measure),
     ("failures", "Where methods fail, and what the product does there", failures::measure),
     ("formulations", "Coordinates and how accelerations follow from forces", formulations::measure),

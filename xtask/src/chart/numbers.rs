@@ -3,8 +3,8 @@
 use anyhow::{Context, Result};
 use serde_json::Value;
 
-/// A curve in the plane, point by point.
-pub type Path = Vec<[f64; 2]>;
+/// A curve in the plane or in space, point by point.
+pub type Path<const D: usize = 2> = Vec<[f64; D]>;
 
 /// The middle value; the mean of the two middle ones where their number is even.
 pub fn median(values: &[f64]) -> f64 {
@@ -32,12 +32,13 @@ pub fn peaks(curve: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 /// Distance between two points.
-pub fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+pub fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+    let sides = a.iter().zip(&b).map(|(a, b)| a - b);
+    sides.fold(0.0, f64::hypot)
 }
 
 /// Largest distance between two curves.
-pub fn largest_distance(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
+pub fn largest_distance<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {
     largest(a.iter().zip(b).map(|(a, b)| distance(*a, *b)))
 }
 
@@ -59,9 +60,15 @@ pub fn text(value: &Value) -> Result<&str> {
 }
 
 /// A curve of a report, rows of time and place.
-pub fn path(value: &Value) -> Result<Path> {
+pub fn path<const D: usize>(value: &Value) -> Result<Path<D>> {
     let rows = value.as_array().context("expected a path")?;
-    let row = |row: &Value| Ok([number(&row[1])?, number(&row[2])?]);
+    let row = |row: &Value| {
+        let mut place = [0.0; D];
+        for (k, part) in place.iter_mut().enumerate() {
+            *part = number(&row[k + 1])?;
+        }
+        Ok(place)
+    };
     rows.iter().map(row).collect()
 }
 

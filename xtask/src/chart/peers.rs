@@ -114,7 +114,7 @@ impl Peers {
         let mut owns = vec![Timed::default(); runs.len()];
         for round in 1..=ROUNDS {
             for (point, timed) in points.iter().zip(&mut others) {
-                let answer = exudyn.run(&self.options(bench, point)?)?;
+                let answer = exudyn.run(&options(bench, &self.setting, point)?)?;
                 timed.error = self.error(&answer.path)?;
                 timed.cpu_times.push(answer.cpu_time);
             }
@@ -171,22 +171,22 @@ impl Peers {
             &time,
         ]);
     }
+}
 
-    /// Options of a run of Exudyn: those of all runs, and its own.
-    fn options(&self, bench: &Bench, point: &Value) -> Result<Value> {
-        let mut all = json!({ "scene": bench.workspace().path(text(&self.setting["scene"])?) });
-        for key in ["marker", "stop_time", "every", "shares"] {
-            if let Some(value) = self.setting.get(key) {
-                all[key] = value.clone();
-            }
+/// Options of a run of Exudyn: those of all runs of a scene, and its own.
+pub fn options(bench: &Bench, setting: &Value, point: &Value) -> Result<Value> {
+    let mut all = json!({ "scene": bench.workspace().path(text(&setting["scene"])?) });
+    for key in ["marker", "stop_time", "every", "shares"] {
+        if let Some(value) = setting.get(key) {
+            all[key] = value.clone();
         }
-        for options in [&self.setting["options"], point] {
-            for (key, option) in options.as_object().into_iter().flatten() {
-                all[key] = option.clone();
-            }
-        }
-        Ok(all)
     }
+    for options in [&setting["options"], point] {
+        for (key, option) in options.as_object().into_iter().flatten() {
+            all[key] = option.clone();
+        }
+    }
+    Ok(all)
 }
 
 /// Elements of cables in words.
@@ -199,7 +199,7 @@ fn mesh(counts: &[u32]) -> String {
 }
 
 /// Settings of Exudyn in words; what is not said is its default.
-fn described(options: &Value) -> Result<String> {
+pub fn described(options: &Value) -> Result<String> {
     const APART: &str = "elements error cpu_time heavy rigid step solver";
     let mut words = format!(
         "{}; step {:.2e}",

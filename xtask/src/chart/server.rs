@@ -11,7 +11,7 @@ use crate::python::Python;
 
 use super::numbers::{Path, number, path};
 
-/// Exudyn for scenes of the plane.
+/// Exudyn for scenes of the plane, and of rods in space.
 pub const EXUDYN: &str = "lab/exudyn/run.py";
 /// MuJoCo, Pinocchio and Exudyn for trees in space.
 pub const TREES: &str = "lab/trees/run.py";
@@ -24,9 +24,9 @@ pub struct Server {
 }
 
 /// What a run gave.
-pub struct Answer {
+pub struct Answer<const D: usize = 2> {
     /// Places of the marker, m.
-    pub path: Path,
+    pub path: Path<D>,
     /// CPU time of the steps alone, s.
     pub cpu_time: f64,
 }
@@ -52,7 +52,7 @@ impl Server {
     }
 
     /// One run with options as `run.py` has them.
-    pub fn run(&mut self, options: &Value) -> Result<Answer> {
+    pub fn run<const D: usize>(&mut self, options: &Value) -> Result<Answer<D>> {
         let answer = self.ask(options)?;
         if answer["good"] != Value::Bool(true) {
             bail!("a run failed: {options}: {}", answer["failure"]);

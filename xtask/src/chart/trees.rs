@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, Ran, Run};
 use super::csv::Csv;
-use super::numbers::{largest, median, number, numbers};
+use super::numbers::{largest, largest_distance, median, number, numbers};
 use super::server::{Server, TREES};
 
 /// Simulated time, and time between points at which places are compared, s.
@@ -44,7 +44,7 @@ const OTHERS: [(&str, &str, &str); 8] = [
 ];
 
 /// Places of a point in space, m.
-type Path = Vec<[f64; 3]>;
+type Path = super::numbers::Path<3>;
 
 /// A tree whose last body is watched.
 struct Tree {
@@ -192,10 +192,7 @@ impl Tree {
 
     /// Places of the marker, without the start.
     fn path(&self, ran: &Ran) -> Result<Path> {
-        let name = |k: usize| format!("{}.position[{k}]", self.marker);
-        let [x, y, z] = [1, 2, 3].map(|k| ran.table.column(&name(k)));
-        let rows = x?.into_iter().zip(y?).zip(z?).skip(1);
-        Ok(rows.map(|((x, y), z)| [x, y, z]).collect())
+        Ok(ran.table.marker(&self.marker)?.split_off(1))
     }
 
     /// Pinocchio at the finest step, which another mechanics in the same steps, steps twice as long and the product must confirm.
@@ -206,11 +203,11 @@ impl Tree {
             places(&answer).with_context(|| format!("{program} failed: {}", answer["failure"]))
         };
         let reference = path("Pinocchio", FINEST[0])?;
-        let doubled = apart(&path("Pinocchio", FINEST[1])?, &reference);
-        let other = apart(&path("MuJoCo", FINEST[0])?, &reference);
+        let doubled = largest_distance(&path("Pinocchio", FINEST[1])?, &reference);
+        let other = largest_distance(&path("MuJoCo", FINEST[0])?, &reference);
         let title = format!("trees, {}, reference", self.name);
         let ran = bench.run(&title, &[self.run("rk4", TIGHTEST)])?.remove(0)?;
-        let own = apart(&self.path(&ran)?, &reference);
+        let own = largest_distance(&self.path(&ran)?, &reference);
         csv.row(&[&self.name, &self.bodies, &doubled, &other, &own]);
         Ok(reference)
     }
@@ -233,7 +230,7 @@ impl Tree {
                         method: how.2,
                         setting: EVERY / f64::from(steps),
                         steps: (f64::from(steps) * STOP_TIME / EVERY).round(),
-                        error: apart(&path, reference),
+                        error: largest_distance(&path, reference),
                         cpu_times: vec![cpu_time],
                     });
                     if cpu_time > LONG {
@@ -277,7 +274,7 @@ impl Tree {
                 method,
                 setting: *setting,
                 steps: ran.number("steps"),
-                error: apart(&self.path(&ran)?, reference),
+                error: largest_distance(&self.path(&ran)?, reference),
                 cpu_times: vec![ran.cpu_time],
             });
         }
@@ -321,13 +318,4 @@ fn places(answer: &Value) -> Option<Path> {
         .filter(|_| answer["good"] == Value::Bool(true))?;
     let place = |row: &Value| Some([row[0].as_f64()?, row[1].as_f64()?, row[2].as_f64()?]);
     rows.iter().map(place).collect()
-}
-
-/// Largest distance between two paths, m.
-fn apart(a: &Path, b: &Path) -> f64 {
-    let distance = |(a, b): (&[f64; 3], &[f64; 3])| {
-        let squares = [0, 1, 2].map(|k| (a[k] - b[k]).powi(2));
-        squares.iter().sum::<f64>().sqrt()
-    };
-    largest(a.iter().zip(b).map(distance))
 }
