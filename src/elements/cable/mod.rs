@@ -18,9 +18,7 @@ mod tests;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{
-    BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, Strain, shape,
-};
+use super::{BlockPack, Blocks, Element, EndBlocks, Nodal, NodalPack, NodalView, Strain, shape};
 use crate::math::jet::Number;
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{GAUSS_3, GAUSS_5};
