@@ -121,10 +121,13 @@ fn claimed(
     specimen.claim(&side, "m", place)
 }
 
+/// A shape, the keys of its lengths, and these at three stations, m.
+type Sizes = (&'static str, [&'static str; 2], [[f64; 2]; 3]);
+
 /// All shapes, uniform or tapered.
 fn shapes(is_rod: bool, is_tapered: bool) -> Specimen {
     // Lengths at the stations, m.
-    let sizes: [(&str, [&str; 2], [[f64; 2]; 3]); 4] = [
+    let sizes: [Sizes; 4] = [
         (
             "rectangle",
             ["width", "height"],

@@ -159,7 +159,7 @@ fn sections_are_shapes_or_numbers_or_at_stations() {
         scene
     };
     check(
-        &scene,
+        scene,
         r#"
         /bodies/0/section | {"shape": {"rectangle": {"width": 0.01, "height": 0.02}}} | accepted
         /bodies/0/section | {"shape": {"circle": {"radius": 0}}} | bodies[0].section.shape.circle.radius: expected
@@ -184,7 +184,7 @@ fn sections_are_shapes_or_numbers_or_at_stations() {
         scene
     };
     check(
-        &tapered,
+        tapered,
         r#"
         /bodies/0/stations/0/at | 0.1 | bodies[0].stations[0].at: expected stations from 0 to 1 in order
         /bodies/0/stations/3/at | 0.9 | bodies[0].stations[3].at: expected stations from 0 to 1 in order
