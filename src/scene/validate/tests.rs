@@ -131,7 +131,7 @@ fn types_and_keys_keep_their_places() {
         /bodies/0 | {"name": "rod"} | bodies[0].element: expected "cable", "rod" or "rigid", found nothing
         /bodies/0 | 3 | bodies[0]: expected a body { ... }, found 3
         /bodies/0/section | [1e-3, 1e-8] | bodies[0].section: expected an object { ... }, found a list
-        /bodies/0/shape | {"line": {}, "arc": {}} | bodies[0].shape: expected an object with one of "line" or "arc", found {"arc", "line"}
+        /bodies/0/shape | {"line": {}, "arc": {}} | bodies[0].shape: expected an object with one of "line" or "arc" or "helix", found {"arc", "line"}
         /bodies/0/section/area | "wide" | bodies[0].section.area: expected a number, found "wide"
         /bodies/0/material/colour | 1 | bodies[0].material.colour: expected one of the keys youngs_modulus, shear_modulus, density, damping_time, found "colour"
         /bodies/0/section | {"area": 1} | bodies[0].section.second_moment: expected a value, found nothing
