@@ -22,6 +22,7 @@ mod mechanism;
 mod motion;
 mod moved;
 mod moved_bodies;
+mod moved_rods;
 mod pinned;
 mod planar;
 mod ports;
