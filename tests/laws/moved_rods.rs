@@ -37,7 +37,7 @@ fn read(kinds: &[&str], key: &str, of: &[&str]) -> Vec<Value> {
 
 /// Two rods on a ball, a rigid body at the end, a rod curved without stress, one that flies; forces and moments, dead and
 /// following.
-fn scene(initial: &str) -> Value {
+fn scene() -> Value {
     let mut free = rod(
         "free",
         4,
@@ -46,7 +46,7 @@ fn scene(initial: &str) -> Value {
     );
     free["motion"] = json!({"velocity": [0.3, -0.2, 0.4], "spin": [1.0, -2.0, 1.5]});
     let arc = json!({"arc": {"from": [0.0, 1.0, 0.5], "to": [0.8, 1.4, 0.4], "length": 1.1}});
-    let mut bodies = vec![
+    let bodies = [
         rod(
             "arm",
             4,
@@ -63,12 +63,9 @@ fn scene(initial: &str) -> Value {
                "position": [1.2, 0.6, -0.4], "orientation": {"matrix": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]},
                "markers": {"eye": [0.0, 0.0, 0.0], "edge": [0.02, -0.03, 0.01]}}),
         rod("hook", 4, arc, [-0.4, 0.8, 0.0]),
+        free,
     ];
-    let mut moving = vec!["arm.tip", "whip.mid", "bob.edge", "hook.tip"];
-    if initial == "as_shaped" {
-        bodies.push(free);
-        moving.push("free.tip");
-    }
+    let moving = ["arm.tip", "whip.mid", "bob.edge", "hook.tip", "free.tip"];
     let outputs = [
         read(
             &["position", "velocity", "acceleration", "orientation"],
@@ -98,7 +95,7 @@ fn scene(initial: &str) -> Value {
             {"name": "pull", "kind": "force", "marker": "hook.tip", "value": [0.03, -0.02, 0.05]},
             {"name": "stay", "kind": "spring_damper", "markers": ["ground", "bob.edge"], "point": [1.5, 0.6, 0.2],
              "stiffness": 5.0, "damping": 0.02}],
-        "outputs": outputs.concat(), "initial": initial, "accuracy": {"relative_tolerance": TOLERANCE}})
+        "outputs": outputs.concat(), "accuracy": {"relative_tolerance": TOLERANCE}})
 }
 
 /// A motion of everything: a rotation about the origin, then a shift.
@@ -229,11 +226,11 @@ fn alike(a: &Value, b: &Value, read: impl Fn(&str, &[f64]) -> Vec<f64>) -> Outco
 }
 
 /// An arc hangs in an upright plane: with it the scene turns about the upright; without it about any axis.
-fn moves_alike(initial: &str, axis: [f64; 3], shift: [f64; 3]) -> Outcome {
+fn moves_alike(axis: [f64; 3], shift: [f64; 3]) -> Outcome {
     let upright = Whole::level(Rotation3::new(Vector3::z() * axis[0]), shift);
     let any = Whole::level(Rotation3::new(Vector3::from(axis)), shift);
-    let hanging = scene(initial);
-    let mut straight = scene(initial);
+    let hanging = scene();
+    let mut straight = scene();
     straight["bodies"][3]["shape"] = line([0.0, 1.0, 0.5], [0.8, 1.4, 0.4]);
     for (whole, scene) in [(upright, hanging), (any, straight)] {
         alike(&scene, &whole.moved("", &scene), |name, of| {
@@ -251,9 +248,7 @@ fn scenes_with_rods_move_alike_wherever_they_are() {
             prop::array::uniform3(-1.0..1.0),
         )
     };
-    check(CASES, motions(), |(axis, shift)| {
-        moves_alike("as_shaped", axis, shift)
-    });
+    check(CASES, motions(), |(axis, shift)| moves_alike(axis, shift));
 }
 
 /// The same rod drawn from its other end: markers are as far from it, the first axis is where it was and the second opposite.
@@ -299,8 +294,8 @@ fn seen_from_the_other_end(name: &str, of: &[f64]) -> Vec<f64> {
 
 #[test]
 fn rods_move_alike_from_whichever_end_they_are_drawn() {
-    let initial = "as_shaped";
-    let scene = scene(initial);
+    // Meshes are even: of an odd number of elements about a marker in the middle the last half has one more.
+    let scene = scene();
     for drawn in [
         &["arm"][..],
         &["hook", "free"],
@@ -316,12 +311,12 @@ fn rods_move_alike_from_whichever_end_they_are_drawn() {
             true => seen_from_the_other_end(name, of),
             false => of.to_vec(),
         };
-        alike(&scene, &other, read).unwrap_or_else(|error| panic!("{drawn:?}, {initial}: {error}"));
+        alike(&scene, &other, read).unwrap_or_else(|error| panic!("{drawn:?}: {error}"));
     }
 }
 
 /// Cables that stand, hang on pins and welds, and carry a body that turns; forces, a moment, a spring.
-fn flat(initial: &str) -> Value {
+fn flat() -> Value {
     let cable = |name: &str, elements: usize, from: [f64; 2], to: [f64; 2]| {
         json!({"name": name, "element": "cable", "elements": elements,
                "material": {"youngs_modulus": 1e9, "density": 1000.0, "damping_time": 1e-3},
@@ -363,7 +358,7 @@ fn flat(initial: &str) -> Value {
             {"name": "turn", "kind": "moment", "marker": "swing.root", "value": "0.004"},
             {"name": "stay", "kind": "spring_damper", "markers": ["ground", "bob.edge"], "point": [1.5, 0.2],
              "stiffness": 5.0, "damping": 0.02}],
-        "outputs": outputs.concat(), "initial": initial, "accuracy": {"relative_tolerance": 1e-11}})
+        "outputs": outputs.concat(), "accuracy": {"relative_tolerance": 1e-11}})
 }
 
 /// The same of rods that bend as easily about the normal of the plane, and otherwise as they like.
@@ -405,14 +400,14 @@ fn of_rods(plane: &Plane, flat: &Value) -> Value {
     there
 }
 
-fn bends_alike(initial: &str, (axis, distance): ([f64; 3], f64)) -> Outcome {
+fn bends_alike((axis, distance): ([f64; 3], f64)) -> Outcome {
     let plane = Plane {
         axes: Rotation3::new(Vector3::from(axis)),
         distance,
     };
-    let flat = flat(initial);
+    let flat = flat();
     let there = of_rods(&plane, &flat);
-    let told = |when: &'static str| move |e| TestCaseError::fail(format!("{initial} {when}: {e}"));
+    let told = |when: &'static str| move |e| TestCaseError::fail(format!("{when}: {e}"));
     let (mut flat, mut rods) = (simulation(&flat), simulation(&there));
     agree(&mut flat, &mut rods, &plane, [1e-10, AT_START]).map_err(told("start"))?;
     for part in 1..=3 {
@@ -423,11 +418,11 @@ fn bends_alike(initial: &str, (axis, distance): ([f64; 3], f64)) -> Outcome {
     agree(&mut flat, &mut rods, &plane, [1e-8, AT_END]).map_err(told("end"))
 }
 
-/// Of the same mesh: bending about the normal of a plane is what a cable of the plane knows.
+/// Of the same mesh (markers of rods are nodes, those of cables only where something acts): bending about the normal of a plane is what a cable of the plane knows.
 #[test]
 fn cables_of_the_plane_and_rods_in_it_move_alike() {
     let planes = || (prop::array::uniform3(-2.0..2.0), -1.0..1.0);
-    check(CASES, planes(), |plane| bends_alike("as_shaped", plane));
+    check(CASES, planes(), bends_alike);
 }
 
 /// Positions of the tip of a clamped cable or rod that falls and is pulled aside, `slender` times less thick in inertia of
@@ -472,6 +467,7 @@ fn a_rod_without_torque_moves_as_a_cable_does() {
     };
     let found = [1.0, 4.0, 16.0].map(apart);
     for pair in found.windows(2) {
-        assert!(pair[1] <= pair[0] / 4.0, "apart by {found:?}");
+        // A fourth to first order.
+        assert!(pair[1] <= pair[0] / 3.0, "apart by {found:?}");
     }
 }
