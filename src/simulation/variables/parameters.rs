@@ -12,7 +12,7 @@ type Row<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
 pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
     for body in &resolved.bodies {
         match body {
-            BodyReference::Cable(cable) => add_cable(list, cable),
+            BodyReference::Cable(cable) => add_cable(list, cable, resolved.scene.dimension),
             BodyReference::Rigid(rigid) => add_rigid(list, rigid, resolved.scene.dimension),
         }
     }
@@ -54,7 +54,7 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
     list.parameter("work_limit", what, None, parameter, start);
 }
 
-fn add_cable(list: &mut List, cable: &Cable<'_>) {
+fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
     use Parameter::*;
     let (i, body) = (cable.id, cable.body);
     let material = &body.material;
@@ -84,6 +84,10 @@ fn add_cable(list: &mut List, cable: &Cable<'_>) {
         rows.retain(|(.., parameter, _)| !matches!(parameter, Area(_) | SecondMoment(_)));
     } else if body.is_rod() {
         add_numbers(list, cable);
+    }
+    if dimension == 3 && !body.shape.is_straight() {
+        // It has no frame to be curved in and no bending stiffness.
+        rows.retain(|(.., parameter, _)| !matches!(parameter, SecondMoment(_)));
     }
     if cable.is_rigid() {
         // What is left without effect is none: a study of it would find nothing.
