@@ -76,20 +76,20 @@ mod tests {
 
     #[test]
     fn rules_are_exact_to_their_degree_and_no_further() {
-        for (rule, degree) in [
-            (&GAUSS_3[..], 5),
-            (&GAUSS_5, 9),
-            (&BETWEEN_3, 3),
-            (&LOBATTO_3, 3),
-            (&RADAU_3, 4),
-            (&RADAU_3_LAST, 4),
+        for (rule, degree, missed) in [
+            (&GAUSS_3[..], 5, 1e-5),
+            (&GAUSS_5, 9, 1e-6),
+            (&BETWEEN_3, 3, 1e-5),
+            (&LOBATTO_3, 3, 1e-5),
+            (&RADAU_3, 4, 1e-5),
+            (&RADAU_3_LAST, 4, 1e-5),
         ] {
             for power in 0..=degree {
                 let exact = 1.0 / f64::from(power + 1);
                 assert!((integrate(rule, power) - exact).abs() < 1e-15);
             }
             let exact = 1.0 / f64::from(degree + 2);
-            assert!((integrate(rule, degree + 1) - exact).abs() > 1e-6);
+            assert!((integrate(rule, degree + 1) - exact).abs() > missed);
         }
     }
 }
