@@ -183,20 +183,21 @@ impl<const D: usize> Cable<D> {
 
     /// [`Element::weight`] of the part of the element up to `xi` in [0, 1], kg and kg m.
     pub fn weight_before(&self, xi: f64) -> SVector<f64, 4> {
-        let Parameters {
-            length: l,
-            line_density,
-            ..
-        } = self.parameters;
-        let taper = &self.taper.density;
+        let (l, taper) = (self.parameters.length, &self.taper.density);
         if taper.is_uniform() {
-            return shape::integrals(xi, l) * (line_density * taper.mean());
+            return shape::integrals(xi, l) * self.mean_density();
         }
         let terms = GAUSS_5.iter().map(|point| {
             let at = point.at * xi;
-            shape::values(at, l) * (point.weight * xi * l * line_density * taper.at(at))
+            let density = self.parameters.line_density * taper.at(at);
+            shape::values(at, l) * (point.weight * xi * l * density)
         });
         terms.sum()
+    }
+
+    /// Mean mass per reference length, kg/m.
+    fn mean_density(&self) -> f64 {
+        self.parameters.line_density * self.taper.density.mean()
     }
 
     /// Curvature of the position field at `xi` in [0, 1] less that of the unstressed shape, in the planes that vectors
@@ -274,7 +275,11 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     fn weight(&self) -> SVector<f64, 4> {
-        self.weight_before(1.0)
+        let l = self.parameters.length;
+        match self.taper.density.is_uniform() {
+            true => SVector::from([0.5, l / 12.0, 0.5, -l / 12.0]) * (self.mean_density() * l),
+            false => self.weight_before(1.0),
+        }
     }
 
     fn energy<N: Number>(&self, e: &Nodal<D, N>) -> N {
