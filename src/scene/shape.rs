@@ -84,6 +84,11 @@ impl Shape {
         sum([0.0; 3], [(along, angle.cos()), (out, -angle.sin())])
     }
 
+    /// Whether a plane holds it.
+    pub fn is_plane(&self) -> bool {
+        !matches!(self, Self::Helix { .. })
+    }
+
     /// Whether the shape is straight.
     pub fn is_straight(&self) -> bool {
         matches!(self, Self::Line { .. })

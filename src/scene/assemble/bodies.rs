@@ -13,6 +13,9 @@ use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
 use crate::scene::{CableBody, Error, RigidBody, SectionNumbers, Strain};
 use crate::system::{CableChain, LumpedMass, Rod};
 
+/// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
+const STEPS: u32 = 256;
+
 /// A rigid body about its centre of mass: where that is, m, the angle of its frame, rad, mass, kg, and inertia, kg m^2.
 struct Lump {
     position: [f64; 3],
@@ -136,7 +139,8 @@ impl<const D: usize> Builder<'_, D> {
             let s = mesh[j] + part * (mesh[j + 1] - mesh[j]);
             rod.shape.tangent(s)
         };
-        let axes = carried_nodes(&line, first_axis(rod), tangent, twists);
+        let steps = if rod.shape.is_plane() { 1 } else { STEPS };
+        let axes = carried_nodes(&line, first_axis(rod), (tangent, steps), twists);
         let carried = self.parts.rod_chains.iter().map(|chain| chain.count() + 1);
         let carried = carried.sum();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {

@@ -35,7 +35,7 @@ pub use output::{Along, Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;
 pub use rotation::{Inertia, Orientation};
-pub use section::{Section, SectionNumbers, Station};
+pub use section::{Profile, Section, SectionNumbers, Station};
 pub use solid::Solid;
 pub use strict::Strict;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::checks::{expected, finite, positive, vector};
-use crate::scene::{Error, Shape};
+use crate::scene::{Error, Shape, Vector};
 
 /// Most turns of a helix: of an element more than half a turn is an error, and elements are counted.
 const TURNS: f64 = 1e4;
@@ -38,28 +38,29 @@ impl Shape {
                 }
                 Ok(())
             }
-            Self::Helix { .. } => self.validate_helix(path, dimension),
+            Self::Helix {
+                radius,
+                turns,
+                start,
+                ..
+            } => self.validate_helix(path, dimension, (*radius, *turns, start)),
         }
     }
 
-    fn validate_helix(&self, path: &str, dimension: usize) -> Result<(), Error> {
+    fn validate_helix(
+        &self,
+        path: &str,
+        dimension: usize,
+        (radius, turns, start): (f64, f64, &Vector),
+    ) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.helix.{key}");
-        let Self::Helix {
-            radius,
-            turns,
-            start,
-            ..
-        } = self
-        else {
-            return Ok(());
-        };
         if dimension == 2 {
             let wanted = "\"line\" or \"arc\" in the plane";
             return Err(expected(path, wanted, "\"helix\""));
         }
-        positive(&at("radius"), "m", *radius)?;
-        finite(&at("turns"), *turns)?;
-        if *turns == 0.0 || turns.abs() > TURNS {
+        positive(&at("radius"), "m", radius)?;
+        finite(&at("turns"), turns)?;
+        if turns == 0.0 || turns.abs() > TURNS {
             let wanted = format!("a number other than 0 up to {TURNS:e}");
             return Err(expected(&at("turns"), &wanted, turns));
         }

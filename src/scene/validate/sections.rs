@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::checks::{expected, finite, needed, not_negative, planar, positive, vector};
 use crate::scene::mesh::SHORTEST;
-use crate::scene::{CableBody, Error, Model, Section, Strain};
+use crate::scene::{CableBody, Error, Model, Profile, Section, Strain};
 
 impl CableBody {
     /// Its cross section, or those at stations, and nothing of a cable that rods alone have.
@@ -145,8 +145,8 @@ const OF_RODS: &str = "nothing of a cable (an element of \"rod\" has sections th
 
 impl Section {
     fn validate(&self, path: &str, dimension: usize, is_rod: bool) -> Result<(), Error> {
-        if self.shape.is_some() {
-            return self.validate_shape(path, dimension, is_rod);
+        if let Some(shape) = self.shape {
+            return self.validate_shape(path, dimension, is_rod, shape);
         }
         let at = |key: &str| format!("{path}.{key}");
         if is_rod {
@@ -160,7 +160,13 @@ impl Section {
         positive(&at("area"), "m^2", area)
     }
 
-    fn validate_shape(&self, path: &str, dimension: usize, is_rod: bool) -> Result<(), Error> {
+    fn validate_shape(
+        &self,
+        path: &str,
+        dimension: usize,
+        is_rod: bool,
+        mut shape: Profile,
+    ) -> Result<(), Error> {
         let numbers = [
             ("area", self.area.is_some()),
             ("second_moment", self.second_moment.is_some()),
@@ -171,19 +177,22 @@ impl Section {
             let wanted = "nothing beside `shape`, which it follows from";
             return Err(expected(&format!("{path}.{key}"), wanted, "a value"));
         }
-        let Some(mut shape) = self.shape else {
-            return Ok(());
-        };
         let place = format!("{path}.shape.{}", shape.key());
         for (key, length) in shape.lengths() {
             positive(&format!("{place}.{key}"), "m", *length)?;
         }
-        if shape.numbers().area <= 0.0 {
+        if let Profile::Tube {
+            radius,
+            inner_radius,
+        } = shape
+            && inner_radius >= radius
+        {
             let wanted = "less than the outer radius";
-            let [.., (_, inner)] = &shape.lengths()[..] else {
-                return Ok(());
-            };
-            return Err(expected(&format!("{place}.inner_radius"), wanted, **inner));
+            return Err(expected(
+                &format!("{place}.inner_radius"),
+                wanted,
+                inner_radius,
+            ));
         }
         if !is_rod && self.coupling.is_some() {
             return Err(expected(&format!("{path}.coupling"), OF_RODS, "a value"));
