@@ -30,6 +30,7 @@ mod projection;
 mod random;
 mod reactions;
 mod rigid;
+mod settled_rods;
 mod solves;
 mod space;
 mod spatial;

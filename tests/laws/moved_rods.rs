@@ -12,24 +12,24 @@ const CASES: u32 = 6;
 
 /// Differences, relative to the size of what is compared, that roundoff may make at the start; and after steps, whose
 /// lengths roundoff changes as well: what the tolerance allows.
-const AT_START: f64 = 1e-8;
+pub const AT_START: f64 = 1e-8;
 const AT_END: f64 = 1e-7;
 const TOLERANCE: f64 = 1e-9;
 
-const GRAVITY: [f64; 3] = [0.4, -0.3, -9.6];
+pub const GRAVITY: [f64; 3] = [0.4, -0.3, -9.6];
 
-fn rod(name: &str, elements: usize, shape: Value, axis: [f64; 3]) -> Value {
+pub fn rod(name: &str, elements: usize, shape: Value, axis: [f64; 3]) -> Value {
     json!({"name": name, "element": "rod", "elements": elements,
            "material": {"youngs_modulus": 1e9, "shear_modulus": 4e8, "density": 1000.0, "damping_time": 1e-3},
            "section": {"area": 1e-4, "second_moments": [1e-9, 3e-9], "torsion_constant": 1.5e-9, "coupling": [0.2, -0.1, 0.1]},
            "shape": shape, "axis": axis, "markers": {"root": 0.0, "mid": 0.5, "tip": 1.0}})
 }
 
-fn line(from: [f64; 3], to: [f64; 3]) -> Value {
+pub fn line(from: [f64; 3], to: [f64; 3]) -> Value {
     json!({"line": {"from": from, "to": to}})
 }
 
-fn read(kinds: &[&str], key: &str, of: &[&str]) -> Vec<Value> {
+pub fn read(kinds: &[&str], key: &str, of: &[&str]) -> Vec<Value> {
     let of = of.iter();
     of.flat_map(|of| kinds.iter().map(move |kind| json!({"kind": kind, key: of})))
         .collect()
@@ -193,7 +193,7 @@ fn outputs(simulation: &mut Simulation) -> Vec<(String, Vec<f64>)> {
 
 /// Outputs of the second are those of the first, seen through `read`. The angular momentum about the origin is another where
 /// the origin is.
-fn same(
+pub fn same(
     [a, b]: [&mut Simulation; 2],
     read: impl Fn(&str, &[f64]) -> Vec<f64>,
     limit: f64,

@@ -1,0 +1,54 @@
+//! Static equilibria of rods that carry bodies.
+
+use serde_json::{Value, json};
+
+use crate::laws::differences::Outcome;
+use crate::laws::moved::simulation;
+use crate::laws::moved_rods::{AT_START, GRAVITY, line, read, rod, same};
+
+/// A clamped rod that carries a body at its tip, and one under the weight and the moment of that body instead: in
+/// equilibrium both are the same. The moment has no potential, and the body no stiffness but that of its joint.
+fn carrying(moment: [f64; 3], kind: &str) -> Outcome {
+    const MASS: f64 = 0.2;
+    let shape = line([0.0, 0.0, 0.0], [1.0, 0.2, 0.1]);
+    let arm = rod("arm", 4, shape, [0.0, 0.1, 1.0]);
+    // On a ball it hangs below.
+    let above = match kind {
+        "weld" => 0.0,
+        _ => 0.05,
+    };
+    let bob = json!({"name": "bob", "element": "rigid", "mass": MASS, "inertia": [1e-5, 2e-5, 2e-5],
+                     "position": [1.0, 0.2, 0.1 - above], "markers": {"eye": [0.0, 0.0, above]}});
+    let wall = json!({"name": "wall", "kind": "weld", "markers": ["ground", "arm.root"]});
+    let end = json!({"name": "end", "kind": kind, "markers": ["arm.tip", "bob.eye"]});
+    let on = match kind {
+        "weld" => "bob.eye",
+        _ => "arm.tip",
+    };
+    let weight = GRAVITY.map(|g| MASS * g);
+    let twist =
+        |on: &str| json!({"name": "twist", "kind": "moment", "marker": on, "value": moment});
+    let all = |bodies: &[&Value], joints: &[&Value], loads: &[Value]| {
+        json!({"name": "carrying", "dimension": 3, "gravity": GRAVITY, "bodies": bodies, "joints": joints,
+               "loads": loads, "initial": "static_equilibrium",
+               "outputs": read(&["position", "orientation"], "marker", &["arm.mid", "arm.tip"])})
+    };
+    let carried = all(&[&arm, &bob], &[&wall, &end], &[twist(on)]);
+    let force = json!({"name": "weight", "kind": "force", "marker": "arm.tip", "value": weight});
+    let loaded = all(&[&arm], &[&wall], &[twist("arm.tip"), force]);
+    let (mut a, mut b) = (simulation(&carried), simulation(&loaded));
+    same([&mut a, &mut b], |_, of| of.to_vec(), AT_START)
+}
+
+#[test]
+fn rods_settle_under_a_body_as_under_its_weight() {
+    for moment in [
+        [1e-9, 2e-9, -1.5e-9],
+        [0.01, 0.02, -0.015],
+        [-0.2, 0.4, 0.6],
+    ] {
+        for kind in ["weld", "spherical"] {
+            carrying(moment, kind).unwrap_or_else(|error| panic!("{kind}, {moment:?}: {error}"));
+        }
+    }
+}
