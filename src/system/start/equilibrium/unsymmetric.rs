@@ -85,6 +85,15 @@ pub(super) fn solve<const D: usize>(
         }
         basis.push(w.iter().map(|w| w / rest).collect());
     }
+    substitute_back(&columns, &mut target);
+    for (v, factor) in basis.iter().zip(&target[..columns.len()]) {
+        x.iter_mut().zip(v).for_each(|(x, v)| *x += factor * v);
+    }
+    !columns.is_empty() && x.iter().all(|x| x.is_finite())
+}
+
+/// Solves with the triangular matrix of these columns in place, along directions that it stretches; others stay out.
+fn substitute_back(columns: &[Vec<f64>], target: &mut [f64]) {
     let stretches = columns.iter().enumerate().map(|(i, column)| column[i]);
     let largest = stretches.fold(0.0, f64::max);
     for i in (0..columns.len()).rev() {
@@ -95,10 +104,6 @@ pub(super) fn solve<const D: usize>(
             false => 0.0,
         };
     }
-    for (v, factor) in basis.iter().zip(&target[..columns.len()]) {
-        x.iter_mut().zip(v).for_each(|(x, v)| *x += factor * v);
-    }
-    !columns.is_empty() && x.iter().all(|x| x.is_finite())
 }
 
 /// Solves with the symmetric factors, inside the tangent plane of the constraints: what they lead out of it, no
