@@ -1,5 +1,7 @@
 //! Static equilibria of rods that carry bodies.
 
+use flexbody::scene::Scene;
+use flexbody::simulation::Simulation;
 use serde_json::{Value, json};
 
 use crate::laws::differences::Outcome;
@@ -50,5 +52,23 @@ fn rods_settle_under_a_body_as_under_its_weight() {
         for kind in ["weld", "spherical"] {
             carrying(moment, kind).unwrap_or_else(|error| panic!("{kind}, {moment:?}: {error}"));
         }
+    }
+}
+
+/// On a ball below a rod a body that a moment drives about the upright turns for ever, however small the moment is.
+#[test]
+fn what_turns_for_ever_has_no_equilibrium() {
+    for moment in [1e-6, 0.1] {
+        let arm = rod("arm", 4, line([0.0; 3], [1.0, 0.0, 0.0]), [0.0, 0.0, 1.0]);
+        let bob = json!({"name": "bob", "element": "rigid", "mass": 1.0, "inertia": [0.1, 0.1, 0.1],
+                         "position": [1.0, 0.0, -0.3], "markers": {"eye": [0.0, 0.0, 0.3]}});
+        let scene = json!({"name": "driven", "dimension": 3, "gravity": [0.0, 0.0, -9.81], "bodies": [arm, bob],
+            "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "arm.root"]},
+                       {"name": "ball", "kind": "spherical", "markers": ["arm.tip", "bob.eye"]}],
+            "loads": [{"name": "drive", "kind": "moment", "marker": "bob.eye", "value": [0.0, 0.0, moment]}],
+            "initial": "static_equilibrium"});
+        let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+        let told = Simulation::new(scene).initialize(0.0);
+        assert!(told.is_err(), "{moment} N m: an equilibrium was found");
     }
 }
