@@ -18,6 +18,10 @@ const LIVES: &str = "lives";
 const SEEDS: &str = "seeds";
 /// Where those states are.
 const STATES: &str = "fuzz/seeds/state";
+/// Where the ready scenes are written without spaces, and the longest input that is made of them: what is longer would
+/// be cut off, and refused before much is read of it.
+const SCENES: &str = "fuzz/seeds/scene";
+const LONGEST: usize = 8192;
 
 /// How long each target runs, s.
 const SECONDS: u32 = 20;
@@ -61,6 +65,7 @@ pub fn test(workspace: &Workspace) -> Result<()> {
     let programs = build(workspace)?;
     process::run(&mut program(&programs, LIVES)?)?;
     process::run(program(&programs, SEEDS)?.arg(workspace.target(STATES)))?;
+    compact_scenes(workspace)?;
     let dictionary = dictionary(workspace)?;
     let start = |target| start(workspace, program(&programs, target)?, target, &dictionary);
     let runs = TARGETS.map(|target| (target, start(target)));
@@ -116,9 +121,9 @@ fn start(
         program.arg(workspace.target(STATES));
     }
     if target == "scene" {
-        program.arg(workspace.path("scenes"));
+        program.arg(workspace.target(SCENES));
         program.arg(format!("-dict={}", dictionary.display()));
-        program.arg("-max_len=4096");
+        program.arg(format!("-max_len={LONGEST}"));
     }
     program
         // Twice as fast, and there is no pointer to what a function left on its stack.
@@ -152,6 +157,31 @@ fn finish(target: &str, run: Child) -> Result<()> {
         .find_map(|line| line.strip_prefix("stat::number_of_executed_units:"));
     let count = count.context("libFuzzer printed no statistics")?;
     eprintln!("{target}: {} inputs in {SECONDS} s", count.trim());
+    Ok(())
+}
+
+/// Writes the ready scenes without spaces.
+fn compact_scenes(workspace: &Workspace) -> Result<()> {
+    let folder = workspace.path("scenes");
+    let scenes = std::fs::read_dir(&folder)
+        .with_context(|| format!("cannot read the folder {}", shown(&folder)))?;
+    for scene in scenes {
+        let from = scene?.path();
+        if from.to_string_lossy().ends_with(".schema.json") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&from)
+            .with_context(|| format!("cannot read {}", shown(&from)))?;
+        let scene: Value =
+            serde_json::from_str(&text).with_context(|| format!("{} is no JSON", shown(&from)))?;
+        let compact = scene.to_string();
+        if compact.len() > LONGEST {
+            bail!("{} is longer than {LONGEST} bytes", shown(&from));
+        }
+        let name = from.file_name().context("a scene without a name")?;
+        let to = prepared(&workspace.target(SCENES).join(name))?;
+        std::fs::write(&to, compact).with_context(|| format!("cannot write {}", shown(&to)))?;
+    }
     Ok(())
 }
 
