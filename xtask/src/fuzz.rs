@@ -19,9 +19,10 @@ const SEEDS: &str = "seeds";
 /// Where those states are.
 const STATES: &str = "fuzz/seeds/state";
 /// Where the ready scenes are written without spaces, and the longest input that is made of them: what is longer would
-/// be cut off, and refused before much is read of it.
+/// be cut off, and refused before much is read of it. The dozen rigid bodies of a Stewart platform are longer: with
+/// sanitizers it takes more than a minute to find out that they do not fit.
 const SCENES: &str = "fuzz/seeds/scene";
-const LONGEST: usize = 8192;
+const LONGEST: usize = 4096;
 
 /// How long each target runs, s.
 const SECONDS: u32 = 20;
@@ -160,7 +161,7 @@ fn finish(target: &str, run: Child) -> Result<()> {
     Ok(())
 }
 
-/// Writes the ready scenes without spaces.
+/// Writes the ready scenes without spaces, where they are not too long.
 fn compact_scenes(workspace: &Workspace) -> Result<()> {
     let folder = workspace.path("scenes");
     let scenes = std::fs::read_dir(&folder)
@@ -176,7 +177,7 @@ fn compact_scenes(workspace: &Workspace) -> Result<()> {
             serde_json::from_str(&text).with_context(|| format!("{} is no JSON", shown(&from)))?;
         let compact = scene.to_string();
         if compact.len() > LONGEST {
-            bail!("{} is longer than {LONGEST} bytes", shown(&from));
+            continue;
         }
         let name = from.file_name().context("a scene without a name")?;
         let to = prepared(&workspace.target(SCENES).join(name))?;
