@@ -14,19 +14,15 @@ fn carrying(moment: [f64; 3], kind: &str) -> Outcome {
     const MASS: f64 = 0.2;
     let shape = line([0.0, 0.0, 0.0], [1.0, 0.2, 0.1]);
     let arm = rod("arm", 4, shape, [0.0, 0.1, 1.0]);
-    // On a ball it hangs below.
-    let above = match kind {
-        "weld" => 0.0,
-        _ => 0.05,
+    // On a ball it hangs below and would turn under a moment of its own.
+    let (above, on) = match kind {
+        "weld" => (0.0, "bob.eye"),
+        _ => (0.05, "arm.tip"),
     };
     let bob = json!({"name": "bob", "element": "rigid", "mass": MASS, "inertia": [1e-5, 2e-5, 2e-5],
                      "position": [1.0, 0.2, 0.1 - above], "markers": {"eye": [0.0, 0.0, above]}});
     let wall = json!({"name": "wall", "kind": "weld", "markers": ["ground", "arm.root"]});
     let end = json!({"name": "end", "kind": kind, "markers": ["arm.tip", "bob.eye"]});
-    let on = match kind {
-        "weld" => "bob.eye",
-        _ => "arm.tip",
-    };
     let weight = GRAVITY.map(|g| MASS * g);
     let twist =
         |on: &str| json!({"name": "twist", "kind": "moment", "marker": on, "value": moment});
