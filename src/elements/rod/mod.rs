@@ -30,20 +30,23 @@
 //! Velocities are those of `e`, the angular velocity about the tangent at both ends, and the rate of `beta`; `d` follows by
 //! `d' = spin t x d - (d . u') u / (u . u)`. Forces are the factors of these in the power.
 
-mod kernel;
+pub(in crate::elements) mod geometry;
+pub(in crate::elements) mod kernel;
 mod quadratic;
+mod second;
 #[cfg(test)]
 mod statics;
-mod tangent;
+pub(in crate::elements) mod tangent;
 #[cfg(test)]
-mod tests;
-mod vectors;
+pub(in crate::elements) mod tests;
+pub(in crate::elements) mod vectors;
 
 use crate::elements::Along;
 use crate::elements::line::{dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::{GAUSS_5, Point};
-use kernel::{Kernel, POINTS};
+use geometry::{Geometry, POINTS};
+use kernel::Kernel;
 use vectors::{cross, plus, unit};
 
 /// Velocities of an element: `r`, `u`, spin of the first end, the same of the last, internal twist.
@@ -124,19 +127,21 @@ const POINT: [usize; 3] = [0, 1, 2];
 
 /// Strain times length, by the size of numbers that it comes from, below which an unstressed shape counts as straight or
 /// untwisted.
-const ROUNDOFF: f64 = 1e-14;
+pub(in crate::elements) const ROUNDOFF: f64 = 1e-14;
 
 impl Rod {
     /// A rod whose unstressed shape is this one; its internal twist does not count. Strains that are roundoff are none.
     pub fn new(parameters: Parameters, shape: &At<f64>) -> Self {
         let (l, times) = (parameters.length, parameters.damping_times);
         let mut kernel = Kernel {
-            length: l,
-            inverse_length: 1.0 / l,
+            geometry: Geometry {
+                length: l,
+                inverse_length: 1.0 / l,
+                is_round: false,
+            },
             stiffness: parameters.stiffness,
             damping: parameters.stiffness,
             offset: [[0.0; 3]; 3],
-            is_round: false,
             is_damped: times.iter().any(|time| *time > 0.0),
         };
         for i in 0..3 {
@@ -159,7 +164,7 @@ impl Rod {
                 }
             }
         }
-        kernel.is_round = is_round(&kernel);
+        kernel.geometry.is_round = is_round(&kernel);
         Self { kernel }
     }
 
@@ -190,7 +195,7 @@ impl Rod {
     /// The larger of the angles between the tangents at the ends and that at the middle, and the size of the twist, rad. Frames hold
     /// while the first is less than a right angle and the second less than half a turn; a mesh with more than 1 is coarse.
     pub fn angles(&self, at: &At<f64>) -> [f64; 2] {
-        self.kernel.angles(at)
+        self.kernel.geometry.angles(&at.e, &at.d)
     }
 
     /// Tangent stiffness, the derivative of minus the force along velocities, symmetric: the second derivatives of the energy
@@ -207,15 +212,14 @@ impl Rod {
 
     /// The formulas with sections as they are turned: round ones do not notice.
     fn material(&self) -> Kernel<f64> {
-        Kernel {
-            is_round: false,
-            ..self.kernel.clone()
-        }
+        let mut kernel = self.kernel.clone();
+        kernel.geometry.is_round = false;
+        kernel
     }
 
     /// Whether this element and another can be in one pack.
     pub fn goes_with(&self, other: &Self) -> bool {
-        let kind = |k: &Kernel<f64>| (k.is_round, k.is_damped);
+        let kind = |k: &Kernel<f64>| (k.geometry.is_round, k.is_damped);
         kind(&self.kernel) == kind(&other.kernel)
     }
 
@@ -230,12 +234,14 @@ impl Rod {
         };
         let first = &elements[0].kernel;
         let kernel = Kernel {
-            length: lanes(&|k| k.length),
-            inverse_length: lanes(&|k| k.inverse_length),
+            geometry: Geometry {
+                length: lanes(&|k| k.geometry.length),
+                inverse_length: lanes(&|k| k.geometry.inverse_length),
+                is_round: first.geometry.is_round,
+            },
             stiffness: POINT.map(|i| square(&|k| k.stiffness[i])),
             damping: POINT.map(|i| square(&|k| k.damping[i])),
             offset: square(&|k| k.offset),
-            is_round: first.is_round,
             is_damped: first.is_damped,
         };
         Pack {
@@ -347,7 +353,7 @@ impl Rates<&[f64; PACK]> {
 }
 
 #[inline(always)]
-fn read<S: Simd, const K: usize>(
+pub(in crate::elements) fn read<S: Simd, const K: usize>(
     simd: S,
     pack: &[[&[f64; PACK]; 3]; K],
     group: usize,

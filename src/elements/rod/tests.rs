@@ -14,10 +14,10 @@ mod helix;
 type V = Vector3<f64>;
 
 /// Numbers between -1 and 1 that look random.
-struct Noise(u64);
+pub(in crate::elements) struct Noise(pub u64);
 
 impl Noise {
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6_364_136_223_846_793_005)
@@ -25,7 +25,7 @@ impl Noise {
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    fn vector(&mut self) -> V {
+    pub fn vector(&mut self) -> V {
         V::from_fn(|_, _| self.next())
     }
 
@@ -188,7 +188,7 @@ fn stresses_that_damping_adds_stiffen_as_any() {
     for (case, rod) in rods().iter().enumerate() {
         let (at, rates) = (bent(10, 0.5), Noise(4).rates());
         let mut other = rod.clone();
-        other.kernel.is_round = false;
+        other.kernel.geometry.is_round = false;
         let matrix = |of: [[f64; 3]; 3]| Matrix3::from_fn(|i, j| of[i][j]);
         let offsets = other.kernel.offset.iter_mut().zip(&POINTS);
         for (k, (offset, point)) in offsets.enumerate() {
@@ -392,8 +392,8 @@ fn plane_bending_is_that_of_a_cable() {
         let at = At { e, d, bubble: 0.0 };
         for is_round in [true, false] {
             let mut rod = rods()[2].clone();
-            assert!(rod.kernel.is_round);
-            rod.kernel.is_round = is_round;
+            assert!(rod.kernel.geometry.is_round);
+            rod.kernel.geometry.is_round = is_round;
             let energy = rod.energy(&at);
             assert!(
                 (energy - wanted).abs() < 1e-13 * wanted,

@@ -5,10 +5,10 @@
 use crate::elements::line::{dot, times};
 use crate::math::lanes::Real;
 
-pub(super) type Vector<N> = [N; 3];
+pub(in crate::elements) type Vector<N> = [N; 3];
 
 #[inline(always)]
-pub(super) fn cross<N: Real>(a: &Vector<N>, b: &Vector<N>) -> Vector<N> {
+pub(in crate::elements) fn cross<N: Real>(a: &Vector<N>, b: &Vector<N>) -> Vector<N> {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -17,25 +17,29 @@ pub(super) fn cross<N: Real>(a: &Vector<N>, b: &Vector<N>) -> Vector<N> {
 }
 
 #[inline(always)]
-pub(super) fn add<N: Real>(a: &Vector<N>, b: &Vector<N>) -> Vector<N> {
+pub(in crate::elements) fn add<N: Real, const K: usize>(a: &[N; K], b: &[N; K]) -> [N; K] {
     each!(*a, k => a[k] + b[k])
 }
 
 /// `a factor + b`.
 #[inline(always)]
-pub(super) fn plus<N: Real>(a: &Vector<N>, factor: N, b: &Vector<N>) -> Vector<N> {
+pub(in crate::elements) fn plus<N: Real, const K: usize>(
+    a: &[N; K],
+    factor: N,
+    b: &[N; K],
+) -> [N; K] {
     each!(*a, k => a[k].times_plus(factor, b[k]))
 }
 
 /// What of `v` is across the unit vector `t`.
 #[inline(always)]
-pub(super) fn across<N: Real>(t: &Vector<N>, v: &Vector<N>) -> Vector<N> {
+pub(in crate::elements) fn across<N: Real>(t: &Vector<N>, v: &Vector<N>) -> Vector<N> {
     plus(t, -dot(t, v), v)
 }
 
 /// Unit vector along `u`, and one over its length.
 #[inline(always)]
-pub(super) fn unit<N: Real>(u: &Vector<N>) -> (Vector<N>, N) {
+pub(in crate::elements) fn unit<N: Real>(u: &Vector<N>) -> (Vector<N>, N) {
     let inverse = u[0].constant(1.0) / dot(u, u).root();
     (times(u, inverse), inverse)
 }
@@ -43,6 +47,11 @@ pub(super) fn unit<N: Real>(u: &Vector<N>) -> (Vector<N>, N) {
 /// What the smallest rotation that takes the unit vector `a` to `b` makes of `v`, which is across `a`; `inverse` is
 /// `1 / (1 + a . b)`.
 #[inline(always)]
-pub(super) fn carry<N: Real>(a: &Vector<N>, b: &Vector<N>, inverse: N, v: &Vector<N>) -> Vector<N> {
+pub(in crate::elements) fn carry<N: Real>(
+    a: &Vector<N>,
+    b: &Vector<N>,
+    inverse: N,
+    v: &Vector<N>,
+) -> Vector<N> {
     plus(&add(a, b), -(dot(b, v) * inverse), v)
 }
