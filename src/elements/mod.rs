@@ -7,6 +7,7 @@
 #[macro_use]
 mod line;
 mod along;
+pub mod beam;
 pub mod cable;
 pub mod rod;
 pub mod shape;

@@ -1,0 +1,80 @@
+//! An end of a beam: the tangent's frame, the section's lean in it, and what both do when slope and section move.
+//!
+//! Source: (1) of `beam/mod.rs`. With the spin `w` of the section along the axes of the tangent's frame, `x = t x t'` and
+//! `v = w - x` across the tangent, the lean changes by `c' = (1 + |c|^2 / 4) v` and the tangent's frame turns about the tangent by
+//! `w . t - t . (c x v) / 2`: the relative rotation has the rational vector `c`.
+
+use super::lean::leaned;
+use crate::elements::line::{dot, times};
+use crate::elements::rod::vectors::{Vector, cross, plus, unit};
+use crate::math::lanes::Real;
+
+/// An end of a beam.
+#[derive(Clone, Copy)]
+pub(super) struct End<N> {
+    pub tangent: Vector<N>,
+    /// One over the length of the slope.
+    pub inverse_size: N,
+    pub size: N,
+    /// The axes of the tangent's frame across it.
+    pub across: [Vector<N>; 2],
+    /// Lean about these axes, twice the tangent of half the angle.
+    pub lean: [N; 2],
+    /// `1 + |c|^2 / 4`: rate of the lean by angular velocity.
+    pub gain: N,
+}
+
+impl<N: Real> End<N> {
+    #[inline(always)]
+    pub fn new(u: &Vector<N>, [normal, second, third]: &[Vector<N>; 3]) -> Self {
+        let (tangent, inverse_size) = unit(u);
+        let one = inverse_size.constant(1.0);
+        let half = one / (one + dot(&tangent, normal));
+        let double = half + half;
+        let lean = [
+            double * dot(&tangent, third),
+            -(double * dot(&tangent, second)),
+        ];
+        let both = plus(normal, one, &tangent);
+        let first = plus(&both, lean[1] * one.constant(0.5), second);
+        Self {
+            size: dot(u, &tangent),
+            across: [first, cross(&tangent, &first)],
+            gain: dot(&lean, &lean).times_plus(one.constant(0.25), one),
+            tangent,
+            inverse_size,
+            lean,
+        }
+    }
+
+    /// Rates of the turn of the tangent's frame and of the lean, from those of the slope and from the angular velocity along the
+    /// section's own axes.
+    #[inline(always)]
+    pub fn rates(&self, du: &Vector<N>, spin: &[N; 3]) -> (N, [N; 2]) {
+        let [p, q] = self.lean;
+        let [turn, second, third] = leaned([-p, -q], spin);
+        let [first, other] = &self.across;
+        let v = [
+            dot(other, du).times_plus(self.inverse_size, second),
+            third - dot(first, du) * self.inverse_size,
+        ];
+        let back = (p * v[1] - q * v[0]) * turn.constant(0.5);
+        (turn - back, times(&v, self.gain))
+    }
+
+    /// Force on the slope and moment along the section's own axes from the torque about the tangent of its frame and what the lean
+    /// is taken with.
+    #[inline(always)]
+    pub fn load(&self, torque: N, lean: &[N; 2]) -> (Vector<N>, [N; 3]) {
+        let [p, q] = self.lean;
+        let half = torque * torque.constant(0.5);
+        let second = lean[0].times_plus(self.gain, half * q);
+        let third = lean[1] * self.gain - half * p;
+        let [first, other] = &self.across;
+        let force = plus(other, second, &times(first, -third));
+        (
+            times(&force, self.inverse_size),
+            leaned(self.lean, &[torque, second, third]),
+        )
+    }
+}

@@ -1,0 +1,291 @@
+//! The formulas of a beam, for one element or for several in lanes, or for numbers with derivatives.
+//!
+//! Source: the equations of `beam/mod.rs`.
+
+use super::end::End;
+use super::lean::{Leaning, Local, Six};
+use super::{At, Force, Rates};
+use crate::elements::line::{Sample, combine, dot, times};
+use crate::elements::rod;
+use crate::elements::rod::geometry::{Frame, Geometry, MIDDLE, Motion, POINTS, Section, Sum};
+use crate::elements::rod::kernel::product;
+use crate::elements::rod::vectors::{Vector, add, plus};
+use crate::math::lanes::{Lanes, PACK, Real, Simd};
+
+/// Parameters of one element or, in lanes, of several.
+#[derive(Clone, Debug)]
+pub(super) struct Kernel<N> {
+    pub geometry: Geometry<N>,
+    /// Stress by strain at the points.
+    pub stiffness: [[Six<N>; 6]; 3],
+    /// Stress by rate of strain.
+    pub damping: [[Six<N>; 6]; 3],
+    /// What is added to the strains at the points before they are multiplied by the stiffness: less those of the
+    /// unstressed shape.
+    pub offset: [Six<N>; 3],
+    pub is_damped: bool,
+}
+
+/// An element with the frames of its tangents.
+pub(super) struct Placed<N> {
+    pub v: [Vector<N>; 3],
+    pub ends: [End<N>; 2],
+    pub frame: Frame<N>,
+    /// Length of the slope at the first end, in the middle and at the last end.
+    pub stretches: [N; 3],
+    /// Lean at the first end, at the last, and the internal one.
+    pub leans: [[N; 2]; 3],
+    pub bubble: N,
+}
+
+/// Rates of an element with the frames of its tangents.
+pub(super) struct Moving<N> {
+    motion: Motion<N>,
+    stretches: [N; 3],
+    leans: [[N; 2]; 3],
+}
+
+/// What lengths of the slope and leans at the first end, at the last, and inside count at a point.
+pub(super) struct Shapes {
+    /// Of the first end, the middle and the last end.
+    pub stretch: [f64; 3],
+    /// Of the first end, the last, and the internal one.
+    pub lean: [f64; 3],
+    /// Derivatives of these by the reference length times the length.
+    pub change: [f64; 3],
+}
+
+impl Shapes {
+    #[inline(always)]
+    pub fn new(at: f64) -> Self {
+        let (rest, bubble) = (1.0 - at, 4.0 * at * (1.0 - at));
+        Self {
+            stretch: [rest * (1.0 - 2.0 * at), bubble, at * (2.0 * at - 1.0)],
+            lean: [rest, at, bubble],
+            change: [-1.0, 1.0, 4.0 - 8.0 * at],
+        }
+    }
+}
+
+impl Kernel<f64> {
+    /// The same parameters, as constants of the kind of another number.
+    #[inline(always)]
+    pub fn lift<N: Real>(&self, like: N) -> Kernel<N> {
+        let six = |row: Six<f64>| row.map(|value| like.constant(value));
+        Kernel {
+            geometry: self.geometry.lift(like),
+            stiffness: self.stiffness.map(|square| square.map(six)),
+            damping: self.damping.map(|square| square.map(six)),
+            offset: self.offset.map(six),
+            is_damped: self.is_damped,
+        }
+    }
+}
+
+impl Kernel<[f64; PACK]> {
+    /// A group of the elements of a pack.
+    #[inline(always)]
+    pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
+        let geometry = self.geometry.group(simd, group);
+        let mut squares = [[[[geometry.length; 6]; 6]; 3]; 2];
+        let mut offset = [[geometry.length; 6]; 3];
+        for k in 0..3 {
+            for i in 0..6 {
+                for j in 0..6 {
+                    squares[0][k][i][j] = Lanes::read(simd, &self.stiffness[k][i][j], group);
+                    if self.is_damped {
+                        squares[1][k][i][j] = Lanes::read(simd, &self.damping[k][i][j], group);
+                    }
+                }
+                offset[k][i] = Lanes::read(simd, &self.offset[k][i], group);
+            }
+        }
+        let [stiffness, damping] = squares;
+        Kernel {
+            geometry,
+            stiffness,
+            damping,
+            offset,
+            is_damped: self.is_damped,
+        }
+    }
+}
+
+impl<N: Real> Kernel<N> {
+    #[inline(always)]
+    pub fn placed(&self, at: &At<N>) -> Placed<N> {
+        let v = self.geometry.vectors(&at.e);
+        let ends = [
+            End::new(&at.e[1], &at.axes[0]),
+            End::new(&at.e[3], &at.axes[1]),
+        ];
+        let frame = self
+            .geometry
+            .frame(&v, &[ends[0].across[0], ends[1].across[0]]);
+        let middle = dot(&combine(&MIDDLE, &v), &frame.middle);
+        Placed {
+            stretches: [ends[0].size, middle, ends[1].size],
+            leans: [ends[0].lean, ends[1].lean, [at.inner[1], at.inner[2]]],
+            bubble: at.inner[0],
+            v,
+            ends,
+            frame,
+        }
+    }
+
+    /// What rates of strains are found from.
+    #[inline(always)]
+    fn moving(&self, placed: &Placed<N>, rates: &Rates<N>) -> Moving<N> {
+        let [first, last] = &placed.ends;
+        let (turn, lean) = first.rates(&rates.e[1], &rates.spin[0]);
+        let (other_turn, other_lean) = last.rates(&rates.e[3], &rates.spin[1]);
+        let [bubble, p, q] = rates.inner;
+        let dv = self.geometry.vectors(&rates.e);
+        let rates = rod::Rates {
+            e: rates.e,
+            spin: [turn, other_turn],
+            bubble,
+        };
+        Moving {
+            motion: self.geometry.motion(&placed.frame, &rates),
+            stretches: [
+                dot(&first.tangent, &dv[1]),
+                dot(&placed.frame.middle, &combine(&MIDDLE, &dv)),
+                dot(&last.tangent, &dv[2]),
+            ],
+            leans: [lean, other_lean, [p, q]],
+        }
+    }
+
+    /// What the strains at a point are made of, or its rates.
+    #[inline(always)]
+    fn local(
+        &self,
+        point: &Sample,
+        turning: [N; 3],
+        (stretches, leans): (&[N; 3], &[[N; 2]; 3]),
+    ) -> Local<N> {
+        let (geometry, shapes) = (&self.geometry, Shapes::new(point.at));
+        let zero = geometry.number(0.0);
+        let (mut stretch, mut lean, mut change) = (zero, [zero; 2], [zero; 2]);
+        for k in 0..3 {
+            stretch = stretches[k].times_plus(geometry.number(shapes.stretch[k]), stretch);
+            lean = plus(&leans[k], geometry.number(shapes.lean[k]), &lean);
+            change = plus(&leans[k], geometry.number(shapes.change[k]), &change);
+        }
+        Local {
+            stretch,
+            turning,
+            lean,
+            change: times(&change, geometry.inverse_length),
+        }
+    }
+
+    #[inline(always)]
+    pub fn section(&self, point: &Sample, placed: &Placed<N>) -> (Section<N>, Leaning<N>) {
+        let section = self
+            .geometry
+            .section(point, &placed.v, &placed.frame, placed.bubble);
+        let local = self.local(point, section.strains, (&placed.stretches, &placed.leans));
+        (section, Leaning::new(local))
+    }
+
+    /// Strains at a point.
+    #[inline(always)]
+    pub fn strains(&self, at: &At<N>, point: &Sample) -> Six<N> {
+        self.section(point, &self.placed(at)).1.strains()
+    }
+
+    /// Strain energy, J.
+    #[inline(always)]
+    pub fn energy(&self, at: &At<N>) -> N {
+        let placed = self.placed(at);
+        let mut sum = self.geometry.number(0.0);
+        for (index, point) in POINTS.iter().enumerate() {
+            let strains = self.section(point, &placed).1.strains();
+            let strains = add(&strains, &self.offset[index]);
+            sum += self.geometry.number(0.5 * point.weight)
+                * dot(&strains, &product(&self.stiffness[index], &strains));
+        }
+        sum * self.geometry.length
+    }
+
+    /// Elastic force and, with rates, damping force; and the power that damping takes out, W.
+    #[inline(always)]
+    pub fn force(&self, at: &At<N>, rates: Option<&Rates<N>>) -> (Force<N>, N) {
+        let (geometry, placed) = (&self.geometry, self.placed(at));
+        let moving = of_rate!(rates, rates => self.moving(&placed, rates));
+        let zero = geometry.number(0.0);
+        let (mut power, mut sum) = (zero, Sum::nothing(zero));
+        let (mut stretches, mut leans) = ([zero; 3], [[zero; 2]; 3]);
+        for (index, point) in POINTS.iter().enumerate() {
+            let (section, leaning) = self.section(point, &placed);
+            let (rows, shapes) = (leaning.rows(), Shapes::new(point.at));
+            let strains = add(&leaning.strains(), &self.offset[index]);
+            let mut stress = product(&self.stiffness[index], &strains);
+            if let Some(moving) = &moving {
+                let rate = rows.rates(&self.local_rates(point, &section, &placed, moving));
+                let damped = product(&self.damping[index], &rate);
+                power += geometry.number(point.weight) * dot(&damped, &rate);
+                stress = add(&stress, &damped);
+            }
+            let factors = rows.factors(&times(&stress, geometry.number(point.weight)));
+            geometry.add_section(point, &section, &placed.frame, &factors.turning, &mut sum);
+            let change = times(&factors.change, geometry.inverse_length);
+            for k in 0..3 {
+                stretches[k] = factors
+                    .stretch
+                    .times_plus(geometry.number(shapes.stretch[k]), stretches[k]);
+                let of_lean = plus(&factors.lean, geometry.number(shapes.lean[k]), &leans[k]);
+                leans[k] = plus(&change, geometry.number(shapes.change[k]), &of_lean);
+            }
+        }
+        let force = self.spread(&placed, sum, &stretches, &leans);
+        (force, power * geometry.length)
+    }
+
+    #[inline(always)]
+    pub fn local_rates(
+        &self,
+        point: &Sample,
+        section: &Section<N>,
+        placed: &Placed<N>,
+        moving: &Moving<N>,
+    ) -> Local<N> {
+        let turning = self
+            .geometry
+            .strain_rates(point, section, &placed.frame, &moving.motion);
+        self.local(point, turning, (&moving.stretches, &moving.leans))
+    }
+
+    /// Force from the summed factors.
+    #[inline(always)]
+    fn spread(
+        &self,
+        placed: &Placed<N>,
+        mut sum: Sum<N>,
+        stretches: &[N; 3],
+        leans: &[[N; 2]; 3],
+    ) -> Force<N> {
+        let (geometry, [first, last]) = (&self.geometry, &placed.ends);
+        let middle = times(&placed.frame.middle, stretches[1]);
+        for k in 0..3 {
+            sum.vectors[k] = plus(&middle, geometry.number(MIDDLE[k]), &sum.vectors[k]);
+        }
+        sum.vectors[1] = plus(&first.tangent, stretches[0], &sum.vectors[1]);
+        sum.vectors[2] = plus(&last.tangent, stretches[2], &sum.vectors[2]);
+        let rod::Force { e, torque, bubble } = geometry.spread(&placed.frame, &sum);
+        let leans = [
+            times(&leans[0], -geometry.length),
+            times(&leans[1], -geometry.length),
+            times(&leans[2], -geometry.length),
+        ];
+        let (by_first, moment) = first.load(torque[0], &leans[0]);
+        let (by_last, other) = last.load(torque[1], &leans[1]);
+        Force {
+            e: [e[0], add(&e[1], &by_first), e[2], add(&e[3], &by_last)],
+            moment: [moment, other],
+            inner: [bubble, leans[2][0], leans[2][1]],
+        }
+    }
+}
