@@ -78,3 +78,66 @@ impl<N: Real> End<N> {
         )
     }
 }
+
+/// A symmetric matrix over the rate of the slope and the angular velocity along the section's own axes.
+pub(super) type Six<N> = [[N; 6]; 6];
+
+impl<N: Real> End<N> {
+    /// Second derivatives of the turn of the tangent's frame and of the lean while slope and angular velocity change evenly, taken
+    /// with the torque about the tangent and what the lean is taken with.
+    ///
+    /// With `f` this torque, `m` the moment of both along the tangent's frame, `s = t . u' / |u|`, and what is across the tangent as
+    /// complex numbers, they are
+    ///
+    /// ```text
+    /// f t . (w x x) + (w . t) t . (m x (w - 2 x)) + 2 s m . x + Re(conj(c m) v^2) / 2 + f Im(conj(c^2) v^2) / 8
+    /// ```
+    ///
+    /// as components of a vector that stands still turn against the frame, and `x' = -2 s x` in space.
+    #[inline(always)]
+    pub fn second(&self, torque: N, lean: &[N; 2]) -> Six<N> {
+        let ([p, q], half) = (self.lean, torque.constant(0.5));
+        let (twist, zero) = (torque * half, torque.constant(0.0));
+        let m = lean[0].times_plus(self.gain, twist * q);
+        let n = lean[1] * self.gain - twist * p;
+        let quarter = half * twist * half;
+        let a = half * (p * m - q * n) - quarter * (p * q + p * q);
+        let b = half * (p * n + q * m) + quarter * (p * p - q * q);
+        let (mh, nh) = (half * m, half * n);
+        // Over u' / |u| and the angular velocity along the axes of the tangent's frame.
+        let local = [
+            [zero, n, -m, zero, zero, zero],
+            [n, -a, -b, -m, twist - b, a],
+            [-m, -b, a, -n, a, twist + b],
+            [zero, -m, -n, zero, -nh, mh],
+            [zero, twist - b, a, -nh, a, b],
+            [zero, a, twist + b, mh, b, -a],
+        ];
+        let mut rows = local;
+        for r in 0..6 {
+            rows[r] = self.outward(&local[r]);
+        }
+        let mut second = rows;
+        for c in 0..6 {
+            let mut column = rows[0];
+            for r in 0..6 {
+                column[r] = rows[r][c];
+            }
+            let column = self.outward(&column);
+            for r in 0..6 {
+                second[r][c] = column[r];
+            }
+        }
+        second
+    }
+
+    /// Factors of rates of the slope and of the angular velocity along the section's own axes from those along the tangent's frame.
+    #[inline(always)]
+    fn outward(&self, [s, y, z, t, v, w]: &[N; 6]) -> [N; 6] {
+        let [first, other] = &self.across;
+        let by_u = plus(other, *z, &plus(first, *y, &times(&self.tangent, *s)));
+        let [a, b, c] = times(&by_u, self.inverse_size);
+        let [d, e, f] = leaned(self.lean, &[*t, *v, *w]);
+        [a, b, c, d, e, f]
+    }
+}

@@ -135,7 +135,7 @@ impl<N: Real> Kernel<N> {
 
     /// What rates of strains are found from.
     #[inline(always)]
-    fn moving(&self, placed: &Placed<N>, rates: &Rates<N>) -> Moving<N> {
+    pub fn moving(&self, placed: &Placed<N>, rates: &Rates<N>) -> Moving<N> {
         let [first, last] = &placed.ends;
         let (turn, lean) = first.rates(&rates.e[1], &rates.spin[0]);
         let (other_turn, other_lean) = last.rates(&rates.e[3], &rates.spin[1]);

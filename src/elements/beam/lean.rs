@@ -185,3 +185,115 @@ impl<N: Real> Rows<N> {
         }
     }
 }
+
+/// A symmetric matrix over stretch, turning, lean and its change.
+pub(super) type Eight<N> = [[N; 8]; 8];
+
+impl<N: Real> Rows<N> {
+    /// The matrix of the square of the rates of strain by a matrix.
+    #[inline(always)]
+    pub fn squares(&self, by: &[Six<N>; 6]) -> Eight<N> {
+        let zero = by[0][0].constant(0.0);
+        let mut columns = [[zero; 8]; 6];
+        for (column, by) in columns.iter_mut().zip(by) {
+            let moment = plus(&self.moments[1], by[4], &times(&self.moments[0], by[3]));
+            let moment = plus(&self.moments[2], by[5], &moment);
+            let force = plus(&self.forces[1], by[1], &times(&self.forces[0], by[0]));
+            let force = plus(&self.forces[2], by[2], &force);
+            column[0] = force[0];
+            column[1..].copy_from_slice(&moment);
+            column[4] += force[1];
+            column[5] += force[2];
+        }
+        let mut squares = [[zero; 8]; 8];
+        for c in 0..8 {
+            for k in 0..3 {
+                let ([stretch, p, q], moment) = (self.forces[k], &self.moments[k]);
+                let (by_force, by_moment) = (columns[k][c], columns[3 + k][c]);
+                squares[0][c] = stretch.times_plus(by_force, squares[0][c]);
+                squares[4][c] = p.times_plus(by_force, squares[4][c]);
+                squares[5][c] = q.times_plus(by_force, squares[5][c]);
+                for r in 0..7 {
+                    squares[r + 1][c] = moment[r].times_plus(by_moment, squares[r + 1][c]);
+                }
+            }
+        }
+        squares
+    }
+}
+
+impl<N: Real> Leaning<N> {
+    /// Adds second derivatives of the strains, taken with stresses.
+    #[inline(always)]
+    pub fn add_second(&self, stress: &Six<N>, to: &mut Eight<N>) {
+        let (d, half, [p, q]) = (self.shrink, self.shrink.constant(0.5), self.at.lean);
+        let [axial, second, third, torque, first, other] = *stress;
+        let [x, y] = [self.half[0] * half, self.half[1] * half];
+        // Derivatives of `D` by both leans.
+        let [dx, dy] = [-(d * x), -(d * y)];
+        let shear = [d * third, -(d * second)];
+        let moment = [d * other, -(d * first)];
+        let sum = half.times_plus(p * other - q * first, torque);
+        let rises = [dx * sum + half * moment[0], dy * sum + half * moment[1]];
+        let inner = d * sum;
+        let along = axial + axial + p * third - q * second;
+        let bends = [
+            q.times_plus(half * torque, first),
+            other - p * half * torque,
+        ];
+        let twist = half * d * torque;
+        let mixed = [
+            (0, [dx * along + shear[0], dy * along + shear[1]]),
+            (
+                1,
+                [dx * (sum + sum) + moment[0], dy * (sum + sum) + moment[1]],
+            ),
+            (2, [q * rises[0], q.times_plus(rises[1], inner)]),
+            (3, [-(p.times_plus(rises[0], inner)), -(p * rises[1])]),
+            (6, [dx * bends[0], dy.times_plus(bends[0], twist)]),
+            (7, [dx.times_plus(bends[1], -twist), dy * bends[1]]),
+        ];
+        for (k, by_lean) in mixed {
+            for (c, value) in by_lean.into_iter().enumerate() {
+                to[k][4 + c] += value;
+                to[4 + c][k] += value;
+            }
+        }
+        self.add_second_by_lean(stress, to);
+    }
+
+    /// Those by the lean alone: of `D` times a polynomial.
+    #[inline(always)]
+    fn add_second_by_lean(
+        &self,
+        [axial, second, third, torque, first, other]: &Six<N>,
+        to: &mut Eight<N>,
+    ) {
+        let (d, half, [p, q]) = (self.shrink, self.shrink.constant(0.5), self.at.lean);
+        let ([a, b, c], n, [dp, dq]) = (self.at.turning, self.at.stretch, self.at.change);
+        let [first, other, torque] = [*first, *other, *torque];
+        let squares = [-(c * other), half * (b * other + c * first), -(b * first)];
+        let twist = half * torque;
+        let by_p = n * *third + a * other - torque * c - twist * dq;
+        let by_q = torque * b + twist * dp - n * *second - a * first;
+        let straight = n * *axial + a * torque;
+        let flat = straight + straight + dp * first + dq * other;
+        let slope = [
+            by_p + p * squares[0] + q * squares[1],
+            by_q + p * squares[1] + q * squares[2],
+        ];
+        // The value: half the slopes are those of the squares.
+        let value = flat + half * (p * (by_p + slope[0]) + q * (by_q + slope[1]));
+        let [x, y] = self.half;
+        let scaled = half * d;
+        let [sx, sy] = [x * scaled, y * scaled];
+        let less = scaled * d * value;
+        let shear = sx * slope[1] + sy * slope[0];
+        let own = [sx * slope[0], sy * slope[1]];
+        to[4][4] += d * squares[0] - (own[0] + own[0]) + sx * x * value - less;
+        to[5][5] += d * squares[2] - (own[1] + own[1]) + sy * y * value - less;
+        let mixed = d * squares[1] - shear + sx * y * value;
+        to[4][5] += mixed;
+        to[5][4] += mixed;
+    }
+}

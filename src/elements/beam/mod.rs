@@ -33,6 +33,7 @@
 mod end;
 mod kernel;
 mod lean;
+mod tangent;
 #[cfg(test)]
 mod tests;
 
@@ -181,6 +182,18 @@ impl Beam {
         self.kernel.geometry.angles(&at.e, &d)
     }
 
+    /// Tangent stiffness, the derivative of minus the force along velocities, its symmetric part: the second derivatives of the energy
+    /// where slopes and angular velocities change evenly. With rates that which matters of it: the stresses that
+    /// damping adds are taken as given.
+    pub fn stiffness(&self, at: &At<f64>, rates: Option<&Rates<f64>>) -> Matrix {
+        self.kernel.tangent(at, rates, Tangent::Stiffness)
+    }
+
+    /// Damping matrix, the derivative of minus the force by velocities, symmetric.
+    pub fn damping(&self, at: &At<f64>) -> Matrix {
+        self.kernel.tangent(at, None, Tangent::Damping)
+    }
+
     /// Whether this element and another can be in one pack.
     pub fn goes_with(&self, other: &Self) -> bool {
         self.is_damped() == other.is_damped()
@@ -240,6 +253,29 @@ impl Beam {
             }
         }
         powers[..pack.count].iter().sum()
+    }
+
+    /// [`Self::stiffness`], with rates where it is damped, or [`Self::damping`] of a pack: rows with columns up to the
+    /// diagonal.
+    #[inline(always)]
+    pub fn pack_tangent<S: Simd>(
+        simd: S,
+        pack: &Pack,
+        (at, rates): (&At<&[f64; PACK]>, Option<&Rates<&[f64; PACK]>>),
+        kind: Tangent,
+        out: &mut Matrix<[f64; PACK]>,
+    ) {
+        for group in 0..pack.groups::<S>() {
+            let kernel = pack.kernel.group(simd, group);
+            let at = at.group(simd, group);
+            let rates = of_rate!(rates, rates => rates.group(simd, group));
+            let matrix = kernel.tangent(&at, rates.as_ref(), kind);
+            for r in 0..VELOCITIES {
+                for c in 0..=r {
+                    matrix[r][c].write(&mut out[r][c], group);
+                }
+            }
+        }
     }
 }
 

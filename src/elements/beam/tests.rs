@@ -3,11 +3,12 @@
 //! Source: derivatives of the energy by differences; rotations and the exchange of ends; closed forms of a stretched, sheared and
 //! twisted straight beam.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, SMatrix, SVector, Vector3};
 
 use super::*;
 use crate::elements::line::dot;
 use crate::elements::rod::tests::Noise;
+use crate::math::jet::Jet;
 
 type V = Vector3<f64>;
 
@@ -49,6 +50,10 @@ fn coupled(seed: u64) -> [[f64; 6]; 6] {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| dot(&root[i], &root[j]) + f64::from(u8::from(i == j)))
     })
+}
+
+fn matrix(of: [[f64; 6]; 6]) -> SMatrix<f64, 6, 6> {
+    SMatrix::from_fn(|i, j| of[i][j])
 }
 
 fn parameters(seeds: [u64; 3]) -> Parameters {
@@ -106,6 +111,87 @@ fn force_is_minus_the_gradient_of_the_energy() {
                 (found + slope).abs() < 1e-8 * (1.0 + slope.abs()),
                 "{case} {seed} {found} {slope}"
             );
+        }
+    }
+}
+
+/// One of the velocities of an element.
+fn unit_velocity(index: usize) -> Rates<f64> {
+    let one = |at: usize| f64::from(u8::from(at == index));
+    let vector = |start: usize| [0, 1, 2].map(|i| one(start + i));
+    Rates {
+        e: [0, 3, 9, 12].map(vector),
+        spin: [6, 15].map(vector),
+        inner: vector(18),
+    }
+}
+
+/// An element that moves.
+fn moving(at: &At<f64>, rates: &Rates<f64>) -> At<Jet> {
+    let jets = |x: [f64; 3], v: [f64; 3]| std::array::from_fn(|i| Jet::new(x[i], v[i], 0.0));
+    At {
+        e: std::array::from_fn(|k| jets(at.e[k], rates.e[k])),
+        axes: std::array::from_fn(|k| {
+            let rates = at.axes_rate(rates, k);
+            std::array::from_fn(|axis| jets(at.axes[k][axis], rates[axis]))
+        }),
+        inner: jets(at.inner, rates.inner),
+    }
+}
+
+#[test]
+fn stiffness_and_damping_are_derivatives_of_the_force() {
+    for (case, beam) in beams().iter().enumerate() {
+        for seed in 10..14 {
+            let at = bent(seed, 0.5);
+            let (stiffness, damping) = (beam.stiffness(&at, None), beam.damping(&at));
+            let elastic = beam.force(&at, None).0.flat();
+            let columns: [_; VELOCITIES] = std::array::from_fn(|k| {
+                let force = beam.force(&moving(&at, &unit_velocity(k)), None).0;
+                force.flat().map(|force| -force.v1)
+            });
+            for j in 0..VELOCITIES {
+                let damped = beam.force(&at, Some(&unit_velocity(j))).0.flat();
+                for i in 0..VELOCITIES {
+                    let mean = 0.5 * (columns[i][j] + columns[j][i]);
+                    let size = 1.0 + mean.abs();
+                    let found = stiffness[i][j];
+                    assert!(
+                        (found - mean).abs() < 1e-13 * size,
+                        "{case} {i} {j} {found} {mean}"
+                    );
+                    let miss = damping[i][j] - (elastic[i] - damped[i]);
+                    assert!(miss.abs() < 1e-11, "{case} {i} {j} {miss}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn stresses_that_damping_adds_stiffen_as_any() {
+    let h = 1e-4;
+    for (case, beam) in beams().iter().enumerate() {
+        let (at, rates) = (bent(10, 0.5), rates(4));
+        let mut other = beam.clone();
+        for (k, point) in POINTS.iter().enumerate() {
+            let strains = |time: f64| {
+                SVector::<f64, 6>::from(beam.strains(&moved(&at, &rates, time), point.at))
+            };
+            let [near, far] = [h, 2.0 * h].map(|time| strains(time) - strains(-time));
+            let stress = matrix(beam.kernel.damping[k]) * (8.0 * near - far) / (12.0 * h);
+            let stiffness = matrix(beam.kernel.stiffness[k]).cholesky();
+            let shift = stiffness.expect("positive").solve(&stress);
+            for (offset, shift) in other.kernel.offset[k].iter_mut().zip(shift.iter()) {
+                *offset += shift;
+            }
+        }
+        let [found, wanted] = [
+            beam.stiffness(&at, Some(&rates)),
+            other.stiffness(&at, None),
+        ];
+        for (a, b) in found.as_flattened().iter().zip(wanted.as_flattened()) {
+            assert!((a - b).abs() < 1e-8 * (1.0 + b.abs()), "{case} {a} {b}");
         }
     }
 }
@@ -274,8 +360,20 @@ impl crate::math::lanes::Work for Packed<'_> {
                 inner: [zero; 3],
             };
             let power = Beam::pack_force(simd, &pack, (&at, rates), &mut force);
+            let mut stiffness = [[zero; VELOCITIES]; VELOCITIES];
+            let mut damping = stiffness;
+            for (kind, out) in [
+                (Tangent::Stiffness, &mut stiffness),
+                (Tangent::Damping, &mut damping),
+            ] {
+                Beam::pack_tangent(simd, &pack, (&at, rates), kind, out);
+            }
             for lane in 0..count {
                 out.extend(force.flat().map(|force| force[lane]));
+                for r in 0..VELOCITIES {
+                    out.extend(stiffness[r][..=r].iter().map(|entry| entry[lane]));
+                    out.extend(damping[r][..=r].iter().map(|entry| entry[lane]));
+                }
             }
             out.push(power);
         }
@@ -302,6 +400,12 @@ fn packs_are_as_their_elements() {
                 for n in 0..count {
                     let (force, power) = beams[n].force(&at[n], damped.then_some(&moves[n]));
                     wanted.extend(force.flat());
+                    let stiffness = beams[n].stiffness(&at[n], damped.then_some(&moves[n]));
+                    let damping = beams[n].damping(&at[n]);
+                    for r in 0..VELOCITIES {
+                        wanted.extend(&stiffness[r][..=r]);
+                        wanted.extend(&damping[r][..=r]);
+                    }
                     sum += power;
                 }
                 wanted.push(sum);

@@ -83,6 +83,7 @@ pub(in crate::elements) struct Section<N> {
 }
 
 /// Factors of the changes of what a section sees, summed over sections.
+#[derive(Clone, Copy)]
 pub(in crate::elements) struct Sum<N> {
     /// Of the three vectors.
     pub vectors: [Vector<N>; 3],

@@ -113,6 +113,13 @@ impl<N: Real> Geometry<N> {
         factors.twist += turn.times_plus(self.number(point.at), *torque * self.inverse_length);
     }
 
+    /// Torques about the tangents at the ends: derivatives of the energy by the turns there.
+    #[inline(always)]
+    pub fn torques(&self, sum: &Curved<N>) -> [N; 2] {
+        let Factors { turn, twist, .. } = sum.factors;
+        [(turn - twist) * self.length, twist * self.length]
+    }
+
     /// From `u'` and `w'` of a section to the vectors of the line.
     #[inline(always)]
     fn gather(&self, point: &Sample, local: &Quadratic<N, 3>, sum: &mut Quadratic<N, 4>) {

@@ -1,0 +1,284 @@
+//! The tangent: second derivatives of the energy along a motion with constant rates of the line, angular velocities of the sections,
+//! internal twist and leans.
+//!
+//! Source: twice the derivative by time of the equations of `beam/mod.rs`. At a point the energy changes by the squares of the rates
+//! of stretch, turning, lean and its change (`beam/lean.rs`), and by the second derivatives of the first two, those of turning the
+//! rod's; at the ends by those of lean and turn of the tangent's frame (`beam/end.rs`).
+
+use super::end::End;
+use super::kernel::{Kernel, Placed, Shapes};
+use super::lean::Eight;
+use super::{At, Matrix, Rates, Tangent, VELOCITIES};
+use crate::elements::line::{Sample, times};
+use crate::elements::rod;
+use crate::elements::rod::geometry::{MIDDLE, POINTS, Section, Sum};
+use crate::elements::rod::kernel::product;
+use crate::elements::rod::tangent::Curved;
+use crate::elements::rod::vectors::{add, plus};
+use crate::math::lanes::Real;
+
+/// Places of the velocities of a rod.
+const ROD: [usize; rod::VELOCITIES] = [0, 1, 2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 14, 15, 18];
+
+/// Places of the leans at the first end, at the last and inside.
+const LEANS: [usize; 6] = [7, 8, 16, 17, 19, 20];
+
+/// Lengths of the slope at the first end, in the middle and at the last end, then the leans.
+const MORE: usize = 9;
+
+/// Second derivatives of the energy, summed over sections.
+struct Total<N> {
+    rod: Curved<N>,
+    /// Of what a rod has with lengths of the slope and leans.
+    mixed: [Sum<N>; MORE],
+    more: [[N; MORE]; MORE],
+    /// First derivatives by the same.
+    factors: [N; MORE],
+}
+
+impl<N: Real> Kernel<N> {
+    /// The tangent: stiffness with the stresses that damping adds where there are rates, or damping matrix.
+    #[inline(always)]
+    pub fn tangent(&self, at: &At<N>, rates: Option<&Rates<N>>, kind: Tangent) -> Matrix<N> {
+        let (geometry, placed) = (&self.geometry, self.placed(at));
+        let moving = of_rate!(rates, rates => self.moving(&placed, rates));
+        let zero = geometry.number(0.0);
+        let mut sum = Total {
+            rod: Curved::nothing(zero),
+            mixed: [Sum::nothing(zero); MORE],
+            more: [[zero; MORE]; MORE],
+            factors: [zero; MORE],
+        };
+        for (index, point) in POINTS.iter().enumerate() {
+            let (section, leaning) = self.section(point, &placed);
+            let rows = leaning.rows();
+            let mut stress = None;
+            let squares = match kind {
+                Tangent::Damping => rows.squares(&self.damping[index]),
+                Tangent::Stiffness => {
+                    let strains = add(&leaning.strains(), &self.offset[index]);
+                    let mut all = product(&self.stiffness[index], &strains);
+                    if let Some(moving) = &moving {
+                        let local = self.local_rates(point, &section, &placed, moving);
+                        let rate = rows.rates(&local);
+                        all = add(&all, &product(&self.damping[index], &rate));
+                    }
+                    let mut squares = rows.squares(&self.stiffness[index]);
+                    leaning.add_second(&all, &mut squares);
+                    stress = Some(rows.factors(&times(&all, geometry.number(point.weight))));
+                    squares
+                }
+            };
+            if let Some(factors) = &stress {
+                let (leans, change) = (factors.lean, factors.change);
+                self.add_factors(point, factors.stretch, (leans, change), &mut sum.factors);
+            }
+            let turning = stress.map(|factors| factors.turning);
+            self.add_point(point, (&section, &placed), (&squares, turning), &mut sum);
+        }
+        self.assemble(&placed, sum, kind)
+    }
+
+    #[inline(always)]
+    fn add_factors(
+        &self,
+        point: &Sample,
+        stretch: N,
+        (lean, change): ([N; 2], [N; 2]),
+        factors: &mut [N; MORE],
+    ) {
+        let (geometry, shapes) = (&self.geometry, Shapes::new(point.at));
+        for k in 0..3 {
+            let value = geometry.number(shapes.lean[k]);
+            let slope = geometry.inverse_length * geometry.number(shapes.change[k]);
+            factors[k] = stretch.times_plus(geometry.number(shapes.stretch[k]), factors[k]);
+            for part in 0..2 {
+                let both = lean[part].times_plus(value, change[part] * slope);
+                factors[3 + 2 * k + part] += both;
+            }
+        }
+    }
+
+    /// Adds a point: squares of the rates there, and the second derivatives of turning taken with its factors.
+    #[inline(always)]
+    fn add_point(
+        &self,
+        point: &Sample,
+        (section, placed): (&Section<N>, &Placed<N>),
+        (squares, turning): (&Eight<N>, Option<[N; 3]>),
+        sum: &mut Total<N>,
+    ) {
+        let (geometry, zero) = (&self.geometry, self.geometry.number(0.0));
+        let mut by = [[zero; 3]; 3];
+        for r in 0..3 {
+            by[r].copy_from_slice(&squares[1 + r][1..4]);
+        }
+        let frame = &placed.frame;
+        geometry.add_curved(
+            point,
+            (section, frame),
+            (&by, turning.as_ref()),
+            &mut sum.rod,
+        );
+        // Columns of stretch, lean and its change, weighted.
+        let weight = geometry.number(point.weight);
+        let mut columns = [[zero; 8]; 5];
+        for (column, c) in columns.iter_mut().zip([0, 4, 5, 6, 7]) {
+            *column = times(&squares[c], weight);
+        }
+        let shapes = Shapes::new(point.at);
+        let mut wide = [[zero; 8]; MORE];
+        for k in 0..3 {
+            wide[k] = times(&columns[0], geometry.number(shapes.stretch[k]));
+            let value = geometry.number(shapes.lean[k]);
+            let slope = geometry.inverse_length * geometry.number(shapes.change[k]);
+            for part in 0..2 {
+                let of_lean = times(&columns[1 + part], value);
+                wide[3 + 2 * k + part] = plus(&columns[3 + part], slope, &of_lean);
+            }
+        }
+        for (e, column) in wide.iter().enumerate() {
+            let turning = [column[1], column[2], column[3]];
+            geometry.add_section(point, section, frame, &turning, &mut sum.mixed[e]);
+            let (lean, change) = ([column[4], column[5]], [column[6], column[7]]);
+            self.add_factors(point, column[0], (lean, change), &mut sum.more[e]);
+        }
+    }
+
+    /// From the sums to all velocities.
+    #[inline(always)]
+    fn assemble(&self, placed: &Placed<N>, sum: Total<N>, kind: Tangent) -> Matrix<N> {
+        let (geometry, frame, l) = (&self.geometry, &placed.frame, self.geometry.length);
+        let zero = geometry.number(0.0);
+        let mut matrix = [[zero; VELOCITIES]; VELOCITIES];
+        let torques = geometry.torques(&sum.rod);
+        let rod = geometry.whole(frame, sum.rod);
+        for r in 0..ROD.len() {
+            for c in 0..ROD.len() {
+                matrix[ROD[r]][ROD[c]] = rod[r][c];
+            }
+        }
+        // The slopes' lengths with all others.
+        let mut lengths = [[zero; VELOCITIES]; 3];
+        for e in 0..MORE {
+            let mixed = geometry.spread(frame, &sum.mixed[e]).flat();
+            for k in 0..ROD.len() {
+                let value = -mixed[k];
+                if e < 3 {
+                    lengths[e][ROD[k]] = value;
+                } else {
+                    let place = LEANS[e - 3];
+                    (matrix[place][ROD[k]], matrix[ROD[k]][place]) = (value, value);
+                }
+            }
+            for k in 0..6 {
+                let value = sum.more[e][3 + k] * l;
+                if e < 3 {
+                    lengths[e][LEANS[k]] = value;
+                } else {
+                    matrix[LEANS[e - 3]][LEANS[k]] = value;
+                }
+            }
+        }
+        self.add_lengths(placed, lengths, (&sum.more, &sum.factors), &mut matrix);
+        matrix = by_sections(&placed.ends, &matrix);
+        if kind == Tangent::Stiffness {
+            for k in 0..2 {
+                let f = &sum.factors[3 + 2 * k..5 + 2 * k];
+                let second = placed.ends[k].second(torques[k], &[f[0] * l, f[1] * l]);
+                for r in 0..6 {
+                    for c in 0..6 {
+                        matrix[9 * k + 3 + r][9 * k + 3 + c] += second[r][c];
+                    }
+                }
+            }
+        }
+        matrix
+    }
+    /// Adds what lengths of the slope have with all others and with each other, and their second derivatives.
+    #[inline(always)]
+    fn add_lengths(
+        &self,
+        placed: &Placed<N>,
+        mut mixed: [[N; VELOCITIES]; 3],
+        (more, factors): (&[[N; MORE]; MORE], &[N; MORE]),
+        matrix: &mut Matrix<N>,
+    ) {
+        let (geometry, l) = (&self.geometry, self.geometry.length);
+        let (one, [first, last]) = (geometry.number(1.0), &placed.ends);
+        let middle = MIDDLE.map(|weight| geometry.number(weight));
+        let chord = middle[0] * geometry.inverse_length;
+        // Vectors that a length is one of, with what these count in it.
+        let places: [&[(usize, N)]; 3] = [
+            &[(3, one)],
+            &[(0, -chord), (3, middle[1]), (9, chord), (12, middle[2])],
+            &[(12, one)],
+        ];
+        let along = [
+            (&first.tangent, first.inverse_size),
+            (&placed.frame.middle, placed.frame.inverse_size),
+            (&last.tangent, last.inverse_size),
+        ];
+        for i in 0..3 {
+            for j in 0..3 {
+                let half = more[i][j] * l * geometry.number(0.5);
+                for (place, count) in places[j] {
+                    for d in 0..3 {
+                        let form = along[j].0[d] * *count;
+                        mixed[i][place + d] = form.times_plus(half, mixed[i][place + d]);
+                    }
+                }
+            }
+        }
+        for i in 0..3 {
+            let (t, inverse_size) = along[i];
+            // What is across the tangent makes it longer in the second order.
+            let rise = factors[i] * l * inverse_size;
+            for (place, count) in places[i] {
+                for d in 0..3 {
+                    let form = t[d] * *count;
+                    for k in 0..VELOCITIES {
+                        let both = form * mixed[i][k];
+                        matrix[place + d][k] += both;
+                        matrix[k][place + d] += both;
+                    }
+                    for (other, part) in places[i] {
+                        let share = rise * *count * *part;
+                        for c in 0..3 {
+                            let entry = &mut matrix[place + d][other + c];
+                            *entry = *entry - share * t[d] * t[c];
+                        }
+                        matrix[place + d][other + d] += share;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// From turns of the tangents' frames and leans at the ends to angular velocities of the sections, in columns and then in rows.
+#[inline(always)]
+fn by_sections<N: Real>(ends: &[End<N>; 2], matrix: &Matrix<N>) -> Matrix<N> {
+    let mut out = *matrix;
+    for k in 0..2 {
+        let (end, u, s) = (&ends[k], 9 * k + 3, 9 * k + 6);
+        for row in &mut out {
+            let (by_u, moment) = end.load(row[s], &[row[s + 1], row[s + 2]]);
+            for d in 0..3 {
+                row[u + d] += by_u[d];
+                row[s + d] = moment[d];
+            }
+        }
+    }
+    for k in 0..2 {
+        let (end, u, s) = (&ends[k], 9 * k + 3, 9 * k + 6);
+        for c in 0..VELOCITIES {
+            let (by_u, moment) = end.load(out[s][c], &[out[s + 1][c], out[s + 2][c]]);
+            for d in 0..3 {
+                out[u + d][c] += by_u[d];
+                out[s + d][c] = moment[d];
+            }
+        }
+    }
+    out
+}
