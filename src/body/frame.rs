@@ -18,6 +18,7 @@
 //! (one-step methods in coordinates that are renewed every step).
 
 mod carried;
+mod lean;
 mod tangent;
 mod turn;
 

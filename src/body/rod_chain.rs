@@ -1,5 +1,6 @@
-//! Bending and torsion of a rod, along the chain that is its line. Its nodes are those of the line, two for the frame carried at each of
-//! them, and one inside every element, which holds the internal twist alone.
+//! The sections of a rod or beam, along the chain that is its line: bending and torsion; of a beam shear and stretching too. Its nodes are
+//! those of the line, two for the frame carried at each of them, and one inside every element, which holds the internal twist and a beam's
+//! internal leans alone.
 
 mod lanes;
 
@@ -8,45 +9,46 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::assembly::{Assembly, NodeBlock, no_block};
-use super::connectivity::Node;
-use super::frame::{Carried, Frames};
+use super::connectivity::{Node, no_node};
+use super::frame::{Carried, Frames, axes_at, combined};
 use super::marker::Marker;
 use super::stages::rotated;
-use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Rates, Rod};
+use crate::elements::beam::{At, Force, Matrix as ElementMatrix, Rates};
+use crate::elements::section::{Section, SpinInertia};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components, vector};
 use crate::math::sparse::Matrix;
 use lanes::{Packed, packs};
 
-/// Where the internal twist stands in a node inside an element: part and axis. The axis before it stands still at one, so that the node
-/// has a direction.
-pub const INNER: (usize, usize) = (1, 1);
+/// Where the internal twist and a beam's two internal leans stand in a node inside an element: part and axis. The first axis stands one
+/// further than the lean, so that the node has a direction.
+pub const INNER: [(usize, usize); 3] = [(1, 1), (1, 0), (1, 2)];
+
+/// What stands in the places of [`INNER`] beside the coordinates.
+const AHEAD: [f64; 3] = [0.0, 1.0, 0.0];
+
+/// A node inside an element without internal twist and leans.
+pub fn untwisted<const D: usize>() -> Node<D> {
+    let mut node = no_node();
+    for ((part, axis), ahead) in INNER.into_iter().zip(AHEAD).take(D) {
+        node[part][axis] = ahead;
+    }
+    node
+}
 
 /// Angles from the middle of an element to an end, and of its twist, rad, from which on its frames are not told: just below a right angle,
 /// where no smallest rotation is stable, and half a turn.
 const MOST_BEND: f64 = 1.5;
 const MOST_TWIST: f64 = 3.0;
 
-/// Where an element's velocities stand among its nodes `[line, frame, line, frame, inner]`: node, part, first axis, how many.
-const PLACES: [(usize, usize, usize, usize); 7] = [
-    (0, 0, 0, 3),
-    (0, 1, 0, 3),
-    (1, 1, 0, 1),
-    (2, 0, 0, 3),
-    (2, 1, 0, 3),
-    (3, 1, 0, 1),
-    (4, INNER.0, INNER.1, 1),
-];
-
-/// Inertia of an element against spins at its ends and the rate of internal twist between them, in the order first end, inside, last end.
-type SpinInertia = [[f64; 3]; 3];
-
-/// Bending and torsion of a rod.
+/// The sections of a rod or beam.
 #[derive(Clone, Debug)]
 pub struct RodChain {
     packs: Vec<Packed>,
-    /// Its elements, each with its inertia against spins at its ends and the rate of internal twist between them, kg m^2.
-    elements: Vec<(Rod, SpinInertia)>,
+    /// Its elements, each with its inertia against spins at its ends and the rates inside, kg m^2.
+    elements: Vec<(Section, SpinInertia)>,
+    /// Spins of a section: 1 of a rod, 3 of a beam.
+    turns: usize,
     /// First node of the line, of the carried frames, and inside the elements.
     line: usize,
     frames: usize,
@@ -58,11 +60,12 @@ pub struct RodChain {
 
 impl RodChain {
     /// Along the line from node `line` on, whose nodes those of its frames follow and then those inside its elements; each element with its
-    /// inertia against spins ([`spin_inertia`](crate::elements::rod::spin_inertia)). So many frames are carried before its own.
-    pub fn new(elements: Vec<(Rod, SpinInertia)>, line: usize, carried: usize) -> Self {
+    /// inertia against spins. So many frames are carried before its own.
+    pub fn new(elements: Vec<(Section, SpinInertia)>, line: usize, carried: usize) -> Self {
         let nodes = elements.len() + 1;
         Self {
-            is_damped: elements.iter().any(|(rod, _)| rod.is_damped()),
+            turns: elements.first().map_or(1, |(section, _)| section.turns()),
+            is_damped: elements.iter().any(|(section, _)| section.is_damped()),
             line,
             frames: line + nodes,
             inner: line + 3 * nodes,
@@ -113,8 +116,13 @@ impl RodChain {
         self.line
     }
 
+    /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam.
+    pub fn turns(&self) -> usize {
+        self.turns
+    }
+
     /// Element `j`.
-    pub fn element(&self, j: usize) -> &Rod {
+    pub fn element(&self, j: usize) -> &Section {
         &self.elements[j].0
     }
 
@@ -126,10 +134,14 @@ impl RodChain {
     /// Where element `j` is.
     pub fn at<const D: usize, N: Number>(&self, j: usize, x: &[Node<D, N>]) -> At<N> {
         let [a, fa, b, fb, inner] = self.nodes(j);
+        let axes = |frame: usize| {
+            let ([_, first], [second, third]) = (&x[frame], &x[frame + 1]);
+            [first, second, third].map(|axis| components(&Vector::<D, N>::from(*axis)))
+        };
         At {
             e: ends([a, b], x),
-            d: [fa, fb].map(|frame| part(&x[frame + 1], 0)),
-            bubble: x[inner][INNER.0][INNER.1],
+            axes: [axes(fa), axes(fb)],
+            inner: [0, 1, 2].map(|k| x[inner][INNER[k].0][INNER[k].1] - N::of(AHEAD[k])),
         }
     }
 
@@ -145,7 +157,7 @@ impl RodChain {
         Rates {
             e: ends([a, b], v),
             spin: [spin(j), spin(j + 1)],
-            bubble: v[inner][INNER.0][INNER.1],
+            inner: INNER.map(|(part, axis)| v[inner][part][axis]),
         }
     }
 
@@ -159,13 +171,20 @@ impl RodChain {
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
-        (force, torques): (&mut [Node<D, N>], &mut [N]),
+        (force, moments): (&mut [Node<D, N>], &mut [[N; 3]]),
     ) -> N {
         let mut sum = N::of(0.0);
-        for (j, (rod, _)) in self.elements.iter().enumerate() {
+        for (j, (section, _)) in self.elements.iter().enumerate() {
             let at = self.at(j, motion.0);
-            let rates = rod.is_damped().then(|| self.rates(j, motion, frames));
-            let (Force { e, torque, bubble }, power) = rod.force(&at, rates.as_ref());
+            let rates = section.is_damped().then(|| self.rates(j, motion, frames));
+            let (
+                Force {
+                    e,
+                    moment,
+                    inner: f,
+                },
+                power,
+            ) = section.force(&at, rates.as_ref());
             let [a, _, b, _, inner] = self.nodes(j);
             for (k, vector) in e.iter().enumerate() {
                 let node = &mut force[[a, b][k / 2]][k % 2];
@@ -173,10 +192,14 @@ impl RodChain {
                     *sum += *f;
                 }
             }
-            for (k, torque) in torque.into_iter().enumerate() {
-                torques[self.carried + j + k] += torque;
+            for (k, moment) in moment.into_iter().enumerate() {
+                for (sum, m) in moments[self.carried + j + k].iter_mut().zip(moment) {
+                    *sum += m;
+                }
             }
-            force[inner][INNER.0][INNER.1] += bubble;
+            for ((part, axis), f) in self.inside().zip(f) {
+                force[inner][part][axis] += f;
+            }
             sum += power;
         }
         sum
@@ -189,10 +212,10 @@ impl RodChain {
         frames: &Frames,
     ) -> N {
         let mut sum = N::of(0.0);
-        for (j, (rod, _)) in self.elements.iter().enumerate() {
-            if rod.is_damped() {
+        for (j, (section, _)) in self.elements.iter().enumerate() {
+            if section.is_damped() {
                 let rates = self.rates(j, motion, frames);
-                sum += rod.force(&self.at(j, motion.0), Some(&rates)).1;
+                sum += section.force(&self.at(j, motion.0), Some(&rates)).1;
             }
         }
         sum
@@ -201,36 +224,43 @@ impl RodChain {
     /// Strain energy, J.
     pub fn strain_energy<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> N {
         let elements = self.elements.iter().enumerate();
-        let energies = elements.map(|(j, (rod, _))| rod.energy(&self.at(j, x)));
+        let energies = elements.map(|(j, (section, _))| section.energy(&self.at(j, x)));
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
-    /// Momenta conjugate to the spins at the ends of element `j` and to its rate of internal twist, N m s.
+    /// Momenta conjugate to the spins at the ends of element `j` and to its rates inside, N m s: first end, inside, last end.
     fn momenta<const D: usize, N: Number>(
         &self,
         j: usize,
         motion: (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
-    ) -> [N; 3] {
+    ) -> [[N; 3]; 3] {
         self.momenta_of(j, &self.rates(j, motion, frames))
     }
 
     /// The same of these velocities; of their rates, what changes it.
-    fn momenta_of<N: Number>(&self, j: usize, rates: &Rates<N>) -> [N; 3] {
+    fn momenta_of<N: Number>(&self, j: usize, rates: &Rates<N>) -> [[N; 3]; 3] {
         let (_, inertia) = &self.elements[j];
-        let rates = [rates.spin[0], rates.bubble, rates.spin[1]];
-        inertia.map(|row| {
-            let terms = row.iter().zip(&rates);
-            terms.fold(N::of(0.0), |sum, (m, rate)| sum + *rate * N::of(*m))
-        })
+        let rates = [rates.spin[0], rates.inner, rates.spin[1]];
+        let mut momenta = [[N::of(0.0); 3]; 3];
+        for (momentum, row) in momenta.iter_mut().zip(inertia) {
+            for (block, rate) in row.iter().zip(&rates) {
+                for r in 0..self.turns {
+                    for c in 0..self.turns {
+                        momentum[r] += rate[c] * N::of(block[r][c]);
+                    }
+                }
+            }
+        }
+        momenta
     }
 
-    /// For every carried frame its momentum about the tangent, N m s, part by part of the elements.
+    /// For every carried frame its momentum about the tangent or, of a beam, along its axes, N m s, part by part of the elements.
     pub fn for_each_momentum<const D: usize, N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
-        mut each: impl FnMut(&Carried, N),
+        mut each: impl FnMut(&Carried, [N; 3]),
     ) {
         for j in 0..self.elements.len() {
             let [a, _, b] = self.momenta(j, motion, frames);
@@ -247,29 +277,30 @@ impl RodChain {
     ) -> N {
         let mut sum = N::of(0.0);
         for j in 0..self.elements.len() {
-            let [a, inner, b] = self.momenta(j, motion, frames);
-            let Rates { spin, bubble, .. } = self.rates(j, motion, frames);
-            sum += a * spin[0] + inner * bubble + b * spin[1];
+            let rates = self.rates(j, motion, frames);
+            let momenta = self.momenta_of(j, &rates);
+            let rates = [rates.spin[0], rates.inner, rates.spin[1]];
+            for (momentum, rate) in momenta.iter().zip(&rates) {
+                let terms = momentum.iter().zip(rate).take(self.turns);
+                sum = terms.fold(sum, |sum, (p, w)| sum + *p * *w);
+            }
         }
         sum * N::of(0.5)
     }
 
-    /// Adds the force on slopes that spin asks for where the tangent turns.
+    /// Adds the force on slopes, or of a beam the moment on sections, that spin asks for where sections turn.
     pub fn add_gyroscopic<const D: usize, N: Number>(
         &self,
-        (x, v): (&[Node<D, N>], &[Node<D, N>]),
+        motion: (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
         force: &mut [Node<D, N>],
     ) {
-        self.for_each_momentum((x, v), frames, |frame, momentum| {
-            let on_slope = frame.gyroscopic(momentum, (x, v));
-            for (sum, f) in force[frame.line][1].iter_mut().zip(on_slope) {
-                *sum += f;
-            }
+        self.for_each_momentum(motion, frames, |frame, momentum| {
+            frame.add_gyroscopic(momentum, motion, force);
         });
     }
 
-    /// Adds mass times changes of spins and internal twists, over the nodes: forces on axes.
+    /// Adds mass times changes of spins and internal coordinates, over the nodes: forces on axes whose moments along them these are.
     pub fn add_spin_inertia<const D: usize>(
         &self,
         (x, dx): (&[Node<D>], &[Node<D>]),
@@ -278,30 +309,47 @@ impl RodChain {
     ) {
         for j in 0..self.elements.len() {
             let [a, inner, b] = self.momenta(j, (x, dx), frames);
-            for (k, torque) in [(j, a), (j + 1, b)] {
+            for (k, moment) in [(j, a), (j + 1, b)] {
                 let frame = self.frame(k, frames);
-                let [_, _, third] = frame.axes(x);
-                for (sum, axis) in force[frame.node + 1][0].iter_mut().zip(&third) {
-                    *sum += torque * axis;
+                let [first, second, third] = frame.axes(x);
+                let on_axes = [second * moment[2], third * moment[0], first * moment[1]];
+                let [_, to_first] = &mut force[frame.node];
+                (to_first.iter_mut().zip(&on_axes[0])).for_each(|(sum, f)| *sum += f);
+                let others = force[frame.node + 1].iter_mut().zip(&on_axes[1..]);
+                for (to, f) in others {
+                    to.iter_mut().zip(f).for_each(|(sum, f)| *sum += f);
                 }
             }
-            force[self.inner + j][INNER.0][INNER.1] += inner;
+            for ((part, axis), f) in self.inside().zip(inner) {
+                force[self.inner + j][part][axis] += f;
+            }
         }
     }
 
     /// Adds the inertia of spins to a matrix of the system.
     pub fn add_mass<const D: usize>(&self, assembly: &Assembly<D>, matrix: &mut Matrix<f64>) {
+        let turns: Vec<_> = (0..self.turns).map(|axis| (1, axis)).collect();
+        let inside: Vec<_> = self.inside().collect();
         for (j, (_, inertia)) in self.elements.iter().enumerate() {
             let [_, a, _, b, inner] = self.nodes(j);
-            let places = [(a, (1, 0)), (inner, INNER), (b, (1, 0))];
+            let places = [(a, &turns), (inner, &inside), (b, &turns)];
             for (r, (row, at)) in places.iter().enumerate() {
                 for (c, (column, on)) in places.iter().enumerate().take(r + 1) {
                     let mut block: NodeBlock<D> = no_block();
-                    block[at.0][at.1][on.0][on.1] = inertia[r][c];
+                    for (i, (p, axis)) in at.iter().enumerate() {
+                        for (k, (q, other)) in on.iter().enumerate() {
+                            block[*p][*axis][*q][*other] = inertia[r][c][i][k];
+                        }
+                    }
                     assembly.add(*row, *column, &block, matrix);
                 }
             }
         }
+    }
+
+    /// Where the coordinates inside its elements stand in their nodes.
+    pub fn inside(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        INNER.into_iter().take(self.turns)
     }
 
     /// The blocks of a symmetric matrix over the velocities of element `j`, on and below the diagonal of its nodes.
@@ -315,14 +363,29 @@ impl RodChain {
         for (row, a) in nodes.iter().enumerate() {
             for (column, b) in nodes.iter().enumerate().take(row + 1) {
                 let mut block: NodeBlock<D> = no_block();
-                for (r, (p, i)) in entries(row) {
-                    for (c, (q, k)) in entries(column) {
+                for (r, (p, i)) in self.entries(row) {
+                    for (c, (q, k)) in self.entries(column) {
                         block[p][i][q][k] = whole[r][c];
                     }
                 }
                 add(*a, *b, &block);
             }
         }
+    }
+
+    /// Velocities of an element at one of its nodes `[line, frame, line, frame, inner]`: number, then part and axis.
+    fn entries(&self, node: usize) -> impl Iterator<Item = (usize, (usize, usize))> {
+        let turns = self.turns;
+        let first = [0, 6, 6 + turns, 12 + turns, 12 + 2 * turns][node];
+        let count = if node % 2 == 0 && node < 4 { 6 } else { turns };
+        (0..count).map(move |k| {
+            let place = match node {
+                0 | 2 => (k / 3, k % 3),
+                4 => INNER[k],
+                _ => (1, k),
+            };
+            (first + k, place)
+        })
     }
 
     /// The first element that is bent or twisted beyond what its frames hold.
@@ -333,6 +396,18 @@ impl RodChain {
         })
     }
 
+    /// Moments on the sections at the ends of element `j`, given along their axes, in global components.
+    pub fn global<const D: usize, N: Number>(
+        &self,
+        j: usize,
+        moments: [[N; 3]; 2],
+        x: &[Node<D, N>],
+    ) -> [Vector3<N>; 2] {
+        let [_, a, _, b, _] = self.nodes(j);
+        let [first, last] = moments.map(Vector3::from);
+        [(a, first), (b, last)].map(|(frame, moment)| combined(&axes_at(frame, x), &moment))
+    }
+
     /// What element `j` lacks for equilibrium: elastic and damping forces less the inertia of spins, with the force that these ask for
     /// where tangents turn.
     pub fn lack<const D: usize, N: Number>(
@@ -341,44 +416,37 @@ impl RodChain {
         [x, v, a]: [&[Node<D, N>]; 3],
         frames: &Frames,
     ) -> Force<N> {
-        let (rod, _) = &self.elements[j];
-        let mut force = rod
-            .force(&self.at(j, x), Some(&self.rates(j, (x, v), frames)))
-            .0;
+        let (section, _) = &self.elements[j];
+        let rates = self.rates(j, (x, v), frames);
+        let mut force = section.force(&self.at(j, x), Some(&rates)).0;
         let ends = [self.frame(j, frames), self.frame(j + 1, frames)];
-        let [first, inner, last] = self.momenta_of(
+        let changes = self.momenta_of(
             j,
             &Rates {
-                e: self.rates(j, (x, v), frames).e,
+                e: rates.e,
                 spin: ends.map(|frame| frame.spin_rate(x, a)),
-                bubble: a[self.inner + j][INNER.0][INNER.1],
+                inner: INNER.map(|(part, axis)| a[self.inner + j][part][axis]),
             },
         );
-        force.torque[0] -= first;
-        force.torque[1] -= last;
-        force.bubble -= inner;
-        let [first, _, last] = self.momenta(j, (x, v), frames);
+        for (k, change) in changes.iter().enumerate() {
+            let on = match k {
+                1 => &mut force.inner,
+                _ => &mut force.moment[k / 2],
+            };
+            on.iter_mut().zip(change).for_each(|(f, p)| *f -= *p);
+        }
+        let [first, _, last] = self.momenta_of(j, &rates);
         for (k, (frame, momentum)) in ends.into_iter().zip([first, last]).enumerate() {
-            let on_slope = components(&Vector::<D, N>::from(frame.gyroscopic(momentum, (x, v))));
-            for (sum, f) in force.e[2 * k + 1].iter_mut().zip(on_slope) {
-                *sum += f;
-            }
+            let [slope, rate] = [x, v].map(|of| part(&of[frame.line], 1).into());
+            let asked = frame.gyroscopic(momentum, [&slope, &rate, &rates.spin[k].into()]);
+            let on = match frame.leans {
+                true => &mut force.moment[k],
+                false => &mut force.e[2 * k + 1],
+            };
+            on.iter_mut().zip(&asked).for_each(|(sum, f)| *sum += *f);
         }
         force
     }
-}
-
-/// Velocities of an element at one of its nodes: number, then part and axis.
-fn entries(node: usize) -> impl Iterator<Item = (usize, (usize, usize))> {
-    let mut first = 0;
-    let places = PLACES.iter().map(move |(of, part, axis, count)| {
-        first += count;
-        (*of, *part, *axis, first - count, *count)
-    });
-    let own = places.filter(move |(of, ..)| *of == node);
-    own.flat_map(|(_, part, axis, first, count)| {
-        (0..count).map(move |k| (first + k, (part, axis + k)))
-    })
 }
 
 /// Positions and slopes of two nodes, or their rates.

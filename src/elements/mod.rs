@@ -10,6 +10,7 @@ mod along;
 pub mod beam;
 pub mod cable;
 pub mod rod;
+pub mod section;
 pub mod shape;
 
 pub use along::Along;

@@ -105,10 +105,10 @@ const MOST_BODIES: usize = 12;
 fn body_in_words(body: &Body) -> String {
     let name = escape(body.name());
     match body {
-        Body::Cable(cable) | Body::Rod(cable) => {
+        Body::Cable(cable) | Body::Rod(cable) | Body::Beam(cable) => {
             // A length along an arc need not be a short number; four digits are enough to read.
             let length = number((cable.shape.length() * 1e4).round() / 1e4);
-            let kind = if cable.is_rod() { "rod" } else { "cable" };
+            let kind = cable.sections.element();
             let elements = match (cable.model, cable.elements) {
                 (Model::Rigid, _) => {
                     return format!("the rigid rod <em>{name}</em>, {length} m long");

@@ -55,7 +55,7 @@ impl<'a> Resolved<'a> {
         };
         for (body, described) in scene.bodies.iter().enumerate() {
             let reference = match described {
-                Body::Cable(described) | Body::Rod(described) => {
+                Body::Cable(described) | Body::Rod(described) | Body::Beam(described) => {
                     let form = match described.model {
                         Model::Rigid => Form::Rod(next(&mut rods)),
                         Model::Auto | Model::Flexible => Form::Chain(next(&mut chains)),
@@ -100,7 +100,7 @@ impl Scene {
     /// A cable.
     pub fn cable(&self, id: CableId) -> &CableBody {
         match &self.bodies[id.body] {
-            Body::Cable(body) | Body::Rod(body) => body,
+            Body::Cable(body) | Body::Rod(body) | Body::Beam(body) => body,
             Body::Rigid(_) => unreachable!("a number of a cable is that of a cable"),
         }
     }
@@ -108,7 +108,7 @@ impl Scene {
     /// The same, to be changed.
     pub fn cable_mut(&mut self, id: CableId) -> &mut CableBody {
         match &mut self.bodies[id.body] {
-            Body::Cable(body) | Body::Rod(body) => body,
+            Body::Cable(body) | Body::Rod(body) | Body::Beam(body) => body,
             Body::Rigid(_) => unreachable!("a number of a cable is that of a cable"),
         }
     }
@@ -117,7 +117,7 @@ impl Scene {
     pub fn rigid_mut(&mut self, id: RigidId) -> &mut RigidBody {
         match &mut self.bodies[id.0] {
             Body::Rigid(body) => body,
-            Body::Cable(_) | Body::Rod(_) => {
+            Body::Cable(_) | Body::Rod(_) | Body::Beam(_) => {
                 unreachable!("a number of a rigid body is that of a rigid body")
             }
         }

@@ -22,8 +22,8 @@ pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, CableBody, Course, Experiment, Inertia,
     Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, Material, Method,
-    Model, Orientation, OutputKind, Profile, RigidBody, Scene, Section, SectionNumbers, Shape,
-    Solid, Spin, Station, Strain, Symbol, Table, Value, Vector,
+    Model, Orientation, OutputKind, Profile, RigidBody, Scene, Section, SectionNumbers, Sections,
+    Shape, Solid, Spin, Station, Strain, Symbol, Table, Value, Vector,
 };
 pub use resolved::{
     Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First,

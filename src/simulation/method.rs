@@ -153,13 +153,13 @@ fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
     let Some(cable) = cables.next() else {
         return 0.0;
     };
-    let (material, length) = (&cable.material, cable.shape.length());
-    let (area, second) = (cable.section_at(0.5).area, cable.second_moment());
-    let speed = (material.youngs_modulus / material.density).sqrt();
-    if second > 0.0 {
-        PI * PI * speed * (second / area).sqrt() / (length * length)
+    let (length, middle) = (cable.shape.length(), cable.section_at(0.5));
+    let per_mass = |stiffness: f64| (stiffness / cable.line_density_of(&middle)).sqrt();
+    let bending = cable.bending_stiffness_of(&middle);
+    if bending > 0.0 {
+        PI * PI * per_mass(bending) / (length * length)
     } else {
-        PI * speed / length
+        PI * per_mass(cable.axial_stiffness_of(&middle)) / length
     }
 }
 

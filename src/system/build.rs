@@ -218,11 +218,13 @@ impl<const D: usize> System<D> {
             }
         }
         for frame in frames.carried_mut() {
-            unit[frame.node][1][0] = 1.0;
-            self.elimination.assembly.restrict(&unit, &mut y);
-            unit[frame.node][1][0] = 0.0;
-            let place = y.iter().position(|y| *y != 0.0);
-            frame.place = place.map_or((0, 0.0), |at| (at, y[at]));
+            for axis in 0..frame.turns() {
+                unit[frame.node][1][axis] = 1.0;
+                self.elimination.assembly.restrict(&unit, &mut y);
+                unit[frame.node][1][axis] = 0.0;
+                let place = y.iter().position(|y| *y != 0.0);
+                frame.places[axis] = place.map_or((0, 0.0), |at| (at, y[at]));
+            }
         }
         self.frames = frames;
     }
@@ -358,11 +360,13 @@ fn unplace<const D: usize>(parts: &mut Parts<D>, frames: &Frames) {
 
 /// Frames of rigid bodies, which are taken out of the parts, and those that rods carry.
 fn take_frames<const D: usize>(parts: &mut Parts<D>) -> Frames {
-    let carried = parts.rod_chains.iter().flat_map(RodChain::frames);
-    let carried = carried.map(|(node, line)| Carried {
+    let chains = parts.rod_chains.iter();
+    let carried = chains.flat_map(|chain| chain.frames().map(|frame| (chain.turns(), frame)));
+    let carried = carried.map(|(turns, (node, line))| Carried {
         node,
         line,
-        place: (0, 1.0),
+        leans: turns > 1,
+        places: [(0, 1.0); 3],
     });
     let inner = parts.rod_chains.iter().flat_map(RodChain::inner);
     let of_rods = (carried.collect(), inner);

@@ -43,8 +43,8 @@ pub struct Work<const D: usize = 2> {
     pub(super) turns: Vec<Turn>,
     /// The same of frames that rods carry.
     pub(super) carries: Vec<Carry>,
-    /// Torques of rods about the tangents of their carried frames, N m.
-    pub(super) torques: Vec<f64>,
+    /// Moments of rods on their sections, about the tangents, or of beams along the axes, N m.
+    pub(super) torques: Vec<[f64; 3]>,
     /// The state accepted last, to go back to from a step that leaves a cable.
     pub(super) before: State,
     /// Jacobian of the non-linear constraints, what it was made from, and their multipliers at the last acceleration.
@@ -148,7 +148,7 @@ impl<const D: usize> Work<D> {
             frames: vec![NO_TURN; system.frames.count()],
             turns: vec![Turn::default(); system.frames.list().len()],
             carries: vec![Carry::default(); system.frames.carried().len()],
-            torques: vec![0.0; system.frames.carried().len()],
+            torques: vec![[0.0; 3]; system.frames.carried().len()],
             before: system.blank_state(0.0),
             right: lambda.clone(),
             lambda,

@@ -1,6 +1,7 @@
-//! Frames that rods carry along: the first axis of each is the tangent of its line, the others are turned about it.
+//! Frames that rods and beams carry along their lines. Of rods the first axis is the tangent, the others are turned about it; sections of
+//! beams lean against it, have three coordinates and are in `lean.rs`.
 //!
-//! What is integrated is position and slope `(r, u)` of the node of the line and one rotation `p` about the tangent `t = u / |u|`,
+//! Of a rod what is integrated is position and slope `(r, u)` of the node of the line and one rotation `p` about the tangent `t = u / |u|`,
 //! measured from where the smallest rotation that takes the tangent `t0` of the frame which the state holds to `t` carries its second
 //! axis: `e2 = turn(p, t) carry(t0, t, d0)`. With `h = t0 x t / (1 + t0.t)` the spin about the tangent is `w = p' - h.t'`, the angular
 //! velocity `t x t' + w t`. A moment `m` is `(m x u) / u.u` on the slope and `m.t` on the rotation; conjugate to the spin, which is
@@ -10,25 +11,27 @@
 //! A. Popp, W. A. Wall, Geometrically exact finite element formulations for slender beams, Arch. Comput. Methods Eng. 26 (2019)
 //! 163-243, section 4 (smallest rotations on Hermite lines).
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use super::{Axes, Frames, axes_at, set_axes_at};
-use crate::body::assembly::{NodeBlock, no_block};
+use super::lean::Lean;
+use super::{Axes, Frames, axes_at, combined, set_axes_at, spin_at, turned};
 use crate::body::connectivity::Node;
 use crate::body::stages::rotated;
 use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, axes, normalized, quaternion_near};
 use crate::math::space::{components, vector};
 
-/// A frame at a node of a rod.
+/// A frame at a node of a rod or beam.
 #[derive(Clone, Debug)]
 pub struct Carried {
     /// Its first node; the second one follows. Both hold position and axes, as those of a rigid body do.
     pub node: usize,
     /// The node of the line that it is at.
     pub line: usize,
-    /// Where its rotation is among the free coordinates, and how many of that make a radian.
-    pub place: (usize, f64),
+    /// Whether it leans against the tangent, as those of beams do: three coordinates; else one, the rotation about the tangent.
+    pub leans: bool,
+    /// Where its rotations are among the free coordinates, and how many of that make a radian.
+    pub places: [(usize, f64); 3],
 }
 
 /// Which derivative of rotations.
@@ -53,6 +56,8 @@ pub struct Carry {
     /// Rotation about the tangent, rad, and angular velocity about it, rad/s.
     rotation: f64,
     spin: f64,
+    /// Of a section that leans.
+    lean: Lean,
 }
 
 impl Carry {
@@ -74,7 +79,10 @@ impl Carry {
     }
 
     /// How far it has turned, rad: as a whole or about the tangent.
-    fn size(&self) -> f64 {
+    fn size(&self, frame: &Carried) -> f64 {
+        if frame.leans {
+            return self.lean.size();
+        }
         let across = self.from.cross(&self.tangent).norm();
         across
             .atan2(self.from.dot(&self.tangent))
@@ -88,7 +96,7 @@ fn part<const D: usize, N: Number>(node: &Node<D, N>, part: usize) -> Vector3<N>
 }
 
 /// Angular velocity `t x t' + w t` of a slope and its rate, and a spin about it.
-fn angular<N: Number>(slope: &Vector3<N>, rate: &Vector3<N>, spin: N) -> Vector3<N> {
+pub(super) fn angular<N: Number>(slope: &Vector3<N>, rate: &Vector3<N>, spin: N) -> Vector3<N> {
     slope.cross(rate) / slope.norm_squared() + slope * (spin / slope.norm_squared().sqrt())
 }
 
@@ -103,21 +111,43 @@ impl Carried {
         axes_at(self.node, x)
     }
 
-    /// Angular velocity about its tangent, rad/s; or a small rotation about it, rad, where `v` holds changes.
-    pub fn spin<const D: usize, N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
-        let ([_, _, third], [_, second, _]) = (self.axes(x), self.axes(v));
-        third.dot(&second)
+    /// How many coordinates it has.
+    pub fn turns(&self) -> usize {
+        if self.leans { 3 } else { 1 }
     }
 
-    /// Rate of its angular velocity about the tangent, rad/s^2, at these accelerations: `t.sum e x e'' / 2`.
-    pub fn spin_rate<const D: usize, N: Number>(&self, x: &[Node<D, N>], a: &[Node<D, N>]) -> N {
-        let ([_, second, third], [_, second_rate, third_rate]) = (self.axes(x), self.axes(a));
-        (third.dot(&second_rate) - second.dot(&third_rate)) * N::of(0.5)
+    /// What it turns by freely: angular velocity along its axes, rad/s, of a rod's that about the tangent alone; or a small rotation,
+    /// rad, where `v` holds changes.
+    pub fn spin<const D: usize, N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> [N; 3] {
+        if self.leans {
+            return spin_at(self.node, x, v).into();
+        }
+        let ([_, _, third], [_, second, _]) = (self.axes(x), self.axes(v));
+        [third.dot(&second), N::of(0.0), N::of(0.0)]
+    }
+
+    /// Rates of these, rad/s^2, at these accelerations: `sum e x e'' / 2` along the axes.
+    pub fn spin_rate<const D: usize, N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        a: &[Node<D, N>],
+    ) -> [N; 3] {
+        let (axes, rates) = (self.axes(x), self.axes(a));
+        let mut along = [N::of(0.0); 3];
+        for (k, along) in along.iter_mut().enumerate().take(self.turns()) {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            *along = (axes[j].dot(&rates[i]) - axes[i].dot(&rates[j])) * N::of(0.5);
+        }
+        along
     }
 
     /// Its angular velocity, rad/s.
     pub fn velocity<const D: usize>(&self, x: &[Node<D>], v: &[Node<D>]) -> Vector3<f64> {
-        angular(&self.slope(x), &self.slope(v), self.spin(x, v))
+        let spin = self.spin(x, v);
+        match self.leans {
+            true => combined(&self.axes(x), &spin.into()),
+            false => angular(&self.slope(x), &self.slope(v), spin[0]),
+        }
     }
 
     /// Sets its axes, or their rates.
@@ -125,31 +155,63 @@ impl Carried {
         set_axes_at(self.node, axes, x);
     }
 
-    fn slope<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Vector3<N> {
+    pub(super) fn slope<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Vector3<N> {
         part(&x[self.line], 1)
     }
 
-    /// Changes of its axes by those of the slope in `dx` and by a small rotation about the tangent; so do angular accelerations.
+    /// What stands among free coordinates for its three rotations.
+    fn read(&self, y: &[f64]) -> Vector3<f64> {
+        self.places.map(|(at, scale)| y[at] / scale).into()
+    }
+
+    fn write(&self, rotations: &Vector3<f64>, y: &mut [f64]) {
+        for ((at, scale), value) in self.places.into_iter().zip(rotations) {
+            y[at] = value * scale;
+        }
+    }
+
+    /// Changes of its axes by small rotations along them; of a rod's by one about the tangent and by the change of the slope in `dx`.
+    /// So do angular accelerations.
     pub fn turned<const D: usize, N: Number>(
         &self,
         x: &[Node<D, N>],
         dx: &[Node<D, N>],
-        spin: N,
+        spin: [N; 3],
     ) -> Axes<N> {
-        let change = angular(&self.slope(x), &self.slope(dx), spin);
-        turned_by(&self.axes(x), &change)
+        let axes = self.axes(x);
+        if self.leans {
+            return turned(&axes, &spin.into());
+        }
+        turned_by(&axes, &angular(&self.slope(x), &self.slope(dx), spin[0]))
     }
 
-    /// Force on its slope of a momentum conjugate to the spin, N m s: `P (t x t') / |u|`, N m.
-    pub fn gyroscopic<const D: usize, N: Number>(
+    /// What a momentum conjugate to the spins, N m s, asks for where the section turns: of a rod the force `P (t x t') / |u|` on the
+    /// slope; of a beam the moment `-w x P` along the axes; N m.
+    pub fn gyroscopic<N: Number>(
         &self,
-        momentum: N,
+        momentum: [N; 3],
+        [slope, rate, spin]: [&Vector3<N>; 3],
+    ) -> Vector3<N> {
+        if self.leans {
+            return Vector3::from(momentum).cross(spin);
+        }
+        let square = slope.norm_squared();
+        slope.cross(rate) * (momentum[0] / (square * square.sqrt()))
+    }
+
+    /// The same at coordinates and rates of the nodes, added to forces: on the slope of the line, or on the frame.
+    pub fn add_gyroscopic<const D: usize, N: Number>(
+        &self,
+        momentum: [N; 3],
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
-    ) -> [N; D] {
-        let (u, rate) = (self.slope(x), self.slope(v));
-        let square = u.norm_squared();
-        let force = u.cross(&rate) * (momentum / (square * square.sqrt()));
-        vector::<D, N>(force.into()).into()
+        force: &mut [Node<D, N>],
+    ) {
+        let (slope, rate, spin) = (self.slope(x), self.slope(v), self.spin(x, v).into());
+        let asked = self.gyroscopic(momentum, [&slope, &rate, &spin]);
+        let node = if self.leans { self.node } else { self.line };
+        for (sum, f) in force[node][1].iter_mut().zip(&asked) {
+            *sum += *f;
+        }
     }
 
     /// Adds what a moment along its axes does to forces over the nodes that have coordinates.
@@ -160,37 +222,13 @@ impl Carried {
         stretch: N,
         f: &mut impl FnMut(usize, usize, [N; D]),
     ) {
+        if self.leans {
+            return f(self.node, 1, vector::<D, N>((*moment).into()).into());
+        }
         let across = (second * moment[2] - third * moment[1]) / stretch;
         f(self.line, 1, vector::<D, N>(across.into()).into());
         let zero = N::of(0.0);
         f(self.node, 1, vector::<D, N>([moment[0], zero, zero]).into());
-    }
-
-    /// Derivatives of one of its nodes' vectors by the coordinates of the line's node and by its rotation.
-    fn partials<const D: usize>(
-        &self,
-        is_second: bool,
-        x: &[Node<D>],
-    ) -> [(usize, NodeBlock<D>); 2] {
-        let (axes, slope) = (self.axes(x), self.slope(x));
-        let [mut by_line, mut by_turn] = [no_block(), no_block()];
-        let kept = if is_second { [1, 2] } else { [3, 0] };
-        for (p, k) in kept.into_iter().enumerate().filter(|(_, k)| *k < 3) {
-            let turn = axes[0].cross(&axes[k]);
-            for axis in 0..D {
-                by_turn[p][axis][1][0] = turn[axis];
-            }
-            for along in 0..D {
-                let change = angular(&slope, &Vector3::ith(along, 1.0), 0.0).cross(&axes[k]);
-                for axis in 0..D {
-                    by_line[p][axis][1][along] = change[axis];
-                }
-            }
-        }
-        if !is_second {
-            (0..D).for_each(|axis| by_line[0][axis][0][axis] = 1.0);
-        }
-        [(self.line, by_line), (self.node, by_turn)]
     }
 }
 
@@ -226,8 +264,16 @@ impl Frames {
         x: &mut [Node<D>],
     ) {
         for ((frame, from), carry) in self.carried.iter().zip(from).zip(carries) {
-            let [tangent, second, _] = axes(from);
             let slope = frame.slope(x);
+            x[frame.node][0] = x[frame.line][0];
+            if frame.leans {
+                let rotation = part(&x[frame.node], 1);
+                let (lean, axes) = Lean::placed(from, slope, rotation);
+                carry.lean = lean;
+                set_axes_at(frame.node, &axes, x);
+                continue;
+            }
+            let [tangent, second, _] = axes(from);
             let (t, stretch) = (slope / slope.norm(), slope.norm());
             let rotation = x[frame.node][1][0];
             let base = rotated(&tangent, &t, &second);
@@ -240,7 +286,6 @@ impl Frames {
                 ..Carry::default()
             };
             set_axes_at(frame.node, &[t, second, t.cross(&second)], x);
-            x[frame.node][0] = x[frame.line][0];
         }
     }
 
@@ -253,23 +298,30 @@ impl Frames {
     ) {
         for (frame, carry) in self.carried.iter().zip(carries) {
             let rate = frame.slope(v);
+            v[frame.node][0] = v[frame.line][0];
+            if frame.leans {
+                carry.lean.set_rates(rate, part(&v[frame.node], 1));
+                let axes = frame.turned(x, v, carry.lean.spin.into());
+                set_axes_at(frame.node, &axes, v);
+                continue;
+            }
             carry.stretching = carry.tangent.dot(&rate) / carry.stretch;
             carry.rate = rate / carry.stretch - carry.tangent * carry.stretching;
             carry.spin = v[frame.node][1][0] - carry.by_tangent().dot(&carry.rate);
-            let axes = frame.turned(x, v, carry.spin);
+            let axes = frame.turned(x, v, [carry.spin, 0.0, 0.0]);
             set_axes_at(frame.node, &axes, v);
-            v[frame.node][0] = v[frame.line][0];
         }
     }
 
-    /// Changes of axes to first order, whose places hold small rotations about the tangents before.
+    /// Changes of axes to first order, whose places hold small rotations before: along them, of rods about the tangents.
     pub(super) fn place_carried_changes<const D: usize, N: Number>(
         &self,
         x: &[Node<D, N>],
         dx: &mut [Node<D, N>],
     ) {
         for frame in &self.carried {
-            let axes = frame.turned(x, dx, dx[frame.node][1][0]);
+            let small: Vector3<N> = part(&dx[frame.node], 1);
+            let axes = frame.turned(x, dx, small.into());
             set_axes_at(frame.node, &axes, dx);
             dx[frame.node][0] = dx[frame.line][0];
         }
@@ -282,7 +334,15 @@ impl Frames {
         a: &mut [Node<D, N>],
     ) {
         for frame in &self.carried {
-            let (slope, rate, spin) = (frame.slope(x), frame.slope(v), frame.spin(x, v));
+            let spin = frame.spin(x, v);
+            if frame.leans {
+                let by_spin = turned(&frame.axes(v), &spin.into());
+                let sum = frame.axes(a);
+                let sum = std::array::from_fn(|k| sum[k] + by_spin[k]);
+                set_axes_at(frame.node, &sum, a);
+                continue;
+            }
+            let (slope, rate, spin) = (frame.slope(x), frame.slope(v), spin[0]);
             let square = slope.norm_squared();
             let velocity = angular(&slope, &rate, spin);
             let turn = slope.cross(&rate) / square;
@@ -335,54 +395,6 @@ impl Frames {
         });
     }
 
-    /// [`Frames::partials`] of a node of a carried frame.
-    pub(super) fn partials_of_carried<const D: usize>(
-        &self,
-        node: usize,
-        x: &[Node<D>],
-    ) -> Option<[(usize, NodeBlock<D>); 2]> {
-        let (frame, is_second) = self.carried_of::<D>(node)?;
-        Some(frame.partials(is_second, x))
-    }
-
-    /// Stiffness that forces on the axes of a carried frame add where it turns, over the coordinates of the line's node and its
-    /// rotation: pairs of nodes and blocks. Of a rotation `a + p t` with `a = t x du / |u|` the second order is
-    /// `p (a x t) / 2 - a (t.du) / |u|`.
-    pub fn geometric_of_carried<const D: usize>(
-        frame: &Carried,
-        f: &[Node<D>],
-        x: &[Node<D>],
-    ) -> [((usize, usize), NodeBlock<D>); 3] {
-        let (axes, forces, slope) = (frame.axes(x), axes_at(frame.node, f), frame.slope(x));
-        let (stretch, t) = (slope.norm(), axes[0]);
-        // Over small rotations in global components: sum (E.F) I - (F E^T + E F^T) / 2.
-        let mut turning = Matrix3::zeros();
-        let mut moment = Vector3::zeros();
-        for (axis, force) in axes.iter().zip(&forces) {
-            let product = force * axis.transpose();
-            turning += Matrix3::from_diagonal_element(axis.dot(force))
-                - (product + product.transpose()) * 0.5;
-            moment += axis.cross(force);
-        }
-        let by_slope = t.cross_matrix() / stretch;
-        let mut on_slope = by_slope.transpose() * turning * by_slope;
-        let leaned = moment.cross(&t) * t.transpose() / (stretch * stretch);
-        on_slope += leaned + leaned.transpose();
-        let across = moment - t * moment.dot(&t);
-        let mixed = by_slope.transpose() * turning * t - across * (0.5 / stretch);
-        let on_turn = t.dot(&(turning * t));
-        let [mut line, mut both, mut turn] = [no_block(), no_block(), no_block()];
-        for r in 0..D {
-            for c in 0..D {
-                line[1][r][1][c] = on_slope[(r, c)];
-            }
-            both[1][0][1][r] = mixed[r];
-        }
-        turn[1][0][1][0] = on_turn;
-        let (a, b) = (frame.line, frame.node);
-        [((a, a), line), ((b, a), both), ((b, b), turn)]
-    }
-
     /// Adds to what stands among free coordinates for rotations, small rotations about tangents or derivatives of spins, what the same
     /// derivatives of slopes make of them; `dx` are those over the nodes.
     pub fn turn_carried<const D: usize>(
@@ -393,7 +405,17 @@ impl Frames {
         y: &mut [f64],
     ) {
         for (frame, carry) in self.carried.iter().zip(carries) {
-            let ((at, scale), slope) = (frame.place, frame.slope(dx));
+            let slope = frame.slope(dx);
+            if frame.leans {
+                let spin = frame.read(y);
+                let changed = match order {
+                    Derivative::First => carry.lean.change_of(&spin, &slope),
+                    Derivative::Second => carry.lean.second_of(&spin, &slope),
+                };
+                frame.write(&changed, y);
+                continue;
+            }
+            let (at, scale) = frame.places[0];
             y[at] += scale
                 * match order {
                     Derivative::First => carry.rate_of(0.0, &slope),
@@ -404,7 +426,9 @@ impl Frames {
 
     /// The largest turn of a carried frame from that of the state, rad.
     pub fn largest_carry(&self, carries: &[Carry]) -> f64 {
-        carries.iter().map(Carry::size).fold(0.0, f64::max)
+        let frames = self.carried.iter().zip(carries);
+        let sizes = frames.map(|(frame, carry)| carry.size(frame));
+        sizes.fold(0.0, f64::max)
     }
 
     /// Rotations of carried frames begin at zero anew: the frames of the state become those at these coordinates; what is in `q`
@@ -417,8 +441,14 @@ impl Frames {
     ) {
         let frames = &mut frames[self.list.len()..];
         for ((frame, carry), from) in self.carried.iter().zip(carries).zip(frames) {
-            let (at, scale) = frame.place;
-            *from = normalized(quaternion_near(&frame.axes(x), from));
+            let axes = frame.axes(x);
+            *from = normalized(quaternion_near(&axes, from));
+            if frame.leans {
+                frame.write(&Vector3::zeros(), q);
+                frame.write(&carry.lean.rate_anew(&axes), v);
+                continue;
+            }
+            let (at, scale) = frame.places[0];
             (q[at], v[at]) = (0.0, scale * carry.spin);
         }
     }

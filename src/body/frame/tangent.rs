@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Frame, Frames, turned};
+use super::carried::angular;
+use super::{Axes, Carried, Frame, Frames, axes_at, turned};
 use crate::body::assembly::{NodeBlock, no_block};
 use crate::body::connectivity::Node;
 
@@ -154,8 +155,104 @@ impl Frames {
     /// Stiffness that forces on the axes of a body add where it turns, along its axes: `sum (E_i.F_i) I - F_i E_i^T`,
     /// symmetric where the forces have no moment.
     pub fn geometric<const D: usize>(frame: &Frame, f: &[Node<D>], x: &[Node<D>]) -> Matrix3<f64> {
-        let (axes, forces) = (frame.axes(x), frame.axes(f));
+        Self::geometric_at(&frame.axes(x), &frame.axes(f))
+    }
+
+    fn geometric_at(axes: &Axes, forces: &Axes) -> Matrix3<f64> {
         let along = Matrix3::from_fn(|i, j| forces[j].dot(&axes[i]));
         Matrix3::from_diagonal_element(along.trace()) - along
+    }
+
+    /// [`Frames::partials`] of a node of a carried frame.
+    pub(super) fn partials_of_carried<const D: usize>(
+        &self,
+        node: usize,
+        x: &[Node<D>],
+    ) -> Option<[(usize, NodeBlock<D>); 2]> {
+        let (frame, is_second) = self.carried_of::<D>(node)?;
+        Some(frame.partials(is_second, x))
+    }
+
+    /// Stiffness that forces on the axes of a carried frame add where it turns, over the coordinates of the line's node and its
+    /// rotations, pair by pair of nodes. Of a rotation `a + p t` with `a = t x du / |u|` the second order is
+    /// `p (a x t) / 2 - a (t.du) / |u|`.
+    pub fn geometric_of_carried<const D: usize>(
+        frame: &Carried,
+        f: &[Node<D>],
+        x: &[Node<D>],
+        mut add: impl FnMut(usize, usize, &NodeBlock<D>),
+    ) {
+        if frame.leans {
+            let (axes, forces) = (frame.axes(x), axes_at(frame.node, f));
+            let turned = Self::geometric_at(&axes, &forces);
+            let block = turning_block(&((turned + turned.transpose()) * 0.5));
+            return add(frame.node, frame.node, &block);
+        }
+        let (axes, forces, slope) = (frame.axes(x), axes_at(frame.node, f), frame.slope(x));
+        let (stretch, t) = (slope.norm(), axes[0]);
+        // Over small rotations in global components: sum (E.F) I - (F E^T + E F^T) / 2.
+        let mut turning = Matrix3::zeros();
+        let mut moment = Vector3::zeros();
+        for (axis, force) in axes.iter().zip(&forces) {
+            let product = force * axis.transpose();
+            turning += Matrix3::from_diagonal_element(axis.dot(force))
+                - (product + product.transpose()) * 0.5;
+            moment += axis.cross(force);
+        }
+        let by_slope = t.cross_matrix() / stretch;
+        let mut on_slope = by_slope.transpose() * turning * by_slope;
+        let leaned = moment.cross(&t) * t.transpose() / (stretch * stretch);
+        on_slope += leaned + leaned.transpose();
+        let across = moment - t * moment.dot(&t);
+        let mixed = by_slope.transpose() * turning * t - across * (0.5 / stretch);
+        let on_turn = t.dot(&(turning * t));
+        let [mut line, mut both, mut turn] = [no_block(), no_block(), no_block()];
+        for r in 0..D {
+            for c in 0..D {
+                line[1][r][1][c] = on_slope[(r, c)];
+            }
+            both[1][0][1][r] = mixed[r];
+        }
+        turn[1][0][1][0] = on_turn;
+        let (a, b) = (frame.line, frame.node);
+        add(a, a, &line);
+        add(b, a, &both);
+        add(b, b, &turn);
+    }
+}
+
+impl Carried {
+    /// Derivatives of one of its nodes' vectors by the coordinates of the line's node and by its rotation.
+    fn partials<const D: usize>(
+        &self,
+        is_second: bool,
+        x: &[Node<D>],
+    ) -> [(usize, NodeBlock<D>); 2] {
+        let (axes, slope) = (self.axes(x), self.slope(x));
+        let [mut by_line, mut by_turn] = [no_block(), no_block()];
+        let kept = if is_second { [1, 2] } else { [3, 0] };
+        for (p, k) in kept.into_iter().enumerate().filter(|(_, k)| *k < 3) {
+            if self.leans {
+                for (turn, about) in axes.iter().enumerate().take(D) {
+                    let change = about.cross(&axes[k]);
+                    (0..D).for_each(|axis| by_turn[p][axis][1][turn] = change[axis]);
+                }
+                continue;
+            }
+            let turn = axes[0].cross(&axes[k]);
+            for axis in 0..D {
+                by_turn[p][axis][1][0] = turn[axis];
+            }
+            for along in 0..D {
+                let change = angular(&slope, &Vector3::ith(along, 1.0), 0.0).cross(&axes[k]);
+                for axis in 0..D {
+                    by_line[p][axis][1][along] = change[axis];
+                }
+            }
+        }
+        if !is_second {
+            (0..D).for_each(|axis| by_line[0][axis][0][axis] = 1.0);
+        }
+        [(self.line, by_line), (self.node, by_turn)]
     }
 }

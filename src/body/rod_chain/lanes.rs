@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use super::{INNER, RodChain, SpinInertia};
+use super::{AHEAD, RodChain, SpinInertia};
 use crate::body::assembly::Assembly;
 use crate::body::chain::both;
 use crate::body::connectivity::Node;
 use crate::body::frame::Frames;
-use crate::elements::rod::{
-    At, Force, Matrix as ElementMatrix, Pack, Rates, Rod, Tangent, VELOCITIES,
-};
+use crate::elements::beam::{self, At, Beam, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
+use crate::elements::rod::{self, Rod, Tangent};
+use crate::elements::section::{Section, SectionPack, rod_at, rod_rates};
 use crate::math::lanes::{PACK, Simd, Work, vectorized};
 use crate::math::sparse::Matrix;
 
@@ -17,19 +17,19 @@ use crate::math::sparse::Matrix;
 #[derive(Clone, Debug)]
 pub(super) struct Packed {
     elements: Range<usize>,
-    kernel: Pack,
+    kernel: SectionPack,
 }
 
 /// Runs of elements that are alike.
-pub(super) fn packs(elements: &[(Rod, SpinInertia)]) -> Vec<Packed> {
+pub(super) fn packs(elements: &[(Section, SpinInertia)]) -> Vec<Packed> {
     let (mut packs, mut start) = (Vec::new(), 0);
     while start < elements.len() {
-        let rest = elements[start..].iter().map(|(rod, _)| rod);
-        let alike = rest.take_while(|rod| elements[start].0.goes_with(rod));
-        let alike: Vec<Rod> = alike.take(PACK).cloned().collect();
+        let rest = elements[start..].iter().map(|(section, _)| section);
+        let alike = rest.take_while(|section| elements[start].0.goes_with(section));
+        let alike: Vec<&Section> = alike.take(PACK).collect();
         packs.push(Packed {
             elements: start..start + alike.len(),
-            kernel: Rod::pack(&alike),
+            kernel: Section::pack(&alike),
         });
         start += alike.len();
     }
@@ -37,40 +37,38 @@ pub(super) fn packs(elements: &[(Rod, SpinInertia)]) -> Vec<Packed> {
 }
 
 impl RodChain {
-    /// Adds elastic and damping forces: those on the line and on internal twists over the nodes, torques about the tangents to those of
-    /// all carried frames. The power that damping takes out, W.
+    /// Adds elastic and damping forces: those on the line and inside elements over the nodes, moments on sections to those of all carried
+    /// frames. The power that damping takes out, W.
     pub fn add_force<const D: usize>(
         &self,
         motion: (&[Node<D>], &[Node<D>]),
         frames: &Frames,
-        out: (&mut [Node<D>], &mut [f64]),
+        out: (&mut [Node<D>], &mut [[f64; 3]]),
     ) -> f64 {
         let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
         let (zero, mut power) = ([0.0; PACK], 0.0);
         let mut force = Force {
             e: [[zero; 3]; 4],
-            torque: [zero; 2],
-            bubble: zero,
+            moment: [[zero; 3]; 2],
+            inner: [zero; 3],
         };
-        let (nodes, torques) = out;
+        let (nodes, moments) = out;
         for Packed { elements, kernel } in &self.packs {
             self.read(motion, None, elements, &mut place);
             if self.is_damped {
                 self.read(motion, Some(frames), elements, &mut rate);
             }
-            vectorized(PackForce {
-                kernel,
-                place: &place,
-                rate: self.is_damped.then_some(&rate),
-                force: &mut force,
-                power: &mut power,
-            });
-            self.write(elements, &force, (nodes, torques));
+            let motion = (&place, self.is_damped.then_some(&rate));
+            power += match kernel {
+                SectionPack::Rod(kernel) => rod_force(kernel, motion, &mut force),
+                SectionPack::Beam(kernel) => beam_force(kernel, motion, &mut force),
+            };
+            self.write(elements, &force, (nodes, moments));
         }
         power
     }
 
-    /// Adds the tangent stiffness, and damping where there is any, over rotations about tangents.
+    /// Adds the tangent stiffness, and damping where there is any, over small rotations of sections.
     pub fn add_tangent<const D: usize>(
         &self,
         motion: (&[Node<D>], &[Node<D>]),
@@ -88,13 +86,11 @@ impl RodChain {
                 if self.is_damped {
                     self.read(motion, Some(frames), elements, &mut rate);
                 }
-                vectorized(PackTangent {
-                    kernel,
-                    place: &place,
-                    rate: self.is_damped.then_some(&rate),
-                    kind,
-                    out: &mut out,
-                });
+                let motion = (&place, self.is_damped.then_some(&rate));
+                match kernel {
+                    SectionPack::Rod(kernel) => rod_tangent(kernel, motion, kind, &mut out),
+                    SectionPack::Beam(kernel) => beam_tangent(kernel, motion, kind, &mut out),
+                }
                 self.add_lanes(elements, &out, assembly, matrix);
             }
         }
@@ -110,18 +106,34 @@ impl RodChain {
     ) {
         let from = if frames.is_some() { v } else { x };
         for (lane, k) in (elements.start..=elements.end).enumerate() {
-            let (node, axes) = (&from[self.line + k], &x[self.frames + 2 * k + 1]);
+            let node = &from[self.line + k];
             for d in 0..D.min(3) {
                 pack.line[0][d][lane] = node[0][d];
                 pack.line[1][d][lane] = node[1][d];
-                pack.second[d][lane] = axes[0][d];
             }
             if let Some(frames) = frames {
-                pack.spin[lane] = self.frame(k, frames).spin(x, v);
+                let spin = self.frame(k, frames).spin(x, v);
+                for (to, spin) in pack.turn[0].iter_mut().zip(spin).take(self.turns) {
+                    to[lane] = spin;
+                }
+                continue;
+            }
+            let ([_, first], [second, third]) =
+                (&x[self.frames + 2 * k], &x[self.frames + 2 * k + 1]);
+            // A rod asks for the second axis alone.
+            let axes = [second, first, third];
+            for (to, axis) in pack.turn.iter_mut().zip(axes).take(self.turns) {
+                for d in 0..D.min(3) {
+                    to[d][lane] = axis[d];
+                }
             }
         }
+        let ahead = if frames.is_some() { [0.0; 3] } else { AHEAD };
         for (lane, j) in elements.clone().enumerate() {
-            pack.bubble[lane] = from[self.inner + j][INNER.0][INNER.1];
+            let places = self.inside().zip(ahead);
+            for (to, ((part, axis), ahead)) in pack.inner.iter_mut().zip(places) {
+                to[lane] = from[self.inner + j][part][axis] - ahead;
+            }
         }
     }
 
@@ -129,7 +141,7 @@ impl RodChain {
         &self,
         elements: &Range<usize>,
         f: &Force<[f64; PACK]>,
-        (nodes, torques): (&mut [Node<D>], &mut [f64]),
+        (nodes, moments): (&mut [Node<D>], &mut [[f64; 3]]),
     ) {
         for (lane, j) in elements.clone().enumerate() {
             for end in 0..2 {
@@ -139,9 +151,14 @@ impl RodChain {
                         node[p][d] += f.e[2 * end + p][d][lane];
                     }
                 }
-                torques[self.carried + j + end] += f.torque[end][lane];
+                let moment = moments[self.carried + j + end].iter_mut();
+                for (sum, m) in moment.zip(&f.moment[end]).take(self.turns) {
+                    *sum += m[lane];
+                }
             }
-            nodes[self.inner + j][INNER.0][INNER.1] += f.bubble[lane];
+            for ((part, axis), f) in self.inside().zip(&f.inner) {
+                nodes[self.inner + j][part][axis] += f[lane];
+            }
         }
     }
 
@@ -155,7 +172,7 @@ impl RodChain {
     ) {
         for (lane, j) in elements.clone().enumerate() {
             let mut whole = [[0.0; VELOCITIES]; VELOCITIES];
-            for r in 0..VELOCITIES {
+            for r in 0..12 + 3 * self.turns {
                 for c in 0..=r {
                     (whole[r][c], whole[c][r]) = (lanes[r][c][lane], lanes[r][c][lane]);
                 }
@@ -167,12 +184,12 @@ impl RodChain {
     }
 }
 
-/// Every coordinate of the nodes of a pack side by side: positions and slopes, or their rates; second axes; spins; internal twists.
+/// Every coordinate of the nodes of a pack side by side: positions and slopes, or their rates; axes of sections (the second, the first,
+/// the third), or of the first of these in its place spins; coordinates inside elements.
 struct NodePack {
     line: [[[f64; PACK + 1]; 3]; 2],
-    second: [[f64; PACK + 1]; 3],
-    spin: [f64; PACK + 1],
-    bubble: [f64; PACK],
+    turn: [[[f64; PACK + 1]; 3]; 3],
+    inner: [[f64; PACK]; 3],
 }
 
 impl NodePack {
@@ -186,31 +203,36 @@ impl NodePack {
         }
         Self {
             line: [[places, zero, zero], [one, zero, zero]],
-            second: [zero, one, zero],
-            spin: zero,
-            bubble: [0.0; PACK],
+            turn: [[zero, one, zero], [one, zero, zero], [zero, zero, one]],
+            inner: [[0.0; PACK]; 3],
         }
     }
 
     #[inline(always)]
     fn at(&self) -> At<&[f64; PACK]> {
-        let mut d = [[&self.bubble; 3]; 2];
-        for k in 0..3 {
-            [d[0][k], d[1][k]] = both(&self.second[k]);
+        let mut axes = [[[&self.inner[0]; 3]; 3]; 2];
+        for (axis, k) in [1, 0, 2].into_iter().enumerate() {
+            for d in 0..3 {
+                [axes[0][axis][d], axes[1][axis][d]] = both(&self.turn[k][d]);
+            }
         }
         At {
             e: self.ends(),
-            d,
-            bubble: &self.bubble,
+            axes,
+            inner: self.inner.each_ref(),
         }
     }
 
     #[inline(always)]
     fn rates(&self) -> Rates<&[f64; PACK]> {
+        let mut spin = [[&self.inner[0]; 3]; 2];
+        for k in 0..3 {
+            [spin[0][k], spin[1][k]] = both(&self.turn[0][k]);
+        }
         Rates {
             e: self.ends(),
-            spin: both(&self.spin),
-            bubble: &self.bubble,
+            spin,
+            inner: self.inner.each_ref(),
         }
     }
 
@@ -227,38 +249,123 @@ impl NodePack {
     }
 }
 
-/// Forces of a pack. Neither this nor [`PackTangent`] knows the dimension: that would compile them twice.
-struct PackForce<'a> {
-    kernel: &'a Pack,
-    place: &'a NodePack,
-    rate: Option<&'a NodePack>,
-    force: &'a mut Force<[f64; PACK]>,
+/// Coordinates of the nodes of a pack, and rates where it is damped.
+type Motion<'a> = (&'a NodePack, Option<&'a NodePack>);
+
+/// Something to compute in lanes. None of these knows the dimension: that would compile them twice.
+struct InLanes<'a, K, O> {
+    kernel: &'a K,
+    motion: Motion<'a>,
+    kind: Tangent,
+    out: &'a mut O,
     power: &'a mut f64,
 }
 
-impl Work for PackForce<'_> {
+/// Forces of a pack of rods, and the power that damping takes out, W.
+fn rod_force(kernel: &rod::Pack, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64 {
+    let zero = [0.0; PACK];
+    let (mut power, mut out) = (
+        0.0,
+        rod::Force {
+            e: [[zero; 3]; 4],
+            torque: [zero; 2],
+            bubble: zero,
+        },
+    );
+    vectorized(InLanes {
+        kernel,
+        motion,
+        kind: Tangent::Stiffness,
+        out: &mut out,
+        power: &mut power,
+    });
+    force.e = out.e;
+    [force.moment[0][0], force.moment[1][0]] = out.torque;
+    force.inner[0] = out.bubble;
+    power
+}
+
+impl Work for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let rates = self.rate.map(NodePack::rates);
-        let motion = (&self.place.at(), rates.as_ref());
-        *self.power += Rod::pack_force(simd, self.kernel, motion, self.force);
+        let rates = self.motion.1.map(|rate| rod_rates(&rate.rates()));
+        let motion = (&rod_at(&self.motion.0.at()), rates.as_ref());
+        *self.power += Rod::pack_force(simd, self.kernel, motion, self.out);
     }
 }
 
-/// Tangent of a pack.
-struct PackTangent<'a> {
-    kernel: &'a Pack,
-    place: &'a NodePack,
-    rate: Option<&'a NodePack>,
-    kind: Tangent,
-    out: &'a mut ElementMatrix<[f64; PACK]>,
+/// The same of beams.
+fn beam_force(kernel: &beam::Pack, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64 {
+    let mut power = 0.0;
+    vectorized(InLanes {
+        kernel,
+        motion,
+        kind: Tangent::Stiffness,
+        out: force,
+        power: &mut power,
+    });
+    power
 }
 
-impl Work for PackTangent<'_> {
+impl Work for InLanes<'_, beam::Pack, Force<[f64; PACK]>> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let rates = self.rate.map(NodePack::rates);
-        let motion = (&self.place.at(), rates.as_ref());
+        let rates = self.motion.1.map(NodePack::rates);
+        let motion = (&self.motion.0.at(), rates.as_ref());
+        *self.power += Beam::pack_force(simd, self.kernel, motion, self.out);
+    }
+}
+
+/// Tangent of a pack of rods.
+fn rod_tangent(
+    kernel: &rod::Pack,
+    motion: Motion<'_>,
+    kind: Tangent,
+    whole: &mut ElementMatrix<[f64; PACK]>,
+) {
+    let mut out = [[[0.0; PACK]; rod::VELOCITIES]; rod::VELOCITIES];
+    vectorized(InLanes {
+        kernel,
+        motion,
+        kind,
+        out: &mut out,
+        power: &mut 0.0,
+    });
+    for (row, from) in whole.iter_mut().zip(&out) {
+        row[..rod::VELOCITIES].copy_from_slice(from);
+    }
+}
+
+impl Work for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let rates = self.motion.1.map(|rate| rod_rates(&rate.rates()));
+        let motion = (&rod_at(&self.motion.0.at()), rates.as_ref());
         Rod::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
+    }
+}
+
+/// The same of beams.
+fn beam_tangent(
+    kernel: &beam::Pack,
+    motion: Motion<'_>,
+    kind: Tangent,
+    out: &mut ElementMatrix<[f64; PACK]>,
+) {
+    vectorized(InLanes {
+        kernel,
+        motion,
+        kind,
+        out,
+        power: &mut 0.0,
+    });
+}
+
+impl Work for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let rates = self.motion.1.map(NodePack::rates);
+        let motion = (&self.motion.0.at(), rates.as_ref());
+        Beam::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
 }

@@ -30,6 +30,17 @@ use taper::mass;
 /// of stretching waves and cost bending less than they gain; beyond it they lock.
 const SLENDER: f64 = 200.0;
 
+/// What a cable element is the line of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineOf {
+    /// A cable: it stretches and bends itself.
+    Cable,
+    /// A rod, whose sections bend and twist.
+    Rod,
+    /// A beam, whose sections stretch too.
+    Beam,
+}
+
 /// Parameters of a cable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
@@ -39,8 +50,8 @@ pub struct Parameters {
     pub axial_stiffness: f64,
     /// Bending stiffness EI, N m^2.
     pub bending_stiffness: f64,
-    /// Whether it is the line of a rod: bending is not its own then.
-    pub is_line_of_rod: bool,
+    /// What it is the line of: bending is not its own of a rod, nor is stretching of a beam.
+    pub line_of: LineOf,
     /// Mass per reference length, kg/m.
     pub line_density: f64,
     /// Kelvin-Voigt damping time of axial strain: force is stiffness times (strain + time x strain rate), s.
@@ -145,14 +156,15 @@ impl<const D: usize> Cable<D> {
             true => Sampling::Lobatto,
             false => Sampling::Between,
         };
-        let own_bending = match p.is_line_of_rod {
-            true => 0.0,
-            false => p.bending_stiffness,
+        let (own_stretching, own_bending) = match p.line_of {
+            LineOf::Cable => (p.axial_stiffness, p.bending_stiffness),
+            LineOf::Rod => (p.axial_stiffness, 0.0),
+            LineOf::Beam => (0.0, 0.0),
         };
         let mut kernel = Kernel {
             length: p.length,
             inverse_length: 1.0 / p.length,
-            axial_stiffness: sampling.of(p.axial_stiffness, &taper.axial),
+            axial_stiffness: sampling.of(own_stretching, &taper.axial),
             bending_stiffness: GAUSS_3.map(|point| own_bending * taper.bending.at(point.at)),
             axial_damping_time: p.axial_damping_time,
             bending_damping_time: p.bending_damping_time,
@@ -312,7 +324,7 @@ impl<const D: usize> Element<D> for Cable<D> {
     }
 
     fn bends(&self) -> bool {
-        self.kernel.bends || self.parameters.is_line_of_rod
+        self.kernel.bends || self.parameters.line_of != LineOf::Cable
     }
 
     fn strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> (N, N) {

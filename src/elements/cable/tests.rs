@@ -8,7 +8,7 @@ const ROPE: Parameters = Parameters {
     length: 0.7,
     axial_stiffness: 50.0,
     bending_stiffness: 0.0,
-    is_line_of_rod: false,
+    line_of: LineOf::Cable,
     line_density: 1.3,
     axial_damping_time: 0.0,
     bending_damping_time: 0.0,

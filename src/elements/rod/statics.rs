@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, Vector3};
 
 use super::tests::{moved, section};
 use super::*;
-use crate::elements::cable::{self, Cable, Inertia};
+use crate::elements::cable::{self, Cable, Inertia, LineOf};
 use crate::elements::{Element, Nodal, Strain};
 
 type V = Vector3<f64>;
@@ -56,7 +56,7 @@ impl Chain {
             length: l,
             axial_stiffness: stiffness.1,
             bending_stiffness: 0.0,
-            is_line_of_rod: false,
+            line_of: LineOf::Cable,
             line_density: 1.0,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,

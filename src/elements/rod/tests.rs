@@ -369,7 +369,7 @@ fn packs_are_as_their_elements() {
 
 #[test]
 fn plane_bending_is_that_of_a_cable() {
-    use crate::elements::cable::{Cable, Inertia};
+    use crate::elements::cable::{Cable, Inertia, LineOf};
     let turn = Rotation3::new(V::new(0.4, -1.2, 0.7));
     let flat = [[0.1, 0.2], [0.9, -0.3], [0.65, 0.3], [1.0, 0.6]];
     let e = flat.map(|[x, y]| <[f64; 3]>::from(turn * V::new(x, y, 0.0)));
@@ -377,7 +377,7 @@ fn plane_bending_is_that_of_a_cable() {
         length: 0.7,
         axial_stiffness: 0.0,
         bending_stiffness: 2.0,
-        is_line_of_rod: false,
+        line_of: LineOf::Cable,
         line_density: 1.0,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,

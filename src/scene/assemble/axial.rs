@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::scene::Axial;
 use crate::scene::resolved::{Cable, Ends, First, Marker, MotionKind, Place, PortKind, Resolved};
-use crate::scene::{Axial, CableBody};
 
 /// Part of the length from an end up to which a marker is at it.
 const AT_END: f64 = 1e-9;
@@ -22,15 +22,17 @@ impl Resolved<'_> {
     /// Angular frequency of the first axial mode of a uniform bar with these ends, rad/s: `pi c / L` where both ends are
     /// held or both are free, `pi c / (2 L)` where one is.
     fn first_axial_frequency(&self, cable: Cable<'_>) -> f64 {
-        let CableBody {
-            material, shape, ..
-        } = cable.body;
-        let speed = (material.youngs_modulus / material.density).sqrt();
+        let (body, middle) = (cable.body, cable.body.section_at(0.5));
+        let [stiffness, density] = [
+            body.axial_stiffness_of(&middle),
+            body.line_density_of(&middle),
+        ];
+        let speed = (stiffness / density).sqrt();
         let halves = match self.held_ends(cable) {
             [true, false] | [false, true] => 0.5,
             [true, true] | [false, false] => 1.0,
         };
-        PI * halves * speed / shape.length()
+        PI * halves * speed / body.shape.length()
     }
 
     /// Whether joints or motions exert forces on the first and the last end of a cable.

@@ -3,14 +3,16 @@
 use super::Builder;
 use nalgebra::Vector3;
 
-use crate::body::{Frame, Marker, Node, RodChain, carried_nodes};
-use crate::elements::cable::{self, Inertia};
-use crate::elements::rod::{self, At, Rod as RodElement};
+use crate::body::{Frame, Marker, RodChain, carried_nodes, untwisted};
+use crate::elements::beam::{self, At, Beam};
+use crate::elements::cable::{self, Inertia, LineOf};
+use crate::elements::rod::{self, Rod as RodElement};
+use crate::elements::section::{Section, rod_at, spin_inertia};
 use crate::elements::{self, Along, Nodal};
 use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
 use crate::scene::resolved::{BodyReference, Cable, Form, Rigid};
-use crate::scene::{CableBody, Error, RigidBody, SectionNumbers, Strain};
+use crate::scene::{CableBody, Error, RigidBody, SectionNumbers, Sections, Strain};
 use crate::system::{CableChain, LumpedMass, Rod};
 
 /// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
@@ -126,13 +128,13 @@ impl<const D: usize> Builder<'_, D> {
         self.parts.nodes.extend(mesh.iter().map(node));
         self.parts.chains.push(chain);
         if cable.is_rod() {
-            self.sections(cable, &mesh, first);
+            self.sections((cable, axial), &mesh, first);
         }
         Ok(())
     }
 
     /// The sections of a rod along its line, whose first node is this one: their frames, and the twist inside elements.
-    fn sections(&mut self, rod: &CableBody, mesh: &[f64], first: usize) {
+    fn sections(&mut self, (rod, axial_time): (&CableBody, f64), mesh: &[f64], first: usize) {
         let line = self.parts.nodes[first..].to_vec();
         let twists = mesh.iter().map(|s| rod.sections_about(*s)(*s).1);
         let tangent = |j: usize, part: f64| {
@@ -148,34 +150,46 @@ impl<const D: usize> Builder<'_, D> {
             let [[a, u], [b, v]] = [line[j], line[j + 1]].map(|node| node.map(full));
             let shape = At {
                 e: [a, u, b, v],
-                d: [j, j + 1].map(|k| full(axes[2 * k + 1][0])),
-                bubble: 0.0,
+                axes: [j, j + 1].map(|k| {
+                    let [[_, first], [second, third]] = [axes[2 * k], axes[2 * k + 1]];
+                    [first, second, third].map(full)
+                }),
+                inner: [0.0; 3],
             };
             let numbers = numbers_along(rod, s);
+            let time = rod.material.damping_time;
+            if rod.is_beam() {
+                let parameters = beam::Parameters {
+                    length,
+                    stiffness: GAUSS_3.map(|p| rod.whole_stiffness(&numbers(p.at)).into()),
+                    damping_times: [axial_time, time, time, time, time, time],
+                };
+                let inertia = spin_inertia(length, |xi| rod.rotary_inertia_of(&numbers(xi)));
+                let beam = Beam::new(parameters, &shape);
+                return (Section::Beam(Box::new(beam)), inertia);
+            }
             let parameters = rod::Parameters {
                 length,
                 stiffness: GAUSS_3.map(|point| rod.stiffness(&numbers(point.at)).into()),
-                damping_times: [rod.material.damping_time; 3],
+                damping_times: [time; 3],
             };
-            let polar = |xi: f64| {
-                let [first, second] = numbers(xi).second_moments;
-                rod.material.density * (first + second)
-            };
+            let polar = |xi: f64| rod.rotary_inertia_of(&numbers(xi))[(0, 0)];
             let inertia = rod::spin_inertia(length, &Along::through(polar));
-            (RodElement::new(parameters, &shape), inertia)
+            let about_tangent = |mass| [[mass, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+            let inertia = inertia.map(|row| row.map(about_tangent));
+            let rod = RodElement::new(parameters, &rod_at(&shape));
+            (Section::Rod(rod), inertia)
         });
         let chain = RodChain::new(elements.collect(), first, carried);
         self.parts.nodes.extend(axes);
-        let inside = chain.inner().map(|_| [[0.0; D]; 2]);
-        let inside: Vec<Node<D>> = inside.collect();
-        self.parts.nodes.extend(inside);
+        self.parts.nodes.extend(chain.inner().map(|_| untwisted()));
         self.parts.rod_chains.push(chain);
     }
 
     /// A cable that does not bend, about its middle; gives back how far along it from there its first end is, m.
     fn rod(&mut self, index: usize, cable: &CableBody) -> f64 {
         let length = cable.shape.length();
-        let mass = cable.material.density * cable.section_at(0.5).area * length;
+        let mass = cable.line_density_of(&cable.section_at(0.5)) * length;
         let [x, y, _] = cable.shape.tangent(0.5);
         self.parts.rods.push(Rod {
             node: self.parts.nodes.len(),
@@ -279,17 +293,22 @@ fn build_elements<const D: usize>(
     };
     let end = |s: f64| [body.shape.point(s), body.shape.tangent(s)].map(vector);
     let build = |s: &[f64]| {
-        let numbers = numbers_along(body, s);
-        let (area, second) = (
-            |xi| numbers(xi).area,
-            |xi| body.second_moment_of(&numbers(xi)),
-        );
+        let [stretching, bending, density] = [
+            CableBody::axial_stiffness_of,
+            CableBody::bending_stiffness_of,
+            CableBody::line_density_of,
+        ]
+        .map(|number| move |xi: f64| number(body, &numbers_along(body, s)(xi)));
         let parameters = cable::Parameters {
             length: (s[1] - s[0]) * body.shape.length(),
-            axial_stiffness: material.youngs_modulus * area(0.5),
-            bending_stiffness: material.youngs_modulus * second(0.5),
-            is_line_of_rod: body.is_rod(),
-            line_density: material.density * area(0.5),
+            axial_stiffness: stretching(0.5),
+            bending_stiffness: bending(0.5),
+            line_of: match body.sections {
+                Sections::None => LineOf::Cable,
+                Sections::Turn => LineOf::Rod,
+                Sections::Lean => LineOf::Beam,
+            },
+            line_density: density(0.5),
             axial_damping_time,
             bending_damping_time: material.damping_time,
             strain,
@@ -297,11 +316,11 @@ fn build_elements<const D: usize>(
         };
         let mut taper = cable::Taper::default();
         if !body.stations.is_empty() {
-            taper.axial = Along::through(|xi| area(xi) / area(0.5));
-            taper.density = taper.axial;
+            taper.axial = Along::through(|xi| stretching(xi) / stretching(0.5));
+            taper.density = Along::through(|xi| density(xi) / density(0.5));
         }
-        if !body.stations.is_empty() && second(0.5) > 0.0 {
-            taper.bending = Along::through(|xi| second(xi) / second(0.5));
+        if !body.stations.is_empty() && bending(0.5) > 0.0 {
+            taper.bending = Along::through(|xi| bending(xi) / bending(0.5));
         }
         let [a, b]: [[Vector<D>; 2]; 2] = [end(s[0]), end(s[1])];
         let e = Nodal::from_columns(&[a[0], a[1], b[0], b[1]]);

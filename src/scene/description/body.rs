@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::Value;
 
 use super::accuracy::elements;
 use super::section::between;
@@ -22,6 +23,8 @@ pub enum Body {
     /// The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
     /// shear. In space.
     Rod(CableBody),
+    /// The same with sections that lean against the line: shears too, with the rotary inertia of its sections. In space.
+    Beam(CableBody),
     /// Rigid.
     Rigid(RigidBody),
 }
@@ -53,7 +56,7 @@ pub struct CableBody {
     /// What becomes of waves of stretching.
     #[serde(default)]
     pub axial: Axial,
-    /// Of rods: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    /// Of rods and beams: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
     /// there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<Vector>,
@@ -65,6 +68,32 @@ pub struct CableBody {
     /// Named material coordinates: 0 is the first end, 1 the last.
     #[serde(default)]
     pub markers: BTreeMap<String, f64>,
+    /// What its sections do, as its element says.
+    #[serde(skip)]
+    pub sections: Sections,
+}
+
+/// What the sections of a line do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sections {
+    /// Nothing: a cable.
+    #[default]
+    None,
+    /// They turn about the line: a rod.
+    Turn,
+    /// They turn and lean against it: a beam.
+    Lean,
+}
+
+impl Sections {
+    /// The element that they make of a line.
+    pub fn element(self) -> &'static str {
+        match self {
+            Self::None => "cable",
+            Self::Turn => "rod",
+            Self::Lean => "beam",
+        }
+    }
 }
 
 /// Whether a cable bends and stretches.
@@ -125,15 +154,17 @@ pub struct RigidBody {
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus, Pa.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub youngs_modulus: f64,
-    /// Of rods: shear modulus, Pa.
+    pub youngs_modulus: Option<f64>,
+    /// Of rods and beams: shear modulus, Pa.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_modulus: Option<f64>,
     /// Density, kg/m^3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub density: f64,
+    pub density: Option<f64>,
     /// Kelvin-Voigt damping: ratio of viscosity to stiffness, s.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
@@ -243,7 +274,8 @@ pub struct Mass {
 impl<'de> Deserialize<'de> for Body {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let wrong = |found: &str| {
-            let message = format!("expected \"cable\", \"rod\" or \"rigid\", found {found}");
+            let message =
+                format!("expected \"cable\", \"rod\", \"beam\" or \"rigid\", found {found}");
             D::Error::custom(at("element", &message))
         };
         let mut value = Strict::deserialize(deserializer)?.0;
@@ -255,24 +287,35 @@ impl<'de> Deserialize<'de> for Body {
         let element = keys.remove("element").ok_or_else(|| wrong("nothing"))?;
         match element.as_str() {
             Some("cable") => typed(value).map(Self::Cable),
-            Some("rod") => typed(value).map(Self::Rod),
+            Some("rod") => with_sections(value, Sections::Turn).map(Self::Rod),
+            Some("beam") => with_sections(value, Sections::Lean).map(Self::Beam),
             Some("rigid") => typed(value).map(Self::Rigid),
             _ => Err(wrong(&element.to_string())),
         }
     }
 }
 
+fn with_sections<E: serde::de::Error>(value: Value, sections: Sections) -> Result<CableBody, E> {
+    let body: CableBody = typed(value)?;
+    Ok(CableBody { sections, ..body })
+}
+
 impl CableBody {
-    /// Whether its sections turn about its line.
+    /// Whether its sections turn about its line: a rod or a beam.
     pub fn is_rod(&self) -> bool {
-        self.material.shear_modulus.is_some()
+        self.sections != Sections::None
+    }
+
+    /// Whether they lean against it, too.
+    pub fn is_beam(&self) -> bool {
+        self.sections == Sections::Lean
     }
 
     /// Whether sections couple twist and bending.
     pub fn is_coupled(&self) -> bool {
         let at_stations = self.stations.iter().map(|station| &station.section);
         let mut all = at_stations.chain([&self.section]);
-        all.any(|section| section.coupling.is_some())
+        all.any(|section| section.coupling.is_some() || section.stiffness.is_some())
     }
 
     /// Numbers of its section, and how it is twisted without stress (rad), over a part without stations inside that this
@@ -292,27 +335,92 @@ impl CableBody {
         self.sections_about(s)(s).0
     }
 
-    /// Second moment of area in its middle, m^4: the larger of a rod, in the plane that about the axis across it.
-    pub fn second_moment(&self) -> f64 {
-        self.second_moment_of(&self.section_at(0.5))
+    /// Bending stiffness in its middle, N m^2: the larger of a rod, in the plane that about the axis across it.
+    pub fn bending_stiffness(&self) -> f64 {
+        self.bending_stiffness_of(&self.section_at(0.5))
     }
 
     /// The same of these numbers.
-    pub fn second_moment_of(&self, numbers: &SectionNumbers) -> f64 {
+    pub fn bending_stiffness_of(&self, numbers: &SectionNumbers) -> f64 {
+        if let Some(given) = &numbers.given {
+            return given.stiffness[(4, 4)].max(given.stiffness[(5, 5)]);
+        }
         let [first, second] = numbers.second_moments;
-        match self.is_rod() {
-            true => first.max(second),
-            false => first,
+        self.material.young()
+            * if self.is_rod() {
+                first.max(second)
+            } else {
+                first
+            }
+    }
+
+    /// Axial stiffness, N.
+    pub fn axial_stiffness_of(&self, numbers: &SectionNumbers) -> f64 {
+        match &numbers.given {
+            Some(given) => given.stiffness[(0, 0)],
+            None => self.material.young() * numbers.area,
+        }
+    }
+
+    /// Mass per length, kg/m.
+    pub fn line_density_of(&self, numbers: &SectionNumbers) -> f64 {
+        match &numbers.given {
+            Some(given) => given.inertia[(0, 0)],
+            None => self.material.density.unwrap_or_default() * numbers.area,
+        }
+    }
+
+    /// Inertia of a section against turns about the line and the two axes, per length, kg m.
+    pub fn rotary_inertia_of(&self, numbers: &SectionNumbers) -> Matrix3<f64> {
+        match &numbers.given {
+            Some(given) => given.inertia.fixed_view::<3, 3>(3, 3).into_owned(),
+            None => {
+                let [first, second] = numbers.second_moments;
+                let moments = Vector3::new(first + second, first, second);
+                Matrix3::from_diagonal(&(moments * self.material.density.unwrap_or_default()))
+            }
         }
     }
 
     /// Of a rod: torque and moments about both axes by twist and curvatures, N m^2.
     pub fn stiffness(&self, numbers: &SectionNumbers) -> Matrix3<f64> {
-        let young = self.material.youngs_modulus;
         let torsion = self.material.shear_modulus.unwrap_or_default() * numbers.torsion_constant;
-        let [first, second] = numbers.second_moments.map(|moment| young * moment);
+        let [first, second] = numbers
+            .second_moments
+            .map(|moment| self.material.young() * moment);
         let [p, q, r] = numbers.coupling;
         Matrix3::from([[torsion, p, q], [p, first, r], [q, r, second]])
+    }
+
+    /// Of a beam: axial and shear forces, torque and moments by stretch, shear, twist and curvatures, N, N m, N m^2.
+    pub fn whole_stiffness(&self, numbers: &SectionNumbers) -> Matrix6<f64> {
+        if let Some(given) = &numbers.given {
+            return given.stiffness;
+        }
+        let mut stiffness = Matrix6::zeros();
+        stiffness[(0, 0)] = self.axial_stiffness_of(numbers);
+        for (k, factor) in self.shear_factors_of(numbers).into_iter().enumerate() {
+            let modulus = self.material.shear_modulus.unwrap_or_default();
+            stiffness[(1 + k, 1 + k)] = factor * modulus * numbers.area;
+        }
+        let turns = self.stiffness(numbers);
+        stiffness.fixed_view_mut::<3, 3>(3, 3).copy_from(&turns);
+        stiffness
+    }
+
+    /// Ratios of shear areas to the area, along both axes: as said, or of the shape.
+    fn shear_factors_of(&self, numbers: &SectionNumbers) -> [f64; 2] {
+        let (young, shear) = (self.material.young(), self.material.shear_modulus);
+        let ratio = shear.map_or(0.0, |shear| 0.5 * young / shear - 1.0);
+        let shape = numbers.shape.map(|shape| shape.shear_factors(ratio));
+        numbers.shear_factors.or(shape).unwrap_or([1.0; 2])
+    }
+}
+
+impl Material {
+    /// Young's modulus, Pa; zero where none is said.
+    pub fn young(&self) -> f64 {
+        self.youngs_modulus.unwrap_or_default()
     }
 }
 
@@ -338,7 +446,7 @@ impl Body {
     /// Name of the body.
     pub fn name(&self) -> &str {
         match self {
-            Self::Cable(body) | Self::Rod(body) => &body.name,
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) => &body.name,
             Self::Rigid(body) => &body.name,
         }
     }
@@ -346,7 +454,7 @@ impl Body {
     /// Motion at the start.
     pub fn motion(&self) -> &InitialMotion {
         match self {
-            Self::Cable(body) | Self::Rod(body) => &body.motion,
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) => &body.motion,
             Self::Rigid(body) => &body.motion,
         }
     }
@@ -354,7 +462,7 @@ impl Body {
     /// Motion at the start, to be changed.
     pub fn motion_mut(&mut self) -> &mut InitialMotion {
         match self {
-            Self::Cable(body) | Self::Rod(body) => &mut body.motion,
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) => &mut body.motion,
             Self::Rigid(body) => &mut body.motion,
         }
     }
@@ -362,7 +470,7 @@ impl Body {
     /// Names of its markers, in alphabetical order.
     pub fn marker_names(&self) -> Vec<&str> {
         match self {
-            Self::Cable(body) | Self::Rod(body) => {
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) => {
                 body.markers.keys().map(String::as_str).collect()
             }
             Self::Rigid(body) => body.markers.keys().map(String::as_str).collect(),
@@ -372,7 +480,7 @@ impl Body {
     /// The body if it is a cable or a rod, rigid or not.
     pub fn cable(&self) -> Option<&CableBody> {
         match self {
-            Self::Cable(body) | Self::Rod(body) => Some(body),
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) => Some(body),
             Self::Rigid(_) => None,
         }
     }
@@ -385,7 +493,7 @@ impl Body {
     /// The body, to be changed, if it is a cable or a rod.
     pub fn cable_mut(&mut self) -> Option<&mut CableBody> {
         match self {
-            Self::Cable(body) | Self::Rod(body) => Some(body),
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) => Some(body),
             Self::Rigid(_) => None,
         }
     }
@@ -394,7 +502,7 @@ impl Body {
     pub fn rigid(&self) -> Option<&RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
-            Self::Cable(_) | Self::Rod(_) => None,
+            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) => None,
         }
     }
 
@@ -402,7 +510,7 @@ impl Body {
     pub fn rigid_mut(&mut self) -> Option<&mut RigidBody> {
         match self {
             Self::Rigid(body) => Some(body),
-            Self::Cable(_) | Self::Rod(_) => None,
+            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) => None,
         }
     }
 }

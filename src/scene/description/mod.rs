@@ -23,7 +23,8 @@ use serde::{Deserialize, Serialize};
 pub use about::About;
 pub use accuracy::{Accuracy, Course, InputCourse};
 pub use body::{
-    Axial, Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Shape, Strain,
+    Axial, Body, CableBody, InitialMotion, Mass, Material, Model, RigidBody, Sections, Shape,
+    Strain,
 };
 pub use initial::{Initial, InitialState};
 pub use joint::{

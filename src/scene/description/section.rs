@@ -1,7 +1,8 @@
-//! Cross sections of cables and rods.
+//! Cross sections of cables, rods and beams.
 
 use std::f64::consts::PI;
 
+use nalgebra::{Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +33,20 @@ pub struct Section {
     /// about the first axis, and so on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coupling: Option<[f64; 3]>,
+    /// Of beams: ratios of the areas that carry shear along the first and along the second axis to the area. Of a shape, where nothing
+    /// is said, those of Cowper, which take the material's ratio of Poisson.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shear_factors: Option<[f64; 2]>,
+    /// Of beams: the whole stiffness of the section, instead of a shape or numbers and of the moduli of the material. Symmetric, in the
+    /// order axial force, shear along the first axis, along the second, torque, moment about the first axis, about the second; N, N m, N m^2.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<[[f64; 6]; 6]>,
+    /// Of beams with `stiffness`: mass and inertia per length in the same order: kg/m, kg, kg m. The centre of mass is on the line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inertia: Option<[[f64; 6]; 6]>,
+    /// Where both are given about: coordinates along the first and the second axis from the line of the body, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<[f64; 2]>,
 }
 
 /// Shape of a massive cross section, its centre on the line of the body. Axes are those of the section of a rod; a cable in
@@ -84,7 +99,7 @@ pub struct Station {
 }
 
 /// Numbers of a cross section.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SectionNumbers {
     /// Area, m^2.
     pub area: f64,
@@ -94,6 +109,21 @@ pub struct SectionNumbers {
     pub torsion_constant: f64,
     /// Stiffness that couples twist with bending about both axes, and both bendings, N m^2.
     pub coupling: [f64; 3],
+    /// Ratios of shear areas to the area, where they are said.
+    pub shear_factors: Option<[f64; 2]>,
+    /// The shape that these are of.
+    pub shape: Option<Profile>,
+    /// The whole section of a beam, where it is given.
+    pub given: Option<Given>,
+}
+
+/// Stiffness and inertia per length of a beam's section about its line, as whole matrices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Given {
+    /// Stiffness, N, N m, N m^2.
+    pub stiffness: Matrix6<f64>,
+    /// Mass and inertia per length, kg/m, kg, kg m.
+    pub inertia: Matrix6<f64>,
 }
 
 impl Profile {
@@ -155,7 +185,32 @@ impl Profile {
             area,
             second_moments,
             torsion_constant,
-            coupling: [0.0; 3],
+            shape: Some(*self),
+            ..SectionNumbers::default()
+        }
+    }
+
+    /// Ratios of the areas that carry shear along both axes to the area, at a ratio of Poisson (G. R. Cowper, The shear coefficient in
+    /// Timoshenko's beam theory, J. Appl. Mech. 33 (1966) 335-340).
+    pub fn shear_factors(&self, poisson: f64) -> [f64; 2] {
+        let once = 1.0 + poisson;
+        match *self {
+            Self::Rectangle { .. } => [10.0 * once / (12.0 + 11.0 * poisson); 2],
+            Self::Ellipse { width, height } => [width / height, height / width].map(|ratio| {
+                let n = ratio * ratio;
+                let under = (40.0 + 37.0 * poisson) * n * n + (16.0 + 10.0 * poisson) * n;
+                12.0 * once * n * (3.0 * n + 1.0) / (under + poisson)
+            }),
+            Self::Circle { .. } => [6.0 * once / (7.0 + 6.0 * poisson); 2],
+            Self::Tube {
+                radius,
+                inner_radius,
+            } => {
+                let hole = (inner_radius / radius).powi(2);
+                let square = (1.0 + hole).powi(2);
+                let under = (7.0 + 6.0 * poisson) * square + (20.0 + 12.0 * poisson) * hole;
+                [6.0 * once * square / under; 2]
+            }
         }
     }
 
@@ -195,6 +250,7 @@ impl Section {
         if let Some(shape) = &self.shape {
             return SectionNumbers {
                 coupling: self.coupling.unwrap_or_default(),
+                shear_factors: self.shear_factors,
                 ..shape.numbers()
             };
         }
@@ -204,7 +260,24 @@ impl Section {
             second_moments: self.second_moments.unwrap_or(alike),
             torsion_constant: self.torsion_constant.unwrap_or_default(),
             coupling: self.coupling.unwrap_or_default(),
+            shear_factors: self.shear_factors,
+            shape: None,
+            given: self.given(),
         }
+    }
+
+    /// Stiffness and inertia as given, about the line.
+    pub fn given(&self) -> Option<Given> {
+        let [y, z] = self.about.unwrap_or_default();
+        // What is seen at a point `p` of the section: `v + w x p`.
+        let mut seen = Matrix6::identity();
+        let back = -Vector3::new(0.0, y, z).cross_matrix();
+        seen.fixed_view_mut::<3, 3>(0, 3).copy_from(&back);
+        let moved = |rows: [[f64; 6]; 6]| seen.transpose() * Matrix6::from(rows) * seen;
+        Some(Given {
+            stiffness: moved(self.stiffness?),
+            inertia: moved(self.inertia?),
+        })
     }
 
     /// Numbers of the section between this one and another, whose part counts.
@@ -215,6 +288,7 @@ impl Section {
             let section = Self {
                 shape: Some(shape),
                 coupling: Some(self.numbers().mixed(&other.numbers(), part).coupling),
+                shear_factors: self.numbers().mixed(&other.numbers(), part).shear_factors,
                 ..Self::default()
             };
             return section.numbers();
@@ -241,6 +315,13 @@ impl SectionNumbers {
                 mix(q, other.coupling[1]),
                 mix(r, other.coupling[2]),
             ],
+            shear_factors: (self.shear_factors.zip(other.shear_factors))
+                .map(|([a, b], [c, d])| [mix(a, c), mix(b, d)]),
+            shape: None,
+            given: self.given.zip(other.given).map(|(a, b)| Given {
+                stiffness: a.stiffness + (b.stiffness - a.stiffness) * part,
+                inertia: a.inertia + (b.inertia - a.inertia) * part,
+            }),
         }
     }
 }

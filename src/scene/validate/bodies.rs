@@ -12,18 +12,14 @@ use super::checks::{
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
 use crate::scene::{
-    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Solid, Vector,
+    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Section, Solid, Vector,
 };
 
 impl Body {
     pub(super) fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
         match self {
-            Self::Cable(body) => {
-                body.validate_sections(path, dimension, false)?;
-                body.validate(path, dimension)
-            }
-            Self::Rod(body) => {
-                body.validate_sections(path, dimension, true)?;
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) => {
+                body.validate_sections(path, dimension)?;
                 body.validate(path, dimension)
             }
             Self::Rigid(body) => body.validate(path, dimension),
@@ -71,16 +67,11 @@ impl CableBody {
             let wanted = format!("an integer from {} to {}", ELEMENTS.start(), ELEMENTS.end());
             return Err(expected(&at("elements"), &wanted, count));
         }
-        positive(
-            &at("material.youngs_modulus"),
-            "Pa",
-            material.youngs_modulus,
-        )?;
-        positive(&at("material.density"), "kg/m^3", material.density)?;
+        self.validate_material(path)?;
         not_negative(&at("material.damping_time"), "s", material.damping_time)?;
         self.shape.validate(&at("shape"), dimension)?;
         self.validate_model(&at("model"), dimension)?;
-        let found = self.second_moment();
+        let found = self.section_at(0.5).second_moments[0];
         if !self.shape.is_straight() && !self.is_rod() && found > 0.0 {
             let place = at("section.second_moment");
             planar(
@@ -94,6 +85,43 @@ impl CableBody {
             if !(0.0..=1.0).contains(coordinate) {
                 let place = at(&format!("markers.{marker}"));
                 return Err(expected(&place, "a number from 0 to 1", coordinate));
+            }
+        }
+        Ok(())
+    }
+
+    /// Moduli and density, but where the section has them.
+    fn validate_material(&self, path: &str) -> Result<(), Error> {
+        let material = &self.material;
+        let is_given = |section: &Section| section.stiffness.is_some();
+        let at_stations = self
+            .stations
+            .iter()
+            .any(|station| is_given(&station.section));
+        let values = [
+            (
+                "material.youngs_modulus",
+                "Pa",
+                material.youngs_modulus,
+                true,
+            ),
+            ("material.density", "kg/m^3", material.density, true),
+            (
+                "material.shear_modulus",
+                "Pa",
+                material.shear_modulus,
+                self.is_rod(),
+            ),
+        ];
+        for (key, unit, value, is_needed) in values {
+            let place = format!("{path}.{key}");
+            if at_stations || is_given(&self.section) {
+                if value.is_some() {
+                    let wanted = "nothing beside `stiffness` and `inertia` of the section";
+                    return Err(expected(&place, wanted, "a value"));
+                }
+            } else if is_needed {
+                positive(&place, unit, needed(path, key, "a value", value)?)?;
             }
         }
         Ok(())

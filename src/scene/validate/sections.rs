@@ -1,20 +1,15 @@
 //! Checks of cross sections.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Vector3};
 
 use super::checks::{expected, finite, needed, not_negative, planar, positive, vector};
 use crate::scene::mesh::SHORTEST;
-use crate::scene::{CableBody, Error, Model, Profile, Section, Strain};
+use crate::scene::{CableBody, Error, Model, Profile, Section, Sections, Strain};
 
 impl CableBody {
     /// Its cross section, or those at stations, and nothing of a cable that rods alone have.
-    pub(super) fn validate_sections(
-        &self,
-        path: &str,
-        dimension: usize,
-        is_rod: bool,
-    ) -> Result<(), Error> {
-        let at = |key: &str| format!("{path}.{key}");
+    pub(super) fn validate_sections(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let (at, is_rod) = (|key: &str| format!("{path}.{key}"), self.is_rod());
         match is_rod {
             true => self.validate_rod(path, dimension)?,
             false => self.refuse_what_is_of_rods(path)?,
@@ -24,7 +19,7 @@ impl CableBody {
             return Err(expected(&at("section"), wanted, "nothing"));
         }
         if self.stations.is_empty() {
-            return self.section.validate(&at("section"), dimension, is_rod);
+            return (self.section).validate(&at("section"), dimension, self.sections);
         }
         if !self.section.is_unsaid() {
             let wanted = "nothing beside `stations`, each of which has its section";
@@ -34,10 +29,10 @@ impl CableBody {
             let wanted = "none of a rigid rod, which is uniform along its length";
             return Err(expected(&at("stations"), wanted, "some"));
         }
-        self.validate_stations(&at("stations"), dimension, is_rod)
+        self.validate_stations(&at("stations"), dimension)
     }
 
-    fn validate_stations(&self, path: &str, dimension: usize, is_rod: bool) -> Result<(), Error> {
+    fn validate_stations(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let last = self.stations.len() - 1;
         let wanted =
             "stations from 0 to 1 in order, two at one place at most, others at least 1e-3 apart";
@@ -59,11 +54,15 @@ impl CableBody {
                 let wanted = "the twist of the other station at this place";
                 return Err(expected(&format!("{place}.twist"), wanted, station.twist));
             }
-            if !is_rod && station.twist != 0.0 {
+            if !self.is_rod() && station.twist != 0.0 {
                 let wanted = "0 of a cable, whose sections have no axes";
                 return Err(expected(&format!("{place}.twist"), wanted, station.twist));
             }
-            (station.section).validate(&format!("{place}.section"), dimension, is_rod)?;
+            (station.section).validate(&format!("{place}.section"), dimension, self.sections)?;
+            if station.section.stiffness.is_some() != self.stations[0].section.stiffness.is_some() {
+                let wanted = "`stiffness` and `inertia` at all stations or at none";
+                return Err(expected(&format!("{place}.section"), wanted, "another way"));
+            }
         }
         Ok(())
     }
@@ -88,18 +87,13 @@ impl CableBody {
         let at = |key: &str| format!("{path}.{key}");
         if dimension == 2 {
             let wanted = "\"cable\" or \"rigid\" in the plane, where nothing twists";
-            return Err(expected(&at("element"), wanted, "\"rod\""));
+            let found = format!("{:?}", self.sections.element());
+            return Err(expected(&at("element"), wanted, found));
         }
         if self.strain != Strain::ThetaPrime {
             let wanted = "\"thetaPrime\" of a rod";
             return Err(expected(&at("strain"), wanted, "another measure"));
         }
-        let (key, modulus) = ("material.shear_modulus", self.material.shear_modulus);
-        positive(
-            &at(key),
-            "Pa",
-            needed(path, key, "a value of a rod", modulus)?,
-        )?;
         self.validate_axis(&at("axis"), dimension)?;
         self.validate_coupling(path)
     }
@@ -144,7 +138,16 @@ impl CableBody {
 const OF_RODS: &str = "nothing of a cable (an element of \"rod\" has sections that turn)";
 
 impl Section {
-    fn validate(&self, path: &str, dimension: usize, is_rod: bool) -> Result<(), Error> {
+    fn validate(&self, path: &str, dimension: usize, kind: Sections) -> Result<(), Error> {
+        let is_rod = kind != Sections::None;
+        if kind == Sections::Lean {
+            self.validate_beam(path)?;
+            if self.stiffness.is_some() {
+                return Ok(());
+            }
+        } else {
+            self.refuse_what_is_of_beams(path)?;
+        }
         if let Some(shape) = self.shape {
             return self.validate_shape(path, dimension, is_rod, shape);
         }
@@ -203,6 +206,104 @@ impl Section {
         }
         let instead = "a circle or a tube of a cable, which bends alike to all sides (an element of \"rod\" does not),";
         planar(&place, dimension, instead, &format!("a {}", shape.key()))
+    }
+
+    fn refuse_what_is_of_beams(&self, path: &str) -> Result<(), Error> {
+        let of_beams = [
+            ("shear_factors", self.shear_factors.is_some()),
+            ("stiffness", self.stiffness.is_some()),
+            ("inertia", self.inertia.is_some()),
+            ("about", self.about.is_some()),
+        ];
+        match of_beams.iter().find(|(_, is_said)| *is_said) {
+            Some((key, _)) => {
+                let wanted = "nothing but of an element of \"beam\", whose sections shear";
+                Err(expected(&format!("{path}.{key}"), wanted, "a value"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// What a beam's section says beside what a rod's does.
+    fn validate_beam(&self, path: &str) -> Result<(), Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        for (k, factor) in self.shear_factors.iter().flatten().enumerate() {
+            positive(&at(&format!("shear_factors[{k}]")), "1", *factor)?;
+        }
+        if self.stiffness.is_none() {
+            let alone = [
+                ("inertia", self.inertia.is_some()),
+                ("about", self.about.is_some()),
+            ];
+            if let Some((key, _)) = alone.iter().find(|(_, is_said)| *is_said) {
+                return Err(expected(&at(key), "nothing without `stiffness`", "a value"));
+            }
+            if self.shape.is_none() {
+                let wanted = "two values of a beam, or a `shape`, or `stiffness`";
+                needed(path, "shear_factors", wanted, self.shear_factors)?;
+            }
+            return Ok(());
+        }
+        let beside = [
+            ("shape", self.shape.is_some()),
+            ("area", self.area.is_some()),
+            ("second_moments", self.second_moments.is_some()),
+            ("torsion_constant", self.torsion_constant.is_some()),
+            ("coupling", self.coupling.is_some()),
+            ("shear_factors", self.shear_factors.is_some()),
+        ];
+        if let Some((key, _)) = beside.iter().find(|(_, is_said)| *is_said) {
+            let wanted = "nothing beside `stiffness`, which holds it";
+            return Err(expected(&at(key), wanted, "a value"));
+        }
+        self.validate_matrices(path)
+    }
+
+    /// Whole matrices are symmetric and positive, and the centre of mass is on the line.
+    fn validate_matrices(&self, path: &str) -> Result<(), Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        needed(path, "inertia", "six rows beside `stiffness`", self.inertia)?;
+        for (k, place) in self.about.iter().flatten().enumerate() {
+            finite(&at(&format!("about[{k}]")), *place)?;
+        }
+        for (key, rows) in [("stiffness", self.stiffness), ("inertia", self.inertia)] {
+            let rows = rows.unwrap_or_default();
+            for (r, c) in (0..6).flat_map(|r| (0..6).map(move |c| (r, c))) {
+                let (entry, other) = (rows[r][c], rows[c][r]);
+                let place = at(&format!("{key}[{r}][{c}]"));
+                finite(&place, entry)?;
+                if (entry - other).abs() > 1e-9 * (rows[r][r] * rows[c][c]).abs().sqrt() {
+                    let wanted = format!("{other}, as on the other side of the diagonal");
+                    return Err(expected(&place, &wanted, entry));
+                }
+            }
+        }
+        let Some(given) = self.given() else {
+            return Ok(());
+        };
+        for (key, matrix) in [("stiffness", given.stiffness), ("inertia", given.inertia)] {
+            if matrix.cholesky().is_none() {
+                let wanted = "a positive definite matrix";
+                return Err(expected(&at(key), wanted, "one that is not"));
+            }
+        }
+        let (inertia, mass) = (given.inertia, given.inertia[(0, 0)]);
+        let size = inertia.fixed_view::<3, 3>(3, 3).trace().sqrt() / mass.sqrt();
+        let center = [-inertia[(0, 5)] / mass, inertia[(0, 4)] / mass];
+        if center.iter().any(|way| way.abs() > 1e-6 * size) {
+            let wanted = "a centre of mass on the line of the body (move the line there, and say `about` from it)";
+            return Err(expected(
+                &at("inertia"),
+                wanted,
+                format!("it at {center:?} m"),
+            ));
+        }
+        let plain = inertia - Matrix6::from_diagonal_element(mass);
+        if plain.fixed_view::<3, 3>(0, 0).norm() > 1e-9 * mass {
+            let wanted = "the same mass in all directions";
+            return Err(expected(&at("inertia"), wanted, "another"));
+        }
+        Ok(())
     }
 
     fn refuse_numbers_of_rods(&self, path: &str) -> Result<(), Error> {

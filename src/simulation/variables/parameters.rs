@@ -62,8 +62,8 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
     let elements = f64::from(body.elements.unwrap_or(1));
     #[rustfmt::skip] // a table
     let mut rows: Vec<Row<'_>> = vec![
-        ("youngs_modulus", "Young's modulus", Some(PASCAL), YoungsModulus(i), material.youngs_modulus),
-        ("density", "Density", Some(DENSITY), Density(i), material.density),
+        ("youngs_modulus", "Young's modulus", Some(PASCAL), YoungsModulus(i), material.young()),
+        ("density", "Density", Some(DENSITY), Density(i), material.density.unwrap_or_default()),
         ("damping_time", "Kelvin-Voigt damping time", Some(SECOND), DampingTime(i), material.damping_time),
         ("area", "Area of the cross section", Some(SQUARE_METRE), Area(i), numbers.area),
         ("second_moment", "Second moment of area", Some(METRE_4), SecondMoment(i), numbers.second_moments[0]),
@@ -84,6 +84,10 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
         rows.retain(|(.., parameter, _)| !matches!(parameter, Area(_) | SecondMoment(_)));
     } else if body.is_rod() {
         add_numbers(list, cable);
+    }
+    if body.section.stiffness.is_some() {
+        // Moduli and density are in the matrices of the section.
+        rows.retain(|(.., parameter, _)| matches!(parameter, DampingTime(_) | Elements(_)));
     }
     if dimension == 3 && !body.shape.is_straight() {
         // It has no frame to be curved in and no bending stiffness.
@@ -260,8 +264,8 @@ fn set_inertia(inertia: &mut Inertia, axis: usize, value: f64) {
 pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
     use Parameter::*;
     match parameter {
-        YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = value,
-        Density(id) => scene.cable_mut(id).material.density = value,
+        YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = Some(value),
+        Density(id) => scene.cable_mut(id).material.density = Some(value),
         DampingTime(id) => scene.cable_mut(id).material.damping_time = value,
         Area(id) => scene.cable_mut(id).section.area = Some(value),
         SecondMoment(id) => scene.cable_mut(id).section.second_moment = Some(value),

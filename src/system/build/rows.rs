@@ -1,7 +1,7 @@
 //! Which rows and constraints parts make, and what they couple.
 
 use super::Parts;
-use crate::body::{Frame, INNER, Links, Node, RodChain, Row, no_node, tied_with};
+use crate::body::{Frame, Links, Node, RodChain, Row, no_node, tied_with, untwisted};
 use crate::math::space::Vector;
 use crate::system::end::End;
 use crate::system::joints::{Constraint, ConstraintKind, HeldRow, Linear, Target, UnitLength};
@@ -87,15 +87,18 @@ fn rest<const D: usize>(parts: &Parts<D>, frame: &Frame, linear: &mut Vec<Linear
     linear.extend(without.map(|axis| still((frame.node, 1, axis), 0.0)));
 }
 
-/// Of a carried frame the rotation about its tangent alone is a coordinate, of a node inside an element the internal twist.
+/// Of a carried frame its rotations alone are coordinates, one about the tangent of a rod, three of a beam; of a node inside an element the
+/// internal twist and leans.
 fn rest_of_rod<const D: usize>(parts: &Parts<D>, chain: &RodChain, linear: &mut Vec<Linear<D>>) {
     let mut nodes = parts.nodes.clone();
     unplaced_rod(chain, &mut nodes);
+    let turns: Vec<_> = (0..chain.turns()).map(|axis| (1, axis)).collect();
+    let inside: Vec<_> = chain.inside().collect();
     let frames = chain.frames();
-    let held = frames.flat_map(|(node, _)| [(node, Some((1, 0))), (node + 1, None)]);
-    for (node, free) in held.chain(chain.inner().map(|node| (node, Some(INNER)))) {
+    let held = frames.flat_map(|(node, _)| [(node, &turns[..]), (node + 1, &[])]);
+    for (node, free) in held.chain(chain.inner().map(|node| (node, &inside[..]))) {
         for (part, axis) in (0..2).flat_map(|part| (0..D).map(move |axis| (part, axis))) {
-            if free != Some((part, axis)) {
+            if !free.contains(&(part, axis)) {
                 linear.push(still((node, part, axis), nodes[node][part][axis]));
             }
         }
@@ -110,8 +113,7 @@ pub(super) fn unplaced_rod<const D: usize>(chain: &RodChain, nodes: &mut [Node<D
     }
     for (j, node) in chain.inner().enumerate() {
         let [line, ..] = chain.nodes(j);
-        nodes[node] = unplaced(&nodes[line]);
-        nodes[node][1][0] = 1.0;
+        nodes[node] = [nodes[line][0], untwisted::<D>()[1]];
     }
 }
 

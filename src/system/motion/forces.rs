@@ -104,7 +104,7 @@ impl<const D: usize> System<D> {
         for chain in &self.chains {
             work.dissipated += chain.add_force(&work.x, &work.v, &mut force);
         }
-        work.torques.fill(0.0);
+        work.torques.fill([0.0; 3]);
         for chain in &self.rod_chains {
             let motion = (&work.x[..], &work.v[..]);
             let out = (&mut force[..], &mut work.torques[..]);
@@ -200,9 +200,9 @@ impl<const D: usize> System<D> {
             assembly.add(frame.node, frame.node, &block, &mut tangent.stiffness);
         }
         for frame in self.frames.carried() {
-            for ((a, b), block) in Frames::geometric_of_carried(frame, &work.supply, x) {
-                assembly.add(a, b, &block, &mut tangent.stiffness);
-            }
+            Frames::geometric_of_carried(frame, &work.supply, x, |a, b, block| {
+                assembly.add(a, b, block, &mut tangent.stiffness);
+            });
         }
         tangent.hold(assembly, &work.jacobian, &self.multipliers);
         self.add_multipliers(&view, &work.jacobian, &mut tangent.stiffness);

@@ -15,15 +15,16 @@ impl<const D: usize> System<D> {
         found.next()
     }
 
-    /// Adds to forces over the nodes that have coordinates the torques of rods about tangents, and what spins ask for.
+    /// Adds to forces over the nodes that have coordinates the moments of rods and beams on their sections, and what spins ask for.
     pub(in crate::system) fn add_rod_forces<N: Number>(
         &self,
         motion: (&[Node<D, N>], &[Node<D, N>]),
-        torques: &[N],
+        torques: &[[N; 3]],
         force: &mut [Node<D, N>],
     ) {
         for (frame, torque) in self.frames.carried().iter().zip(torques) {
-            force[frame.node][1][0] += *torque;
+            let moment = force[frame.node][1].iter_mut().zip(torque);
+            moment.for_each(|(sum, torque)| *sum += *torque);
         }
         for chain in &self.rod_chains {
             chain.add_gyroscopic(motion, &self.frames, force);

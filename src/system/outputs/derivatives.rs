@@ -27,8 +27,8 @@ pub struct Derivatives<const D: usize> {
     pulled: Vec<Node<D, Jet>>,
     spin_rates: Vec<Vector3<Jet>>,
     /// Torques of rods, and angular accelerations about the tangents of their carried frames.
-    torques: Vec<Jet>,
-    carried_rates: Vec<Jet>,
+    torques: Vec<[Jet; 3]>,
+    carried_rates: Vec<[Jet; 3]>,
     /// Nodal accelerations of what is driven, and of axes that turn.
     driven: Vec<Node<D, Jet>>,
     /// First and second derivative of generalized accelerations.
@@ -56,8 +56,8 @@ impl<const D: usize> Derivatives<D> {
             f: nodes.clone(),
             pulled: nodes.clone(),
             spin_rates: vec![Vector3::from_element(Jet::from_re(0.0)); system.frames.list().len()],
-            torques: vec![Jet::from_re(0.0); system.frames.carried().len()],
-            carried_rates: vec![Jet::from_re(0.0); system.frames.carried().len()],
+            torques: vec![[Jet::from_re(0.0); 3]; system.frames.carried().len()],
+            carried_rates: vec![[Jet::from_re(0.0); 3]; system.frames.carried().len()],
             driven: nodes,
             q: [q.clone(), q],
             one: none.clone(),
@@ -194,7 +194,7 @@ impl<const D: usize> Derivatives<D> {
             *f = map_node(weight, Jet::from_re);
         }
         let values = &self.values;
-        self.torques.fill(Jet::from_re(0.0));
+        self.torques.fill([Jet::from_re(0.0); 3]);
         if elastic {
             for chain in &system.chains {
                 chain.add_force_of(&values.x, &values.v, &mut self.f);
@@ -293,7 +293,10 @@ impl<const D: usize> Derivatives<D> {
             }
         }
         for (frame, rate) in system.frames.carried().iter().zip(&mut self.carried_rates) {
-            rate.re = self.other[frame.node][1][0];
+            let found = self.other[frame.node][1].iter();
+            for (rate, value) in rate.iter_mut().zip(found) {
+                rate.re = *value;
+            }
         }
     }
 
@@ -323,7 +326,9 @@ impl<const D: usize> Derivatives<D> {
     fn turn_carried(&mut self, system: &System<D>, k: usize) {
         let frames = system.frames.carried().iter();
         for (frame, spin_rate) in frames.zip(&mut self.carried_rates) {
-            set_part(spin_rate, k, self.other[frame.node][1][0]);
+            for (rate, value) in spin_rate.iter_mut().zip(&self.other[frame.node][1]) {
+                set_part(rate, k, *value);
+            }
             let acceleration = &mut self.values.acceleration;
             let by_rate = frame.turned(&self.values.x, acceleration, *spin_rate);
             let by_spin = frame.axes(&self.driven);

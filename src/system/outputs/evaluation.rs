@@ -328,7 +328,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         for chain in &system.rod_chains {
             let motion = (&self.x[..], &self.v[..]);
             chain.for_each_momentum(motion, &system.frames, |frame, momentum| {
-                angular += frame.axes(&self.x)[0] * momentum;
+                angular += combined(&frame.axes(&self.x), &momentum.into());
             });
         }
         (linear, angular.into())

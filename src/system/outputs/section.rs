@@ -57,11 +57,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let bends = part.bends();
         let bending = |m: Vector3<N>| if bends { m } else { Vector3::zeros() };
         // At the ends: what the neighbours exert.
-        let about = |xi: f64, torque: N| -> Vector3<N> {
-            Vector3::from(components(&slope(xi).normalize())) * torque
-        };
-        let first = Vector3::from(moment(&slope(0.0), &column(1))) + about(0.0, torques[0]);
-        let last = -Vector3::from(moment(&slope(1.0), &column(3))) - about(1.0, torques[1]);
+        let first = Vector3::from(moment(&slope(0.0), &column(1))) + torques[0];
+        let last = -Vector3::from(moment(&slope(1.0), &column(3))) - torques[1];
         if xi == 1.0 {
             return (-column(2).dot(&tangent), bending(last).into());
         }
@@ -110,12 +107,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 
     /// What an element lacks for equilibrium, on its coordinates: elastic and damping forces and loads less
-    /// inertia, N and N m; and about the tangents at the ends of an element of a rod, N m. Its neighbours exert the opposite.
+    /// inertia, N and N m; and the moments on the sections at the ends of an element of a rod or beam, N m. Its neighbours exert the opposite.
     fn lack(
         &self,
         system: &System<D>,
         (chain, j): (&CableChain<D>, usize),
-    ) -> (Nodal<D, N>, [N; 2]) {
+    ) -> (Nodal<D, N>, [Vector3<N>; 2]) {
         let (e, v) = (chain.element(j, &self.x), chain.element(j, &self.v));
         let part = &chain.elements()[j];
         let mut lack: Nodal<D, N> = part.force(&e, &v);
@@ -123,11 +120,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         lack -= self.inertia(system, (chain, j)) * part.mass().map(N::of);
         let weights = shape::integrals(N::of(1.0), part.length());
         lack += self.distributed(system, chain.nodes(0)[0]) * weights.transpose();
-        let mut torques = [N::of(0.0); 2];
+        let mut torques = [Vector3::zeros(); 2];
         if let Some(sections) = system.sections(chain) {
             let motion = [&self.x[..], &self.v[..], &self.acceleration[..]];
             let force = sections.lack(j, motion, &system.frames);
-            torques = force.torque;
+            torques = sections.global(j, force.moment, &self.x);
             for (k, vector) in force.e.into_iter().enumerate() {
                 let sum: Vector<D, N> = vector_of(vector);
                 lack.column_mut(k)

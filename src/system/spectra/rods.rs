@@ -24,9 +24,9 @@ impl<const D: usize> System<D> {
             chain.add_tangent(motion, &self.frames, assembly, matrices);
         }
         for frame in self.frames.carried() {
-            for ((a, b), block) in Frames::geometric_of_carried(frame, &work.supply, &work.x) {
-                assembly.add(a, b, &block, &mut stiffness);
-            }
+            Frames::geometric_of_carried(frame, &work.supply, &work.x, |a, b, block| {
+                assembly.add(a, b, block, &mut stiffness);
+            });
         }
         made.stiffness.add_symmetric(1.0, &stiffness);
         if !at_rest && self.rod_chains.iter().any(RodChain::is_damped) {
