@@ -15,6 +15,8 @@
 //! is therefore put right before and after, so that momentum is kept exactly however far the
 //! iteration goes.
 
+mod sections;
+
 use std::ops::Range;
 
 use nalgebra::{Complex, SVector};
@@ -25,6 +27,7 @@ use super::connectivity::{Cluster, Node, no_node};
 use super::elimination::Elimination;
 use crate::math::space::axis;
 use crate::math::sparse::{Matrix, Pattern};
+use sections::Sections;
 
 /// Most stages: one real and one complex system.
 pub const STAGES: usize = 3;
@@ -40,6 +43,8 @@ pub struct Stages<const D: usize> {
     knots: Vec<Knot>,
     /// Whether nodes belong to cables.
     elastic: Vec<bool>,
+    /// Beams turn with these.
+    sections: Sections,
     floating: Vec<Floating>,
 }
 
@@ -82,7 +87,7 @@ impl<const D: usize> Stages<D> {
     pub(super) fn new(
         elimination: &Elimination<D>,
         grounded: &[usize],
-        [elastic, still]: [&[bool]; 2],
+        ([elastic, still], sections): ([&[bool]; 2], &[(usize, usize)]),
     ) -> Self {
         let nodes = elimination.assembly.nodes();
         let directions = || vec![SVector::zeros(); nodes];
@@ -90,6 +95,7 @@ impl<const D: usize> Stages<D> {
             floating: floating::<D>(elimination, grounded, still),
             knots: knots(&elimination.assembly, elastic),
             elastic: elastic.to_vec(),
+            sections: Sections::new(sections),
             nodes: vec![no_node(); nodes],
             base: directions(),
             turned: [directions(), directions(), directions()],
@@ -99,6 +105,7 @@ impl<const D: usize> Stages<D> {
     /// The tangent is made at this configuration.
     pub fn set_base(&mut self, x: &[Node<D>]) {
         unit_directions(x, &self.elastic, &mut self.base);
+        self.sections.set_base(x);
         for turned in &mut self.turned {
             turned.copy_from_slice(&self.base);
         }
@@ -107,6 +114,7 @@ impl<const D: usize> Stages<D> {
     /// Sets the configuration of a stage.
     pub fn set(&mut self, assembly: &Assembly<D>, stage: usize, x: &[Node<D>]) {
         unit_directions(x, &self.elastic, &mut self.turned[stage]);
+        self.sections.set(stage, x);
         let directions = (&self.base[..], &self.turned[stage][..]);
         for knot in &mut self.knots {
             let cluster = &assembly.clusters()[knot.cluster];
@@ -125,6 +133,7 @@ impl<const D: usize> Stages<D> {
         assembly.prolong(y, &mut self.nodes);
         self.weigh(assembly, stage);
         turn_all(&mut self.nodes, (&self.turned[stage], &self.base));
+        self.sections.turn_back(stage, &mut self.nodes);
         assembly.restrict(&self.nodes, y);
         for f in &self.floating {
             f.restore((&f.translation, &f.momentum), y);
@@ -138,6 +147,7 @@ impl<const D: usize> Stages<D> {
         }
         assembly.prolong(y, &mut self.nodes);
         turn_all(&mut self.nodes, (&self.base, &self.turned[stage]));
+        self.sections.turn_forth(stage, &mut self.nodes);
         self.weigh(assembly, stage);
         assembly.restrict(&self.nodes, y);
         for knot in self.knots.iter().filter(|knot| knot.active[stage]) {

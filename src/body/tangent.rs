@@ -71,19 +71,20 @@ impl Normals {
 
 impl<const D: usize> Tangent<D> {
     /// Storage. `jacobian` is that of the constraints; `grounded` are nodes that something else than rows ties to the
-    /// ground; `elastic` says which belong to cables, `still` which have no position among their coordinates.
+    /// ground; the first flags say which belong to cables, the second which have no position among their coordinates; `sections` are
+    /// nodes of beams with the first of their frames.
     pub fn new(
         elimination: &Elimination<D>,
         is_damped: bool,
         jacobian: &Jacobian,
         grounded: &[usize],
-        [elastic, still]: [&[bool]; 2],
+        (elastic_and_still, sections): ([&[bool]; 2], &[(usize, usize)]),
     ) -> Self {
         let pattern = elimination.assembly.pattern();
         let zeros = Matrix::zeros(pattern);
         let parts = vec![0.0; jacobian.rows().count()];
         Self {
-            stages: Stages::new(elimination, grounded, [elastic, still]),
+            stages: Stages::new(elimination, grounded, (elastic_and_still, sections)),
             stiffness: zeros.clone(),
             damping: zeros.clone(),
             is_damped,

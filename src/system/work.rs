@@ -117,7 +117,13 @@ impl<const D: usize> Work<D> {
             elastic[first..first + chain.node_count()].fill(true);
         }
         let mut still = vec![false; nodes.len()];
+        let mut sections = Vec::new();
         for chain in &system.rod_chains {
+            if chain.turns() > 1 {
+                // These turn with their sections.
+                sections.extend(chain.frames().map(|(frame, line)| (line, frame)));
+                sections.iter().for_each(|(line, _)| elastic[*line] = false);
+            }
             let frames = chain.frames().flat_map(|(node, _)| [node, node + 1]);
             frames
                 .chain(chain.inner())
@@ -158,7 +164,7 @@ impl<const D: usize> Work<D> {
                 system.is_damped,
                 &jacobian,
                 &system.grounded,
-                [&elastic, &still],
+                ([&elastic, &still], &sections),
             ),
             jacobian,
             jacobian_at: Configuration::none(system),

@@ -18,10 +18,13 @@ const SINGLE: [&str; 3] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 8] = [
+const REFUSED: [&str; 11] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
+    "bodies{beam}.motion.spin#number",
+    "bodies{beam}.strain",
+    "bodies{beam}.model=rigid",
     "initial.state=as_shaped",
     "initial.loads{spring_damper}",
     "initial.loads{joint_spring}",
@@ -29,10 +32,16 @@ const REFUSED: [&str; 8] = [
     "initial.loads{bushing}",
 ];
 /// Keys that are refused where one of them alone is changed.
-const TOGETHER: [&str; 1] = ["bodies{rigid}.orientation.matrix["];
+const TOGETHER: [&str; 5] = [
+    "bodies{rigid}.orientation.matrix[",
+    "bodies{beam}.section.stiffness[",
+    "bodies{beam}.section.inertia[",
+    "bodies{beam}.stations[].section.stiffness[",
+    "bodies{beam}.stations[].section.inertia[",
+];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`.
-const OWN: [&str; 7] = [
+const OWN: [&str; 9] = [
     "about.",
     "method.work_limit",
     "accuracy.for.",
@@ -40,6 +49,8 @@ const OWN: [&str; 7] = [
     "bodies{cable}.model=",
     "bodies{rod}.elements",
     "bodies{rod}.model",
+    "bodies{beam}.elements",
+    "bodies{beam}.model",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.
 const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];

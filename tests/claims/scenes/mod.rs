@@ -19,6 +19,7 @@ mod sections;
 mod shapes;
 mod slides;
 mod space;
+mod space_beams;
 mod space_bodies;
 mod space_driven;
 mod space_joints;
@@ -59,6 +60,7 @@ pub fn all() -> Vec<Specimen> {
         space_ports::all(),
         space_driven::all(),
         space_rods::all(),
+        space_beams::all(),
         shapes::all(),
         tapers::all(),
     ];

@@ -20,6 +20,13 @@ pub fn all() -> Vec<Specimen> {
     ]
 }
 
+/// Those in which rotary inertia of bending does not count.
+pub fn statics() -> Vec<Specimen> {
+    let all = all().into_iter();
+    all.filter(|specimen| specimen.name != "bending rod")
+        .collect()
+}
+
 const YOUNG: f64 = 3.0e5;
 const SHEAR: f64 = 1.1e5;
 const DENSITY: f64 = 700.0;

@@ -9,14 +9,22 @@ use super::space::{array, vector};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    let mut all = Vec::new();
-    for is_rod in [false, true] {
-        all.extend([shapes(is_rod, false), shapes(is_rod, true), numbers(is_rod)]);
-        all.push(bent(is_rod));
-    }
-    all.extend([twisted(), coupled(false), coupled(true)]);
-    all.extend([helix(false), helix(true)]);
+    let mut all = of(false);
+    all.push(helix(false));
+    all.extend(rods());
     all
+}
+
+/// Those of rods.
+pub fn rods() -> Vec<Specimen> {
+    let mut rods = of(true);
+    rods.extend([twisted(), coupled(false), coupled(true), helix(true)]);
+    rods
+}
+
+fn of(is_rod: bool) -> Vec<Specimen> {
+    let [uniform, tapered] = [false, true].map(|is_tapered| shapes(is_rod, is_tapered));
+    vec![uniform, tapered, numbers(is_rod), bent(is_rod)]
 }
 
 const YOUNG: f64 = 3.0e6;

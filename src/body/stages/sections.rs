@@ -1,0 +1,66 @@
+//! Nodes whose sections hold them: the line of a beam turns with its sections, roll included. Turned by the smallest rotation of their
+//! tangents alone, lines and sections would come apart by the roll between the tangent and a stage, times the stiffness of shear.
+
+use nalgebra::Vector3;
+
+use crate::body::connectivity::Node;
+use crate::body::frame::{Axes, axes_at, combined};
+use crate::math::space::{Vector, components, vector};
+
+/// The sections of beams: nodes of their lines with the first of their frames, and axes where the tangent was made and at the stages.
+#[derive(Clone, Debug)]
+pub(super) struct Sections {
+    nodes: Vec<(usize, usize)>,
+    base: Vec<Axes>,
+    turned: [Vec<Axes>; super::STAGES],
+}
+
+impl Sections {
+    pub fn new(nodes: &[(usize, usize)]) -> Self {
+        let axes = vec![Axes::default(); nodes.len()];
+        Self {
+            nodes: nodes.to_vec(),
+            turned: [axes.clone(), axes.clone(), axes.clone()],
+            base: axes,
+        }
+    }
+
+    /// The tangent is made at this configuration.
+    pub fn set_base<const D: usize>(&mut self, x: &[Node<D>]) {
+        place(&self.nodes, x, &mut self.base);
+        for turned in &mut self.turned {
+            turned.copy_from_slice(&self.base);
+        }
+    }
+
+    /// Sets the configuration of a stage.
+    pub fn set<const D: usize>(&mut self, stage: usize, x: &[Node<D>]) {
+        place(&self.nodes, x, &mut self.turned[stage]);
+    }
+
+    /// Turns the vectors of the lines back to where the tangent was made.
+    pub fn turn_back<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
+        self.turn([&self.turned[stage], &self.base], nodes);
+    }
+
+    /// Turns them forth to a stage.
+    pub fn turn_forth<const D: usize>(&self, stage: usize, nodes: &mut [Node<D>]) {
+        self.turn([&self.base, &self.turned[stage]], nodes);
+    }
+
+    fn turn<const D: usize>(&self, [from, to]: [&[Axes]; 2], nodes: &mut [Node<D>]) {
+        for ((line, _), (from, to)) in self.nodes.iter().zip(from.iter().zip(to)) {
+            for v in &mut nodes[*line] {
+                let whole = Vector3::from(components(&Vector::<D>::from(*v)));
+                let along = Vector3::from(from.map(|axis| axis.dot(&whole)));
+                *v = vector::<D, f64>(combined(to, &along).into()).into();
+            }
+        }
+    }
+}
+
+fn place<const D: usize>(nodes: &[(usize, usize)], x: &[Node<D>], axes: &mut [Axes]) {
+    for ((_, frame), axes) in nodes.iter().zip(axes) {
+        *axes = axes_at(*frame, x);
+    }
+}
