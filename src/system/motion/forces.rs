@@ -271,24 +271,26 @@ impl<const D: usize> System<D> {
         self.power(
             at,
             &self.view(work),
+            |place| work.targets[place][1],
             (&work.supply, work.dissipated),
             multiplied,
         )
     }
 
-    /// Power that comes in and that is dissipated, W, with the forces that linear constraints supply, what damping of
-    /// cables takes out, and the multipliers of the other constraints.
+    /// Power that comes in and that is dissipated, W, with the rates of the targets of driven rows, the forces that linear
+    /// constraints supply, what damping of cables takes out, and the multipliers of the other constraints.
     pub(in crate::system) fn power<'a, N: Number>(
         &self,
         at: Instant<'_, D, N>,
         view: &View<'_, D, N>,
+        rate_of: impl Fn(usize) -> N,
         (supply, by_cables): (&[Node<D, N>], N),
         multiplied: impl Iterator<Item = (&'a Constraint<D>, N)>,
     ) -> [N; 2] {
         let mut power = [N::of(0.0), by_cables];
         if !self.drives.is_empty() {
-            for driven in &self.driven {
-                let rate = self.linear[driven.row].target.derivatives(view.drives)[1];
+            for (place, driven) in self.driven.iter().enumerate() {
+                let rate = rate_of(place);
                 for (node, c) in &driven.follow {
                     power[0] += weighted(c, &supply[*node]) * rate;
                 }

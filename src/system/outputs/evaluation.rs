@@ -249,7 +249,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let by_cables = powers
             .chain(by_rods)
             .fold(N::of(0.0), |sum, power| sum + power);
-        system.power(at, &view, (&self.supply, by_cables), multiplied)
+        let rate_of = |place: usize| {
+            let target = &system.linear[system.driven[place].row].target;
+            target.derivatives(&self.drives)[1]
+        };
+        system.power(at, &view, rate_of, (&self.supply, by_cables), multiplied)
     }
 
     /// Largest residual of non-linear constraints: of positions, relative to their size, and of
