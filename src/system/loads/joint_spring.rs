@@ -29,6 +29,7 @@ impl<const D: usize> JointSpring<D> {
     }
 
     /// Force on the coordinate, N or N m.
+    #[inline(always)]
     pub fn force<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let rate = self.coordinate.rate(at.x, at.v);
         -N::of(self.stiffness) * self.stretch(at) - N::of(self.damping) * rate
