@@ -212,7 +212,8 @@ pub enum NodeKind {
 /// Stands for no frame in [`Frames::of_node`].
 const NO_FRAME: usize = usize::MAX;
 
-/// The rigid bodies of a system in space, and the frames that its rods carry; none in the plane.
+/// The rigid bodies of a system in space, and the frames that its rods carry; none in the plane, so that what is asked of them
+/// there is nothing when it is compiled (`D == 2`).
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
     list: Vec<Frame>,
@@ -280,6 +281,9 @@ impl Frames {
         (turns, carries): (&mut [Turn], &mut [Carry]),
         x: &mut [Node<D>],
     ) {
+        if D == 2 {
+            return;
+        }
         self.place_carried(&from[self.list.len()..], carries, x);
         for ((frame, from), turn) in self.list.iter().zip(from).zip(turns) {
             turn.rotation = components(&x[frame.node][1].into()).into();
@@ -294,6 +298,9 @@ impl Frames {
         (turns, carries): (&mut [Turn], &mut [Carry]),
         v: &mut [Node<D>],
     ) {
+        if D == 2 {
+            return;
+        }
         self.place_carried_rates(x, carries, v);
         for (frame, turn) in self.list.iter().zip(turns) {
             turn.rate = components(&v[frame.node][1].into()).into();
@@ -308,6 +315,9 @@ impl Frames {
         x: &[Node<D, N>],
         dx: &mut [Node<D, N>],
     ) {
+        if D == 2 {
+            return;
+        }
         self.place_carried_changes(x, dx);
         for frame in &self.list {
             let turn = components(&dx[frame.node][1].into()).into();
@@ -321,6 +331,9 @@ impl Frames {
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         a: &mut [Node<D, N>],
     ) {
+        if D == 2 {
+            return;
+        }
         self.add_carried_centripetal((x, v), a);
         for frame in &self.list {
             let by_spin = turned(&frame.axes(v), &frame.spin(x, v));
@@ -339,7 +352,7 @@ impl Frames {
         x: &[Node<D, N>],
         term: &mut impl FnMut(usize, &Node<D, N>),
     ) -> bool {
-        if self.is_empty() || !marker.is_framed() {
+        if D == 2 || self.is_empty() || !marker.is_framed() {
             return false;
         }
         let axes = axes_at(marker.nodes[0], x);
@@ -374,6 +387,9 @@ impl Frames {
         (x, v): (&[Node<D, N>], Option<&[Node<D, N>]>),
         f: &mut [Node<D, N>],
     ) {
+        if D == 2 {
+            return;
+        }
         self.pull_carried(x, f);
         for frame in &self.list {
             let mut moment = Frame::moment(&frame.axes(x), &frame.axes(f));

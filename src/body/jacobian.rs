@@ -71,14 +71,17 @@ impl SparseRows {
     }
 
     /// Product of a row with `q`.
+    #[inline(always)]
     pub fn product(&self, row: usize, q: &[f64]) -> f64 {
-        let products = self
-            .pieces(row)
-            .map(|(range, row)| short_dot(row, &q[range]));
-        products.sum()
+        let mut sum = 0.0;
+        for (range, row) in self.pieces(row) {
+            sum += short_dot(row, &q[range]);
+        }
+        sum
     }
 
     /// Adds a multiple of a row to `q`.
+    #[inline(always)]
     pub fn add(&self, row: usize, factor: f64, q: &mut [f64]) {
         for (range, row) in self.pieces(row) {
             let pairs = q[range].iter_mut().zip(row);
@@ -342,6 +345,7 @@ impl Blocks {
 }
 
 /// Adds the parts of products of rows to the entries of a matrix.
+#[inline(always)]
 fn add_products(overlaps: &[Overlap], rows: &[f64], entries: &mut [f64]) {
     for Overlap { entry, at, length } in overlaps {
         let [a, b] = at.map(|at| &rows[at as usize..(at + length) as usize]);

@@ -23,6 +23,7 @@ pub(super) enum AnyEngine {
 macro_rules! handed_on {
     ($(fn $name:ident([$($by:tt)+] $self:ident $(, $argument:ident: $kind:ty)*) $(-> $out:ty)?;)*) => {
         impl AnyEngine {$(
+            #[inline(always)]
             pub(super) fn $name($($by)+ $self $(, $argument: $kind)*) $(-> $out)? {
                 match $self {
                     Self::Plane(engine) => engine.$name($($argument),*),

@@ -280,10 +280,20 @@ fn component<N: Number>(
 }
 
 /// What quantities are measured by: length, rate and force at which the scene moves by nature, m, 1/s, N.
-struct Scale {
+#[derive(Clone, Copy)]
+pub(super) struct Scale {
     size: f64,
     rate: f64,
     force: f64,
+}
+
+impl Scale {
+    /// That of a system whose errors in time are measured so.
+    pub(super) fn of<const D: usize>(system: &System<D>, tolerance: &Tolerance) -> Self {
+        let (size, rate) = (system.size(), 1.0 / tolerance.time);
+        let force = system.mass() * size * rate * rate;
+        Self { size, rate, force }
+    }
 }
 
 /// What a quantity is computed from, and what it is where the scene moves at its natural rate; nothing for sums over the
@@ -326,14 +336,8 @@ pub(super) fn needs(quantity: Quantity) -> Evaluated {
 }
 
 /// What a quantity is where the scene moves at its natural rate, if it is compared with that.
-pub(super) fn natural<const D: usize>(
-    quantity: Quantity,
-    system: &System<D>,
-    tolerance: &Tolerance,
-) -> Option<f64> {
-    let (size, rate) = (system.size(), 1.0 / tolerance.time);
-    let force = system.mass() * size * rate * rate;
-    nature(quantity).1(Scale { size, rate, force })
+pub(super) fn natural(quantity: Quantity, by: Scale) -> Option<f64> {
+    nature(quantity).1(by)
 }
 
 impl<const D: usize> Engine<D> {
@@ -344,6 +348,6 @@ impl<const D: usize> Engine<D> {
 
     /// What a quantity is where the scene moves at its natural rate, if it is compared with that.
     pub(super) fn natural(&self, quantity: Quantity) -> Option<f64> {
-        natural(quantity, &self.assembled.system, &self.tolerance)
+        natural(quantity, Scale::of(&self.assembled.system, &self.tolerance))
     }
 }

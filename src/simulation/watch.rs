@@ -7,7 +7,7 @@
 //! ones do, by their squares.
 
 use super::engine::Engine;
-use super::quantities::{Quantity, natural};
+use super::quantities::{Quantity, Scale, natural};
 use crate::integrators::Tolerance;
 use crate::math::vector::norm;
 use crate::system::{Model, State, System};
@@ -56,9 +56,9 @@ impl Watch {
         system: &System<D>,
         tolerance: &Tolerance,
     ) -> Self {
-        let mut groups: Vec<Group> = Vec::new();
+        let (mut groups, by) = (Vec::<Group>::new(), Scale::of(system, tolerance));
         for (quantity, name) in outputs {
-            let Some(natural) = natural(quantity, system, tolerance) else {
+            let Some(natural) = natural(quantity, by) else {
                 continue;
             };
             let name = name.split('[').next().unwrap_or(name);

@@ -91,8 +91,9 @@ impl<const D: usize> Way<D> {
 
 impl<const D: usize> Angle<D> {
     /// Its derivatives.
+    #[inline(always)]
     pub fn gradient<N: Number>(&self, x: &[Node<D, N>]) -> Gradient<D, N> {
-        if let Some(turn) = &self.turn {
+        if let Some(turn) = self.about() {
             return turn.gradient(x);
         }
         let one = N::of(1.0);
@@ -104,7 +105,7 @@ impl<const D: usize> Angle<D> {
 
     /// Its second derivative in time but for the part of accelerations, rad/s^2.
     pub fn bend<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
-        if let Some(turn) = &self.turn {
+        if let Some(turn) = self.about() {
             return turn.bend(x, v);
         }
         let [first, second] = self.ends.map(|end| {
@@ -118,7 +119,7 @@ impl<const D: usize> Angle<D> {
 
     /// Adds its second derivatives by coordinates, times a factor; in space without what is zero where the joint has one axis.
     pub fn add_curvature(&self, factor: f64, x: &[Node<D>], add: Add<'_, D>) {
-        let Some(turn) = &self.turn else {
+        let Some(turn) = self.about() else {
             let zero = SMatrix::zeros();
             let [first, second] = self.ends.map(|end| end.curl(x) * factor);
             return coupling(&self.ends, [[first, zero], [zero, -second]], 1, add);
@@ -143,6 +144,7 @@ impl<const D: usize> Coordinate<D> {
     }
 
     /// Its derivatives; the second entry is on the second body.
+    #[inline(always)]
     pub fn gradient<N: Number>(&self, x: &[Node<D, N>]) -> Gradient<D, N> {
         match self {
             Self::Way(way) => way.gradient(x),
@@ -151,6 +153,7 @@ impl<const D: usize> Coordinate<D> {
     }
 
     /// Its rate, m/s or rad/s.
+    #[inline(always)]
     pub fn rate<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
         self.gradient(x).along(v)
     }
@@ -177,6 +180,7 @@ impl<const D: usize> Coordinate<D> {
     }
 
     /// Calls with both ends and the forces there of a force on it, N or N m.
+    #[inline(always)]
     pub fn act<N: Number>(
         &self,
         force: N,

@@ -143,9 +143,18 @@ pub struct Angle<const D: usize = 2> {
 }
 
 impl<const D: usize> Angle<D> {
+    /// In space, about what; nothing in the plane, which is known when compiling.
+    #[inline(always)]
+    pub fn about(&self) -> Option<&AxisTurn<D>> {
+        match D {
+            2 => None,
+            _ => self.turn.as_ref(),
+        }
+    }
+
     /// The angle that is nearest to `hint`, rad.
     pub fn value<N: Number>(&self, x: &[Node<D, N>], hint: N) -> N {
-        let [along, across] = match &self.turn {
+        let [along, across] = match self.about() {
             Some(turn) => turn.products(x),
             None => {
                 let [a, b] = self.ends.map(|end| end.lift().direction(x));
@@ -159,7 +168,7 @@ impl<const D: usize> Angle<D> {
 
     /// Its rate, rad/s.
     pub fn rate<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
-        if let Some(turn) = &self.turn {
+        if let Some(turn) = self.about() {
             return turn.rate(x, v);
         }
         let [a, b] = self.ends.map(|end| end.lift().spin(x, v));

@@ -14,6 +14,7 @@ pub struct Gradient<const D: usize, N: Number = f64> {
 
 impl<const D: usize, N: Number> Gradient<D, N> {
     /// The derivative along a nodal vector.
+    #[inline(always)]
     pub fn along(&self, rates: &[Node<D, N>]) -> N {
         let mut sum = N::of(0.0);
         for (end, [position, direction]) in &self.ends {
@@ -40,6 +41,7 @@ impl<const D: usize, N: Number> Gradient<D, N> {
     }
 
     /// Terms over the nodes.
+    #[inline(always)]
     pub fn for_each(&self, mut term: impl FnMut(usize, &Node<D, N>)) {
         for (end, [position, direction]) in &self.ends {
             if let End::Body(marker) = end {
@@ -53,6 +55,7 @@ impl<const D: usize, N: Number> Gradient<D, N> {
     }
 
     /// Terms over the nodes that have coordinates: of rigid bodies of space the first one.
+    #[inline(always)]
     pub fn for_each_pulled(
         &self,
         frames: &Frames,

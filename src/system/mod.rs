@@ -144,7 +144,7 @@ impl<const D: usize> System<D> {
         if self.chains.len() + self.rods.len() == 1 && self.bodies.len() == 1 {
             return longest;
         }
-        longest.max(match self.frames.is_empty() {
+        longest.max(match self.has_no_frames() {
             true => start::gaps::extent(&self.reference),
             false => self.reach,
         })
@@ -201,6 +201,21 @@ impl<const D: usize> System<D> {
         let elements: usize = self.chains.iter().map(|c| c.elements().len()).sum();
         let rigid = self.lumped_masses.len() + self.frames.list().len();
         4 + elements + rigid + self.constraints.len()
+    }
+
+    /// Whether nothing has axes of its own, no rigid body of space and no rod: known when compiling for the plane.
+    #[inline(always)]
+    pub(in crate::system) fn has_no_frames(&self) -> bool {
+        D == 2 || self.frames.is_empty()
+    }
+
+    /// Sections of rods: none in the plane, which is known when compiling.
+    #[inline(always)]
+    pub(in crate::system) fn rod_chains(&self) -> &[RodChain] {
+        match D {
+            2 => &[],
+            _ => &self.rod_chains,
+        }
     }
 
     /// Whether the frame turns that the scene is described in.

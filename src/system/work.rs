@@ -86,6 +86,7 @@ impl<const D: usize> Configuration<D> {
     }
 
     /// Whether it is not this one; from now on it is.
+    #[inline(always)]
     fn is_outdated(&mut self, x: &[Node<D>], drives: &[[f64; 3]], travel: &[f64]) -> bool {
         if self.x == x && self.drives == drives && self.travel == travel {
             return false;
@@ -184,7 +185,9 @@ impl<const D: usize> Work<D> {
 
     /// Takes over what of a state is needed beside `q`; motions that inputs drive stand as they are.
     pub fn resume(&mut self, state: &State) {
-        self.frames.copy_from_slice(&state.frames);
+        if D > 2 {
+            self.frames.copy_from_slice(&state.frames);
+        }
         self.angles.copy_from_slice(&state.angles);
         self.travel.copy_from_slice(&state.travel);
         for (course, driven) in self.trajectories.iter_mut().zip(&state.driven) {

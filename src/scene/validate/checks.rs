@@ -57,13 +57,14 @@ pub fn keys(path: &str, of: &str, all: &[Key], alternatives: &[Keys]) -> Result<
     let meant = alternatives.iter().find(is_meant).or(alternatives.last());
     let (must, may) = meant.copied().unwrap_or_default();
     for (key, is_given, what) in all {
-        let place = format!("{path}.{key}");
+        // Only what is wrong is put in words.
+        let place = || format!("{path}.{key}");
         if must.contains(key) && !is_given {
-            return Err(expected(&place, what, "nothing"));
+            return Err(expected(&place(), what, "nothing"));
         }
         if *is_given && !must.contains(key) && !may.contains(key) {
             let wanted = format!("nothing for this kind of {of}");
-            return Err(expected(&place, &wanted, what));
+            return Err(expected(&place(), &wanted, what));
         }
     }
     Ok(())
@@ -97,10 +98,11 @@ pub fn vector(path: &str, dimension: usize, value: &Vector) -> Result<(), Error>
         let wanted = format!("{dimension} components {}", shape(dimension));
         return Err(expected(path, &wanted, count));
     }
-    for (k, component) in value.given().iter().enumerate() {
-        finite(&format!("{path}[{k}]"), *component)?;
+    let mut components = value.given().iter().enumerate();
+    match components.find(|(_, component)| !component.is_finite()) {
+        Some((k, component)) => finite(&format!("{path}[{k}]"), *component),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// The components of a force or a position, of which there are as many as dimensions.

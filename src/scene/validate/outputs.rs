@@ -51,7 +51,7 @@ impl<'a> Resolved<'a> {
             output.validate_keys(&path)?;
             output.validate_count(&path)?;
             let of = self.resolve_output(&path, output)?;
-            self.validate_axes(&format!("{path}.axes"), output, &of)?;
+            self.validate_axes(&path, output, &of)?;
             let named = [
                 &output.marker,
                 &output.joint,
@@ -73,9 +73,9 @@ impl<'a> Resolved<'a> {
         if output.axes.is_global() {
             return Ok(());
         }
-        let found = "axes of a body";
+        let (path, found) = (format!("{path}.axes"), "axes of a body");
         if self.scene.dimension == 2 {
-            return Err(expected(path, "nothing in the plane", found));
+            return Err(expected(&path, "nothing in the plane", found));
         }
         let Of::Reaction(reaction) = of else {
             return Ok(());
@@ -89,7 +89,7 @@ impl<'a> Resolved<'a> {
             Some(First::Marker(marker)) if marker.place.is_framed() => Ok(()),
             _ => {
                 let wanted = "a joint whose first marker is one of a rigid body with inertia, or of the ground";
-                Err(expected(path, wanted, quoted(reaction.name)))
+                Err(expected(&path, wanted, quoted(reaction.name)))
             }
         }
     }

@@ -68,12 +68,25 @@ pub(super) fn clamp<const D: usize>(
 }
 
 impl<const D: usize> AngleBetween<D> {
+    /// Sine and cosine of the angle.
+    #[inline(always)]
+    fn turn<N: Number>(&self, view: &View<'_, D, N>) -> (N, N) {
+        let theta = self.drive.map_or(N::of(0.0), |i| view.drives[i][0]);
+        (theta + N::of(self.angle)).sin_cos()
+    }
+
+    /// The first direction, turned by the angle with this sine and cosine.
+    #[inline(always)]
+    fn turned<N: Number>(&self, view: &View<'_, D, N>, turn: (N, N)) -> Vector<D, N> {
+        turned(self.ends[0].lift().direction(view.x), turn)
+    }
+
     /// The turned first direction, and its first two derivatives in time but for the part of
     /// accelerations.
-    fn turned<N: Number>(&self, view: &View<'_, D, N>) -> [Vector<D, N>; 3] {
-        let [theta, rate, second] = self.drive.map_or([N::of(0.0); 3], |i| view.drives[i]);
-        let (turn, first) = ((theta + N::of(self.angle)).sin_cos(), self.ends[0].lift());
-        let w = turned(first.direction(view.x), turn);
+    fn turned_with_rates<N: Number>(&self, view: &View<'_, D, N>) -> [Vector<D, N>; 3] {
+        let [_, rate, second] = self.drive.map_or([N::of(0.0); 3], |i| view.drives[i]);
+        let (turn, first) = (self.turn(view), self.ends[0].lift());
+        let w = self.turned(view, turn);
         let moved = turned(first.direction_rate(view.v), turn);
         let bias = perpendicular(moved) * (N::of(2.0) * rate) + perpendicular(w) * second
             - w * (rate * rate);
@@ -81,22 +94,19 @@ impl<const D: usize> AngleBetween<D> {
     }
 
     pub(super) fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        cross(
-            &self.turned(view)[0],
-            &self.ends[1].lift().direction(view.x),
-        )
+        let w = self.turned(view, self.turn(view));
+        cross(&w, &self.ends[1].lift().direction(view.x))
     }
 
     pub(super) fn gradient<N: Number>(&self, view: &View<'_, D, N>) -> Gradient<D, N> {
         let none = Vector::zeros();
-        let theta = self.drive.map_or(N::of(0.0), |i| view.drives[i][0]);
-        let back = (-theta - N::of(self.angle)).sin_cos();
+        let (sin, cos) = self.turn(view);
         let [first, second] = self.ends.map(|end| end.lift());
-        let (w, u) = (self.turned(view)[0], second.direction(view.x));
+        let (w, u) = (self.turned(view, (sin, cos)), second.direction(view.x));
         // w x u = w . (-perpendicular u) = u . perpendicular w
         Gradient {
             ends: [
-                (first, [none, -turned(perpendicular(u), back)]),
+                (first, [none, -turned(perpendicular(u), (-sin, cos))]),
                 (second, [none, perpendicular(w)]),
             ],
         }
@@ -104,7 +114,7 @@ impl<const D: usize> AngleBetween<D> {
 
     pub(super) fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         let rate = self.drive.map_or(N::of(0.0), |i| view.drives[i][1]);
-        let w = self.turned(view)[0];
+        let w = self.turned(view, self.turn(view));
         cross(
             &(perpendicular(w) * rate),
             &self.ends[1].lift().direction(view.x),
@@ -112,7 +122,7 @@ impl<const D: usize> AngleBetween<D> {
     }
 
     pub(super) fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        let [_, w_rate, w_bias] = self.turned(view);
+        let [_, w_rate, w_bias] = self.turned_with_rates(view);
         let second = self.ends[1].lift();
         let (u, rate) = (second.direction(view.x), second.direction_rate(view.v));
         cross(&w_bias, &u) + N::of(2.0) * cross(&w_rate, &rate)

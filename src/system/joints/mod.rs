@@ -225,20 +225,23 @@ impl<const D: usize> Constraint<D> {
         view: &View<'_, D, N>,
         mut call: impl FnMut(&Gradient<D, N>),
     ) {
-        match &self.kind {
-            ConstraintKind::UnitLength(c) => call(&c.gradient(view)),
-            ConstraintKind::AngleBetween(c) => call(&c.gradient(view)),
-            ConstraintKind::Distance(c) => call(&c.gradient(view)),
-            ConstraintKind::PointOnLine(c) => call(&c.gradient(view)),
-            ConstraintKind::PointOnCurve(c) => call(&c.gradient(view)),
-            ConstraintKind::HeldRow(c) => call(&c.gradient(view)),
-            ConstraintKind::Perpendicular(c) => call(&c.gradient(view)),
-            ConstraintKind::DrivenTurn(c) => call(&c.gradient(view)),
+        // Called in one place for what joins two ends, so that it can be compiled into its caller.
+        let many: &mut dyn FnMut(&Gradient<D, N>) = &mut call;
+        let gradient = match &self.kind {
+            ConstraintKind::UnitLength(c) => c.gradient(view),
+            ConstraintKind::AngleBetween(c) => c.gradient(view),
+            ConstraintKind::Distance(c) => c.gradient(view),
+            ConstraintKind::PointOnLine(c) => c.gradient(view),
+            ConstraintKind::PointOnCurve(c) => c.gradient(view),
+            ConstraintKind::HeldRow(c) => c.gradient(view),
+            ConstraintKind::Perpendicular(c) => c.gradient(view),
+            ConstraintKind::DrivenTurn(c) => c.gradient(view),
             ConstraintKind::DrivenOrientation(c) => {
-                c.gradients(view).for_each(|pair| call(&pair));
+                return c.gradients(view).for_each(|pair| many(&pair));
             }
-            ConstraintKind::Related(c) => c.gradients(view).for_each(|pair| call(&pair)),
-        }
+            ConstraintKind::Related(c) => return c.gradients(view).for_each(|pair| many(&pair)),
+        };
+        call(&gradient);
     }
 
     /// The same as terms over the nodes.

@@ -20,12 +20,16 @@ pub struct JointSpring<const D: usize = 2> {
 }
 
 impl<const D: usize> JointSpring<D> {
-    /// How far it is from rest.
+    /// How far it is from rest; a damper alone has none, and is not asked how far it has turned.
     fn stretch<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        if self.stiffness == 0.0 {
+            return N::of(0.0);
+        }
         self.coordinate.value(at.x, at.angles.1) - N::of(self.rest)
     }
 
     /// Force on the coordinate, N or N m.
+    #[inline(always)]
     pub fn force<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         let rate = self.coordinate.rate(at.x, at.v);
         -N::of(self.stiffness) * self.stretch(at) - N::of(self.damping) * rate
@@ -46,7 +50,9 @@ impl<const D: usize> JointSpring<D> {
         damping: Add<'_, D>,
     ) {
         let of = &self.coordinate;
-        of.add_square(self.stiffness, at.x, &mut *stiffness);
+        if self.stiffness != 0.0 {
+            of.add_square(self.stiffness, at.x, &mut *stiffness);
+        }
         of.add_curvature(-self.force(at), at.x, stiffness);
         if self.damping > 0.0 {
             of.add_square(self.damping, at.x, damping);

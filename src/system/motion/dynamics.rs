@@ -200,6 +200,7 @@ impl<'a, const D: usize> Model<'a, D> {
     }
 
     /// The same, with or without multipliers.
+    #[inline(always)]
     fn accelerate_with(&mut self, time: f64, [q, v]: [&[f64]; 2], is_told: bool, a: &mut [f64]) {
         self.operations += 1.0;
         let system = self.system;
@@ -257,7 +258,7 @@ impl<'a, const D: usize> Model<'a, D> {
                 add(now - then, now + then);
             }
         }
-        for chain in &system.rod_chains {
+        for chain in system.rod_chains() {
             for j in 0..chain.count() {
                 let [now, then] = [after, before].map(|x| chain.element(j).energy(&chain.at(j, x)));
                 add(now - then, now + then);
@@ -325,7 +326,7 @@ impl<'a, const D: usize> Model<'a, D> {
         for (driven, course) in state.driven.iter_mut().zip(&self.work.trajectories) {
             *driven = course.orders(state.time);
         }
-        if state.angles.is_empty() && state.travel.is_empty() && system.rod_chains.is_empty() {
+        if state.angles.is_empty() && state.travel.is_empty() && system.rod_chains().is_empty() {
             return Accepted::AsIs;
         }
         system.forward_kinematics(state.time, &state.coordinates, None, self.work);
@@ -381,7 +382,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
         self.operations += LINEARIZE;
         let system = self.system;
-        if !(system.constraints.is_empty() && system.frames.is_empty()) {
+        if !(system.constraints.is_empty() && system.has_no_frames()) {
             // Multipliers stiffen, so do forces on bodies that turn, and solves need the Jacobian here.
             let mut a = std::mem::take(&mut self.work.a);
             self.accelerate(time, q, v, &mut a);

@@ -104,8 +104,10 @@ impl<const D: usize> System<D> {
         for chain in &self.chains {
             work.dissipated += chain.add_force(&work.x, &work.v, &mut force);
         }
-        work.torques.fill([0.0; 3]);
-        for chain in &self.rod_chains {
+        if !self.rod_chains().is_empty() {
+            work.torques.fill([0.0; 3]);
+        }
+        for chain in self.rod_chains() {
             let motion = (&work.x[..], &work.v[..]);
             let out = (&mut force[..], &mut work.torques[..]);
             work.dissipated += chain.add_force(motion, &self.frames, out);
@@ -131,7 +133,7 @@ impl<const D: usize> System<D> {
             }
         };
         change(-1.0, work);
-        if self.frames.is_empty() {
+        if self.has_no_frames() {
             self.elimination.reduce(&work.f, &mut work.y, a);
         } else {
             work.other.copy_from_slice(&work.f);
@@ -147,7 +149,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn assemble(&self, time: f64, work: &mut Work<D>) {
         let assembly = &self.elimination.assembly;
         let clock = self.clock(time, work);
-        if !self.frames.is_empty() {
+        if !self.has_no_frames() {
             self.add_multiplied(work);
         }
         let Work { tangent, x, v, .. } = work;
@@ -158,7 +160,7 @@ impl<const D: usize> System<D> {
         for chain in &self.chains {
             chain.add_tangent((x, v), assembly, stiffness, damping);
         }
-        for chain in &self.rod_chains {
+        for chain in self.rod_chains() {
             let matrices = [&mut *stiffness, &mut *damping];
             chain.add_tangent((x, v), &self.frames, assembly, matrices);
         }
@@ -218,7 +220,7 @@ impl<const D: usize> System<D> {
         matrix: &mut Matrix<f64>,
     ) {
         let assembly = &self.elimination.assembly;
-        if self.frames.is_empty() {
+        if self.has_no_frames() {
             return assembly.add(a, b, block, matrix);
         }
         self.frames.pull_block((a, b), block, x, |a, b, block| {
@@ -271,24 +273,26 @@ impl<const D: usize> System<D> {
         self.power(
             at,
             &self.view(work),
+            |place| work.targets[place][1],
             (&work.supply, work.dissipated),
             multiplied,
         )
     }
 
-    /// Power that comes in and that is dissipated, W, with the forces that linear constraints supply, what damping of
-    /// cables takes out, and the multipliers of the other constraints.
+    /// Power that comes in and that is dissipated, W, with the rates of the targets of driven rows, the forces that linear
+    /// constraints supply, what damping of cables takes out, and the multipliers of the other constraints.
     pub(in crate::system) fn power<'a, N: Number>(
         &self,
         at: Instant<'_, D, N>,
         view: &View<'_, D, N>,
+        rate_of: impl Fn(usize) -> N,
         (supply, by_cables): (&[Node<D, N>], N),
         multiplied: impl Iterator<Item = (&'a Constraint<D>, N)>,
     ) -> [N; 2] {
         let mut power = [N::of(0.0), by_cables];
         if !self.drives.is_empty() {
-            for driven in &self.driven {
-                let rate = self.linear[driven.row].target.derivatives(view.drives)[1];
+            for (place, driven) in self.driven.iter().enumerate() {
+                let rate = rate_of(place);
                 for (node, c) in &driven.follow {
                     power[0] += weighted(c, &supply[*node]) * rate;
                 }
@@ -327,7 +331,7 @@ impl<const D: usize> System<D> {
 
     /// Kinetic energy at coordinates `x` and rates `v`, J.
     pub(in crate::system) fn kinetic<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
-        let spins = self.rod_chains.iter();
+        let spins = self.rod_chains().iter();
         let spins = spins.map(|chain| chain.spin_energy((x, v), &self.frames));
         spins.fold(self.quadratic(v, |v| v), |sum, energy| sum + energy)
     }

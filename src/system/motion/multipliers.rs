@@ -163,7 +163,7 @@ impl<const D: usize> System<D> {
     /// What constraints ask of accelerations, into `work.right`.
     pub(in crate::system) fn ask_accelerations(&self, work: &mut Work<D>) {
         // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
-        let is_driven = !(self.driven.is_empty() && self.frames.is_empty());
+        let is_driven = !(self.driven.is_empty() && self.has_no_frames());
         if is_driven {
             self.driven_acceleration(&work.targets, &mut work.other);
             (self.frames).add_centripetal((&work.x, &work.v), &mut work.other);

@@ -7,7 +7,7 @@ use crate::system::{State, System, Work};
 impl<const D: usize> System<D> {
     /// The first rod, among the bodies, with an element that is bent or twisted beyond what its frames hold, and which that is.
     pub(in crate::system) fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
-        let mut found = self.rod_chains.iter().filter_map(|chain| {
+        let mut found = self.rod_chains().iter().filter_map(|chain| {
             let element = chain.overbent(x)?;
             let body = (self.bodies.iter()).position(|nodes| nodes.start == chain.line())?;
             Some((body, element))
@@ -34,12 +34,18 @@ impl<const D: usize> System<D> {
     /// Changes of `q` by small rotations about axes become those of rotations from the frames that the state holds; so do
     /// angular velocities rates.
     pub(in crate::system) fn to_rotations(&self, work: &mut Work<D>, q: &mut [f64]) {
+        if self.has_no_frames() {
+            return;
+        }
         self.frames.to_rotations(&work.turns, q);
         self.turn_carried(Derivative::First, work, q);
     }
 
     /// Angular accelerations become second derivatives of rotations.
     pub(in crate::system) fn to_second(&self, work: &mut Work<D>, a: &mut [f64]) {
+        if self.has_no_frames() {
+            return;
+        }
         self.frames.to_second(&work.turns, a);
         self.turn_carried(Derivative::Second, work, a);
     }
@@ -65,6 +71,9 @@ impl<const D: usize> System<D> {
         size: f64,
         work: &mut Work<D>,
     ) -> bool {
+        if self.has_no_frames() {
+            return false;
+        }
         let mut is_large = self.frames.largest(&state.coordinates) > size;
         if !self.frames.carried().is_empty() {
             self.forward_kinematics(state.time, &state.coordinates, Some(&state.rates), work);

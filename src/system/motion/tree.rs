@@ -225,10 +225,19 @@ impl<const D: usize> System<D> {
         self.tree.is_some()
     }
 
+    /// The tree that constraints make: none in the plane, which is known when compiling.
+    #[inline(always)]
+    fn tree(&self) -> Option<&Tree<D>> {
+        match D {
+            2 => None,
+            _ => self.tree.as_ref(),
+        }
+    }
+
     /// Factors the tree at the nodal coordinates in `work`, unless it is that already. False where there is no tree, or where
     /// turns that a joint holds depend on each other: then multipliers are to be used.
     pub(in crate::system) fn factor_tree(&self, work: &mut Work<D>) -> bool {
-        let Some(tree) = &self.tree else {
+        let Some(tree) = self.tree() else {
             return false;
         };
         if !work.outdates_tree() {
@@ -257,7 +266,7 @@ impl<const D: usize> System<D> {
     /// Changes `q` by the least that makes its products with the rows of the Jacobian what `work.right` says, with the factors
     /// of the tree.
     pub(in crate::system) fn bring_tree(&self, work: &mut Work<D>, q: &mut [f64]) {
-        let Some(tree) = &self.tree else {
+        let Some(tree) = self.tree() else {
             return;
         };
         let right = &work.right;
@@ -277,6 +286,7 @@ impl<const D: usize> System<D> {
 
     /// What is missing in every constraint, into `right`: minus `of_point`, of how the points that a joint holds differ, less
     /// what that is to be; minus `of_other` of the others.
+    #[inline(always)]
     pub(in crate::system) fn fill_right(
         &self,
         view: &View<'_, D>,
@@ -285,7 +295,7 @@ impl<const D: usize> System<D> {
         of_other: impl Fn(&Constraint<D>, &View<'_, D>) -> f64,
         is_position: bool,
     ) {
-        let Some(tree) = &self.tree else {
+        let Some(tree) = self.tree() else {
             for (right, constraint) in right.iter_mut().zip(&self.constraints) {
                 *right = -of_other(constraint, view);
             }

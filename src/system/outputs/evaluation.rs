@@ -243,13 +243,17 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let multiplied = system.constraints.iter().zip(self.lambda.iter().copied());
         let (at, view) = (self.instant(system), self.view(system));
         let powers = (system.chains.iter()).map(|chain| chain.dissipation(&self.x, &self.v));
-        let by_rods = system.rod_chains.iter();
+        let by_rods = system.rod_chains().iter();
         let motion = (&self.x[..], &self.v[..]);
         let by_rods = by_rods.map(|chain| chain.dissipation(motion, &system.frames));
         let by_cables = powers
             .chain(by_rods)
             .fold(N::of(0.0), |sum, power| sum + power);
-        system.power(at, &view, (&self.supply, by_cables), multiplied)
+        let rate_of = |place: usize| {
+            let target = &system.linear[system.driven[place].row].target;
+            target.derivatives(&self.drives)[1]
+        };
+        system.power(at, &view, rate_of, (&self.supply, by_cables), multiplied)
     }
 
     /// Largest residual of non-linear constraints: of positions, relative to their size, and of
@@ -273,7 +277,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             .chains
             .iter()
             .map(|chain| chain.strain_energy(&self.x))
-            .chain((system.rod_chains.iter()).map(|chain| chain.strain_energy(&self.x)));
+            .chain((system.rod_chains().iter()).map(|chain| chain.strain_energy(&self.x)));
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
@@ -325,7 +329,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             let [x, v] = [&self.x, &self.v].map(|of| Vector::from(of[node][part]));
             add(x, v * N::of(mass), system.is_center(node, part));
         }
-        for chain in &system.rod_chains {
+        for chain in system.rod_chains() {
             let motion = (&self.x[..], &self.v[..]);
             chain.for_each_momentum(motion, &system.frames, |frame, momentum| {
                 angular += combined(&frame.axes(&self.x), &momentum.into());
@@ -375,7 +379,7 @@ impl<const D: usize> System<D> {
     /// Bending and torsion of a rod whose line is this chain.
     pub(in crate::system) fn sections(&self, chain: &CableChain<D>) -> Option<&RodChain> {
         let first = chain.nodes(0)[0];
-        self.rod_chains.iter().find(|rod| rod.line() == first)
+        self.rod_chains().iter().find(|rod| rod.line() == first)
     }
 
     /// The same; at a node the element after it, but at the last end.
