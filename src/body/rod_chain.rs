@@ -12,7 +12,7 @@ use super::connectivity::Node;
 use super::frame::{Carried, Frames};
 use super::marker::Marker;
 use super::stages::rotated;
-use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Rates, Rod};
+use crate::elements::rod::{At, Force, Matrix as ElementMatrix, Rates, Rod, VELOCITIES};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components, vector};
 use crate::math::sparse::Matrix;
@@ -323,6 +323,22 @@ impl RodChain {
                 add(*a, *b, &block);
             }
         }
+    }
+
+    /// Velocities of element `j`, or small displacements, in the order of its matrices: what nodes hold that have coordinates, so for
+    /// every frame the rotation about its tangent. Positions are relative to the first one.
+    pub fn displacements<const D: usize>(&self, j: usize, x: &[Node<D>]) -> [f64; VELOCITIES] {
+        let nodes = self.nodes(j);
+        let mut found = [0.0; VELOCITIES];
+        for (k, node) in nodes.iter().enumerate() {
+            for (at, (part, axis)) in entries(k) {
+                found[at] = x[*node][part][axis];
+                if (k == 0 || k == 2) && part == 0 {
+                    found[at] -= x[nodes[0]][0][axis];
+                }
+            }
+        }
+        found
     }
 
     /// The first element that is bent or twisted beyond what its frames hold.
