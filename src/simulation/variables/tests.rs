@@ -103,10 +103,8 @@ fn parameters_are_those_of_bodies_masses_hinges_and_springs() {
     assert!(variables(&turning).iter().any(|v| v.name == "rotation"));
 }
 
-/// Bodies of every shape on a bushing.
-#[test]
-fn sizes_of_shapes_and_of_bushings_are_parameters() {
-    let text = r#"{ "name": "sizes", "dimension": 3,
+/// Bodies of every shape, one of them on a bushing.
+const SIZES: &str = r#"{ "name": "sizes", "dimension": 3,
       "bodies": [
         { "name": "block", "element": "rigid", "position": [0.0, 0.0, 0.0], "density": 1.0, "shape": { "box": { "size": [0.4, 0.7, 1.1] } },
           "markers": { "c": [0.0, 0.0, 0.0] } },
@@ -117,7 +115,10 @@ fn sizes_of_shapes_and_of_bushings_are_parameters() {
           "shape": { "tube": { "radius": 0.5, "inner_radius": 0.45, "length": 0.8 } } } ],
       "loads": [ { "name": "mount", "kind": "bushing", "markers": ["ground", "block.c"],
                    "translational_stiffness": [3.0, 5.0, 8.0], "rotational_damping": [0.1, 0.2, 0.3] } ] }"#;
-    let list = variables(&Scene::from_json(text).expect("a valid scene"));
+
+#[test]
+fn sizes_of_shapes_and_of_bushings_are_parameters() {
+    let list = variables(&Scene::from_json(SIZES).expect("a valid scene"));
     for (name, start, unit, meaning) in [
         (
             "block.size[1]",

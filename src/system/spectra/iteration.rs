@@ -286,17 +286,25 @@ pub(super) fn slowest<const D: usize>(
         };
         let roots = |s: &Complex<f64>| if s.im > 0.0 { 2 } else { 1 };
         let number: usize = found[..number].iter().map(roots).sum();
-        // Determinants of parts of the system turn faster than that of the whole: too few show where steps are too large.
-        let present = (0..DENSER)
-            .map_while(|k| inside(linear, radius, (number + 8) << (2 * k)))
-            .find(|present| *present >= number);
-        match present {
+        match present(linear, radius, number) {
             Some(present) if present == number => return Ok(improved(linear, &krylov, found)),
             Some(present) if present > number => krylov.start(),
             _ => return Err(missing),
         }
     }
     Err(missing)
+}
+
+/// Number of eigenvalues inside a circle about 0, of which so many were found. Determinants of parts of the system turn faster
+/// than that of the whole: too few show where steps round the circle are too large.
+fn present<const D: usize>(
+    linear: &Linearization<'_, D>,
+    radius: f64,
+    number: usize,
+) -> Option<usize> {
+    (0..DENSER)
+        .map_while(|k| inside(linear, radius, (number + 8) << (2 * k)))
+        .find(|present| *present >= number)
 }
 
 /// Eigenvalues that are certain and that no unfound one can be slower than, slowest first; with the size that all
