@@ -13,7 +13,7 @@ use super::connectivity::{Node, no_node};
 use super::frame::{Carried, Frames, axes_at, combined};
 use super::marker::Marker;
 use super::stages::rotated;
-use crate::elements::beam::{At, Force, Matrix as ElementMatrix, Rates};
+use crate::elements::beam::{At, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::section::{Section, SpinInertia};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components, vector};
@@ -386,6 +386,22 @@ impl RodChain {
             };
             (first + k, place)
         })
+    }
+
+    /// Velocities of element `j`, or small displacements, in the order of its matrices: what nodes hold that have coordinates, so for
+    /// every frame its rotations. Positions are relative to the first one.
+    pub fn displacements<const D: usize>(&self, j: usize, x: &[Node<D>]) -> [f64; VELOCITIES] {
+        let nodes = self.nodes(j);
+        let mut found = [0.0; VELOCITIES];
+        for (k, node) in nodes.iter().enumerate() {
+            for (at, (part, axis)) in self.entries(k) {
+                found[at] = x[*node][part][axis];
+                if (k == 0 || k == 2) && part == 0 {
+                    found[at] -= x[nodes[0]][0][axis];
+                }
+            }
+        }
+        found
     }
 
     /// The first element that is bent or twisted beyond what its frames hold.

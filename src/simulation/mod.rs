@@ -440,12 +440,12 @@ impl Simulation {
         self.parametrized_but(|_| false)
     }
 
-    /// Whether a parameter bounds others: a moment of inertia in space, a length of a cross section, a stiffness of a rod that
-    /// couples twist and bending. They are set one after another and checked together when initialization computes the state.
+    /// Whether a parameter bounds others: a moment of inertia in space, a length of a cross section or of a rigid body's shape, a
+    /// stiffness of a rod that couples twist and bending. They are set one after another and checked together when initialization computes the state.
     fn is_bound_by_others(&self, parameter: Parameter) -> bool {
         match parameter {
             Parameter::Inertia(..) => self.scene.dimension == 3,
-            Parameter::SectionLength(..) => true,
+            Parameter::SectionLength(..) | Parameter::SolidLength(..) => true,
             Parameter::YoungsModulus(id)
             | Parameter::ShearModulus(id)
             | Parameter::SecondMoments(id, _)

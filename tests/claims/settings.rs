@@ -45,6 +45,17 @@ macro_rules! keys {
                     let shape = shape.and_then(|kinds| kinds.keys().next()).expect("a shape");
                     ("SectionLength", format!("{section}/{shape}/{key}"), "m")
                 }
+                Parameter::SolidLength(..) => {
+                    let place = format!("/bodies/{}/shape", part(scene, "bodies", variable));
+                    let key = counted_from_zero(variable);
+                    let shape = scene.pointer(&place).and_then(Value::as_object);
+                    let shape = shape.and_then(|kinds| kinds.keys().next()).expect("a shape");
+                    (of_each(SIZES, &format!("{shape}/{key}")), format!("{place}/{shape}/{key}"), "m")
+                }
+                Parameter::BushingStiffness(..) => of_bushing(scene, variable, "N/m"),
+                Parameter::BushingDamping(..) => of_bushing(scene, variable, "N.s/m"),
+                Parameter::BushingTurningStiffness(..) => of_bushing(scene, variable, "N.m/rad"),
+                Parameter::BushingTurningDamping(..) => of_bushing(scene, variable, "N.m.s/rad"),
                 Parameter::Gravity(axis) => ("Gravity", format!("/gravity/{axis}"), "m/s2"),
                 Parameter::Rotation(axis) => {
                     let place = match scene["rotation"].is_array() {
@@ -59,6 +70,61 @@ macro_rules! keys {
             }
         }
     };
+}
+
+/// Lengths of shapes of rigid bodies, every one with a claim of its own.
+const SIZES: &[&str] = &[
+    "box/size/0",
+    "box/size/1",
+    "box/size/2",
+    "cylinder/radius",
+    "cylinder/length",
+    "sphere/radius",
+    "tube/radius",
+    "tube/inner_radius",
+    "tube/length",
+];
+/// Sizes of bushings, every one with a claim of its own.
+const BUSHINGS: &[&str] = &[
+    "translational_stiffness/0",
+    "translational_stiffness/1",
+    "translational_stiffness/2",
+    "translational_damping/0",
+    "translational_damping/1",
+    "translational_damping/2",
+    "rotational_stiffness/0",
+    "rotational_stiffness/1",
+    "rotational_stiffness/2",
+    "rotational_damping/0",
+    "rotational_damping/1",
+    "rotational_damping/2",
+];
+
+/// One of these names.
+fn of_each(names: &[&'static str], name: &str) -> &'static str {
+    let found = names.iter().find(|found| **found == name);
+    found.unwrap_or_else(|| panic!("{name}: expected one of {names:?}"))
+}
+
+/// The key that the name of a variable ends with; components have numbers from 1 there, in a scene from 0.
+fn counted_from_zero(variable: &str) -> String {
+    let (_, key) = variable.rsplit_once('.').expect("a key");
+    let Some((key, number)) = key.strip_suffix(']').and_then(|key| key.split_once('[')) else {
+        return key.into();
+    };
+    let number: usize = number.parse().expect("a number");
+    format!("{key}/{}", number - 1)
+}
+
+/// Name, place in the scene and unit of a size of a bushing.
+fn of_bushing(
+    scene: &Value,
+    variable: &str,
+    unit: &'static str,
+) -> (&'static str, String, &'static str) {
+    let key = counted_from_zero(variable);
+    let place = format!("/loads/{}/{key}", part(scene, "loads", variable));
+    (of_each(BUSHINGS, &key), place, unit)
 }
 
 /// Place in its list of the part whose name begins that of a variable.
@@ -227,7 +293,8 @@ fn changed(scene: &Value, pointer: &str) -> Option<(Value, f64)> {
 /// The change of a key is noticed, and the parameter undoes it.
 #[test]
 fn every_parameter_is_its_key() {
-    let findings = findings(PARAMETERS.iter().copied());
+    let all = [PARAMETERS, SIZES, BUSHINGS].concat();
+    let findings = findings(all);
     for_each_specimen(|specimen| {
         let known = specimen.variables();
         let units = units(&specimen.scene);

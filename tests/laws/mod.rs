@@ -36,6 +36,7 @@ mod space;
 mod spatial;
 mod specimen;
 mod spectra;
+mod spectra_in_space;
 mod spinning;
 mod sprung;
 mod tangents;

@@ -76,11 +76,29 @@ impl RodChain {
         assembly: &Assembly<D>,
         matrices: [&mut Matrix<f64>; 2],
     ) {
+        self.for_each_tangent(motion, frames, |kind, j, whole| {
+            let matrix = &mut *matrices[kind as usize];
+            self.for_each_block(j, whole, |row, column, block| {
+                assembly.add(row, column, block, matrix);
+            });
+        });
+    }
+
+    /// Calls with the tangent stiffness of every element, then with the damping of every one where there is any.
+    #[inline(always)]
+    pub fn for_each_tangent<const D: usize>(
+        &self,
+        motion: (&[Node<D>], &[Node<D>]),
+        frames: &Frames,
+        mut each: impl FnMut(Tangent, usize, &ElementMatrix),
+    ) {
         let (mut place, mut rate) = (NodePack::straight(), NodePack::straight());
         let mut out = [[[0.0; PACK]; VELOCITIES]; VELOCITIES];
-        let kinds = [Tangent::Stiffness, Tangent::Damping];
         let count = if self.is_damped { 2 } else { 1 };
-        for (kind, matrix) in kinds.into_iter().zip(matrices).take(count) {
+        for kind in [Tangent::Stiffness, Tangent::Damping]
+            .into_iter()
+            .take(count)
+        {
             for Packed { elements, kernel } in &self.packs {
                 self.read(motion, None, elements, &mut place);
                 if self.is_damped {
@@ -91,7 +109,9 @@ impl RodChain {
                     SectionPack::Rod(kernel) => rod_tangent(kernel, motion, kind, &mut out),
                     SectionPack::Beam(kernel) => beam_tangent(kernel, motion, kind, &mut out),
                 }
-                self.add_lanes(elements, &out, assembly, matrix);
+                for (lane, j) in elements.clone().enumerate() {
+                    each(kind, j, &of_lane(&out, lane));
+                }
             }
         }
     }
@@ -161,27 +181,17 @@ impl RodChain {
             }
         }
     }
+}
 
-    /// Adds the matrices of a pack, of which rows up to the diagonal are given.
-    fn add_lanes<const D: usize>(
-        &self,
-        elements: &Range<usize>,
-        lanes: &ElementMatrix<[f64; PACK]>,
-        assembly: &Assembly<D>,
-        matrix: &mut Matrix<f64>,
-    ) {
-        for (lane, j) in elements.clone().enumerate() {
-            let mut whole = [[0.0; VELOCITIES]; VELOCITIES];
-            for r in 0..12 + 3 * self.turns {
-                for c in 0..=r {
-                    (whole[r][c], whole[c][r]) = (lanes[r][c][lane], lanes[r][c][lane]);
-                }
-            }
-            self.for_each_block(j, &whole, |row, column, block| {
-                assembly.add(row, column, block, matrix);
-            });
+/// The matrix of one element of a pack, of which rows up to the diagonal are given.
+fn of_lane(lanes: &ElementMatrix<[f64; PACK]>, lane: usize) -> ElementMatrix {
+    let mut whole = [[0.0; VELOCITIES]; VELOCITIES];
+    for r in 0..VELOCITIES {
+        for c in 0..=r {
+            (whole[r][c], whole[c][r]) = (lanes[r][c][lane], lanes[r][c][lane]);
         }
     }
+    whole
 }
 
 /// Every coordinate of the nodes of a pack side by side: positions and slopes, or their rates; axes of sections (the second, the first,

@@ -15,6 +15,23 @@ pub struct General<T> {
     upper: Vec<T>,
 }
 
+impl General<f64> {
+    /// Its symmetric part, in place of what is in a matrix.
+    pub fn symmetric_part(&self, pattern: &Pattern, into: &mut Matrix<f64>) {
+        let pairs = self.lower.iter().zip(&self.upper);
+        for (into, (lower, upper)) in into.values.iter_mut().zip(pairs) {
+            *into = 0.5 * (lower + upper);
+        }
+        // Diagonal blocks stand in full below.
+        for Column { at, size, .. } in &pattern.columns {
+            let block = &self.lower[*at..at + size * size];
+            for (r, c) in (0..*size).flat_map(|r| (0..*size).map(move |c| (r, c))) {
+                into.values[at + r * size + c] = 0.5 * (block[r * size + c] + block[c * size + r]);
+            }
+        }
+    }
+}
+
 impl<T: Number> General<T> {
     /// The zero matrix.
     pub fn zeros(pattern: &Pattern) -> Self {

@@ -54,34 +54,43 @@ fn third() -> [f64; 3] {
 const POINTS: u32 = 48;
 
 impl Solid {
-    /// Its lengths by their keys, m.
-    pub fn lengths(&self) -> Vec<(&'static str, f64)> {
-        match *self {
-            Self::Box { size: [x, y, z] } => {
-                vec![("box.size[0]", x), ("box.size[1]", y), ("box.size[2]", z)]
-            }
+    /// Its key in a scene.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Box { .. } => "box",
+            Self::Cylinder { .. } => "cylinder",
+            Self::Sphere { .. } => "sphere",
+            Self::Tube { .. } => "tube",
+        }
+    }
+
+    /// Its lengths by their keys, those of a list with their place in it, m.
+    pub fn lengths(&mut self) -> Vec<(&'static str, Option<usize>, &mut f64)> {
+        match self {
+            Self::Box { size } => (size.iter_mut().enumerate())
+                .map(|(k, edge)| ("size", Some(k), edge))
+                .collect(),
             Self::Cylinder { radius, length, .. } => {
-                vec![("cylinder.radius", radius), ("cylinder.length", length)]
+                vec![("radius", None, radius), ("length", None, length)]
             }
-            Self::Sphere { radius } => vec![("sphere.radius", radius)],
+            Self::Sphere { radius } => vec![("radius", None, radius)],
             Self::Tube {
                 radius,
                 inner_radius,
                 length,
                 ..
             } => vec![
-                ("tube.radius", radius),
-                ("tube.inner_radius", inner_radius),
-                ("tube.length", length),
+                ("radius", None, radius),
+                ("inner_radius", None, inner_radius),
+                ("length", None, length),
             ],
         }
     }
 
-    /// The direction of its axis with its key, where one is asked for.
-    pub fn axis(&self) -> Option<(&'static str, [f64; 3])> {
+    /// The direction of its axis, where one is asked for.
+    pub fn axis(&self) -> Option<[f64; 3]> {
         match *self {
-            Self::Cylinder { axis, .. } => Some(("cylinder.axis", axis)),
-            Self::Tube { axis, .. } => Some(("tube.axis", axis)),
+            Self::Cylinder { axis, .. } | Self::Tube { axis, .. } => Some(axis),
             Self::Box { .. } | Self::Sphere { .. } => None,
         }
     }

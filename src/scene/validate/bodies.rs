@@ -323,33 +323,29 @@ impl RigidBody {
 }
 
 impl Solid {
-    fn validate(&self, path: &str) -> Result<(), Error> {
-        for (key, length) in self.lengths() {
-            positive(&format!("{path}.{key}"), "m", length)?;
+    fn validate(mut self, path: &str) -> Result<(), Error> {
+        let path = format!("{path}.{}", self.key());
+        for (key, place, length) in self.lengths() {
+            let place = place.map(|k| format!("[{k}]")).unwrap_or_default();
+            positive(&format!("{path}.{key}{place}"), "m", *length)?;
         }
         if let Self::Tube {
             radius,
             inner_radius,
             ..
-        } = *self
+        } = self
             && inner_radius >= radius
         {
             let wanted = format!("less than the outer radius ({radius} m)");
-            return Err(expected(
-                &format!("{path}.tube.inner_radius"),
-                &wanted,
-                inner_radius,
-            ));
+            let place = format!("{path}.inner_radius");
+            return Err(expected(&place, &wanted, inner_radius));
         }
-        if let Some((key, axis)) = self.axis() {
+        if let Some(axis) = self.axis() {
             let norm = Vector3::from(axis).norm();
             if !norm.is_normal() {
+                let (place, found) = (format!("{path}.axis"), format!("{axis:?}"));
                 let wanted = "three finite numbers, not all zero";
-                return Err(expected(
-                    &format!("{path}.{key}"),
-                    wanted,
-                    format!("{axis:?}"),
-                ));
+                return Err(expected(&place, wanted, found));
             }
         }
         Ok(())

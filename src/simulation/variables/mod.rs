@@ -85,6 +85,8 @@ pub enum Parameter {
     Mass(RigidId),
     /// Density of a rigid body that has a shape.
     SolidDensity(RigidId),
+    /// Length of the shape of a rigid body, by its place among them.
+    SolidLength(RigidId, usize),
     /// Moment of inertia of a rigid body.
     Inertia(RigidId, usize),
     /// Mass lumped at a marker.
@@ -105,6 +107,14 @@ pub enum Parameter {
     StopDamping(usize),
     /// Damping of a stop of an angle, s/rad.
     TorsionStopDamping(usize),
+    /// Stiffness of a bushing along an axis (0 to 2), N/m.
+    BushingStiffness(usize, usize),
+    /// Damping of a bushing along an axis (0 to 2), N s/m.
+    BushingDamping(usize, usize),
+    /// Stiffness of a bushing about an axis (0 to 2), N m/rad.
+    BushingTurningStiffness(usize, usize),
+    /// Damping of a bushing about an axis (0 to 2), N m s/rad.
+    BushingTurningDamping(usize, usize),
     /// Stiffness of a coupling.
     CouplingStiffness(usize),
     /// Damping of a coupling.

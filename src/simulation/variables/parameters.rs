@@ -3,7 +3,9 @@
 use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
 use crate::math::space::spins;
-use crate::scene::{BodyReference, Cable, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene};
+use crate::scene::{
+    BodyReference, Bushing, Cable, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene,
+};
 
 /// Key, meaning, unit, what it stands for, start value.
 type Row<'a> = (&'a str, &'a str, Option<Unit>, Parameter, f64);
@@ -143,7 +145,8 @@ fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
     if let Some(density) = body.density {
         let parameter = Parameter::SolidDensity(i);
         let row = ("density", "Density", Some(DENSITY), parameter, density);
-        return list.parameters(&body.name, "of", &[row]);
+        list.parameters(&body.name, "of", &[row]);
+        return add_sizes(list, rigid);
     }
     let (parameter, mass) = (Parameter::Mass(i), body.mass());
     let row = ("mass", "Mass", Some(KILOGRAM), parameter, mass);
@@ -164,7 +167,51 @@ fn add_rigid(list: &mut List, rigid: &Rigid<'_>, dimension: usize) {
     }
 }
 
-/// Stiffness and damping of hinges, spring-dampers and couplings.
+/// Lengths of a rigid body that is given by its shape.
+fn add_sizes(list: &mut List, rigid: &Rigid<'_>) {
+    let Some(mut shape) = rigid.body.shape else {
+        return;
+    };
+    for (k, (key, place, length)) in shape.lengths().into_iter().enumerate() {
+        let of = &rigid.body.name;
+        let (key, what) = match (key, place) {
+            (_, Some(axis)) => {
+                let (key, name) = (component(key, axis), AXES[axis]);
+                let what = format!("Length of the edge of {of} along the {name} axis of its frame");
+                (key, what)
+            }
+            ("radius", _) => (key.into(), format!("Radius of {of}")),
+            ("inner_radius", _) => (key.into(), format!("Radius of the hole in {of}")),
+            _ => (key.into(), format!("Length of {of} along its axis")),
+        };
+        let parameter = Parameter::SolidLength(rigid.id, k);
+        list.parameter(format!("{of}.{key}"), what, Some(METRE), parameter, *length);
+    }
+}
+
+/// Stiffnesses and dampings of a bushing.
+fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &Bushing<'_>) {
+    use Parameter::*;
+    type Make = fn(usize, usize) -> Parameter;
+    let [along, about] = bushing.stiffness;
+    let [damped, turned] = bushing.damping;
+    #[rustfmt::skip] // a table
+    let rows: [(&str, &str, Unit, Make, [f64; 3]); 4] = [
+        ("translational_stiffness", "Stiffness along", NEWTON_PER_METRE, BushingStiffness, along),
+        ("translational_damping", "Damping along", NEWTON_SECOND_PER_METRE, BushingDamping, damped),
+        ("rotational_stiffness", "Stiffness about", NEWTON_METRE_PER_RADIAN, BushingTurningStiffness, about),
+        ("rotational_damping", "Damping about", NEWTON_METRE_SECOND_PER_RADIAN, BushingTurningDamping, turned),
+    ];
+    for (key, what, unit, parameter, starts) in rows {
+        for (axis, name) in AXES.iter().enumerate() {
+            let what = format!("{what} the {name} axis of {of}");
+            let key = component(&format!("{of}.{key}"), axis);
+            list.parameter(key, what, Some(unit), parameter(i, axis), starts[axis]);
+        }
+    }
+}
+
+/// Stiffness and damping of hinges, springs, bushings, stops and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
     for (i, joint) in resolved.joints.iter().enumerate() {
@@ -178,7 +225,11 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
         let along = [NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE];
         let about = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
         let (starts, units, parameters) = match &load.kind {
-            LoadKind::Action { .. } | LoadKind::Bushing(_) => continue,
+            LoadKind::Action { .. } => continue,
+            LoadKind::Bushing(bushing) => {
+                add_bushing(list, (i, load.name), bushing);
+                continue;
+            }
             LoadKind::Spring(spring) => {
                 let starts = [spring.stiffness, spring.damping];
                 (starts, along, [SpringStiffness(i), SpringDamping(i)])
@@ -284,6 +335,12 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         Elements(id) => scene.cable_mut(id).elements = Some(value.max(0.0) as u32),
         Mass(id) => scene.rigid_mut(id).mass = Some(value),
         SolidDensity(id) => scene.rigid_mut(id).density = Some(value),
+        SolidLength(id, k) => {
+            let shape = &mut scene.rigid_mut(id).shape;
+            if let Some((.., length)) = shape.iter_mut().flat_map(|s| s.lengths()).nth(k) {
+                *length = value;
+            }
+        }
         Inertia(id, axis) => {
             let inertia = &mut scene.rigid_mut(id).inertia;
             set_inertia(inertia.get_or_insert_default(), axis, value);
@@ -294,6 +351,22 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         SpringStiffness(i) | TorsionStiffness(i) => scene.loads[i].stiffness = Some(value),
         SpringDamping(i) | TorsionDamping(i) | StopDamping(i) | TorsionStopDamping(i) => {
             scene.loads[i].damping = Some(value);
+        }
+        BushingStiffness(i, axis) => {
+            let sizes = &mut scene.loads[i].translational_stiffness;
+            sizes.get_or_insert_default()[axis] = value;
+        }
+        BushingDamping(i, axis) => {
+            let sizes = &mut scene.loads[i].translational_damping;
+            sizes.get_or_insert_default()[axis] = value;
+        }
+        BushingTurningStiffness(i, axis) => {
+            let sizes = &mut scene.loads[i].rotational_stiffness;
+            sizes.get_or_insert_default()[axis] = value;
+        }
+        BushingTurningDamping(i, axis) => {
+            let sizes = &mut scene.loads[i].rotational_damping;
+            sizes.get_or_insert_default()[axis] = value;
         }
         CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
         CouplingDamping(i) => scene.ports[i].damping = Some(value),

@@ -103,6 +103,112 @@ fn parameters_are_those_of_bodies_masses_hinges_and_springs() {
     assert!(variables(&turning).iter().any(|v| v.name == "rotation"));
 }
 
+/// Bodies of every shape, one of them on a bushing.
+const SIZES: &str = r#"{ "name": "sizes", "dimension": 3,
+      "bodies": [
+        { "name": "block", "element": "rigid", "position": [0.0, 0.0, 0.0], "density": 1.0, "shape": { "box": { "size": [0.4, 0.7, 1.1] } },
+          "markers": { "c": [0.0, 0.0, 0.0] } },
+        { "name": "roller", "element": "rigid", "position": [0.0, 0.0, 0.0], "density": 1.0,
+          "shape": { "cylinder": { "radius": 0.3, "length": 0.9 } } },
+        { "name": "ball", "element": "rigid", "position": [0.0, 0.0, 0.0], "density": 1.0, "shape": { "sphere": { "radius": 0.2 } } },
+        { "name": "pipe", "element": "rigid", "position": [0.0, 0.0, 0.0], "density": 1.0,
+          "shape": { "tube": { "radius": 0.5, "inner_radius": 0.45, "length": 0.8 } } } ],
+      "loads": [ { "name": "mount", "kind": "bushing", "markers": ["ground", "block.c"],
+                   "translational_stiffness": [3.0, 5.0, 8.0], "rotational_damping": [0.1, 0.2, 0.3] } ] }"#;
+
+#[test]
+fn sizes_of_shapes_and_of_bushings_are_parameters() {
+    let list = variables(&Scene::from_json(SIZES).expect("a valid scene"));
+    for (name, start, unit, meaning) in [
+        (
+            "block.size[1]",
+            0.4,
+            "m",
+            "Length of the edge of block along the x axis of its frame",
+        ),
+        (
+            "block.size[3]",
+            1.1,
+            "m",
+            "Length of the edge of block along the z axis of its frame",
+        ),
+        ("roller.radius", 0.3, "m", "Radius of roller"),
+        ("roller.length", 0.9, "m", "Length of roller along its axis"),
+        ("ball.radius", 0.2, "m", "Radius of ball"),
+        ("pipe.radius", 0.5, "m", "Radius of pipe"),
+        ("pipe.inner_radius", 0.45, "m", "Radius of the hole in pipe"),
+        ("pipe.length", 0.8, "m", "Length of pipe along its axis"),
+        (
+            "mount.translational_stiffness[2]",
+            5.0,
+            "N/m",
+            "Stiffness along the y axis of mount",
+        ),
+        (
+            "mount.translational_damping[1]",
+            0.0,
+            "N.s/m",
+            "Damping along the x axis of mount",
+        ),
+        (
+            "mount.rotational_stiffness[3]",
+            0.0,
+            "N.m/rad",
+            "Stiffness about the z axis of mount",
+        ),
+        (
+            "mount.rotational_damping[3]",
+            0.3,
+            "N.m.s/rad",
+            "Damping about the z axis of mount",
+        ),
+    ] {
+        let found = list.iter().find(|variable| variable.name == name);
+        let found = found.unwrap_or_else(|| panic!("no {name}"));
+        assert_eq!(found.start, Some(start), "{name}");
+        assert_eq!(found.unit.map(|unit| unit.name), Some(unit), "{name}");
+        assert_eq!(found.description, meaning);
+        assert_eq!(found.limits(), (Some(0.0), None), "{name}");
+    }
+    assert_eq!(
+        list.iter().filter(|v| v.name.starts_with("mount.")).count(),
+        12
+    );
+    let sizes = |v: &&Variable| matches!(v.source, Source::Parameter(Parameter::SolidLength(..)));
+    assert_eq!(list.iter().filter(sizes).count(), 3 + 2 + 1 + 3);
+}
+
+/// Radii of a tube are set one after another, through values that fit together only in the end.
+#[test]
+fn radii_of_a_tube_are_checked_together() {
+    let text = r#"{ "name": "tube", "dimension": 2,
+      "bodies": [ { "name": "pipe", "element": "rigid", "position": [0.0, 0.0], "density": 1.0,
+        "shape": { "tube": { "radius": 0.5, "inner_radius": 0.4, "length": 0.8 } } } ] }"#;
+    let scene = Scene::from_json(text).expect("a valid scene");
+    let place = |name: &str| variables(&scene).iter().position(|v| v.name == name);
+    let [outer, inner] =
+        ["pipe.radius", "pipe.inner_radius"].map(|name| place(name).expect("a parameter"));
+    let mut pipe = crate::simulation::Simulation::new(scene.clone());
+    let negative = pipe.set_real(inner, -0.1).expect_err("a negative radius");
+    assert!(
+        negative
+            .to_string()
+            .contains("pipe.inner_radius: expected zero or a positive number")
+    );
+    pipe.set_real(inner, 0.6).expect("what a larger tube has");
+    let error = pipe.initialize(0.0).expect_err("a hole beyond its tube");
+    let wanted =
+        "bodies[0].shape.tube.inner_radius: expected less than the outer radius (0.5 m), found 0.6";
+    assert_eq!(error.to_string(), wanted);
+    pipe.set_real(outer, 0.7).expect("a larger tube");
+    pipe.start().expect("a tube");
+    let late = pipe.set_real(outer, 0.8).expect_err("parameters are fixed");
+    assert!(
+        late.to_string().contains("until initialization ends"),
+        "{late}"
+    );
+}
+
 #[test]
 fn what_jumps_with_an_input_is_direct() {
     let list = variables(&scene());

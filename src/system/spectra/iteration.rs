@@ -32,6 +32,8 @@ const DECADES: i32 = 24;
 /// Largest change of an argument from one point of a contour to the next, rad, and most points.
 const TURN: f64 = 1.0;
 const POINTS: usize = 2000;
+/// How often a contour is gone around with four times as many points, where too few values show.
+const DENSER: usize = 4;
 
 /// Why eigenvalues were not found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,8 +211,9 @@ pub(super) fn slowest_conservative<const D: usize>(
     linear: &Linearization<'_, D>,
     count: usize,
 ) -> Result<Vec<Complex<f64>>, NotFound> {
-    // Unstable modes come first, however fast they are.
-    let unstable = below(system, work, 0.0).ok_or(NotFound::Missing(count))?;
+    // Unstable modes come first, however fast they are. At zero itself what joints alone hold has no pivots.
+    let zero = -SLOW * scale(system, work, count.min(linear.modes()))?;
+    let unstable = below(system, work, zero).ok_or(NotFound::Missing(count))?;
     let wanted = linear.modes().min(count + unstable);
     let mut squares = lowest(system, work, linear, wanted)?;
     squares.truncate(wanted);
@@ -283,13 +286,25 @@ pub(super) fn slowest<const D: usize>(
         };
         let roots = |s: &Complex<f64>| if s.im > 0.0 { 2 } else { 1 };
         let number: usize = found[..number].iter().map(roots).sum();
-        match inside(linear, radius, number) {
+        match present(linear, radius, number) {
             Some(present) if present == number => return Ok(improved(linear, &krylov, found)),
             Some(present) if present > number => krylov.start(),
             _ => return Err(missing),
         }
     }
     Err(missing)
+}
+
+/// Number of eigenvalues inside a circle about 0, of which so many were found. Determinants of parts of the system turn faster
+/// than that of the whole: too few show where steps round the circle are too large.
+fn present<const D: usize>(
+    linear: &Linearization<'_, D>,
+    radius: f64,
+    number: usize,
+) -> Option<usize> {
+    (0..DENSER)
+        .map_while(|k| inside(linear, radius, (number + 8) << (2 * k)))
+        .find(|present| *present >= number)
 }
 
 /// Eigenvalues that are certain and that no unfound one can be slower than, slowest first; with the size that all
@@ -345,17 +360,16 @@ fn improved<const D: usize>(
 }
 
 /// Number of eigenvalues inside a circle about 0, conjugate ones both: how often the determinant goes around while
-/// `s` goes round half of it.
+/// `s` goes round half of it, in so many parts or more.
 fn inside<const D: usize>(
     linear: &Linearization<'_, D>,
     radius: f64,
-    expected: usize,
+    parts: usize,
 ) -> Option<usize> {
     let phases = |angle: f64| {
         let s = Complex::from_polar(radius, angle);
         linear.shifted(s).map(|shifted| shifted.phases())
     };
-    let parts = expected + 8;
     let mut points = parts + 1;
     let mut turn = 0.0;
     let mut last = (0.0, phases(0.0)?);

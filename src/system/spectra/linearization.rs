@@ -15,13 +15,11 @@
 use nalgebra::{DMatrix, Vector3};
 
 use super::probe::{Blocks, Nodes, Probe, SKEW};
-use crate::body::{
-    Elimination, Frames, Node, add_node, map_node, no_block, no_node, turning_block,
-};
+use super::rods::RodElastic;
+use crate::body::{Elimination, Frames, Node, SparseRows, no_block, no_node, turning_block};
 use crate::elements::{self, Element, Nodal};
-use crate::math::jet::{Jet, Number, moving};
-use crate::math::row_space::RowSpace;
-use crate::math::space::{Vector, components, spin_matrix, spun, vector};
+use crate::math::jet::{Jet, Number};
+use crate::math::space::{Vector, spin_matrix, spun};
 use crate::math::sparse::{General, Matrix};
 use crate::system::end::End;
 use crate::system::instant::Instant;
@@ -35,20 +33,20 @@ pub(super) struct Linearization<'a, const D: usize> {
     pub elimination: &'a Elimination<D>,
     pub stiffness: General<f64>,
     pub damping: General<f64>,
-    /// What elements of cables add to both, element by element, and both without that.
+    /// What elements of cables and of rods add to both, element by element, and both without that.
     pub elements: Vec<Elastic<D>>,
+    pub rods: Vec<RodElastic<'a>>,
     pub others: [General<f64>; 2],
     pub border: Border,
-    /// Whether rigid bodies turn in space.
-    pub is_framed: bool,
     /// Whether `R` is not zero.
     pub is_damped: bool,
     /// Whether `K` is symmetric but for loads that follow, and moves no block out of its place.
     pub is_symmetric: bool,
     /// The first load whose force has no potential.
     pub follower: Option<usize>,
-    /// Orthonormal directions in `q` that constraints hold.
-    pub units: Vec<Vec<f64>>,
+    /// Derivatives of the constraints by `q`, and which of them hold what no others do.
+    pub normals: SparseRows,
+    pub independent: Vec<usize>,
 }
 
 /// Tangents of one element: over the coordinates of its two nodes.
@@ -84,13 +82,16 @@ impl<const D: usize> System<D> {
             stiffness: General::zeros(pattern),
             damping: General::zeros(pattern),
             elements: Vec::new(),
+            rods: Vec::new(),
             others: [General::zeros(pattern), General::zeros(pattern)],
             border: Border::default(),
-            is_framed: !self.frames.is_empty(),
             is_damped: self.is_turning(),
             is_symmetric: true,
             follower: None,
-            units: Vec::new(),
+            normals: work.jacobian.rows().clone(),
+            independent: (0..self.constraints.len())
+                .filter(|row| work.jacobian.is_independent(*row))
+                .collect(),
         };
         let mut probe = Probe::new(&work.x, &work.v);
         self.linearize_loads(time, work, at_rest, &mut probe, &mut made);
@@ -105,9 +106,10 @@ impl<const D: usize> System<D> {
             });
         }
         self.linearize_frames(work, &mut made);
-        self.linearize_rods(work, at_rest, &mut made);
+        self.linearize_carried(work, &mut made);
         made.is_symmetric &= elsewhere.is_empty();
         made.others = [made.stiffness.clone(), made.damping.clone()];
+        self.linearize_rods(work, at_rest, &mut made);
         self.linearize_chains(work, at_rest, &mut probe, &mut made);
         let mut multipliers = Matrix::zeros(pattern);
         self.add_multipliers(&self.view(work), &work.jacobian, &mut multipliers);
@@ -391,91 +393,6 @@ impl<const D: usize> System<D> {
             });
         };
         probe.differentiate(&nodes, false, &force)
-    }
-
-    /// What constraints hold, and what their turning adds to `K`.
-    fn add_turning(&self, work: &Work<D>, at_rest: bool, made: &mut Linearization<'_, D>) {
-        let (elimination, n) = (&self.elimination, self.coordinates());
-        let independent =
-            (0..self.constraints.len()).filter(|row| work.jacobian.is_independent(*row));
-        let independent: Vec<usize> = independent.collect();
-        let mut space = RowSpace::new(independent.len(), n);
-        for (i, row) in independent.iter().enumerate() {
-            space.row_mut(i).fill(0.0);
-            work.jacobian.rows().add(*row, 1.0, space.row_mut(i));
-        }
-        space.factor(0.0);
-        made.units = (0..space.rank()).map(|i| space.unit(i).to_vec()).collect();
-        let is_still = work.v.iter().all(|v| *v == no_node())
-            && work.drives.iter().all(|drive| drive[1] == 0.0);
-        if at_rest || is_still || made.units.is_empty() {
-            return;
-        }
-        made.is_symmetric = false;
-        let rates = space.combine(&self.turning_rows(work, &independent));
-        let padded = vec![0.0; elimination.assembly.pattern().len()];
-        let (mut y, mut x, mut sum) = (vec![0.0; n], padded.clone(), padded);
-        for (unit, mut rate) in made.units.iter().zip(rates) {
-            // - ((R - M') Q^T + D^T) D
-            elimination.forces(&mut rate);
-            elimination.displacements(unit, &mut y);
-            let assembly = &elimination.assembly;
-            assembly.put(&y, &mut x);
-            made.damping.multiply(assembly.pattern(), &x, &mut sum);
-            assembly.take(&sum, &mut y);
-            for frame in self.frames.list() {
-                let spin = frame.spin(&work.x, &work.v);
-                frame.add_moment(&-(frame.inertia_rate(&spin) * frame.read(unit)), &mut y);
-            }
-            let column = rate.iter().zip(&y).map(|(rate, damped)| -(rate + damped));
-            made.border.columns.push(column.collect());
-            made.border.rows.push(rate);
-        }
-    }
-
-    /// Rates of some rows of the Jacobian, in `q`.
-    fn turning_rows(&self, work: &Work<D>, rows: &[usize]) -> Vec<Vec<f64>> {
-        let pairs = work.x.iter().zip(&work.v);
-        let x: Vec<Node<D, Jet>> = pairs.map(|(x, v)| moving(x, v)).collect();
-        let v = work.v.iter().map(|v| map_node(v, Jet::from_re));
-        let v: Vec<Node<D, Jet>> = v.collect();
-        let lift = |[p, v, a]: &[f64; 3]| {
-            [
-                Jet::new(*p, *v, 0.0),
-                Jet::new(*v, *a, 0.0),
-                Jet::from_re(*a),
-            ]
-        };
-        let drives: Vec<[Jet; 3]> = work.drives.iter().map(lift).collect();
-        let mut travel: Vec<Jet> = work.travel.iter().map(|s| Jet::from_re(*s)).collect();
-        self.find_travel(&x, &mut travel);
-        let angles: Vec<Jet> = work.angles.iter().map(|a| Jet::from_re(*a)).collect();
-        let view = View {
-            x: &x,
-            v: &v,
-            drives: &drives,
-            chains: &self.chains,
-            travel: &travel,
-            angles: &angles,
-        };
-        let rates = rows.iter().map(|row| {
-            let mut rate = vec![0.0; self.coordinates()];
-            self.constraints[*row].for_each_pulled((&view, &self.frames), |node, term| {
-                let mut change = map_node(term, |t| t.v1);
-                if let Some((frame, _)) = self.frames.of_node::<D>(node) {
-                    // Of rotations about axes that stand still.
-                    let spin = frame.spin(&work.x, &work.v);
-                    let moment = components(&term[1].map(|t| t.re).into());
-                    let along = Vector3::from(moment).cross(&spin);
-                    let turned: Vector<D> = vector(along.into());
-                    add_node(&mut change, -1.0, &[[0.0; D], turned.into()]);
-                }
-                (self.elimination.assembly).restrict_node(node, &change, &mut rate);
-            });
-            self.elimination.project_in_place(&mut rate);
-            rate
-        });
-        rates.collect()
     }
 }
 

@@ -8,3 +8,4 @@ mod probe;
 mod rods;
 mod shifted;
 pub(in crate::system) mod spectrum;
+mod turning;

@@ -1,17 +1,55 @@
 //! Rods in the linearized equations of motion.
 
+use nalgebra::{SMatrix, SVector};
+
 use super::linearization::Linearization;
-use crate::body::{Frames, RodChain};
+use crate::body::{Frames, Node, RodChain};
+use crate::elements::beam::VELOCITIES;
+use crate::elements::rod::Tangent;
 use crate::math::sparse::Matrix;
 use crate::system::{System, Work};
 
+/// A matrix over the velocities of an element of a rod.
+type Whole = SMatrix<f64, VELOCITIES, VELOCITIES>;
+
+/// Tangents of one element of a rod.
+#[derive(Clone, Debug)]
+pub(super) struct RodElastic<'a> {
+    chain: &'a RodChain,
+    element: usize,
+    pub stiffness: Whole,
+    pub damping: Option<Whole>,
+}
+
+impl RodElastic<'_> {
+    /// Displacements of the nodes relative to the position of the first.
+    pub fn relative<const D: usize>(&self, x: &[Node<D>]) -> SVector<f64, VELOCITIES> {
+        self.chain.displacements(self.element, x).into()
+    }
+}
+
 impl<const D: usize> System<D> {
-    /// Bending and torsion of rods, at rest, and what forces on the axes that they carry add where these turn.
-    pub(super) fn linearize_rods(
-        &self,
+    /// What forces on the axes that rods carry add where these turn.
+    pub(super) fn linearize_carried(&self, work: &Work<D>, made: &mut Linearization<'_, D>) {
+        if self.frames.carried().is_empty() {
+            return;
+        }
+        let assembly = &self.elimination.assembly;
+        let mut stiffness = Matrix::zeros(assembly.pattern());
+        for frame in self.frames.carried() {
+            Frames::geometric_of_carried(frame, &work.supply, &work.x, |a, b, block| {
+                assembly.add(a, b, block, &mut stiffness);
+            });
+        }
+        made.stiffness.add_symmetric(1.0, &stiffness);
+    }
+
+    /// Bending and torsion of rods, at rest.
+    pub(super) fn linearize_rods<'a>(
+        &'a self,
         work: &Work<D>,
         at_rest: bool,
-        made: &mut Linearization<'_, D>,
+        made: &mut Linearization<'a, D>,
     ) {
         if self.rod_chains.is_empty() {
             return;
@@ -20,13 +58,22 @@ impl<const D: usize> System<D> {
         let [mut stiffness, mut damping] = [0, 1].map(|_| Matrix::zeros(assembly.pattern()));
         let motion = (&work.x[..], &work.v[..]);
         for chain in &self.rod_chains {
+            let first = made.rods.len();
+            chain.for_each_tangent(motion, &self.frames, |kind, element, whole| {
+                let whole = Whole::from_fn(|r, c| whole[r][c]);
+                match kind {
+                    Tangent::Stiffness => made.rods.push(RodElastic {
+                        chain,
+                        element,
+                        stiffness: whole,
+                        damping: None,
+                    }),
+                    Tangent::Damping if at_rest => {}
+                    Tangent::Damping => made.rods[first + element].damping = Some(whole),
+                }
+            });
             let matrices = [&mut stiffness, &mut damping];
             chain.add_tangent(motion, &self.frames, assembly, matrices);
-        }
-        for frame in self.frames.carried() {
-            Frames::geometric_of_carried(frame, &work.supply, &work.x, |a, b, block| {
-                assembly.add(a, b, block, &mut stiffness);
-            });
         }
         made.stiffness.add_symmetric(1.0, &stiffness);
         if !at_rest && self.rod_chains.iter().any(RodChain::is_damped) {

@@ -4,7 +4,7 @@
 //! Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005),
 //! section 5 (Schur complement).
 
-use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector, Dyn, LU, SMatrix};
 
 use super::linearization::{Elastic, Linearization};
 use crate::body::{Node, add_node, no_node};
@@ -13,6 +13,7 @@ use crate::math::row_space::RowSpace;
 use crate::math::space::Vector;
 use crate::math::sparse::{self, Factors, General};
 use crate::math::vector::dot;
+use crate::system::Work;
 
 /// Factors of `s^2 I + s R + K` for one `s`.
 pub(super) struct Shifted<'a, const D: usize, T: ComplexField> {
@@ -28,7 +29,13 @@ pub(super) struct Shifted<'a, const D: usize, T: ComplexField> {
 impl<'a, const D: usize> Linearization<'a, D> {
     /// Number of free coordinates: of motions that keep the constraints.
     pub fn modes(&self) -> usize {
-        self.elimination.coordinates() - self.units.len()
+        self.elimination.coordinates() - self.independent.len()
+    }
+
+    /// Gives the solves of `work` the symmetric part of `K`, exactly, in place of the tangent of steps, which leaves small parts out.
+    pub fn hand_over(&self, work: &mut Work<D>) {
+        let pattern = self.elimination.assembly.pattern();
+        (self.stiffness).symmetric_part(pattern, &mut work.tangent.stiffness);
     }
 
     /// `R q`, in place; `y` and `product` are scratch as long as the free coordinates.
@@ -83,21 +90,19 @@ impl<'a, const D: usize> Linearization<'a, D> {
                 }
             }
         }
+        let [stiffness, damping] = &mut projected;
         for element in &self.elements {
             let local: Vec<Nodal<D>> = nodal.iter().map(|x| element.relative(x)).collect();
-            let [stiffness, damping] = &mut projected;
-            let matrices = [
-                (Some(&element.stiffness), stiffness),
-                (element.damping.as_ref(), damping),
-            ];
-            for (matrix, sum) in matrices {
-                let Some(matrix) = matrix else { continue };
-                for (k, right) in local.iter().enumerate() {
-                    let force = times(matrix, right);
-                    for (i, left) in local.iter().enumerate() {
-                        sum[(i, k)] += left.dot(&force);
-                    }
-                }
+            add_products(&local, |e| times(&element.stiffness, e), stiffness);
+            if let Some(matrix) = &element.damping {
+                add_products(&local, |e| times(matrix, e), damping);
+            }
+        }
+        for element in &self.rods {
+            let local: Vec<_> = nodal.iter().map(|x| element.relative(x)).collect();
+            add_products(&local, |e| element.stiffness * e, stiffness);
+            if let Some(matrix) = &element.damping {
+                add_products(&local, |e| matrix * e, damping);
             }
         }
         projected
@@ -121,23 +126,28 @@ impl<'a, const D: usize> Linearization<'a, D> {
             let sizes = element.stiffness.map(|row| row.map(|block| block.abs()));
             e.dot(&times(&sizes, &e))
         });
-        others + products + elastic.sum::<f64>()
+        let of_rods = self.rods.iter().map(|element| {
+            let e = element.relative(&x).abs();
+            e.dot(&(element.stiffness.abs() * e))
+        });
+        others + products + elastic.sum::<f64>() + of_rods.sum::<f64>()
     }
 
     /// Orthonormal columns that the held directions leave.
     fn basis(&self) -> Vec<Vec<f64>> {
         let n = self.elimination.coordinates();
         let axis = |k: usize| (0..n).map(|i| f64::from(u8::from(i == k))).collect();
-        if self.units.is_empty() {
+        if self.independent.is_empty() {
             return (0..n).map(axis).collect();
         }
+        let held = self.held();
         let mut rows = RowSpace::new(n, n);
         for k in 0..n {
             let row = rows.row_mut(k);
             row.fill(0.0);
             row[k] = 1.0;
             for _ in 0..2 {
-                for unit in &self.units {
+                for unit in (0..held.rank()).map(|i| held.unit(i)) {
                     let factor = dot(unit, row);
                     let pairs = row.iter_mut().zip(unit);
                     pairs.for_each(|(x, u)| *x -= factor * u);
@@ -180,6 +190,20 @@ impl<const D: usize> Elastic<D> {
         let [a, mut b] = self.nodes.map(|node| x[node]);
         add_node(&mut b, -1.0, &[a[0], [0.0; D]]);
         [[0.0; D], a[1], b[0], b[1]].into()
+    }
+}
+
+/// Adds the products of displacements of one element with what a matrix makes of them: rows by columns.
+fn add_products<const R: usize, const C: usize>(
+    local: &[SMatrix<f64, R, C>],
+    times: impl Fn(&SMatrix<f64, R, C>) -> SMatrix<f64, R, C>,
+    sum: &mut DMatrix<f64>,
+) {
+    for (k, right) in local.iter().enumerate() {
+        let force = times(right);
+        for (i, left) in local.iter().enumerate() {
+            sum[(i, k)] += left.dot(&force);
+        }
     }
 }
 

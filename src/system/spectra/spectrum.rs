@@ -42,11 +42,6 @@ pub enum SpectrumError {
     /// A thin rigid rod of space, or a section of a rod, turns at this rate, rad/s.
     #[error("expected thin rods and rods that do not turn in space, found one at {0} rad/s")]
     Spins(f64),
-    /// Rigid bodies turn in space among too many coordinates: most, present.
-    #[error(
-        "expected at most {0} free coordinates beside rigid bodies that turn in space, found {1}"
-    )]
-    Many(usize, usize),
     /// Numbers that are not finite.
     #[error("expected a linearization of finite numbers, found others")]
     NotFinite,
@@ -121,7 +116,7 @@ pub fn natural_frequencies<const D: usize>(
         return Err(SpectrumError::NotConservative(body));
     }
     refuse_turning(system, &linear, state)?;
-    refuse_many(&linear)?;
+    linear.hand_over(work);
     let modes = linear.modes();
     if count > modes {
         return Err(SpectrumError::Count(count, modes));
@@ -190,7 +185,7 @@ pub fn eigenvalues<const D: usize>(
         return Err(SpectrumError::Spins(spin));
     }
     refuse_turning(system, &linear, state)?;
-    refuse_many(&linear)?;
+    linear.hand_over(work);
     let mut found = if is_small(&linear, count) {
         all(&linear)?
     } else {
@@ -292,15 +287,5 @@ fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
 
 fn is_small<const D: usize>(linear: &Linearization<'_, D>, count: usize) -> bool {
     let n = linear.elimination.coordinates();
-    n <= SMALL || linear.is_framed || (n <= MIDDLE && SHARE * count > n)
-}
-
-/// Refuses more coordinates beside rigid bodies that turn in space than dense matrices are for: the iteration does not
-/// hold their axes.
-fn refuse_many<const D: usize>(linear: &Linearization<'_, D>) -> Result<(), SpectrumError> {
-    let n = linear.elimination.coordinates();
-    match linear.is_framed && n > MIDDLE {
-        true => Err(SpectrumError::Many(MIDDLE, n)),
-        false => Ok(()),
-    }
+    n <= SMALL || (n <= MIDDLE && SHARE * count > n)
 }

@@ -1,0 +1,112 @@
+//! Directions that constraints hold, and what their turning adds to the linearized equations (`linearization.rs`).
+
+use nalgebra::Vector3;
+
+use super::linearization::Linearization;
+use crate::body::{Node, add_node, map_node, no_node};
+use crate::math::jet::{Jet, moving};
+use crate::math::row_space::RowSpace;
+use crate::math::space::{Vector, components, vector};
+use crate::system::joints::View;
+use crate::system::{System, Work};
+
+impl<const D: usize> Linearization<'_, D> {
+    /// Orthonormal directions in `q` that constraints hold, in dense rows: memory grows with coordinates times constraints, work with
+    /// the square of these.
+    pub fn held(&self) -> RowSpace {
+        let n = self.elimination.coordinates();
+        let mut space = RowSpace::new(self.independent.len(), n);
+        for (i, row) in self.independent.iter().enumerate() {
+            self.normals.add(*row, 1.0, space.row_mut(i));
+        }
+        space.factor(0.0);
+        space
+    }
+}
+
+impl<const D: usize> System<D> {
+    /// What the turning of constraints adds to `K`.
+    pub(super) fn add_turning(
+        &self,
+        work: &Work<D>,
+        at_rest: bool,
+        made: &mut Linearization<'_, D>,
+    ) {
+        let (elimination, n) = (&self.elimination, self.coordinates());
+        let is_still = work.v.iter().all(|v| *v == no_node())
+            && work.drives.iter().all(|drive| drive[1] == 0.0);
+        if at_rest || is_still || made.independent.is_empty() {
+            return;
+        }
+        made.is_symmetric = false;
+        let space = made.held();
+        let rates = space.combine(&self.turning_rows(work, &made.independent));
+        let padded = vec![0.0; elimination.assembly.pattern().len()];
+        let (mut y, mut x, mut sum) = (vec![0.0; n], padded.clone(), padded);
+        for (i, mut rate) in rates.into_iter().enumerate() {
+            let unit = space.unit(i);
+            if rate.iter().all(|rate| *rate == 0.0) {
+                continue;
+            }
+            // - ((R - M') Q^T + D^T) D
+            elimination.forces(&mut rate);
+            elimination.displacements(unit, &mut y);
+            let assembly = &elimination.assembly;
+            assembly.put(&y, &mut x);
+            made.damping.multiply(assembly.pattern(), &x, &mut sum);
+            assembly.take(&sum, &mut y);
+            for frame in self.frames.list() {
+                let spin = frame.spin(&work.x, &work.v);
+                frame.add_moment(&-(frame.inertia_rate(&spin) * frame.read(unit)), &mut y);
+            }
+            let column = rate.iter().zip(&y).map(|(rate, damped)| -(rate + damped));
+            made.border.columns.push(column.collect());
+            made.border.rows.push(rate);
+        }
+    }
+
+    /// Rates of some rows of the Jacobian, in `q`.
+    fn turning_rows(&self, work: &Work<D>, rows: &[usize]) -> Vec<Vec<f64>> {
+        let pairs = work.x.iter().zip(&work.v);
+        let x: Vec<Node<D, Jet>> = pairs.map(|(x, v)| moving(x, v)).collect();
+        let v = work.v.iter().map(|v| map_node(v, Jet::from_re));
+        let v: Vec<Node<D, Jet>> = v.collect();
+        let lift = |[p, v, a]: &[f64; 3]| {
+            [
+                Jet::new(*p, *v, 0.0),
+                Jet::new(*v, *a, 0.0),
+                Jet::from_re(*a),
+            ]
+        };
+        let drives: Vec<[Jet; 3]> = work.drives.iter().map(lift).collect();
+        let mut travel: Vec<Jet> = work.travel.iter().map(|s| Jet::from_re(*s)).collect();
+        self.find_travel(&x, &mut travel);
+        let angles: Vec<Jet> = work.angles.iter().map(|a| Jet::from_re(*a)).collect();
+        let view = View {
+            x: &x,
+            v: &v,
+            drives: &drives,
+            chains: &self.chains,
+            travel: &travel,
+            angles: &angles,
+        };
+        let rates = rows.iter().map(|row| {
+            let mut rate = vec![0.0; self.coordinates()];
+            self.constraints[*row].for_each_pulled((&view, &self.frames), |node, term| {
+                let mut change = map_node(term, |t| t.v1);
+                if let Some((frame, _)) = self.frames.of_node::<D>(node) {
+                    // Of rotations about axes that stand still.
+                    let spin = frame.spin(&work.x, &work.v);
+                    let moment = components(&term[1].map(|t| t.re).into());
+                    let along = Vector3::from(moment).cross(&spin);
+                    let turned: Vector<D> = vector(along.into());
+                    add_node(&mut change, -1.0, &[[0.0; D], turned.into()]);
+                }
+                (self.elimination.assembly).restrict_node(node, &change, &mut rate);
+            });
+            self.elimination.project_in_place(&mut rate);
+            rate
+        });
+        rates.collect()
+    }
+}
