@@ -33,6 +33,8 @@
 mod end;
 mod kernel;
 mod lean;
+#[cfg(test)]
+mod statics;
 mod tangent;
 #[cfg(test)]
 mod tests;
