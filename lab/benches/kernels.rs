@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use flexbody::body::no_node;
-use flexbody::elements::rod;
+use flexbody::elements::{beam, rod};
 use flexbody::math::eigen;
 use flexbody::math::lanes::{self, PACK};
 use flexbody::scene::{Scene, assemble};
@@ -179,6 +179,8 @@ struct Rods {
     packs: usize,
     at: rod::At<[f64; PACK]>,
     force: rod::Force<[f64; PACK]>,
+    tangent: Box<rod::Matrix<[f64; PACK]>>,
+    with_tangent: bool,
 }
 
 impl Rods {
@@ -208,6 +210,8 @@ impl Rods {
                 torque: [[0.0; PACK]; 2],
                 bubble: [0.0; PACK],
             },
+            tangent: Box::new([[[0.0; PACK]; rod::VELOCITIES]; rod::VELOCITIES]),
+            with_tangent: false,
         }
     }
 }
@@ -222,7 +226,13 @@ impl lanes::Work for &mut Rods {
                 d: at.d.each_ref().map(|v| v.each_ref()),
                 bubble: &at.bubble,
             };
-            rod::Rod::pack_force(simd, &self.pack, (&at, None), black_box(&mut self.force));
+            if self.with_tangent {
+                let out = black_box(&mut *self.tangent);
+                let kind = rod::Tangent::Stiffness;
+                rod::Rod::pack_tangent(simd, &self.pack, (&at, None), kind, out);
+            } else {
+                rod::Rod::pack_force(simd, &self.pack, (&at, None), black_box(&mut self.force));
+            }
         }
     }
 }
@@ -234,8 +244,95 @@ fn rods(criterion: &mut Criterion) {
     for (name, second) in [("round", 1.0), ("general", 2.0)] {
         let stiffness = [[0.8, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, second]];
         let mut rods = Rods::new(stiffness, packs);
-        group.bench_function(format!("force, {name}"), |b| {
-            b.iter(|| lanes::vectorized(&mut rods));
+        for (what, with_tangent) in [("force", false), ("tangent", true)] {
+            rods.with_tangent = with_tangent;
+            group.bench_function(format!("{what}, {name}"), |b| {
+                b.iter(|| lanes::vectorized(&mut rods));
+            });
+        }
+    }
+    group.finish();
+}
+
+/// Packs of beams that are bent, twisted and sheared.
+struct Beams {
+    pack: beam::Pack,
+    packs: usize,
+    at: beam::At<[f64; PACK]>,
+    force: beam::Force<[f64; PACK]>,
+    tangent: Box<beam::Matrix<[f64; PACK]>>,
+    with_tangent: bool,
+}
+
+impl Beams {
+    fn new(packs: usize) -> Self {
+        let coupled = |i: usize, j: usize| if i == j { 2.0 } else { 0.1 };
+        let stiffness = std::array::from_fn(|i| std::array::from_fn(|j| coupled(i, j)));
+        let parameters = beam::Parameters {
+            length: 0.1,
+            stiffness: [stiffness; 3],
+            damping_times: [0.0; 6],
+        };
+        let straight = beam::At {
+            e: [[0.0; 3], [1.0, 0.0, 0.0], [0.1, 0.0, 0.0], [1.0, 0.0, 0.0]],
+            axes: [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; 2],
+            inner: [0.0; 3],
+        };
+        let mut bent = straight;
+        bent.e[1] = [0.8, 0.0, 0.6];
+        bent.axes[0] = [[0.6, 0.0, 0.8], [0.0, 1.0, 0.0], [-0.8, 0.0, 0.6]];
+        let zero = [0.0; PACK];
+        Self {
+            pack: beam::Beam::pack(&vec![beam::Beam::new(parameters, &straight); PACK]),
+            packs,
+            at: beam::At {
+                e: bent.e.map(|v| v.map(|x| [x; PACK])),
+                axes: bent.axes.map(|axes| axes.map(|v| v.map(|x| [x; PACK]))),
+                inner: [[0.1; PACK]; 3],
+            },
+            force: beam::Force {
+                e: [[zero; 3]; 4],
+                moment: [[zero; 3]; 2],
+                inner: [zero; 3],
+            },
+            tangent: Box::new([[zero; beam::VELOCITIES]; beam::VELOCITIES]),
+            with_tangent: false,
+        }
+    }
+}
+
+impl lanes::Work for &mut Beams {
+    #[inline(always)]
+    fn run<S: lanes::Simd>(self, simd: S) {
+        for _ in 0..self.packs {
+            let at = black_box(&self.at);
+            let axes = at.axes.each_ref();
+            let at = beam::At {
+                e: at.e.each_ref().map(|v| v.each_ref()),
+                axes: axes.map(|axes| axes.each_ref().map(|v| v.each_ref())),
+                inner: at.inner.each_ref(),
+            };
+            if self.with_tangent {
+                let out = black_box(&mut *self.tangent);
+                let kind = beam::Tangent::Stiffness;
+                beam::Beam::pack_tangent(simd, &self.pack, (&at, None), kind, out);
+            } else {
+                let out = black_box(&mut self.force);
+                beam::Beam::pack_force(simd, &self.pack, (&at, None), out);
+            }
+        }
+    }
+}
+
+fn beams(criterion: &mut Criterion) {
+    let packs = 100;
+    let mut group = criterion.benchmark_group(format!("beams, {} elements", packs * PACK));
+    group.throughput(Throughput::Elements((packs * PACK) as u64));
+    let mut beams = Beams::new(packs);
+    for (what, with_tangent) in [("force", false), ("tangent", true)] {
+        beams.with_tangent = with_tangent;
+        group.bench_function(what, |b| {
+            b.iter(|| lanes::vectorized(&mut beams));
         });
     }
     group.finish();
@@ -247,6 +344,6 @@ criterion_group! {
         .sample_size(20)
         .warm_up_time(std::time::Duration::from_millis(200))
         .measurement_time(std::time::Duration::from_millis(800));
-    targets = kernels, rods, eigenvalues
+    targets = kernels, rods, beams, eigenvalues
 }
 criterion_main!(benches);

@@ -87,27 +87,26 @@ impl Kernel<[f64; PACK]> {
     #[inline(always)]
     pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
         let geometry = self.geometry.group(simd, group);
-        let mut squares = [[[[geometry.length; 6]; 6]; 3]; 2];
-        let mut offset = [[geometry.length; 6]; 3];
+        let square = [[[geometry.length; 6]; 6]; 3];
+        let mut kernel = Kernel {
+            stiffness: square,
+            damping: square,
+            offset: [[geometry.length; 6]; 3],
+            is_damped: self.is_damped,
+            geometry,
+        };
         for k in 0..3 {
             for i in 0..6 {
                 for j in 0..6 {
-                    squares[0][k][i][j] = Lanes::read(simd, &self.stiffness[k][i][j], group);
+                    kernel.stiffness[k][i][j] = Lanes::read(simd, &self.stiffness[k][i][j], group);
                     if self.is_damped {
-                        squares[1][k][i][j] = Lanes::read(simd, &self.damping[k][i][j], group);
+                        kernel.damping[k][i][j] = Lanes::read(simd, &self.damping[k][i][j], group);
                     }
                 }
-                offset[k][i] = Lanes::read(simd, &self.offset[k][i], group);
+                kernel.offset[k][i] = Lanes::read(simd, &self.offset[k][i], group);
             }
         }
-        let [stiffness, damping] = squares;
-        Kernel {
-            geometry,
-            stiffness,
-            damping,
-            offset,
-            is_damped: self.is_damped,
-        }
+        kernel
     }
 }
 

@@ -33,6 +33,8 @@
 mod end;
 mod kernel;
 mod lean;
+#[cfg(test)]
+mod statics;
 mod tangent;
 #[cfg(test)]
 mod tests;
@@ -186,12 +188,12 @@ impl Beam {
     /// where slopes and angular velocities change evenly. With rates that which matters of it: the stresses that
     /// damping adds are taken as given.
     pub fn stiffness(&self, at: &At<f64>, rates: Option<&Rates<f64>>) -> Matrix {
-        self.kernel.tangent(at, rates, Tangent::Stiffness)
+        whole(self.kernel.tangent(at, rates, Tangent::Stiffness))
     }
 
     /// Damping matrix, the derivative of minus the force by velocities, symmetric.
     pub fn damping(&self, at: &At<f64>) -> Matrix {
-        self.kernel.tangent(at, None, Tangent::Damping)
+        whole(self.kernel.tangent(at, None, Tangent::Damping))
     }
 
     /// Whether this element and another can be in one pack.
@@ -277,6 +279,16 @@ impl Beam {
             }
         }
     }
+}
+
+/// The symmetric matrix whose rows with columns up to the diagonal are these.
+fn whole(mut matrix: Matrix) -> Matrix {
+    for r in 0..VELOCITIES {
+        for c in 0..r {
+            matrix[c][r] = matrix[r][c];
+        }
+    }
+    matrix
 }
 
 /// Inertia of an element of this length (m) against angular velocities of its ends and the rates of internal twist and leans between

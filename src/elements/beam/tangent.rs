@@ -37,7 +37,8 @@ struct Total<N> {
 }
 
 impl<N: Real> Kernel<N> {
-    /// The tangent: stiffness with the stresses that damping adds where there are rates, or damping matrix.
+    /// The tangent: stiffness with the stresses that damping adds where there are rates, or damping matrix; rows with columns up to
+    /// the diagonal.
     #[inline(always)]
     pub fn tangent(&self, at: &At<N>, rates: Option<&Rates<N>>, kind: Tangent) -> Matrix<N> {
         let (geometry, placed) = (&self.geometry, self.placed(at));
@@ -76,7 +77,7 @@ impl<N: Real> Kernel<N> {
             let turning = stress.map(|factors| factors.turning);
             self.add_point(point, (&section, &placed), (&squares, turning), &mut sum);
         }
-        self.assemble(&placed, sum, kind)
+        self.assemble(&placed, &mut sum, kind)
     }
 
     #[inline(always)]
@@ -145,14 +146,14 @@ impl<N: Real> Kernel<N> {
         }
     }
 
-    /// From the sums to all velocities.
+    /// From the sums to all velocities, in rows with columns up to the diagonal.
     #[inline(always)]
-    fn assemble(&self, placed: &Placed<N>, sum: Total<N>, kind: Tangent) -> Matrix<N> {
+    fn assemble(&self, placed: &Placed<N>, sum: &mut Total<N>, kind: Tangent) -> Matrix<N> {
         let (geometry, frame, l) = (&self.geometry, &placed.frame, self.geometry.length);
         let zero = geometry.number(0.0);
         let mut matrix = [[zero; VELOCITIES]; VELOCITIES];
         let torques = geometry.torques(&sum.rod);
-        let rod = geometry.whole(frame, sum.rod);
+        let rod = geometry.whole(frame, &mut sum.rod);
         for r in 0..ROD.len() {
             for c in 0..ROD.len() {
                 matrix[ROD[r]][ROD[c]] = rod[r][c];
@@ -180,8 +181,8 @@ impl<N: Real> Kernel<N> {
                 }
             }
         }
-        self.add_lengths(placed, lengths, (&sum.more, &sum.factors), &mut matrix);
-        matrix = by_sections(&placed.ends, &matrix);
+        self.add_lengths(placed, &mut lengths, (&sum.more, &sum.factors), &mut matrix);
+        by_sections(&placed.ends, &mut matrix);
         if kind == Tangent::Stiffness {
             for k in 0..2 {
                 let f = &sum.factors[3 + 2 * k..5 + 2 * k];
@@ -195,12 +196,13 @@ impl<N: Real> Kernel<N> {
         }
         matrix
     }
+
     /// Adds what lengths of the slope have with all others and with each other, and their second derivatives.
     #[inline(always)]
     fn add_lengths(
         &self,
         placed: &Placed<N>,
-        mut mixed: [[N; VELOCITIES]; 3],
+        mixed: &mut [[N; VELOCITIES]; 3],
         (more, factors): (&[[N; MORE]; MORE], &[N; MORE]),
         matrix: &mut Matrix<N>,
     ) {
@@ -237,18 +239,20 @@ impl<N: Real> Kernel<N> {
             for (place, count) in places[i] {
                 for d in 0..3 {
                     let form = t[d] * *count;
-                    for k in 0..VELOCITIES {
-                        let both = form * mixed[i][k];
-                        matrix[place + d][k] += both;
-                        matrix[k][place + d] += both;
+                    let row = place + d;
+                    for k in 0..=row {
+                        matrix[row][k] = form.times_plus(mixed[i][k], matrix[row][k]);
+                    }
+                    for k in row..VELOCITIES {
+                        matrix[k][row] = form.times_plus(mixed[i][k], matrix[k][row]);
                     }
                     for (other, part) in places[i] {
                         let share = rise * *count * *part;
                         for c in 0..3 {
-                            let entry = &mut matrix[place + d][other + c];
+                            let entry = &mut matrix[row][other + c];
                             *entry = *entry - share * t[d] * t[c];
                         }
-                        matrix[place + d][other + d] += share;
+                        matrix[row][other + d] += share;
                     }
                 }
             }
@@ -256,29 +260,48 @@ impl<N: Real> Kernel<N> {
     }
 }
 
-/// From turns of the tangents' frames and leans at the ends to angular velocities of the sections, in columns and then in rows.
+/// From turns of the tangents' frames and leans at the ends to angular velocities of the sections: rows with columns up to the
+/// diagonal.
 #[inline(always)]
-fn by_sections<N: Real>(ends: &[End<N>; 2], matrix: &Matrix<N>) -> Matrix<N> {
-    let mut out = *matrix;
+fn by_sections<N: Real>(ends: &[End<N>; 2], matrix: &mut Matrix<N>) {
     for k in 0..2 {
         let (end, u, s) = (&ends[k], 9 * k + 3, 9 * k + 6);
-        for row in &mut out {
+        for c in 0..u {
+            let (by_u, moment) = end.load(matrix[s][c], &[matrix[s + 1][c], matrix[s + 2][c]]);
+            for d in 0..3 {
+                matrix[u + d][c] += by_u[d];
+                matrix[s + d][c] = moment[d];
+            }
+        }
+        for row in &mut matrix[s + 3..] {
             let (by_u, moment) = end.load(row[s], &[row[s + 1], row[s + 2]]);
             for d in 0..3 {
                 row[u + d] += by_u[d];
                 row[s + d] = moment[d];
             }
         }
-    }
-    for k in 0..2 {
-        let (end, u, s) = (&ends[k], 9 * k + 3, 9 * k + 6);
-        for c in 0..VELOCITIES {
-            let (by_u, moment) = end.load(out[s][c], &[out[s + 1][c], out[s + 2][c]]);
-            for d in 0..3 {
-                out[u + d][c] += by_u[d];
-                out[s + d][c] = moment[d];
+        // The end with itself: columns, then rows.
+        let zero = ends[0].size.constant(0.0);
+        let (mut with_u, mut own) = ([[zero; 3]; 3], [[zero; 3]; 3]);
+        for i in 0..3 {
+            let old = [0, 1, 2].map(|j| matrix[s + i.max(j)][s + i.min(j)]);
+            let (by_u, moment) = end.load(old[0], &[old[1], old[2]]);
+            for j in 0..3 {
+                with_u[j][i] = matrix[s + i][u + j] + by_u[j];
+                own[j][i] = moment[j];
+            }
+        }
+        for j in 0..3 {
+            let old = [0, 1, 2].map(|i| matrix[s + i][u + j]);
+            let (first, _) = end.load(old[0], &[old[1], old[2]]);
+            let (second, mixed) = end.load(with_u[j][0], &[with_u[j][1], with_u[j][2]]);
+            let (_, moment) = end.load(own[j][0], &[own[j][1], own[j][2]]);
+            for i in 0..3 {
+                matrix[u + j][u + i] += first[i];
+                matrix[u + i][u + j] += second[i];
+                matrix[s + i][u + j] = mixed[i];
+                matrix[s + i][s + j] = moment[i];
             }
         }
     }
-    out
 }

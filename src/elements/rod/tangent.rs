@@ -70,7 +70,7 @@ impl<N: Real> Kernel<N> {
             };
             geometry.add_curved(point, (&section, &frame), (by, stress.as_ref()), &mut sum);
         }
-        geometry.whole(&frame, sum)
+        geometry.whole(&frame, &mut sum)
     }
 }
 
@@ -180,9 +180,9 @@ impl<N: Real> Geometry<N> {
 
     /// From the turn at the middle and the twist to both spins, from `z'` to the line.
     #[inline(always)]
-    pub fn whole(&self, frame: &Frame<N>, sum: Curved<N>) -> Matrix<N> {
-        let (mut sum, mut factors) = (sum.squares, sum.factors);
-        self.add_ends(frame, &mut factors, &mut sum);
+    pub fn whole(&self, frame: &Frame<N>, sum: &mut Curved<N>) -> Matrix<N> {
+        let (sum, factors) = (&mut sum.squares, &mut sum.factors);
+        self.add_ends(frame, factors, sum);
         for i in 0..4 {
             let [turn, twist, _] = &mut sum.mixed;
             turn[i] = plus(&twist[i], self.number(-1.0), &turn[i]);
@@ -210,8 +210,8 @@ impl<N: Real> Geometry<N> {
             sum.add_symmetric(k + 1, &by_end, &shifts[k]);
             sum.add_symmetric(LAST, &times(&end.half, self.number(-1.0)), &shifts[k]);
         }
-        self.add_middle(frame, &factors, &mut sum);
-        self.spread_out(&sum)
+        self.add_middle(frame, factors, sum);
+        self.spread_out(sum)
     }
 
     /// From `z'` to the line.
