@@ -62,7 +62,7 @@ impl Moving {
         scene.initial = Initial::State(InitialState::AsShaped);
         for body in &mut scene.bodies {
             if let Body::Cable(cable) = body {
-                cable.material.youngs_modulus *= 1e-4;
+                cable.material.youngs_modulus = Some(1e-4 * cable.material.young());
                 cable.elements = cable.elements.map(|count| count.max(LEAST));
             }
         }

@@ -377,7 +377,7 @@ impl RodChain {
     fn entries(&self, node: usize) -> impl Iterator<Item = (usize, (usize, usize))> {
         let turns = self.turns;
         let first = [0, 6, 6 + turns, 12 + turns, 12 + 2 * turns][node];
-        let count = if node % 2 == 0 && node < 4 { 6 } else { turns };
+        let count = if [0, 2].contains(&node) { 6 } else { turns };
         (0..count).map(move |k| {
             let place = match node {
                 0 | 2 => (k / 3, k % 3),

@@ -34,7 +34,7 @@ pub fn spin_inertia(length: f64, section: impl Fn(f64) -> Matrix3<f64>) -> SpinI
 #[derive(Clone, Debug)]
 pub enum Section {
     /// Bending and torsion.
-    Rod(Rod),
+    Rod(Box<Rod>),
     /// Stretching, shear, bending and torsion.
     Beam(Box<Beam>),
 }
@@ -43,7 +43,7 @@ pub enum Section {
 #[derive(Clone, Debug)]
 pub enum SectionPack {
     /// Of rods.
-    Rod(rod::Pack),
+    Rod(Box<rod::Pack>),
     /// Of beams.
     Beam(Box<beam::Pack>),
 }
@@ -135,12 +135,12 @@ impl Section {
     /// Elements that go together, up to [`PACK`](crate::math::lanes::PACK).
     pub fn pack(elements: &[&Self]) -> SectionPack {
         let rods = elements.iter().filter_map(|element| match element {
-            Self::Rod(rod) => Some(rod.clone()),
+            Self::Rod(rod) => Some((**rod).clone()),
             Self::Beam(_) => None,
         });
         let rods: Vec<Rod> = rods.collect();
         if !rods.is_empty() {
-            return SectionPack::Rod(Rod::pack(&rods));
+            return SectionPack::Rod(Box::new(Rod::pack(&rods)));
         }
         let beams = elements.iter().filter_map(|element| match element {
             Self::Beam(beam) => Some((**beam).clone()),

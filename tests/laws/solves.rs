@@ -306,7 +306,7 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
             body.is_damped(),
             &Jacobian::new(elimination, &[], |_| false),
             &[],
-            [&elastic, &vec![false; elastic.len()]],
+            ([&elastic, &vec![false; elastic.len()]], &[]),
         );
         tangent.clear();
         let assembly = &elimination.assembly;

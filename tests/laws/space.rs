@@ -44,7 +44,7 @@ fn case((elements, joints, noise): Numbers) -> Case {
             length: *length,
             axial_stiffness: 200.0,
             bending_stiffness: 1.0,
-            is_line_of_rod: false,
+            line_of: crate::elements::cable::LineOf::Cable,
             line_density: *line_density,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,
@@ -163,7 +163,7 @@ impl Case {
             false,
             &Jacobian::new(&self.elimination, &[], |_| false),
             &[],
-            [&elastic, &vec![false; elastic.len()]],
+            ([&elastic, &vec![false; elastic.len()]], &[]),
         );
         tangent.clear();
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);

@@ -26,7 +26,7 @@ fn cables() -> Vec<Cable<2>> {
             length,
             axial_stiffness: 1e3,
             bending_stiffness: 1.0,
-            is_line_of_rod: false,
+            line_of: flexbody::elements::cable::LineOf::Cable,
             line_density,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,

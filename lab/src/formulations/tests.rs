@@ -24,7 +24,7 @@ fn soft(inertia: Inertia) -> Parameters {
         length: 1.2,
         axial_stiffness: 0.7e6 * 0.0018,
         bending_stiffness: 0.7e6 * 1.215e-8,
-        is_line_of_rod: false,
+        line_of: flexbody::elements::cable::LineOf::Cable,
         line_density: 5540.0 * 0.0018,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,

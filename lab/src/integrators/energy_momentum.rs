@@ -78,7 +78,7 @@ impl Bar {
         for (cable, chain) in cables.zip(start.assembled.system.chains()) {
             for (j, element) in chain.elements().iter().enumerate() {
                 let length = element.length();
-                let stiffness = |size: f64| cable.material.youngs_modulus * size;
+                let stiffness = |size: f64| cable.material.young() * size;
                 let axial_stiffness = stiffness(cable.section_at(0.5).area);
                 let bending_stiffness = stiffness(cable.second_moment());
                 let slender = axial_stiffness * length * length > SLENDER * bending_stiffness;

@@ -29,7 +29,7 @@ fn rod(elements: usize, gravity: Vector) -> Rod {
         length: LENGTH,
         axial_stiffness: STIFFNESS[0],
         bending_stiffness: STIFFNESS[1],
-        is_line_of_rod: false,
+        line_of: flexbody::elements::cable::LineOf::Cable,
         line_density: DENSITY,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,

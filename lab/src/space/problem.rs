@@ -66,7 +66,7 @@ impl Problem {
             length: self.length(),
             axial_stiffness: self.material.axial,
             bending_stiffness: self.material.bending,
-            is_line_of_rod: false,
+            line_of: flexbody::elements::cable::LineOf::Cable,
             line_density: self.material.density,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,

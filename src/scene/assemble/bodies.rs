@@ -178,7 +178,7 @@ impl<const D: usize> Builder<'_, D> {
             let about_tangent = |mass| [[mass, 0.0, 0.0], [0.0; 3], [0.0; 3]];
             let inertia = inertia.map(|row| row.map(about_tangent));
             let rod = RodElement::new(parameters, &rod_at(&shape));
-            (Section::Rod(rod), inertia)
+            (Section::Rod(Box::new(rod)), inertia)
         });
         let chain = RodChain::new(elements.collect(), first, carried);
         self.parts.nodes.extend(axes);

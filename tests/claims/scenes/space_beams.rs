@@ -43,7 +43,7 @@ fn as_beams(rods: Specimen) -> Specimen {
             .into_iter()
             .filter(|section| section["area"].is_number())
         {
-            section["shear_factors"] = json!([1e4, 1e4]);
+            section["shear_factors"] = json!([30.0, 30.0]);
         }
     }
     beams
