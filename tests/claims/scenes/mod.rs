@@ -25,6 +25,7 @@ mod space_joints;
 mod space_modes;
 mod space_ports;
 mod space_rods;
+mod spread;
 mod tables;
 mod tapers;
 
@@ -59,6 +60,7 @@ pub fn all() -> Vec<Specimen> {
         space_ports::all(),
         space_driven::all(),
         space_rods::all(),
+        spread::all(),
         shapes::all(),
         tapers::all(),
     ];
