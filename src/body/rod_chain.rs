@@ -3,6 +3,7 @@
 //! internal leans alone.
 
 mod lanes;
+mod loaded;
 
 use std::ops::Range;
 

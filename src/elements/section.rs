@@ -68,6 +68,20 @@ pub fn rod_rates<N: Copy>(rates: &Rates<N>) -> rod::Rates<N> {
     }
 }
 
+/// A rod's force in the places of a beam's.
+#[inline(always)]
+fn of_rod<N: Real>(force: rod::Force<N>) -> Force<N> {
+    let zero = force.bubble.constant(0.0);
+    Force {
+        e: force.e,
+        moment: force.torque.map(|torque| [torque, zero, zero]),
+        inner: [force.bubble, zero, zero],
+    }
+}
+
+/// Vectors at the points of [`GAUSS_5`].
+pub type Vectors<N> = [[N; 3]; GAUSS_5.len()];
+
 impl Section {
     /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam.
     pub fn turns(&self) -> usize {
@@ -102,16 +116,27 @@ impl Section {
     pub fn force<N: Real>(&self, at: &At<N>, rates: Option<&Rates<N>>) -> (Force<N>, N) {
         match self {
             Self::Rod(rod) => {
-                let zero = at.inner[0].constant(0.0);
                 let (force, power) = rod.force(&rod_at(at), rates.map(rod_rates).as_ref());
-                let force = Force {
-                    e: force.e,
-                    moment: force.torque.map(|torque| [torque, zero, zero]),
-                    inner: [force.bubble, zero, zero],
-                };
-                (force, power)
+                (of_rod(force), power)
             }
             Self::Beam(beam) => beam.force(at, rates),
+        }
+    }
+
+    /// Vectors along the axes of the sections at five Gauss points, in global components.
+    pub fn outward<N: Real>(&self, at: &At<N>, vectors: &Vectors<N>) -> Vectors<N> {
+        match self {
+            Self::Rod(rod) => rod.outward(&rod_at(at), vectors),
+            Self::Beam(beam) => beam.outward(at, vectors),
+        }
+    }
+
+    /// What moments per reference length, N m/m, with these global components at five Gauss points do: their power is the integral of
+    /// their products with the angular velocities of the sections.
+    pub fn loaded<N: Real>(&self, at: &At<N>, moments: &Vectors<N>) -> Force<N> {
+        match self {
+            Self::Rod(rod) => of_rod(rod.loaded(&rod_at(at), moments)),
+            Self::Beam(beam) => beam.loaded(at, moments),
         }
     }
 
@@ -148,5 +173,140 @@ impl Section {
         });
         let beams: Vec<Beam> = beams.collect();
         SectionPack::Beam(Box::new(Beam::pack(&beams)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+
+    /// An element that is bent, twisted and, of a beam, leans, with axes that are orthonormal.
+    fn bent(leans: bool) -> At<f64> {
+        let e = [
+            [0.1, -0.2, 0.3],
+            [1.1, 0.3, -0.2],
+            [0.9, 0.2, 0.1],
+            [0.8, 0.7, 0.4],
+        ];
+        let normals = [[0.2, -0.1, 0.3], [-0.1, 0.2, 0.25]].map(Vector3::from);
+        let thirds = [[0.1, 0.2, 1.0], [0.5, -0.3, 1.0]].map(Vector3::from);
+        let axes = [0, 1].map(|end| {
+            let tangent = Vector3::from(e[2 * end + 1]).normalize();
+            let lean = if leans {
+                normals[end]
+            } else {
+                Vector3::zeros()
+            };
+            let first = (tangent + lean).normalize();
+            let second = thirds[end].cross(&first).normalize();
+            [first, second, first.cross(&second)].map(Into::into)
+        });
+        let inner = if leans {
+            [0.2, 0.1, -0.15]
+        } else {
+            [0.2, 0.0, 0.0]
+        };
+        At { e, axes, inner }
+    }
+
+    /// The same a moment later.
+    fn moved(at: &At<f64>, rates: &Rates<f64>, time: f64, leans: bool) -> At<f64> {
+        let vector = |x: &[f64; 3], v: &[f64; 3]| Vector3::from(*x) + Vector3::from(*v) * time;
+        let e: [[f64; 3]; 4] = std::array::from_fn(|k| vector(&at.e[k], &rates.e[k]).into());
+        let axes = [0, 1].map(|end| {
+            let axes = at.axes[end].map(Vector3::from);
+            let [u, du] = [at.e[2 * end + 1], rates.e[2 * end + 1]].map(Vector3::from);
+            let spin = rates.spin[end];
+            let velocity = match leans {
+                true => axes[0] * spin[0] + axes[1] * spin[1] + axes[2] * spin[2],
+                false => u.cross(&du) / u.norm_squared() + axes[0] * spin[0],
+            };
+            let turn = nalgebra::Rotation3::new(velocity * time);
+            let [mut first, second, _] = axes.map(|axis| turn * axis);
+            if !leans {
+                first = Vector3::from(e[2 * end + 1]).normalize();
+            }
+            let second = (second - first * first.dot(&second)).normalize();
+            [first, second, first.cross(&second)].map(Into::into)
+        });
+        let inner = vector(&at.inner, &rates.inner).into();
+        At { e, axes, inner }
+    }
+
+    fn elements() -> [(Section, bool); 2] {
+        let (length, one) = (0.9, Matrix3::<f64>::identity());
+        let rod = rod::Parameters {
+            length,
+            stiffness: [one.into(); 3],
+            damping_times: [0.0; 3],
+        };
+        let beam = beam::Parameters {
+            length,
+            stiffness: [nalgebra::Matrix6::identity().into(); 3],
+            damping_times: [0.0; 6],
+        };
+        let rod = Rod::new(rod, &rod_at(&bent(false)));
+        let beam = Beam::new(beam, &bent(true));
+        [
+            (Section::Rod(rod), false),
+            (Section::Beam(Box::new(beam)), true),
+        ]
+    }
+
+    /// The power of moments along an element is that with the angular velocities with which its sections are seen to turn.
+    #[test]
+    fn moments_do_work_where_sections_turn() {
+        let moments = [
+            [0.3, -0.8, 0.5],
+            [-0.2, 0.9, 0.1],
+            [0.7, 0.4, -0.6],
+            [0.2, 0.2, 0.9],
+            [-0.5, 0.6, 0.3],
+        ];
+        for (section, leans) in elements() {
+            let inside = if leans {
+                [0.7, -0.4, 0.3]
+            } else {
+                [0.7, 0.0, 0.0]
+            };
+            let spin = |of: [f64; 3]| if leans { of } else { [of[0], 0.0, 0.0] };
+            let rates = Rates {
+                e: [
+                    [0.2, 0.5, -0.3],
+                    [0.4, -0.6, 0.8],
+                    [-0.7, 0.1, 0.6],
+                    [0.3, 0.9, -0.5],
+                ],
+                spin: [spin([0.8, -0.3, 0.4]), spin([-0.6, 0.5, 0.9])],
+                inner: inside,
+            };
+            let at = bent(leans);
+            let force = section.loaded(&at, &moments);
+            let sum = |a: &[[f64; 3]], b: &[[f64; 3]]| -> f64 {
+                let pairs = a.as_flattened().iter().zip(b.as_flattened());
+                pairs.map(|(a, b)| a * b).sum()
+            };
+            let power = sum(&force.e, &rates.e)
+                + sum(&force.moment, &rates.spin)
+                + sum(&[force.inner], &[rates.inner]);
+            let h = 1e-5;
+            let [before, after] = [-h, h].map(|time| moved(&at, &rates, time, leans));
+            let mut wanted = 0.0;
+            for (k, point) in GAUSS_5.iter().enumerate() {
+                let mut velocity = Vector3::zeros();
+                for axis in 0..3 {
+                    let mut unit = [[0.0; 3]; 5];
+                    unit[k][axis] = 1.0;
+                    let [a, now, b] = [&before, &at, &after]
+                        .map(|at| Vector3::from(section.outward(at, &unit)[k]));
+                    assert!((now.norm() - 1.0).abs() < 1e-14);
+                    velocity += now.cross(&(b - a)) * (0.25 / h);
+                }
+                wanted += 0.9 * point.weight * velocity.dot(&Vector3::from(moments[k]));
+            }
+            assert!((power - wanted).abs() < 1e-8, "{power} {wanted}");
+        }
     }
 }

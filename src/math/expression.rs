@@ -71,7 +71,23 @@ impl Expression {
     /// # Errors
     /// What was expected in the text, and what was found.
     pub fn of(text: &str, variable: &'static str) -> Result<Self, String> {
-        let program = grammar::program(text, variable)?;
+        Self::read(text, variable, None)
+    }
+
+    /// Reads an expression in `t` and in the material coordinate `s` of a body, at this place of it.
+    ///
+    /// # Errors
+    /// What was expected in the text, and what was found.
+    pub fn along(text: &str, s: f64) -> Result<Self, String> {
+        Self::read(text, "t", Some(("s", s)))
+    }
+
+    fn read(
+        text: &str,
+        variable: &'static str,
+        given: Option<(&'static str, f64)>,
+    ) -> Result<Self, String> {
+        let program = grammar::program(text, variable, given)?;
         let switches = switches::any(&program);
         Ok(Self { program, switches })
     }

@@ -36,7 +36,23 @@ impl Function {
     /// # Errors
     /// What was expected in the text, and what was found.
     pub fn expression(text: &str) -> Result<Self, String> {
-        let expression = Expression::new(text)?;
+        Self::of(Expression::new(text)?)
+    }
+
+    /// An expression in `t` and in the material coordinate `s` of a body, at this place of it.
+    ///
+    /// # Errors
+    /// What was expected in the text, and what was found.
+    pub fn along(text: &str, s: f64) -> Result<Self, String> {
+        Self::of(Expression::along(text, s)?).map_err(|told| format!("{told} at s = {s}"))
+    }
+
+    /// Whether a text is an expression in `s`, with or without `t`, and not one in `t` alone.
+    pub fn is_along(text: &str) -> bool {
+        Expression::new(text).is_err() && Expression::along(text, 0.5).is_ok()
+    }
+
+    fn of(expression: Expression) -> Result<Self, String> {
         Ok(match expression.constant() {
             Some(value) if value.is_finite() => Self::Constant(value),
             Some(value) => return Err(format!("expected a finite number, found {value}")),
@@ -303,6 +319,24 @@ mod tests {
         let f = Function::expression("t^2").expect("an expression");
         assert_eq!((f.value(3.0), f.derivatives(3.0)), (9.0, [9.0, 6.0, 2.0]));
         assert!(breaks(&f, 0.0, 9.0).is_empty());
+    }
+
+    #[test]
+    fn an_expression_along_a_body_is_one_in_time_at_each_place() {
+        let text = "5*sin(PI*s)*cos(3*t)+s^2";
+        let at = |s: f64, t: f64| 5.0 * (std::f64::consts::PI * s).sin() * (3.0 * t).cos() + s * s;
+        for s in [0.0, 0.3, 1.0] {
+            let f = Function::along(text, s).expect("an expression");
+            assert!((f.value(0.7) - at(s, 0.7)).abs() < 1e-15);
+        }
+        let f = Function::along("3*s", 0.5).expect("an expression");
+        assert!(matches!(f, Function::Constant(1.5)));
+        let told = Function::along("1/(s-0.5)", 0.5).expect_err("a pole");
+        assert_eq!(told, "expected a finite number, found inf at s = 0.5");
+        let told = Function::along("3*q", 0.5).expect_err("no name");
+        assert!(told.starts_with("expected one of the names t, s, PI, E, sin"));
+        assert!(Function::is_along("s*t") && !Function::is_along("t"));
+        assert!(!Function::is_along("s*q"));
     }
 
     #[test]

@@ -32,11 +32,15 @@ const CONSTANTS: [(&str, f64); 2] = [("PI", std::f64::consts::PI), ("E", std::f6
 /// Longest text, bytes.
 const LENGTH: usize = 10_000;
 
-/// The program of an expression.
+/// The program of an expression in a variable, where a name may stand for a number.
 ///
 /// # Errors
 /// What was expected in the text, and what was found.
-pub(super) fn program(text: &str, variable: &'static str) -> Result<Vec<Operation>, String> {
+pub(super) fn program(
+    text: &str,
+    variable: &'static str,
+    given: Option<(&'static str, f64)>,
+) -> Result<Vec<Operation>, String> {
     if text.len() > LENGTH {
         let found = text.len();
         return Err(format!(
@@ -45,6 +49,7 @@ pub(super) fn program(text: &str, variable: &'static str) -> Result<Vec<Operatio
     }
     let mut reader = Reader {
         variable,
+        given,
         program: Vec::new(),
         waiting: Vec::new(),
         place: Place::Start,
@@ -129,6 +134,8 @@ const POWER: u8 = 5;
 struct Reader {
     /// Name of the variable.
     variable: &'static str,
+    /// A name and the number that it stands for.
+    given: Option<(&'static str, f64)>,
     program: Vec<Operation>,
     waiting: Vec<Waiting>,
     place: Place,
@@ -170,15 +177,17 @@ impl Reader {
         if name == self.variable {
             return self.operand(Operation::Time, name);
         }
-        if let Some((_, number)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
+        let mut numbers = CONSTANTS.iter().chain(&self.given);
+        if let Some((_, number)) = numbers.find(|(known, _)| *known == name) {
             return self.operand(Operation::Number(*number), name);
         }
         let Some(function) = FUNCTIONS.iter().position(|(known, _)| *known == name) else {
             let constants = CONSTANTS.map(|(known, _)| known);
             let functions = FUNCTIONS.map(|(known, _)| known);
-            let known = [&[self.variable], &constants[..], &functions[..]]
-                .concat()
-                .join(", ");
+            let mut known = vec![self.variable];
+            known.extend(self.given.map(|(name, _)| name));
+            known.extend(constants.into_iter().chain(functions));
+            let known = known.join(", ");
             return Err(format!(
                 "expected one of the names {known}, found \"{name}\""
             ));
@@ -402,11 +411,11 @@ mod tests {
             ("1e999*t", "expected a finite number, found \"1e999\""),
             ("\u{3c0}*t", "found \"\u{3c0}\""),
         ] {
-            let told = program(text, "t").expect_err(text);
+            let told = program(text, "t", None).expect_err(text);
             assert!(told.contains(wanted), "{text}: {told}");
         }
-        assert!(program(&"1".repeat(20_000), "t").is_err());
-        assert!(program(&"(".repeat(9_000), "t").is_err());
-        assert!(program(&format!("{}t", "-".repeat(9_000)), "t").is_ok());
+        assert!(program(&"1".repeat(20_000), "t", None).is_err());
+        assert!(program(&"(".repeat(9_000), "t", None).is_err());
+        assert!(program(&format!("{}t", "-".repeat(9_000)), "t", None).is_ok());
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{Error, Scene, Value};
 use crate::math::function::Function;
+use crate::math::quadrature::GAUSS_5;
 use crate::math::switches::grain;
 
 /// A function of time of a scene.
@@ -26,19 +27,20 @@ impl Scene {
     pub fn timed(&self) -> Vec<Timed> {
         let mut timed = Vec::new();
         let mut add = |path: String, name: &str, value: &Value, order: usize| {
-            let function = match order {
-                2 => value.motion_function(),
-                _ => value.function(),
+            let functions = match (value.along(), order) {
+                // What changes along a body as well is looked at in a few places.
+                (Some(text), _) => GAUSS_5
+                    .map(|point| Function::along(text, point.at))
+                    .to_vec(),
+                (None, 2) => vec![value.motion_function()],
+                (None, _) => vec![value.function()],
             };
-            if let Ok(function) = function {
-                let name = name.to_owned();
-                timed.push(Timed {
-                    path,
-                    name,
-                    function,
-                    order,
-                });
-            }
+            timed.extend(functions.into_iter().flatten().map(|function| Timed {
+                path: path.clone(),
+                name: name.to_owned(),
+                function,
+                order,
+            }));
         };
         let place = |path: String, count: usize, k: usize| match count {
             1 => path,

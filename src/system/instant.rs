@@ -2,7 +2,7 @@
 
 use super::CableChain;
 use super::end::Angle;
-use crate::body::Node;
+use crate::body::{Frames, Node, RodChain};
 
 /// Time, inputs and state as loads see them.
 #[derive(Clone, Copy)]
@@ -19,6 +19,8 @@ pub struct Instant<'a, const D: usize, N = f64> {
     pub v: &'a [Node<D, N>],
     /// Flexible bodies.
     pub chains: &'a [CableChain<D>],
+    /// Sections of rods and beams, and the frames that they are at.
+    pub sections: (&'a [RodChain], &'a Frames),
     /// Counted angles of the system and their current values, rad.
     pub angles: (&'a [Angle<D>], &'a [N]),
 }

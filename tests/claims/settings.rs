@@ -163,7 +163,13 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 87] = [
+const INPUTS: [(&str, &str); 93] = [
+    ("inputs.distributed_moment[1]", "N.m/m"),
+    ("inputs.distributed_moment[2]", "N.m/m"),
+    ("inputs.distributed_moment[3]", "N.m/m"),
+    ("inputs.distributed_follower_moment[1]", "N.m/m"),
+    ("inputs.distributed_follower_moment[2]", "N.m/m"),
+    ("inputs.distributed_follower_moment[3]", "N.m/m"),
     ("inputs.force[1]", "N"),
     ("inputs.force[2]", "N"),
     ("inputs.follower_force[1]", "N"),

@@ -78,9 +78,8 @@ impl Bar {
         for (cable, chain) in cables.zip(start.assembled.system.chains()) {
             for (j, element) in chain.elements().iter().enumerate() {
                 let length = element.length();
-                let stiffness = |size: f64| cable.material.young() * size;
-                let axial_stiffness = stiffness(cable.section_at(0.5).area);
-                let bending_stiffness = stiffness(cable.second_moment());
+                let axial_stiffness = cable.axial_stiffness_of(&cable.section_at(0.5));
+                let bending_stiffness = cable.bending_stiffness();
                 let slender = axial_stiffness * length * length > SLENDER * bending_stiffness;
                 let mut bar = Self {
                     nodes: chain.nodes(j),

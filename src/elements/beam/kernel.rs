@@ -259,7 +259,7 @@ impl<N: Real> Kernel<N> {
 
     /// Force from the summed factors.
     #[inline(always)]
-    fn spread(
+    pub fn spread(
         &self,
         placed: &Placed<N>,
         mut sum: Sum<N>,

@@ -33,6 +33,7 @@
 mod end;
 mod kernel;
 mod lean;
+mod loaded;
 #[cfg(test)]
 mod statics;
 mod tangent;
@@ -99,6 +100,18 @@ pub struct Force<N> {
     pub moment: [[N; 3]; 2],
     /// On internal twist and leans, N m.
     pub inner: [N; 3],
+}
+
+impl<N: Real> Force<N> {
+    /// Adds another force on the same element.
+    pub fn add(&mut self, other: &Self) {
+        let pairs = self.e.iter_mut().zip(&other.e);
+        let pairs = pairs.chain(self.moment.iter_mut().zip(&other.moment));
+        let pairs = pairs.chain([(&mut self.inner, &other.inner)]);
+        for (sum, more) in pairs {
+            sum.iter_mut().zip(more).for_each(|(sum, f)| *sum += *f);
+        }
+    }
 }
 
 /// Elasticity and damping of an element of a beam.

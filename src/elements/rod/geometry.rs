@@ -7,11 +7,20 @@ use super::vectors::{Vector, across, add, carry, cross, plus, unit};
 use super::{Force, Rates};
 use crate::elements::line::{Sample, combine, dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{GAUSS_3, Point};
+use crate::math::quadrature::{GAUSS_3, GAUSS_5, Point};
 
 /// Points that strains are sampled at.
 pub(in crate::elements) const POINTS: [Sample; 3] =
     [sample(GAUSS_3[0]), sample(GAUSS_3[1]), sample(GAUSS_3[2])];
+
+/// Points that moments along the line are known at.
+pub(in crate::elements) const LOADED: [Sample; GAUSS_5.len()] = [
+    sample(GAUSS_5[0]),
+    sample(GAUSS_5[1]),
+    sample(GAUSS_5[2]),
+    sample(GAUSS_5[3]),
+    sample(GAUSS_5[4]),
+];
 
 /// Weights of the three vectors in the slope at the middle.
 pub(in crate::elements) const MIDDLE: [f64; 3] = sample(Point {
@@ -267,6 +276,39 @@ impl<N: Real> Geometry<N> {
         for i in 0..3 {
             let by_u = plus(&by_u, self.number(point.slope[i]), &sum.vectors[i]);
             sum.vectors[i] = plus(&by_w, self.number(point.curvature[i]), &by_u);
+        }
+    }
+
+    /// Tangent and axes across it of a section; of round ones, whose stresses do not notice a turn, untwisted.
+    #[inline(always)]
+    pub fn axes(&self, at: &Section<N>, frame: &Frame<N>) -> [Vector<N>; 3] {
+        let [first, second] = &frame.axes;
+        let turned = plus(first, at.cosine, &times(second, at.sine));
+        let axis = carry(&frame.middle, &at.tangent, at.inverse, &turned);
+        [at.tangent, axis, cross(&at.tangent, &axis)]
+    }
+
+    /// Adds what a moment on a section makes of the changes of what it sees, taken with the angular velocity `t x t' + w t` of the axes
+    /// there, whose part `w` about the tangent is that of (1).
+    #[inline(always)]
+    pub fn add_moment(
+        &self,
+        point: &Sample,
+        at: &Section<N>,
+        frame: &Frame<N>,
+        moment: &Vector<N>,
+        sum: &mut Sum<N>,
+    ) {
+        let ((shape, _), t) = (self.quadratic(point.at), &at.tangent);
+        let turn = dot(moment, t);
+        sum.turn += turn;
+        sum.twist += turn * self.number(point.at);
+        sum.bubble += turn * shape;
+        let half = times(&cross(&frame.middle, t), -(turn * at.inverse));
+        sum.middle = add(&sum.middle, &half);
+        let by_u = times(&add(&half, &cross(moment, t)), at.inverse_size);
+        for i in 0..3 {
+            sum.vectors[i] = plus(&by_u, self.number(point.slope[i]), &sum.vectors[i]);
         }
     }
 

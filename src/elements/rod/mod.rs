@@ -32,6 +32,7 @@
 
 pub(in crate::elements) mod geometry;
 pub(in crate::elements) mod kernel;
+pub(in crate::elements) mod loaded;
 mod quadratic;
 mod second;
 #[cfg(test)]

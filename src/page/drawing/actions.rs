@@ -1,6 +1,7 @@
 //! Loads and inputs: what acts, where and which way.
 
 use super::picture::{Picture, seen};
+use crate::math::function::Function;
 use crate::page::canvas::{Point, direction, moved};
 use crate::page::symbols;
 use crate::scene::{self, Cable, Input, InputKind, LoadKind, Marker, On, PortKind, Resolved};
@@ -48,6 +49,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
 }
 
 /// Components of a force at the start, from those of an input; moments have none.
+/// What changes along a body is taken in the middle.
 fn at_start(action: &scene::Action<'_>, inputs: &[f64]) -> Vec<f64> {
     if !action.kind.is_force() {
         return Vec::new();
@@ -57,7 +59,12 @@ fn at_start(action: &scene::Action<'_>, inputs: &[f64]) -> Vec<f64> {
         Signal::Function(function) => function.value(0.0),
         Signal::Input(_) => inputs[axis],
     };
-    values.map(value).collect()
+    let mut components: Vec<f64> = values.map(value).collect();
+    for (axis, text) in &action.along {
+        let middle = Function::along(text, 0.5);
+        components[*axis] = middle.map_or(0.0, |function| function.value(0.0));
+    }
+    components
 }
 
 impl<'a> Action<'a> {
@@ -116,7 +123,13 @@ impl<'a> Picture<'a> {
         for arrow in 0..ARROWS {
             let s = (f64::from(arrow) + 0.5) / f64::from(ARROWS);
             let at = self.at(cable.body.shape.point(s));
-            let tail = symbols::force(&mut self.canvas, at, along, 0.6 * self.unit);
+            let tail = match action.action.kind.is_force() {
+                true => symbols::force(&mut self.canvas, at, along, 0.6 * self.unit),
+                false => {
+                    symbols::turn(&mut self.canvas, at, 0.6 * self.unit, symbols::LOAD);
+                    moved(at, along.map(|part| -part), self.unit)
+                }
+            };
             if arrow == ARROWS / 2 {
                 self.name_force(tail, along, action.label);
             }

@@ -5,6 +5,7 @@ mod axial;
 mod bodies;
 mod coordinates;
 mod initial;
+mod loads;
 mod motions;
 mod ports;
 mod solids;
@@ -13,19 +14,14 @@ pub use initial::Motions;
 
 use nalgebra::Matrix3;
 
-use super::resolved::{
-    self, Action, CouplingId, Ends, First, Form, Hold, InputKind, LoadKind, MarkerId, On, Place,
-    Resolved, Spring, Turning,
-};
+use super::resolved::{self, CouplingId, Ends, First, Hold, MarkerId, Place, Resolved, Turning};
 use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
-use crate::math::function::Function;
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{Joint, Primitive};
-use crate::system::loads::{self, Load};
 use crate::system::{
-    Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, Signal, State, System,
+    Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, State, System,
 };
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
@@ -131,7 +127,7 @@ impl Resolved<'_> {
         builder.joints();
         builder.gears();
         builder.motions();
-        builder.loads();
+        builder.loads()?;
         builder.inputs();
         builder.ports();
         let nodes = builder.parts.nodes.clone();
@@ -402,82 +398,6 @@ impl<const D: usize> Builder<'_, D> {
         let spring = self.joint_spring(angle, [stiffness, damping], rest);
         self.parts.loads.push(spring);
         Some(self.parts.loads.len() - 1)
-    }
-
-    fn loads(&mut self) {
-        for load in &self.resolved.loads {
-            let built = match &load.kind {
-                LoadKind::Action { action, .. } => self.action(action),
-                LoadKind::Spring(spring) => self.spring(spring),
-                LoadKind::JointSpring { on, sizes, rest } => {
-                    let coordinate = self.coordinate(on);
-                    self.joint_spring(coordinate, *sizes, *rest)
-                }
-                LoadKind::Stop { on, sizes, limits } => self.stop(on, *sizes, *limits),
-                LoadKind::Bushing(bushing) => self.bushing(bushing),
-            };
-            self.parts.loads.push(built);
-        }
-        for load in &self.resolved.initial_loads {
-            if let LoadKind::Action { action, .. } = &load.kind {
-                let built = self.action(action);
-                self.parts.initial_loads.push(built);
-            }
-        }
-    }
-
-    fn spring(&self, spring: &Spring<'_>) -> Load<D> {
-        let ends = self.ends(spring.ends);
-        let now = || Signal::Function(Function::Constant(self.distance_at_start(&ends)));
-        Load::Spring(loads::Spring {
-            ends,
-            stiffness: spring.stiffness,
-            damping: spring.damping,
-            length: spring.length.clone().unwrap_or_else(now),
-        })
-    }
-
-    fn action(&self, action: &Action<'_>) -> Load<D> {
-        let components = &action.components;
-        let moment = |ends| {
-            Load::Moment(loads::Moment {
-                ends,
-                size: components[0].clone(),
-            })
-        };
-        match action.on {
-            On::Marker(marker) if action.kind.is_force() => Load::Force(loads::Force {
-                marker: self.marker(marker),
-                follower: action.follower,
-                components: each(components),
-                axes: self.frame_axes(marker),
-            }),
-            On::Marker(marker) if D == 3 => self.moment_on(marker, action),
-            On::Joint(pivot) if D == 3 => self.torque(pivot, action),
-            On::Marker(marker) => moment(self.on_marker(marker)),
-            On::Joint(pivot) => moment(self.ends(pivot.ends)),
-            On::Cable(cable) => Load::Distributed(loads::Distributed {
-                on: match cable.id.form {
-                    Form::Chain(chain) => loads::Line::Chain(chain),
-                    Form::Rod(rod) => loads::Line::Rod(self.parts.rods[rod]),
-                },
-                components: each(components),
-            }),
-        }
-    }
-
-    fn inputs(&mut self) {
-        for input in &self.resolved.inputs {
-            self.input(&input.kind);
-        }
-    }
-
-    /// A load whose size is an input; a spring whose length is one has been built.
-    fn input(&mut self, input: &InputKind<'_>) {
-        if let InputKind::Action(action) = input {
-            let built = self.action(action);
-            self.parts.loads.push(built);
-        }
     }
 }
 

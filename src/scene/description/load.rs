@@ -22,7 +22,7 @@ pub struct Load {
     /// `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coordinate: Option<CoordinateKind>,
-    /// `distributed`: name of the cable that it acts on.
+    /// `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
@@ -33,11 +33,12 @@ pub struct Load {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vector>,
     /// `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
-    /// space along the axes of the body's frame.
+    /// space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
-    /// `force`, `moment`, `torque`, `distributed`: the components of a force (N), of a force per length (N/m) or of a moment in space (N m), one
-    /// of a moment in the plane or of a torque (N m).
+    /// `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    /// per length (N m/m) or of a moment in space (N m), one of a moment in the plane or of a torque (N m). What is distributed along a body
+    /// takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<LoadValue>,
     /// `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
@@ -86,8 +87,11 @@ pub enum LoadKind {
     Moment,
     /// Moment on the second marker of a joint about its axis, opposite on its first, N m.
     Torque,
-    /// Force in global axes per reference length of a cable, N/m.
+    /// Force in global axes per reference length of a cable, rod or beam, N/m.
     Distributed,
+    /// Moment per reference length of a rod or beam, N m/m: its power is that with the angular velocities of the sections. It keeps its
+    /// global axes where it does not follow, and its work then depends on the way that sections turn.
+    DistributedMoment,
     /// Spring and damper side by side between two points.
     SpringDamper,
     /// Spring and damper side by side on a coordinate of a joint.
@@ -112,13 +116,13 @@ pub struct Input {
     /// `torque`: name of the revolute joint or hinge that it acts in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
-    /// `distributed`: name of the cable that it acts on.
+    /// `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// `rest_length`: name of the spring-damper.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<String>,
-    /// `force`, in space `moment` too: as of a load.
+    /// `force`, in space `moment` and `distributed_moment` too: as of a load.
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
     /// Value before the master sets one: the components of a force, one of others; zero by default,
@@ -137,8 +141,10 @@ pub enum InputKind {
     Moment,
     /// Moment on the second marker of a joint, opposite on its first, N m.
     Torque,
-    /// Force in global axes per reference length of a cable, N/m.
+    /// Force in global axes per reference length of a cable, rod or beam, N/m.
     Distributed,
+    /// Moment per reference length of a rod or beam, N m/m.
+    DistributedMoment,
     /// Length at rest of a spring-damper, m.
     RestLength,
 }
@@ -152,6 +158,7 @@ impl Kind for LoadKind {
             Self::Moment => &[(&["marker", "value"], &["follower"])],
             Self::Torque => &[(&["joint", "value"], &[])],
             Self::Distributed => &[(&["body", "value"], &[])],
+            Self::DistributedMoment => &[(&["body", "value"], &["follower"])],
             Self::JointSpring => &[(&["joint"], &["coordinate", "stiffness", "damping", "rest"])],
             Self::Bushing => &[(
                 &["markers"],
@@ -180,6 +187,7 @@ impl Kind for InputKind {
             Self::Moment => &[(&["marker"], &["follower"])],
             Self::Torque => &[(&["joint"], &[])],
             Self::Distributed => &[(&["body"], &[])],
+            Self::DistributedMoment => &[(&["body"], &["follower"])],
             Self::RestLength => &[(&["load"], &[])],
         }
     }
@@ -196,6 +204,8 @@ pub enum ActionKind {
     Torque,
     /// On a cable, N/m.
     Distributed,
+    /// On a rod or beam, N m/m.
+    DistributedMoment,
 }
 
 /// What forces and moments act on.
@@ -207,6 +217,8 @@ pub enum ActsOn {
     Joint,
     /// A cable as a whole.
     Cable,
+    /// The sections of a rod or beam as a whole.
+    Sections,
 }
 
 impl ActionKind {
@@ -217,12 +229,18 @@ impl ActionKind {
             Self::Moment => (ActsOn::Marker, false, ["moment", "N m"]),
             Self::Torque => (ActsOn::Joint, false, ["torque", "N m"]),
             Self::Distributed => (ActsOn::Cable, true, ["distributed force", "N/m"]),
+            Self::DistributedMoment => (ActsOn::Sections, false, ["distributed moment", "N m/m"]),
         }
     }
 
     /// What it acts on.
     pub fn acts_on(self) -> ActsOn {
         self.declaration().0
+    }
+
+    /// Whether it may change along what it acts on.
+    pub fn is_spread(self) -> bool {
+        matches!(self.acts_on(), ActsOn::Cable | ActsOn::Sections)
     }
 
     /// Whether it is a force, not a moment.
@@ -240,7 +258,7 @@ impl ActionKind {
         match self {
             Self::Moment if dimension == 2 => 1,
             Self::Torque => 1,
-            Self::Force | Self::Distributed | Self::Moment => dimension,
+            Self::Force | Self::Distributed | Self::Moment | Self::DistributedMoment => dimension,
         }
     }
 }
@@ -256,6 +274,7 @@ macro_rules! actions {
                     Self::Moment => Some(ActionKind::Moment),
                     Self::Torque => Some(ActionKind::Torque),
                     Self::Distributed => Some(ActionKind::Distributed),
+                    Self::DistributedMoment => Some(ActionKind::DistributedMoment),
                     $(Self::$none)|* => None,
                 }
             }

@@ -18,7 +18,8 @@ pub enum Value {
     /// Expression in `t`, e.g. `0.1*sin(2*PI*t)`: numbers, `PI`, `E`, `+ - * / ^`, `< <= > >=` (1 or 0), `sin`, `cos`,
     /// `tan`, `asin`, `acos`, `atan`, `atan2(y, x)`, `sinh`, `cosh`, `tanh`, `exp`, `ln`, `log2`, `log10`, `sqrt`, `abs`,
     /// `sign`, `step` (1 from zero on), `min`, `max`, `if(c, a, b)` (`a` where `c` is positive). No step leads
-    /// across a kink or a jump. A motion must not jump; where its velocity does, the drive strikes the bodies.
+    /// across a kink or a jump. A motion must not jump; where its velocity does, the drive strikes the bodies. Of loads
+    /// that are distributed along a body also in its material coordinate `s`, 0 at the first end and 1 at the last.
     Expression(String),
     /// Table.
     Table(Table),
@@ -96,6 +97,14 @@ impl Value {
     /// What is wrong with an expression or a table; never for a valid scene.
     pub fn motion_function(&self) -> Result<Function, String> {
         self.interpolated(Interpolation::Spline)
+    }
+
+    /// The expression, if it is one in the material coordinate `s` of a body.
+    pub fn along(&self) -> Option<&str> {
+        match self {
+            Self::Expression(text) if Function::is_along(text) => Some(text),
+            _ => None,
+        }
     }
 
     fn interpolated(&self, otherwise: Interpolation) -> Result<Function, String> {

@@ -110,8 +110,10 @@ pub struct Action<'a> {
     pub on: On<'a>,
     /// Whether it turns with the marker.
     pub follower: bool,
-    /// Its components, as many as the kind has.
+    /// Its components, as many as the kind has; zero of those that change along a body.
     pub components: Vec<Signal>,
+    /// Components that change along a body, and their expressions.
+    pub along: Vec<(usize, &'a str)>,
 }
 
 /// What a force or a moment acts on.

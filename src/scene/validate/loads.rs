@@ -1,6 +1,8 @@
 //! Checks of loads.
 
 use super::checks::{Key, components, expected, keys, needed, not_negative, spring_damper, value};
+use crate::math::expression::Expression;
+use crate::math::function::Function;
 use crate::scene::Error;
 use crate::scene::description::{ActionKind, ActsOn, Kind as _, Load, LoadValue, Value};
 use crate::scene::resolved::{self, Action, On, Resolved, Spring};
@@ -52,6 +54,19 @@ impl Load {
     }
 }
 
+/// The function of time that a component is all along a body; zero of one that changes along it.
+fn function_along(path: &str, text: &str) -> Result<Function, Error> {
+    if Function::is_along(text) {
+        return Ok(Function::constant(0.0));
+    }
+    // Where it is neither, names along the body are known too.
+    let function = match Expression::along(text, 0.5) {
+        Ok(_) => Function::expression(text),
+        Err(told) => Err(told),
+    };
+    function.map_err(|told| Error::new(path, told))
+}
+
 impl<'a> Resolved<'a> {
     pub(super) fn resolve_loads(&mut self) -> Result<(), Error> {
         for (index, load) in self.scene.loads.iter().enumerate() {
@@ -69,7 +84,7 @@ impl<'a> Resolved<'a> {
             let path = format!("initial.loads[{index}]");
             load.validate_keys(&path)?;
             if load.kind.action().is_none() {
-                let wanted = "a force, a moment, a torque or a distributed load";
+                let wanted = "a force, a moment, a torque or a distributed one";
                 let place = format!("{path}.kind");
                 return Err(expected(&place, wanted, "springs and dampers"));
             }
@@ -87,8 +102,15 @@ impl<'a> Resolved<'a> {
         let given = needed(path, "value", "a value", load.value.as_ref())?;
         let components = self.signals(&format!("{path}.value"), kind, given)?;
         let of = [&load.marker, &load.joint, &load.body];
+        let mut action = self.resolve_action(path, (kind, load.follower), of, components)?;
+        if kind.is_spread() {
+            let values = given.components().iter().enumerate();
+            action.along = values
+                .filter_map(|(k, of)| Some((k, of.along()?)))
+                .collect();
+        }
         Ok(resolved::LoadKind::Action {
-            action: self.resolve_action(path, (kind, load.follower), of, components)?,
+            action,
             values: given.components(),
         })
     }
@@ -126,12 +148,17 @@ impl<'a> Resolved<'a> {
                 let (at, name) = named("body", body)?;
                 On::Cable(self.require_cable(&at, name)?)
             }
+            ActsOn::Sections => {
+                let (at, name) = named("body", body)?;
+                On::Cable(self.require_sections(&at, name)?)
+            }
         };
         Ok(Action {
             kind,
             on,
             follower,
             components,
+            along: Vec::new(),
         })
     }
 
@@ -142,7 +169,13 @@ impl<'a> Resolved<'a> {
         kind: ActionKind,
         given: &LoadValue,
     ) -> Result<Vec<Signal>, Error> {
-        let signal = |path: &str, of: &Value| value(path, of, false).map(Signal::Function);
+        let signal = |path: &str, of: &Value| {
+            let function = match of {
+                Value::Expression(text) if kind.is_spread() => function_along(path, text),
+                _ => value(path, of, false),
+            };
+            function.map(Signal::Function)
+        };
         match (kind.is_force(), given) {
             (true, _) => components(path, self.scene.dimension, given.components(), signal),
             (false, _) if kind.components(self.scene.dimension) > 1 => {

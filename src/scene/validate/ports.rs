@@ -138,6 +138,7 @@ impl<'a> Resolved<'a> {
                 on: On::Marker(marker),
                 follower: false,
                 components: (0..count).map(|k| Signal::Input(first + k)).collect(),
+                along: Vec::new(),
             }),
             first,
             start: vec![0.0; count],

@@ -129,6 +129,18 @@ impl<'a> Resolved<'a> {
         }
     }
 
+    /// A rod or beam.
+    pub(super) fn require_sections(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
+        match self.bodies_by_name.get(name) {
+            Some(BodyReference::Cable(cable)) if cable.body.is_rod() => Ok(*cable),
+            _ => Err(expected(
+                path,
+                "the name of a rod or beam of this scene",
+                quoted(name),
+            )),
+        }
+    }
+
     /// A cable that bends, and its place among the chains.
     pub(super) fn require_flexible(
         &self,

@@ -103,6 +103,11 @@ fn words(input: &Input<'_>) -> (&'static str, &'static str, Unit, &'static [&'st
         "along the y axis of its frame",
         "along the z axis of its frame",
     ];
+    const SECTIONS: [&str; 3] = [
+        "along their first axes",
+        "along their second axes",
+        "along their third axes",
+    ];
     const ALONG: [&str; 2] = [
         "along the direction there",
         "across, to the left of the direction",
@@ -136,6 +141,15 @@ fn words(input: &Input<'_>) -> (&'static str, &'static str, Unit, &'static [&'st
         (ActionKind::Distributed, _) => {
             let what = "Force per reference length on";
             ("distributed_force", what, NEWTON_PER_METRE, &AXES)
+        }
+        (ActionKind::DistributedMoment, false) => {
+            let what = "Moment per reference length on";
+            ("distributed_moment", what, NEWTON_METRE_PER_METRE, &AXES)
+        }
+        (ActionKind::DistributedMoment, true) => {
+            let what = "Moment per reference length that turns with the sections, on";
+            let key = "distributed_follower_moment";
+            (key, what, NEWTON_METRE_PER_METRE, &SECTIONS)
         }
     }
 }

@@ -38,6 +38,7 @@ pub(super) const NEWTON_PER_METRE: Unit = unit("N/m", 1, 0, -2, 0);
 pub(super) const NEWTON_SECOND: Unit = unit("N.s", 1, 1, -1, 0);
 pub(super) const NEWTON_SECOND_PER_METRE: Unit = unit("N.s/m", 1, 0, -1, 0);
 pub(super) const NEWTON_METRE: Unit = unit("N.m", 1, 2, -2, 0);
+pub(super) const NEWTON_METRE_PER_METRE: Unit = unit("N.m/m", 1, 1, -2, 0);
 pub(super) const NEWTON_METRE_SECOND: Unit = unit("N.m.s", 1, 2, -1, 0);
 pub(super) const NEWTON_METRE_PER_RADIAN: Unit = unit("N.m/rad", 1, 2, -2, -1);
 pub(super) const NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", 1, 2, -1, -1);

@@ -1,11 +1,12 @@
 //! A dead force per reference length of a cable or a rod.
 
-use super::Instant;
+use super::density::{Density, Values};
+use super::{Instant, PANELS};
 use crate::body::Node;
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
+use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
-use crate::system::signal::Signal;
 use crate::system::{CableChain, Rod};
 
 /// What a force is distributed along.
@@ -20,16 +21,31 @@ pub enum Line {
 /// A distributed force.
 #[derive(Clone, Debug)]
 pub struct Distributed<const D: usize = 2> {
-    /// What it is distributed along.
+    /// What it is distributed along. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
     pub on: Line,
     /// Components, N/m.
-    pub components: [Signal; D],
+    pub density: Density<D>,
+}
+
+/// Weights at the Gauss points, m, of a vector per length of an element of this length (m) on its coordinates: position and slope at both
+/// ends.
+pub(in crate::system) fn weights(length: f64) -> [[f64; 4]; GAUSS_5.len()] {
+    GAUSS_5.map(|point| (shape::values(point.at, length) * (point.weight * length)).into())
 }
 
 impl<const D: usize> Distributed<D> {
-    pub(in crate::system) fn value<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
-        let components = self.components.each_ref();
-        components.map(|c| c.value(at)).into()
+    /// What is the same along the body, N/m.
+    pub(in crate::system) fn uniform<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
+        self.density.uniform(at)
+    }
+
+    /// What changes along the body, in a stretch, N/m.
+    pub(in crate::system) fn changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        stretch: usize,
+    ) -> Values<D, N> {
+        self.density.changing(at, stretch)
     }
 
     /// First node of the body that it acts on.
@@ -55,26 +71,64 @@ impl<const D: usize> Distributed<D> {
         }
     }
 
+    /// Forces on the nodes of what changes along the body, Gauss point by point, and what they are on position and direction.
+    fn each_changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        mut add: impl FnMut(usize, [f64; 2], &Vector<D, N>),
+    ) {
+        if !self.density.changes() {
+            return;
+        }
+        let chain = match self.on {
+            Line::Chain(chain) => &at.chains[chain],
+            Line::Rod(rod) => {
+                for panel in 0..PANELS {
+                    let values = self.changing(at, panel);
+                    for (point, load) in GAUSS_5.iter().zip(&values) {
+                        let part = rod.length / PANELS as f64;
+                        let arm = (panel as f64 + point.at) * part - 0.5 * rod.length;
+                        let weight = point.weight * part;
+                        add(rod.node, [weight, weight * arm], load);
+                    }
+                }
+                return;
+            }
+        };
+        for (j, element) in chain.elements().iter().enumerate() {
+            let [a, b] = chain.nodes(j);
+            let values = self.changing(at, j);
+            for (weights, load) in weights(element.length()).iter().zip(&values) {
+                add(a, [weights[0], weights[1]], load);
+                add(b, [weights[2], weights[3]], load);
+            }
+        }
+    }
+
     pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
-        let load = self.value(at);
-        self.each(at.chains, |node, weights| {
+        let load = self.uniform(at);
+        let mut add = |node: usize, weights: [f64; 2], load: &Vector<D, N>| {
             for (k, weight) in weights.into_iter().enumerate() {
                 for d in 0..D {
                     f[node][k][d] += load[d] * N::of(weight);
                 }
             }
-        });
+        };
+        self.each(at.chains, |node, weights| add(node, weights, &load));
+        self.each_changing(at, add);
     }
 
     /// The integral of the load times a nodal field.
     fn along<N: Number>(&self, at: Instant<'_, D, N>, field: &[Node<D, N>]) -> N {
-        let load = self.value(at);
+        let load = self.uniform(at);
         let mut sum = N::of(0.0);
-        self.each(at.chains, |node, weights| {
+        let mut add = |node: usize, weights: [f64; 2], load: &Vector<D, N>| {
             for (k, weight) in weights.into_iter().enumerate() {
                 sum += load.dot(&Vector::from(field[node][k])) * N::of(weight);
             }
-        });
+        };
+        self.each(at.chains, |node, weights| add(node, weights, &load));
+        self.each_changing(at, add);
         sum
     }
 

@@ -3,7 +3,9 @@
 
 mod bushing;
 mod couple;
+mod density;
 mod distributed;
+mod distributed_moment;
 mod force;
 mod joint_spring;
 mod moment;
@@ -14,7 +16,10 @@ mod stop;
 
 pub use bushing::{Bushing, RotationalBushing};
 pub use couple::Couple;
+pub use density::{Density, Values};
+pub(in crate::system) use distributed::weights;
 pub use distributed::{Distributed, Line};
+pub use distributed_moment::DistributedMoment;
 pub use force::Force;
 pub use joint_spring::JointSpring;
 pub use moment::Moment;
@@ -26,9 +31,12 @@ pub use stop::Stop;
 use super::end::{Add, End};
 use super::instant::Instant;
 use super::signal::Signal;
-use crate::body::Node;
+use crate::body::{Node, RodChain};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
+
+/// Even parts of a body that does not bend in which what changes along it is integrated.
+pub const PANELS: usize = 8;
 
 /// What acts.
 #[derive(Clone, Debug)]
@@ -41,6 +49,8 @@ pub enum Load<const D: usize = 2> {
     Couple(Couple<D>),
     /// A dead force per reference length of a cable or a rod.
     Distributed(Distributed<D>),
+    /// A moment per reference length of a rod or beam.
+    DistributedMoment(Box<DistributedMoment>),
     /// A spring with a damper between two ends.
     Spring(Spring<D>),
     /// A spring with a damper on a coordinate of a joint.
@@ -62,6 +72,7 @@ impl<const D: usize> Load<D> {
     pub fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
         match self {
             Self::Distributed(load) => load.add_force(at, f),
+            Self::DistributedMoment(load) => load.add_force(at, f),
             _ => self.act(at, |end, [position, direction]| {
                 end.add_force(position, direction, f);
             }),
@@ -79,7 +90,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.act(at, call),
             Self::Moment(load) => load.act(at, call),
             Self::Couple(load) => load.act(at, call),
-            Self::Distributed(_) => {}
+            Self::Distributed(_) | Self::DistributedMoment(_) => {}
             Self::Spring(load) => load.act(at, call),
             Self::JointSpring(load) => load.act(at, call),
             Self::Stop(load) => load.act(at, call),
@@ -97,7 +108,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.add_stiffness(at, stiffness),
             Self::Moment(load) => load.add_stiffness(at, stiffness),
             // What it adds to the stiffness where bodies turn is not symmetric, and small beside inertia.
-            Self::Couple(_) | Self::Distributed(_) => {}
+            Self::Couple(_) | Self::Distributed(_) | Self::DistributedMoment(_) => {}
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
             Self::JointSpring(load) => load.add_tangent(at, stiffness, damping),
             Self::Stop(load) => load.add_tangent(at, stiffness, damping),
@@ -116,6 +127,7 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => [load.power(at), none],
             Self::Couple(load) => [load.power(at), none],
             Self::Distributed(load) => [load.power(at), none],
+            Self::DistributedMoment(load) => [load.power(at), none],
             Self::Spring(load) => load.power(at),
             Self::JointSpring(load) => [none, load.dissipation(at)],
             Self::Stop(load) => [none, load.dissipation(at)],
@@ -148,6 +160,7 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => load.work(before, after),
             Self::Couple(load) => load.work(before, after),
             Self::Distributed(load) => load.work(before, after),
+            Self::DistributedMoment(load) => load.work(before, after),
             Self::Bushing(load) => load.work(before, after),
             Self::RotationalBushing(load) => load.work(before, after),
             Self::OrientationBushing(load) => load.work(before, after),
@@ -173,7 +186,8 @@ impl<const D: usize> Load<D> {
                     hold(std::slice::from_mut(size), fraction);
                 }
             }
-            Self::Distributed(load) => hold(&mut load.components, fraction),
+            Self::Distributed(load) => load.density.hold(at, fraction),
+            Self::DistributedMoment(load) => load.density.hold(at, fraction),
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
             Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {}
             Self::Bushing(load) => {
@@ -197,6 +211,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Force(load) => !load.follower,
             Self::Couple(load) => load.is_torque,
+            Self::DistributedMoment(_) => false,
             _ => true,
         }
     }
@@ -206,6 +221,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Moment(_)
             | Self::Couple(_)
+            | Self::DistributedMoment(_)
             | Self::SixBushing(_)
             | Self::RotationalBushing(_)
             | Self::OrientationBushing(_) => true,
@@ -239,7 +255,8 @@ impl<const D: usize> Load<D> {
         let one = std::slice::from_ref;
         let (first, second): (&[Signal], &[Signal]) = match self {
             Self::Force(load) => (&load.components, &[]),
-            Self::Distributed(load) => (&load.components, &[]),
+            Self::Distributed(load) => (&load.density.uniform, &[]),
+            Self::DistributedMoment(load) => (&load.density.uniform, &[]),
             Self::Moment(load) => (one(&load.size), &[]),
             Self::Spring(load) => (one(&load.length), &[]),
             Self::Couple(_) | Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {
@@ -253,7 +270,34 @@ impl<const D: usize> Load<D> {
             Self::Couple(load) => &load.parts[..],
             _ => &[],
         };
-        (first.iter().chain(second)).chain(parts.iter().map(|(size, _)| size))
+        let along: &[Vec<Signal>] = match self {
+            Self::Distributed(load) => &load.density.along,
+            Self::DistributedMoment(load) => &load.density.along,
+            _ => &[],
+        };
+        let here = first.iter().chain(second);
+        let here = here.chain(parts.iter().map(|(size, _)| size));
+        here.chain(along.iter().flatten())
+    }
+
+    /// Nodes on which its forces depend and act, of every part of it that depends on no others.
+    pub fn parts(&self, sections: &[RodChain]) -> Vec<Vec<usize>> {
+        match self {
+            Self::DistributedMoment(load) => {
+                let rod = &sections[load.on];
+                let elements = 0..rod.count();
+                elements.map(|j| rod.all_nodes(j).to_vec()).collect()
+            }
+            _ => vec![self.ends().iter().flat_map(End::nodes).collect()],
+        }
+    }
+
+    /// Adds the forces of one of these parts.
+    pub fn add_part<N: Number>(&self, at: Instant<'_, D, N>, part: usize, f: &mut [Node<D, N>]) {
+        match self {
+            Self::DistributedMoment(load) => load.add_force_on(at, part, f),
+            _ => self.add_force(at, f),
+        }
     }
 
     /// Ends between which its tangent couples.
@@ -263,6 +307,7 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => load.ends.to_vec(),
             Self::Couple(load) => load.ends.to_vec(),
             Self::Distributed(_) => vec![],
+            Self::DistributedMoment(load) => vec![End::Body(load.end)],
             Self::Spring(load) => load.ends.to_vec(),
             Self::JointSpring(load) => load.coordinate.ends().to_vec(),
             Self::Stop(load) => load.coordinate.ends().to_vec(),

@@ -92,6 +92,7 @@ impl<const D: usize> System<D> {
             x: &work.x,
             v: &work.v,
             chains: &self.chains,
+            sections: (&self.rod_chains, &self.frames),
             angles: (&self.angles, &work.angles),
         }
     }
@@ -171,6 +172,7 @@ impl<const D: usize> System<D> {
             x,
             v,
             chains: &self.chains,
+            sections: (&self.rod_chains, &self.frames),
             angles: (&self.angles, angles),
         };
         for load in &self.loads {

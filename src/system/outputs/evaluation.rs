@@ -223,6 +223,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             x: &self.x,
             v: &self.v,
             chains: &system.chains,
+            sections: (&system.rod_chains, &system.frames),
             angles: (&system.angles, &self.angles),
         }
     }

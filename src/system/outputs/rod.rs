@@ -6,10 +6,13 @@
 use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
+use super::section::integral;
 use crate::body::Marker;
 use crate::math::jet::Number;
+use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, carried, moment};
 use crate::system::end::End;
+use crate::system::loads::PANELS;
 use crate::system::{Rod, System};
 
 /// Part of the length of a rod within which what acts is at one place.
@@ -117,9 +120,42 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         // Integrals of 1, s and s^2 over the part.
         let length = to - from;
         let [zero, first, second] = [1, 2, 3].map(|n| N::of(length.powi(n) / f64::from(n)));
-        let force = load * zero + slope * first;
-        let turning = moment(&self.along(rod), &(load * first + slope * second));
-        (force, turning.into())
+        let [more, turning_more] = self.changing_spread(system, rod, [from, to]);
+        let force = load * zero + slope * first + more;
+        let turning = load * first + slope * second + turning_more;
+        (force, moment(&self.along(rod), &turning).into())
+    }
+
+    /// Of loads that change along a rod between two places: the integrals of force and of force times the way from the first place.
+    fn changing_spread(
+        &self,
+        system: &System<D>,
+        rod: &Rod,
+        [from, to]: [f64; 2],
+    ) -> [Vector<D, N>; 2] {
+        let [mut force, mut turning] = [Vector::zeros(); 2];
+        let part = rod.length / PANELS as f64;
+        for panel in 0..PANELS {
+            let start = panel as f64 * part - 0.5 * rod.length;
+            let [a, b] = [from, to].map(|place| ((place - start) / part).clamp(0.0, 1.0));
+            if a == b {
+                continue;
+            }
+            let Some(values) = self.changing(system, (rod.node, panel)) else {
+                break;
+            };
+            let before = integral(&values, a);
+            let up_to = |xi: f64| (integral(&values, xi) - before) * N::of(part);
+            let whole = up_to(b);
+            force += whole;
+            // The way to the end of the panel less what is left of it after every place, by parts.
+            turning += whole * N::of(start + b * part - from);
+            for point in GAUSS_5 {
+                let weight = point.weight * (b - a) * part;
+                turning -= up_to(a + point.at * (b - a)) * N::of(weight);
+            }
+        }
+        [force, turning]
     }
 
     /// Absolute accelerations of position and direction of a marker, in the axes of the frame.

@@ -4,21 +4,21 @@
 //!
 //! What an element lacks for equilibrium (elastic and damping forces, loads, inertia) is what its neighbours
 //! exert on its ends (report Eq. 14). From the first end on, section force `n` and moment `M` follow from
-//! `n' = -p`, `M' = -r' x n`, `p` the load less the inertia per reference length.
+//! `n' = -p`, `M' = -r' x n - m`, `p` the load less the inertia and `m` the moment per reference length.
 //!
 //! Source: S. S. Antman, Nonlinear Problems of Elasticity, 2nd ed. (2005), section 4.1 (balance of a rod);
 //! J. T. Oden, J. N. Reddy, An Introduction to the Mathematical Theory of Finite Elements (1976), on forces at nodes
 //! from the balance of elements.
 
-use nalgebra::Vector3;
+use nalgebra::{RowVector4, Vector3};
 
 use super::evaluation::Evaluation;
 use crate::body::Marker;
 use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
-use crate::math::quadrature::GAUSS_3;
+use crate::math::quadrature::{GAUSS_3, GAUSS_5, Point, integrals_to};
 use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
-use crate::system::loads::Load;
+use crate::system::loads::{self, Distributed, Load, Values};
 use crate::system::{CableChain, System};
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -78,7 +78,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         Vector3::from(components(&tangent)).dot(&moment)
     }
 
-    /// Section force at `xi` inside an element from that at its first end, and the integral of `r' x n` up
+    /// Section force at `xi` inside an element from that at its first end, and the integral of `r' x n + m` up
     /// to there.
     fn integrated(
         &self,
@@ -91,14 +91,28 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let l = part.length();
         let (e, inertia) = (chain.element(j, &self.x), self.inertia(system, (chain, j)));
         let load = self.distributed(system, chain.nodes(0)[0]);
+        let changing = self.changing(system, (chain.nodes(0)[0], j));
         let force = |xi: f64| {
             let weight = part.weight_before(xi);
             let gravity = system.gravity * (weight[0] + weight[2]);
-            first - load * N::of(xi * l) - gravity.map(N::of) + inertia * weight.map(N::of)
+            let mut force =
+                first - load * N::of(xi * l) - gravity.map(N::of) + inertia * weight.map(N::of);
+            if let Some(values) = &changing {
+                force -= integral(values, xi) * N::of(l);
+            }
+            force
         };
-        // Gauss's rule is exact to degree 5; the part of degree 6 is of that order in the length.
-        let mut turned = Vector3::zeros();
-        for point in GAUSS_3 {
+        // Gauss's rule is exact to degree 5; the part of degree 6 is of that order in the length. Loads that change along the
+        // element ask for degree 7.
+        let rule: &[Point] = match changing {
+            Some(_) => &GAUSS_5,
+            None => &GAUSS_3,
+        };
+        let mut turned = match self.moments(system, (chain, j)) {
+            Some(moments) => integral(&moments, xi) * N::of(l),
+            None => Vector3::zeros(),
+        };
+        for point in rule {
             let at = point.at * xi;
             let slope: Vector<D, N> = e * shape::slopes(N::of(at), l);
             turned += Vector3::from(moment(&slope, &force(at))) * N::of(point.weight * xi * l);
@@ -120,10 +134,18 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         lack -= self.inertia(system, (chain, j)) * part.mass().map(N::of);
         let weights = shape::integrals(N::of(1.0), part.length());
         lack += self.distributed(system, chain.nodes(0)[0]) * weights.transpose();
+        if let Some(values) = self.changing(system, (chain.nodes(0)[0], j)) {
+            for (value, weights) in values.iter().zip(loads::weights(part.length())) {
+                lack += value * RowVector4::from(weights).map(N::of);
+            }
+        }
         let mut torques = [Vector3::zeros(); 2];
         if let Some(sections) = system.sections(chain) {
             let motion = [&self.x[..], &self.v[..], &self.acceleration[..]];
-            let force = sections.lack(j, motion, &system.frames);
+            let mut force = sections.lack(j, motion, &system.frames);
+            if let Some(moments) = self.moments(system, (chain, j)) {
+                force.add(&sections.loaded(j, &self.x, &moments.map(Into::into)));
+            }
             torques = sections.global(j, force.moment, &self.x);
             for (k, vector) in force.e.into_iter().enumerate() {
                 let sum: Vector<D, N> = vector_of(vector);
@@ -144,17 +166,71 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         chain.element(j, &self.acceleration) + Nodal::from_columns(&[0, 1, 2, 3].map(of))
     }
 
-    /// Sum of the distributed loads on the body with this first node, N/m.
+    /// Sum of what distributed loads on the body with this first node are everywhere, N/m.
     pub(super) fn distributed(&self, system: &System<D>, first: usize) -> Vector<D, N> {
         let at = self.instant(system);
         let mut sum = Vector::zeros();
+        for load in forces_along(system, first) {
+            sum += load.uniform(at);
+        }
+        sum
+    }
+
+    /// Sum of what of them changes along the body, at the Gauss points of a stretch, N/m; none where nothing does.
+    pub(super) fn changing(
+        &self,
+        system: &System<D>,
+        (first, stretch): (usize, usize),
+    ) -> Option<Values<D, N>> {
+        let at = self.instant(system);
+        let mut sum: Option<Values<D, N>> = None;
+        for load in forces_along(system, first).filter(|load| load.density.changes()) {
+            let values = load.changing(at, stretch);
+            let sum = sum.get_or_insert([Vector::zeros(); GAUSS_5.len()]);
+            sum.iter_mut()
+                .zip(values)
+                .for_each(|(sum, value)| *sum += value);
+        }
+        sum
+    }
+
+    /// Sum of the moments distributed along the rod or beam on a line, at the Gauss points of an element, N m/m; none where there are none.
+    fn moments(
+        &self,
+        system: &System<D>,
+        (chain, j): (&CableChain<D>, usize),
+    ) -> Option<Values<3, N>> {
+        let (at, first) = (self.instant(system), chain.nodes(0)[0]);
+        let mut sum: Option<Values<3, N>> = None;
         for load in &system.loads {
-            if let Load::Distributed(load) = load
-                && load.first_node(&system.chains) == first
-            {
-                sum += load.value(at);
+            let Load::DistributedMoment(load) = load else {
+                continue;
+            };
+            if system.rod_chains[load.on].line() == first {
+                let sum = sum.get_or_insert([Vector3::zeros(); GAUSS_5.len()]);
+                let moments = load.moments(at, j).map(Vector3::from);
+                sum.iter_mut().zip(moments).for_each(|(sum, m)| *sum += m);
             }
         }
         sum
     }
+}
+
+/// Forces distributed along the body with this first node.
+fn forces_along<const D: usize>(
+    system: &System<D>,
+    first: usize,
+) -> impl Iterator<Item = &Distributed<D>> {
+    system.loads.iter().filter_map(move |load| match load {
+        Load::Distributed(load) if load.first_node(&system.chains) == first => Some(load),
+        _ => None,
+    })
+}
+
+/// The integral up to a place in [0, 1] of what has these values at the Gauss points.
+pub(super) fn integral<const K: usize, N: Number>(values: &Values<K, N>, xi: f64) -> Vector<K, N> {
+    let terms = values.iter().zip(integrals_to(xi));
+    terms.fold(Vector::zeros(), |sum, (value, weight)| {
+        sum + value * N::of(weight)
+    })
 }

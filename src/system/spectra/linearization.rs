@@ -21,7 +21,6 @@ use crate::elements::{self, Element, Nodal};
 use crate::math::jet::{Jet, Number};
 use crate::math::space::{Vector, spin_matrix, spun};
 use crate::math::sparse::{General, Matrix};
-use crate::system::end::End;
 use crate::system::instant::Instant;
 use crate::system::joints::{Constraint, ConstraintKind, View};
 use crate::system::{System, Work};
@@ -191,37 +190,39 @@ impl<const D: usize> System<D> {
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut following: Option<General<f64>> = None;
         for (index, load) in self.loads.iter().enumerate() {
-            let nodes: Vec<usize> = load.ends().iter().flat_map(End::nodes).collect();
-            let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
-                let at = Instant {
-                    time: Jet::from_re(time),
-                    inputs: &inputs,
-                    input_rates: &input_rates,
-                    x,
-                    v,
-                    chains: &self.chains,
-                    angles: (&self.angles, &angles),
+            for (part, nodes) in load.parts(&self.rod_chains).iter().enumerate() {
+                let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
+                    let at = Instant {
+                        time: Jet::from_re(time),
+                        inputs: &inputs,
+                        input_rates: &input_rates,
+                        x,
+                        v,
+                        chains: &self.chains,
+                        sections: (&self.rod_chains, &self.frames),
+                        angles: (&self.angles, &angles),
+                    };
+                    load.add_part(at, part, f);
                 };
-                load.add_force(at, f);
-            };
-            let blocks = probe.differentiate(&nodes, false, &force);
-            let mut blocks = blocks.pulled(&self.frames, &work.x);
-            // Of a moment about the axis of a joint in space that is skew which the joint holds.
-            let has_potential = !self.frames.is_empty() && load.is_conservative();
-            if !blocks.is_symmetric() && !has_potential {
-                made.follower.get_or_insert(index);
-                let zeros = || General::zeros(assembly.pattern());
-                blocks.add(assembly, following.get_or_insert_with(zeros), &mut none);
+                let blocks = probe.differentiate(nodes, false, &force);
+                let mut blocks = blocks.pulled(&self.frames, &work.x);
+                // Of a moment about the axis of a joint in space that is skew which the joint holds.
+                let has_potential = !self.frames.is_empty() && load.is_conservative();
+                if !blocks.is_symmetric() && !has_potential {
+                    made.follower.get_or_insert(index);
+                    let zeros = || General::zeros(assembly.pattern());
+                    blocks.add(assembly, following.get_or_insert_with(zeros), &mut none);
+                }
+                if load.is_damped() && !at_rest {
+                    made.is_damped = true;
+                    let by_rates = probe.differentiate(nodes, true, &force);
+                    // Axes that turn change their rates where they are turned.
+                    blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
+                    let by_rates = by_rates.pulled(&self.frames, &work.x);
+                    by_rates.add(assembly, &mut made.damping, &mut none);
+                }
+                blocks.add(assembly, &mut made.stiffness, &mut none);
             }
-            if load.is_damped() && !at_rest {
-                made.is_damped = true;
-                let by_rates = probe.differentiate(&nodes, true, &force);
-                // Axes that turn change their rates where they are turned.
-                blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
-                let by_rates = by_rates.pulled(&self.frames, &work.x);
-                by_rates.add(assembly, &mut made.damping, &mut none);
-            }
-            blocks.add(assembly, &mut made.stiffness, &mut none);
         }
         // What joints hold does no work.
         let skew = following.is_some_and(|matrix| {

@@ -46,6 +46,7 @@ impl<const D: usize> System<D> {
                 x: &work.x,
                 v: &work.v,
                 chains: &self.chains,
+                sections: (&self.rod_chains, &self.frames),
                 angles: (&self.angles, &work.angles),
             };
             *load = load.held(at, fraction);

@@ -286,6 +286,7 @@ impl<const D: usize> System<D> {
                     x,
                     v: x,
                     chains: &self.chains,
+                    sections: (&self.rod_chains, &self.frames),
                     angles: (&self.angles, &state.angles),
                 });
                 state.angles[turning.counted] = self.angles[turning.counted].value(x, outside);

@@ -26,6 +26,7 @@ mod space_joints;
 mod space_modes;
 mod space_ports;
 mod space_rods;
+mod spread;
 mod tables;
 mod tapers;
 
@@ -61,6 +62,7 @@ pub fn all() -> Vec<Specimen> {
         space_driven::all(),
         space_rods::all(),
         space_beams::all(),
+        spread::all(),
         shapes::all(),
         tapers::all(),
     ];

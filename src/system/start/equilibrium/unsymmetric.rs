@@ -148,6 +148,7 @@ fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
         x: &x,
         v: &v,
         chains: &system.chains,
+        sections: (&system.rod_chains, &system.frames),
         angles: (&system.angles, &angles),
     };
     let loads = || (system.loads.iter()).filter(|load| !load.is_conservative());

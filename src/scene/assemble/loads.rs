@@ -1,0 +1,161 @@
+//! Loads: what acts on markers, in joints and along bodies, springs, and what the master sets.
+
+use super::{Builder, each};
+use crate::body::RodChain;
+use crate::math::function::Function;
+use crate::math::quadrature::GAUSS_5;
+use crate::scene::Error;
+use crate::scene::resolved::{Action, Cable, Form, InputKind, LoadKind, On, Spring};
+use crate::system::Signal;
+use crate::system::loads::{self, Density, DistributedMoment, Load, PANELS};
+
+impl<const D: usize> Builder<'_, D> {
+    pub(super) fn loads(&mut self) -> Result<(), Error> {
+        for (index, load) in self.resolved.loads.iter().enumerate() {
+            let built = match &load.kind {
+                LoadKind::Action { action, .. } => {
+                    self.action_along(action, &format!("loads[{index}]"))?
+                }
+                LoadKind::Spring(spring) => self.spring(spring),
+                LoadKind::JointSpring { on, sizes, rest } => {
+                    let coordinate = self.coordinate(on);
+                    self.joint_spring(coordinate, *sizes, *rest)
+                }
+                LoadKind::Stop { on, sizes, limits } => self.stop(on, *sizes, *limits),
+                LoadKind::Bushing(bushing) => self.bushing(bushing),
+            };
+            self.parts.loads.push(built);
+        }
+        for (index, load) in self.resolved.initial_loads.iter().enumerate() {
+            if let LoadKind::Action { action, .. } = &load.kind {
+                let built = self.action_along(action, &format!("initial.loads[{index}]"))?;
+                self.parts.initial_loads.push(built);
+            }
+        }
+        Ok(())
+    }
+
+    fn spring(&self, spring: &Spring<'_>) -> Load<D> {
+        let ends = self.ends(spring.ends);
+        let now = || Signal::Function(Function::Constant(self.distance_at_start(&ends)));
+        Load::Spring(loads::Spring {
+            ends,
+            stiffness: spring.stiffness,
+            damping: spring.damping,
+            length: spring.length.clone().unwrap_or_else(now),
+        })
+    }
+
+    fn action(&self, action: &Action<'_>) -> Load<D> {
+        let components = &action.components;
+        let moment = |ends| {
+            Load::Moment(loads::Moment {
+                ends,
+                size: components[0].clone(),
+            })
+        };
+        match action.on {
+            On::Marker(marker) if action.kind.is_force() => Load::Force(loads::Force {
+                marker: self.marker(marker),
+                follower: action.follower,
+                components: each(components),
+                axes: self.frame_axes(marker),
+            }),
+            On::Marker(marker) if D == 3 => self.moment_on(marker, action),
+            On::Joint(pivot) if D == 3 => self.torque(pivot, action),
+            On::Marker(marker) => moment(self.on_marker(marker)),
+            On::Joint(pivot) => moment(self.ends(pivot.ends)),
+            On::Cable(cable) if !action.kind.is_force() => self.moment_along(cable, action),
+            On::Cable(cable) => Load::Distributed(loads::Distributed {
+                on: match cable.id.form {
+                    Form::Chain(chain) => loads::Line::Chain(chain),
+                    Form::Rod(rod) => loads::Line::Rod(self.parts.rods[rod]),
+                },
+                density: uniform(components),
+            }),
+        }
+    }
+
+    /// A moment along a rod or beam.
+    fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> Load<D> {
+        let end = self.along(cable, 0.0);
+        let frames = self.parts.rod_chains.iter().map(RodChain::frames);
+        let on = frames
+            .map(|mut frames| frames.next().map(|(node, _)| node))
+            .position(|first| first == Some(end.nodes[0]));
+        Load::DistributedMoment(Box::new(DistributedMoment {
+            // What has sections is among them.
+            on: on.unwrap_or(0),
+            end,
+            follower: action.follower,
+            density: uniform(&action.components),
+        }))
+    }
+
+    /// The same with what changes along a body, which is parsed at every place where it is known.
+    fn action_along(&self, action: &Action<'_>, path: &str) -> Result<Load<D>, Error> {
+        let mut load = self.action(action);
+        if let On::Cable(cable) = action.on {
+            match &mut load {
+                Load::Distributed(on) => {
+                    self.fill(cable, (action, path), &mut on.density.along)?;
+                }
+                Load::DistributedMoment(on) => {
+                    self.fill(cable, (action, path), &mut on.density.along)?;
+                }
+                _ => {}
+            }
+        }
+        Ok(load)
+    }
+
+    /// Fills in the components that change along a body, at the Gauss points of its elements or, of one that does not bend, even parts.
+    fn fill(
+        &self,
+        cable: Cable<'_>,
+        (action, path): (&Action<'_>, &str),
+        along: &mut [Vec<Signal>],
+    ) -> Result<(), Error> {
+        if action.along.is_empty() {
+            return Ok(());
+        }
+        let mesh = match cable.id.form {
+            Form::Chain(_) => self.resolved.nodes(cable)?,
+            Form::Rod(_) => (0..=PANELS).map(|k| k as f64 / PANELS as f64).collect(),
+        };
+        for (k, text) in &action.along {
+            for ends in mesh.windows(2) {
+                for point in GAUSS_5 {
+                    let s = ends[0] + point.at * (ends[1] - ends[0]);
+                    let function = Function::along(text, s);
+                    let function =
+                        function.map_err(|told| Error::new(format!("{path}.value[{k}]"), told))?;
+                    along[*k].push(Signal::Function(function));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn inputs(&mut self) {
+        for input in &self.resolved.inputs {
+            self.input(&input.kind);
+        }
+    }
+
+    /// A load whose size is an input; a spring whose length is one has been built.
+    pub(super) fn input(&mut self, input: &InputKind<'_>) {
+        if let InputKind::Action(action) = input {
+            let built = self.action(action);
+            self.parts.loads.push(built);
+        }
+    }
+}
+
+/// What is the same all along a body.
+fn uniform<const K: usize>(components: &[Signal]) -> Density<K> {
+    Density {
+        uniform: each(components),
+        along: std::array::from_fn(|_| Vec::new()),
+    }
+}
