@@ -31,8 +31,9 @@ const REFUSED: [&str; 8] = [
 /// Keys that are refused where one of them alone is changed.
 const TOGETHER: [&str; 1] = ["bodies{rigid}.orientation.matrix["];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
-/// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`.
-const OWN: [&str; 7] = [
+/// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
+/// whose element is chosen says is what the element says that it becomes (`elements.rs`).
+const OWN: [&str; 8] = [
     "about.",
     "method.work_limit",
     "accuracy.for.",
@@ -40,6 +41,7 @@ const OWN: [&str; 7] = [
     "bodies{cable}.model=",
     "bodies{rod}.elements",
     "bodies{rod}.model",
+    "bodies{auto}",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.
 const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];
