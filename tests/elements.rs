@@ -1,5 +1,7 @@
 //! `"element": "auto"`: what a body becomes, why, and that what shear moves is what Timoshenko's beam says.
 
+use std::f64::consts::PI;
+
 use flexbody::fmi2;
 use flexbody::scene::{Body, Chosen, Scene};
 use flexbody::simulation::{Planned, Simulation, plan};
@@ -416,4 +418,74 @@ fn shear_decides_by_what_it_moves_in_the_experiment() {
                 .is_some_and(|line| line.elements.is_some())
         );
     }
+}
+
+/// A thick round line of which nothing asks for sections, with a marker that is no node of a cable, beside a thin one: each is
+/// judged by itself, and the thick one is a beam.
+#[test]
+fn bodies_that_shear_are_told_from_those_that_do_not() {
+    let (part, radius) = (1.6e-3, 0.15);
+    let poisson = YOUNG / (2.0 * SHEAR) - 1.0;
+    let factor = 6.0 * (1.0 + poisson) / (7.0 + 6.0 * poisson);
+    let force = part * factor * SHEAR * PI * radius * radius;
+    let scene = edited(|s| {
+        let mut thin = s["bodies"][0].clone();
+        thin["name"] = json!("thin");
+        s["bodies"] = json!([thin, s["bodies"][0]]);
+        s["bodies"][1]["section"] = json!({"shape": {"circle": {"radius": radius}}});
+        s["bodies"][1]["markers"]["inside"] = json!(0.37);
+        for body in [0, 1] {
+            s["bodies"][body]["elements"] = json!("auto");
+        }
+        push(
+            s,
+            "joints",
+            json!({"name": "other", "kind": "weld", "markers": ["ground", "thin.root"]}),
+        );
+        push(
+            s,
+            "loads",
+            json!({"name": "press", "kind": "force", "marker": "line.tip", "value": [0, 0, force]}),
+        );
+        push(
+            s,
+            "loads",
+            json!({"name": "touch", "kind": "force", "marker": "thin.tip", "value": [0, 0, 0.01]}),
+        );
+        push(
+            s,
+            "outputs",
+            json!({"kind": "position", "marker": "thin.tip"}),
+        );
+        s["initial"] = json!("static_equilibrium");
+        s["experiment"] = json!({"stop_time": 1e-4, "step": 1e-4});
+        s["accuracy"] = json!({"error": 1e-3});
+    });
+    let (packaged, planned) = planned(&read(&scene).expect("a scene"));
+    let [thin, thick] = &planned.elements[..] else {
+        panic!("{:?}", planned.elements)
+    };
+    let nothing = "nothing asks how its sections stand; shear moves ";
+    assert!(
+        thin.element() == "cable" && thin.why.starts_with(nothing),
+        "{}",
+        thin.why
+    );
+    assert!(thick.element() == "beam", "{}", thick.why);
+    let moved = thick
+        .why
+        .split("line.tip.position by ")
+        .nth(1)
+        .expect("an output");
+    let moved: f64 = moved
+        .split(',')
+        .next()
+        .and_then(|text| text.parse().ok())
+        .expect("a number");
+    assert!((moved / part - 1.0).abs() < 0.1, "{moved} of {part}");
+    let kinds = packaged
+        .bodies
+        .iter()
+        .map(|body| matches!(body, Body::Beam(_)));
+    assert_eq!(kinds.collect::<Vec<_>>(), [false, true]);
 }

@@ -266,10 +266,8 @@ impl Scene {
         ];
         let load = loads.into_iter().find(|(name, _)| *name == list);
         let load = load.and_then(|(_, loads)| loads.get(index));
-        let motion = self.motions.get(index);
         let words = match list {
             "joints" => self.joints.get(index).map(|of| hold([&of.name])),
-            "motions" => motion.map(|of| format!("motion {} drives its orientation", of.name)),
             "inputs" => (self.inputs.get(index))
                 .map(|of| format!("an input at {} turns its sections", at(&of.marker))),
             "outputs" => (self.outputs.get(index))
