@@ -107,7 +107,7 @@ impl Shapes {
             // Names are letters, digits and _: they need no escapes.
             let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
             let kind = match body {
-                Body::Cable(_) | Body::Rod(_) | Body::Beam(_) => "cable",
+                Body::Cable(_) | Body::Rod(_) | Body::Beam(_) | Body::Auto(_) => "cable",
                 Body::Rigid(_) => "rigid",
             };
             header.push(format!(

@@ -39,7 +39,7 @@ enum Command {
         #[arg(long)]
         output: PathBuf,
     },
-    /// Finds numbers of elements and a tolerance for the error that a scene asks for, and says why.
+    /// Finds elements, their numbers and a tolerance for the error that a scene asks for, and says why.
     Plan(Planning),
     /// Simulates a scene and writes its outputs at every communication point as CSV.
     Simulate(Simulate),
@@ -199,10 +199,10 @@ fn print_schema() -> Outcome<()> {
 }
 
 fn describe(scene: &Path, output: &Path) -> Outcome<()> {
-    let (place, (scene, plan)) = (scene, planned(scene)?);
+    let (place, (scene, planned)) = (scene, planned(scene)?);
     // What contradicts itself is told here, not by the first master that runs it.
     check(&scene).map_err(|error| at(place, error))?;
-    for (name, text) in fmi2::describe(&scene, plan.as_ref()) {
+    for (name, text) in fmi2::describe(&scene, &planned) {
         let path = output.join(name);
         if let Some(directory) = path.parent() {
             fs::create_dir_all(directory).map_err(|error| at(directory, error))?;

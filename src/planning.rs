@@ -4,14 +4,14 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use flexbody::scene::Scene;
-use flexbody::simulation::{self, Plan, Settles};
+use flexbody::scene::{Chosen, Scene};
+use flexbody::simulation::{self, Plan, Planned, Settles};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{Outcome, Planning, at, read};
 
-/// Reads a scene, and plans it where it leaves numbers to the planner.
-pub fn planned(path: &Path) -> Outcome<(Scene, Option<Plan>)> {
+/// Reads a scene, and plans it where it leaves elements or numbers to the planner.
+pub fn planned(path: &Path) -> Outcome<(Scene, Planned)> {
     let scene = read(path)?;
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("planning {spinner} {msg}") {
@@ -30,8 +30,9 @@ pub fn planned(path: &Path) -> Outcome<(Scene, Option<Plan>)> {
 /// Plans a scene and prints the plan.
 pub fn plan(arguments: &Planning) -> Outcome<()> {
     let path = &arguments.scene;
-    let (scene, plan) = planned(path)?;
-    if let (Some(file), Some(plan)) = (&arguments.report, &plan) {
+    let (scene, planned) = planned(path)?;
+    let Planned { elements, numbers } = &planned;
+    if let (Some(file), Some(plan)) = (&arguments.report, numbers) {
         fs::write(file, json(plan)).map_err(|error| at(file, error))?;
     }
     if let Some(file) = &arguments.inputs {
@@ -39,8 +40,10 @@ pub fn plan(arguments: &Planning) -> Outcome<()> {
         let written = courses.map_or(Ok(()), |text| fs::write(file, text));
         written.map_err(|error| at(file, error))?;
     }
-    match &plan {
+    print!("{}", chosen_in_words(elements));
+    match numbers {
         Some(plan) => print!("{}", in_words(plan)),
+        None if !elements.is_empty() => (),
         None => println!("nothing to plan: the scene gives numbers of elements and a tolerance"),
     }
     let Some(output) = &arguments.output else {
@@ -84,6 +87,18 @@ fn json(plan: &Plan) -> String {
         plan.runs_cost,
         bodies.collect::<Vec<_>>().join(", "),
         outputs.collect::<Vec<_>>().join(", ")
+    )
+}
+
+/// Elements that were chosen as a list of a terminal.
+fn chosen_in_words(elements: &[Chosen]) -> String {
+    if elements.is_empty() {
+        return String::new();
+    }
+    let rows = elements.iter().map(|of| [of.name.clone(), of.in_words()]);
+    format!(
+        "elements chosen\n{}\n",
+        table(&["body", "element and why"], rows.collect())
     )
 }
 

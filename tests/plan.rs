@@ -28,7 +28,10 @@ fn edited(text: &str, edit: impl Fn(&mut Value)) -> Result<Scene, String> {
 }
 
 fn planned(scene: &Scene) -> Result<(Scene, Option<Plan>), String> {
-    plan(scene, &mut |_, _, _| ()).map_err(|error| error.to_string())
+    let planned = plan(scene, &mut |_, _, _| ());
+    planned
+        .map(|(scene, planned)| (scene, planned.numbers))
+        .map_err(|error| error.to_string())
 }
 
 fn elements(scene: &Scene) -> u32 {

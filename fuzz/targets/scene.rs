@@ -26,12 +26,12 @@ fuzz_target!(|data: &[u8]| {
     if sizes.fold(0, u32::saturating_add) > MOST {
         return;
     }
-    let Ok((scene, plan)) = plan(&scene, &mut |_, _, _| ()) else {
+    let Ok((scene, planned)) = plan(&scene, &mut |_, _, _| ()) else {
         return;
     };
     // Ports add terminals.
     let files = 4 + usize::from(!scene.ports.is_empty());
-    assert_eq!(describe(&scene, plan.as_ref()).len(), files);
+    assert_eq!(describe(&scene, &planned).len(), files);
     let mut simulation = Simulation::new(scene);
     if simulation.initialize(0.0).is_err() || simulation.start().is_err() {
         return;

@@ -3,7 +3,7 @@
 use crate::fmi::Category;
 use crate::page::{self, Interface};
 use crate::scene::Scene;
-use crate::simulation::Plan;
+use crate::simulation::Planned;
 
 /// How an input moves during a step.
 const INPUTS: &str = "With derivatives of order 1 and 2 (<code>fmi2SetRealInputDerivatives</code>; they belong to the \
@@ -37,7 +37,7 @@ const FAILURES: [[&str; 3]; 4] = [
 ];
 
 /// The documentation of a scene, and of how it was planned, as one HTML page. The same scene gives the same bytes.
-pub fn documentation(scene: &Scene, plan: Option<&Plan>) -> String {
+pub fn documentation(scene: &Scene, planned: &Planned) -> String {
     let of = |category: Category| {
         let name = category.name().to_str().unwrap_or_default();
         [name, category.description()]
@@ -49,5 +49,5 @@ pub fn documentation(scene: &Scene, plan: Option<&Plan>) -> String {
         failures: &FAILURES,
         categories: &Category::ALL.map(of),
     };
-    page::documentation(scene, plan, &interface)
+    page::documentation(scene, planned, &interface)
 }

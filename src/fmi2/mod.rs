@@ -15,15 +15,15 @@ pub use model_description::model_description;
 use crate::fmi::terminals;
 use crate::page::icon;
 use crate::scene::Scene;
-use crate::simulation::Plan;
+use crate::simulation::Planned;
 
 /// The generated text files of a unit: path inside the package, content. The same scene, and plan where it was
 /// planned, gives the same bytes.
-pub fn describe(scene: &Scene, plan: Option<&Plan>) -> Vec<(&'static str, String)> {
+pub fn describe(scene: &Scene, planned: &Planned) -> Vec<(&'static str, String)> {
     let mut files = vec![
         ("modelDescription.xml", model_description(scene)),
         ("resources/scene.json", scene.to_json()),
-        ("documentation/index.html", documentation(scene, plan)),
+        ("documentation/index.html", documentation(scene, planned)),
         ("documentation/scene.svg", icon(scene)),
     ];
     let terminals = terminals(scene);

@@ -4,10 +4,10 @@ use super::canvas::escape;
 use super::drawing::drawing;
 use super::number::number;
 use super::parts::parts;
-use super::plan::plan as planned;
+use super::plan::plan;
 use super::table::{code, row, table};
 use crate::scene::{Body, InitialState, Integrator, Model, Scene, Spin, Strain};
-use crate::simulation::{Causality, Plan, Variable, variables};
+use crate::simulation::{Causality, Planned, Variable, variables};
 
 const STYLE: &str = include_str!("documentation.css");
 
@@ -26,13 +26,13 @@ pub struct Interface<'a> {
 }
 
 /// The documentation of a scene, and of how it was planned, as one HTML page. The same scene gives the same bytes.
-pub fn documentation(scene: &Scene, plan: Option<&Plan>, interface: &Interface<'_>) -> String {
+pub fn documentation(scene: &Scene, planned: &Planned, interface: &Interface<'_>) -> String {
     let variables = variables(scene);
     let sections = [
         summary(scene, interface.standard),
         format!("<figure>\n{}</figure>\n", drawing(scene)),
         model(scene),
-        planned(plan),
+        plan(planned),
         parts(scene),
         parameters(&variables),
         inputs(&variables, interface.inputs),
@@ -105,7 +105,7 @@ const MOST_BODIES: usize = 12;
 fn body_in_words(body: &Body) -> String {
     let name = escape(body.name());
     match body {
-        Body::Cable(cable) | Body::Rod(cable) | Body::Beam(cable) => {
+        Body::Cable(cable) | Body::Rod(cable) | Body::Beam(cable) | Body::Auto(cable) => {
             // A length along an arc need not be a short number; four digits are enough to read.
             let length = number((cable.shape.length() * 1e4).round() / 1e4);
             let kind = cable.sections.element();
@@ -363,7 +363,7 @@ mod tests {
     #[test]
     fn the_page_names_every_variable_and_shows_the_scene() {
         let scene = example();
-        let page = documentation(&scene, None, &INTERFACE);
+        let page = documentation(&scene, &Planned::default(), &INTERFACE);
         for variable in variables(&scene)
             .iter()
             .filter(|variable| variable.name != "time")
@@ -371,7 +371,7 @@ mod tests {
             assert!(page.contains(&code(&variable.name)), "{}", variable.name);
         }
         assert!(page.contains("<svg") && page.contains("&quot;name&quot;: &quot;example&quot;"));
-        assert_eq!(page, documentation(&scene, None, &INTERFACE));
+        assert_eq!(page, documentation(&scene, &Planned::default(), &INTERFACE));
         assert!(!page.contains("Rigid cables"));
     }
 
@@ -385,7 +385,7 @@ mod tests {
             "markers": { "middle": 0.5 } } ],
           "outputs": [ { "kind": "bending_moment", "marker": "rod.middle" } ] }"#;
         let scene = Scene::from_json(text).expect("a valid scene");
-        let page = documentation(&scene, None, &INTERFACE);
+        let page = documentation(&scene, &Planned::default(), &INTERFACE);
         for told in [
             "the rigid rod <em>rod</em>, 1.2 m long",
             "Rigid cables",

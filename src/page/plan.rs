@@ -3,13 +3,33 @@
 use super::canvas::escape;
 use super::number::number;
 use super::table::{code, row, table};
-use crate::simulation::{Plan, Settles};
+use crate::scene::Chosen;
+use crate::simulation::{Plan, Planned, Settles};
 
-/// The section; nothing of a scene that was not planned.
-pub fn plan(plan: Option<&Plan>) -> String {
-    let Some(plan) = plan else {
-        return String::new();
-    };
+/// The sections; nothing of a scene that was not planned.
+pub fn plan(planned: &Planned) -> String {
+    elements(&planned.elements) + &planned.numbers.as_ref().map(numbers).unwrap_or_default()
+}
+
+/// Elements that were chosen.
+fn elements(chosen: &[Chosen]) -> String {
+    let rows = chosen
+        .iter()
+        .map(|of| row(&[&code(&of.name), of.element(), &escape(&of.why)]));
+    let note = "<p>A cable is enough where nothing asks how its sections stand, a rod where shear moves no output by more than the \
+        error wanted.</p>\n";
+    match chosen.is_empty() {
+        true => String::new(),
+        false => table(
+            "Elements that were chosen",
+            note,
+            &["Body", "Element", "Why"],
+            rows.collect(),
+        ),
+    }
+}
+
+fn numbers(plan: &Plan) -> String {
     let note = format!(
         "<p>Numbers of elements and the tolerance were found while packaging, for an error of {} in the default experiment \
          of positions relative to the size of the scene, of angles in rad, of all else relative to the largest value: \

@@ -55,7 +55,10 @@ impl<'a> Resolved<'a> {
         };
         for (body, described) in scene.bodies.iter().enumerate() {
             let reference = match described {
-                Body::Cable(described) | Body::Rod(described) | Body::Beam(described) => {
+                Body::Cable(described)
+                | Body::Rod(described)
+                | Body::Beam(described)
+                | Body::Auto(described) => {
                     let form = match described.model {
                         Model::Rigid => Form::Rod(next(&mut rods)),
                         Model::Auto | Model::Flexible => Form::Chain(next(&mut chains)),
@@ -99,28 +102,20 @@ impl<'a> Resolved<'a> {
 impl Scene {
     /// A cable.
     pub fn cable(&self, id: CableId) -> &CableBody {
-        match &self.bodies[id.body] {
-            Body::Cable(body) | Body::Rod(body) | Body::Beam(body) => body,
-            Body::Rigid(_) => unreachable!("a number of a cable is that of a cable"),
-        }
+        let cable = self.bodies[id.body].cable();
+        cable.unwrap_or_else(|| unreachable!("a number of a cable is that of a cable"))
     }
 
     /// The same, to be changed.
     pub fn cable_mut(&mut self, id: CableId) -> &mut CableBody {
-        match &mut self.bodies[id.body] {
-            Body::Cable(body) | Body::Rod(body) | Body::Beam(body) => body,
-            Body::Rigid(_) => unreachable!("a number of a cable is that of a cable"),
-        }
+        let cable = self.bodies[id.body].cable_mut();
+        cable.unwrap_or_else(|| unreachable!("a number of a cable is that of a cable"))
     }
 
     /// A rigid body, to be changed.
     pub fn rigid_mut(&mut self, id: RigidId) -> &mut RigidBody {
-        match &mut self.bodies[id.0] {
-            Body::Rigid(body) => body,
-            Body::Cable(_) | Body::Rod(_) | Body::Beam(_) => {
-                unreachable!("a number of a rigid body is that of a rigid body")
-            }
-        }
+        let rigid = self.bodies[id.0].rigid_mut();
+        rigid.unwrap_or_else(|| unreachable!("a number of a rigid body is that of a rigid body"))
     }
 }
 

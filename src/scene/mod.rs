@@ -7,6 +7,7 @@
 
 mod assemble;
 mod description;
+mod elements;
 mod marker;
 mod mesh;
 mod ports;
@@ -25,6 +26,7 @@ pub use description::{
     Model, Orientation, OutputKind, Profile, RigidBody, Scene, Section, SectionNumbers, Sections,
     Shape, Solid, Spin, Station, Strain, Symbol, Table, Value, Vector,
 };
+pub use elements::Chosen;
 pub use resolved::{
     Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First,
     Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
@@ -94,6 +96,8 @@ impl Scene {
             Error::new(path, wrong.message)
         })?;
         scene.write_out_defaults();
+        let chosen = scene.choose_elements()?;
+        scene.take_elements(&chosen);
         scene.resolve()?;
         Ok(scene)
     }

@@ -22,7 +22,7 @@ mod watch;
 pub use dimension::check;
 pub use mesh::Unresolved;
 pub use plan::{
-    Plan, PlannedBody, PlannedOutput, Price, Progress, Settled, Settles, courses, plan,
+    Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, Settled, Settles, courses, plan,
 };
 pub use quantities::Quantity;
 pub use signals::{SignalError, Signals};
@@ -125,6 +125,7 @@ impl Simulation {
     /// # Panics
     /// When the scene is not valid ([`Scene::resolved`]).
     pub fn new(scene: Scene) -> Self {
+        let scene = scene.plain();
         Self::with(variables(&scene), scene)
     }
 

@@ -40,8 +40,9 @@ const TOGETHER: [&str; 5] = [
     "bodies{beam}.stations[].section.inertia[",
 ];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
-/// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`.
-const OWN: [&str; 9] = [
+/// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
+/// whose element is chosen says is what the element says that it becomes (`elements.rs`).
+const OWN: [&str; 10] = [
     "about.",
     "method.work_limit",
     "accuracy.for.",
@@ -51,6 +52,7 @@ const OWN: [&str; 9] = [
     "bodies{rod}.model",
     "bodies{beam}.elements",
     "bodies{beam}.model",
+    "bodies{auto}",
 ];
 /// Keys of every table, whatever follows it: claimed of one that a load and one that a motion follows.
 const OF_TABLES: [&str; 2] = [".interpolation", ".slopes"];

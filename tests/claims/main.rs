@@ -5,6 +5,7 @@
 //! notices; a key for which none does is named.
 
 mod coverage;
+mod elements;
 mod mutate;
 mod own;
 mod quantities;

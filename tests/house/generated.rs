@@ -17,9 +17,9 @@ fn scene(path: &Path) -> Result<Scene, String> {
 #[test]
 fn the_committed_description_is_that_of_the_default_scene() {
     let scene = scene(&root().join("scenes/pendulum.json")).expect("the default scene");
-    let (scene, plan) = plan(&scene, &mut |_, _, _| ()).expect("a plan");
+    let (scene, planned) = plan(&scene, &mut |_, _, _| ()).expect("a plan");
     let mut complaints = Vec::new();
-    let described = fmi2::describe(&scene, plan.as_ref());
+    let described = fmi2::describe(&scene, &planned);
     for (path, text) in &described {
         let committed = fs::read_to_string(root().join("modelDescription").join(path));
         if committed.ok().as_ref() != Some(text) {

@@ -3,6 +3,7 @@
 mod about;
 mod accuracy;
 mod body;
+mod element;
 mod initial;
 mod joint;
 mod kinds;

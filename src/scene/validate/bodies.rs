@@ -22,6 +22,10 @@ impl Body {
                 body.validate_sections(path, dimension)?;
                 body.validate(path, dimension)
             }
+            Self::Auto(body) => {
+                body.validate_spare(path)?;
+                return body.made(body.sections).validate(path, dimension);
+            }
             Self::Rigid(body) => body.validate(path, dimension),
         }?;
         self.motion()

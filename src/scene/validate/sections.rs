@@ -67,6 +67,28 @@ impl CableBody {
         Ok(())
     }
 
+    /// What an element may have no use for is a value nonetheless.
+    pub(super) fn validate_spare(&self, path: &str) -> Result<(), Error> {
+        if let Some(modulus) = self.material.shear_modulus {
+            positive(&format!("{path}.material.shear_modulus"), "Pa", modulus)?;
+        }
+        let stations = self.stations.iter().enumerate();
+        let all = stations.map(|(k, s)| (&s.section, format!("{path}.stations[{k}].section")));
+        for (section, place) in all.chain([(&self.section, format!("{path}.section"))]) {
+            let at = |key: &str| format!("{place}.{key}");
+            if let Some(constant) = section.torsion_constant {
+                positive(&at("torsion_constant"), "m^4", constant)?;
+            }
+            for (k, moment) in section.second_moments.iter().flatten().enumerate() {
+                not_negative(&at(&format!("second_moments[{k}]")), "m^4", *moment)?;
+            }
+            for (k, factor) in section.shear_factors.iter().flatten().enumerate() {
+                positive(&at(&format!("shear_factors[{k}]")), "1", *factor)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Nothing that rods alone have.
     fn refuse_what_is_of_rods(&self, path: &str) -> Result<(), Error> {
         let of_rods = [

@@ -127,8 +127,8 @@ fn types_and_keys_keep_their_places() {
         scene,
         r#"
         /bodies | [] | bodies: expected at least one body, found none
-        /bodies/0/element | "shell" | bodies[0].element: expected "cable", "rod" or "rigid", found "shell"
-        /bodies/0 | {"name": "rod"} | bodies[0].element: expected "cable", "rod" or "rigid", found nothing
+        /bodies/0/element | "shell" | bodies[0].element: expected "cable", "rod", "beam", "auto" or "rigid", found "shell"
+        /bodies/0 | {"name": "rod"} | bodies[0].element: expected "cable", "rod", "beam", "auto" or "rigid", found nothing
         /bodies/0 | 3 | bodies[0]: expected a body { ... }, found 3
         /bodies/0/section | [1e-3, 1e-8] | bodies[0].section: expected an object { ... }, found a list
         /bodies/0/shape | {"line": {}, "arc": {}} | bodies[0].shape: expected an object with one of "line" or "arc" or "helix", found {"arc", "line"}

@@ -132,9 +132,10 @@ impl Search<'_, '_> {
                 (true, Some(changes), _) => format!("doubling all {changes}"),
                 (true, None, _) => "not more could be tried".into(),
             };
-            let (kind, elements) = match count {
-                0 => ("rigid", None),
-                count => ("cable", Some(count)),
+            let line = body.cable().map(|line| line.sections.element());
+            let (kind, elements) = match (count, line) {
+                (0, _) | (_, None) => ("rigid", None),
+                (count, Some(element)) => (element, Some(count)),
             };
             PlannedBody {
                 name: body.name().to_owned(),

@@ -25,6 +25,8 @@ pub(super) struct Choice {
     pub is_halved: bool,
     /// Whether axial waves of all cables settle.
     pub is_settled: bool,
+    /// Bodies that are tried as beams, by their places among those that may be.
+    pub beams: Vec<usize>,
 }
 
 /// Choices from cheap to dear, with what the next one changed.

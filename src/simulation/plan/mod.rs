@@ -10,26 +10,55 @@ mod outputs;
 mod report;
 mod search;
 mod settled;
+mod shear;
 mod time;
 
 pub use experiment::courses;
 pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settled, Settles};
 
-use crate::scene::{Error, Scene};
+use crate::scene::{Chosen, Error, Scene};
 use search::Search;
+use shear::Beam;
 
 /// What is under way, for a person who waits: the number of the run, elements of all cables, tolerance.
 pub type Progress<'a> = &'a mut dyn FnMut(usize, u32, f64);
 
-/// A scene with numbers of elements and a tolerance, and where they come from; as it is and without a plan where nothing
-/// is left to the planner.
+/// What was found while packaging, and why.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Planned {
+    /// Elements that were chosen, of bodies of `"element": "auto"`.
+    pub elements: Vec<Chosen>,
+    /// Numbers of elements and a tolerance; nothing where none are left to the planner.
+    pub numbers: Option<Plan>,
+}
+
+/// A scene with elements, numbers of them and a tolerance, and where they come from; as it is where nothing is left to the
+/// planner.
 ///
 /// # Errors
 /// A name in `accuracy` that the scene does not have; an experiment that cannot be run with any mesh.
-pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Option<Plan>), Error> {
-    if !scene.is_to_be_planned() {
-        return Ok((scene.clone(), None));
+pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), Error> {
+    let mut elements = scene.choose_elements()?;
+    let plain = scene.with_elements(&elements);
+    if !plain.is_to_be_planned() {
+        let numbers = None;
+        return Ok((plain, Planned { elements, numbers }));
     }
-    let (scene, plan) = Search::new(scene, progress)?.find()?;
-    Ok((scene, Some(plan)))
+    let beams = Beam::all(&plain, &elements)?;
+    let mut search = Search::new(&plain, beams, &mut *progress)?;
+    let (mut planned, mut plan, sheared) = search.find()?;
+    for of in sheared {
+        of.judge(&mut elements, plan.error);
+    }
+    // What shears takes a mesh of its own.
+    let sheared = scene.with_elements(&elements);
+    if sheared != plain {
+        let (runs, work) = (search.runs.len(), search.work);
+        let mut search = Search::new(&sheared, Vec::new(), progress)?;
+        (planned, plan, _) = search.find()?;
+        plan.runs += runs;
+        plan.runs_cost *= 1.0 + work / search.work.max(f64::MIN_POSITIVE);
+    }
+    let numbers = Some(plan);
+    Ok((planned, Planned { elements, numbers }))
 }

@@ -34,9 +34,9 @@ pub struct Plan {
 pub struct PlannedBody {
     /// Its name.
     pub name: String,
-    /// `cable` or `rigid`.
+    /// `cable`, `rod`, `beam` or `rigid`.
     pub kind: &'static str,
-    /// Number of elements of a cable.
+    /// Number of elements, where it bends.
     pub elements: Option<u32>,
     /// The fewest that a cable can have, or is given.
     pub fewest: Option<u32>,

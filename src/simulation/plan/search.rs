@@ -5,6 +5,7 @@ use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
 use super::outputs::{Difference, Group, are_kept, difference, groups};
 use super::report::Plan;
+use super::shear::{Beam, Sheared};
 use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
 use crate::simulation::{Variable, check, variables};
 
@@ -35,6 +36,8 @@ pub(super) struct Search<'a, 'p> {
     /// As few elements of every cable as there can be while it bends, or as many as are given; none of one that is said
     /// to be rigid.
     pub fewest: Vec<u32>,
+    /// Bodies that may be beams.
+    pub(super) beams: Vec<Beam>,
     progress: Progress<'p>,
 }
 
@@ -54,7 +57,7 @@ fn with_rigid(mut scene: Scene, body: usize) -> Scene {
 }
 
 /// See [`Search::fewest`].
-fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
+pub(super) fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
     let resolved = scene.resolve()?;
     let counts = resolved.bodies.iter().filter_map(|body| {
         let BodyReference::Cable(cable) = body else {
@@ -70,13 +73,14 @@ fn fewest(scene: &Scene) -> Result<Vec<u32>, Error> {
 }
 
 impl<'a, 'p> Search<'a, 'p> {
-    /// For a scene that leaves something to the planner.
+    /// For a scene that leaves something to the planner, with bodies that may be beams.
     ///
     /// # Errors
     /// A name in `accuracy` that the scene does not have; what is not valid.
-    pub fn new(scene: &'a Scene, progress: Progress<'p>) -> Result<Self, Error> {
+    pub fn new(scene: &'a Scene, beams: Vec<Beam>, progress: Progress<'p>) -> Result<Self, Error> {
         let variables = variables(scene);
         Ok(Self {
+            beams,
             groups: groups(scene, &variables)?,
             experiment: Experiment::new(scene)?,
             error: scene.error(),
@@ -89,11 +93,11 @@ impl<'a, 'p> Search<'a, 'p> {
         })
     }
 
-    /// The planned scene, and its plan.
+    /// The planned scene, its plan, and what shear of bodies that may be beams would change.
     ///
     /// # Errors
     /// An experiment that cannot be run with any mesh.
-    pub fn find(mut self) -> Result<(Scene, Plan), Error> {
+    pub fn find(&mut self) -> Result<(Scene, Plan, Vec<Sheared>), Error> {
         let mut choice = Choice {
             elements: self.fewest.clone(),
             tolerance: self.first_tolerance(),
@@ -110,10 +114,9 @@ impl<'a, 'p> Search<'a, 'p> {
             true => self.coarsen(&mut choice, in_space),
             false => in_space,
         };
-        Ok((
-            self.planned(&choice),
-            self.report(&choice, &in_space, &in_time),
-        ))
+        let sheared = self.shear(&choice);
+        let plan = self.report(&choice, &in_space, &in_time);
+        Ok((self.planned(&choice), plan, sheared))
     }
 
     /// A mesh with all cables rigid that may be.
@@ -137,6 +140,9 @@ impl<'a, 'p> Search<'a, 'p> {
 
     fn planned(&self, choice: &Choice) -> Scene {
         let mut scene = self.scene.clone();
+        for beam in &choice.beams {
+            self.beams[*beam].put_into(&mut scene);
+        }
         let bodies: Vec<usize> = cables(self.scene).map(|(body, _)| body).collect();
         for (body, count) in bodies.into_iter().zip(&choice.elements) {
             if *count == 0 {

@@ -1,0 +1,165 @@
+//! Bodies by their element: how they are read, what all have, and what a line becomes as an element of a kind.
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+use serde_json::Value;
+
+use super::body::{Body, CableBody, InitialMotion, Model, RigidBody, Sections};
+use super::section::Section;
+use super::strict::{Strict, at, typed};
+
+impl<'de> Deserialize<'de> for Body {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let wrong = |found: &str| {
+            let message = format!(
+                "expected \"cable\", \"rod\", \"beam\", \"auto\" or \"rigid\", found {found}"
+            );
+            D::Error::custom(at("element", &message))
+        };
+        let mut value = Strict::deserialize(deserializer)?.0;
+        let Some(keys) = value.as_object_mut() else {
+            return Err(D::Error::custom(format!(
+                "expected a body {{ ... }}, found {value}"
+            )));
+        };
+        let element = keys.remove("element").ok_or_else(|| wrong("nothing"))?;
+        match element.as_str() {
+            Some("cable") => typed(value).map(Self::Cable),
+            Some("rod") => with_sections(value, Sections::Turn).map(Self::Rod),
+            Some("beam") => with_sections(value, Sections::Lean).map(Self::Beam),
+            Some("auto") => typed(value).map(Self::Auto),
+            Some("rigid") => typed(value).map(Self::Rigid),
+            _ => Err(wrong(&element.to_string())),
+        }
+    }
+}
+
+fn with_sections<E: serde::de::Error>(value: Value, sections: Sections) -> Result<CableBody, E> {
+    let body: CableBody = typed(value)?;
+    Ok(CableBody { sections, ..body })
+}
+
+impl Body {
+    /// Name of the body.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => &body.name,
+            Self::Rigid(body) => &body.name,
+        }
+    }
+
+    /// Motion at the start.
+    pub fn motion(&self) -> &InitialMotion {
+        match self {
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => {
+                &body.motion
+            }
+            Self::Rigid(body) => &body.motion,
+        }
+    }
+
+    /// Motion at the start, to be changed.
+    pub fn motion_mut(&mut self) -> &mut InitialMotion {
+        match self {
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => {
+                &mut body.motion
+            }
+            Self::Rigid(body) => &mut body.motion,
+        }
+    }
+
+    /// Names of its markers, in alphabetical order.
+    pub fn marker_names(&self) -> Vec<&str> {
+        match self {
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => {
+                body.markers.keys().map(String::as_str).collect()
+            }
+            Self::Rigid(body) => body.markers.keys().map(String::as_str).collect(),
+        }
+    }
+
+    /// The body if it is a cable or a rod, rigid or not.
+    pub fn cable(&self) -> Option<&CableBody> {
+        match self {
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => Some(body),
+            Self::Rigid(_) => None,
+        }
+    }
+
+    /// The body if it is a cable that bends.
+    pub fn flexible(&self) -> Option<&CableBody> {
+        self.cable().filter(|cable| cable.model != Model::Rigid)
+    }
+
+    /// The body, to be changed, if it is a cable or a rod.
+    pub fn cable_mut(&mut self) -> Option<&mut CableBody> {
+        match self {
+            Self::Cable(body) | Self::Rod(body) | Self::Beam(body) | Self::Auto(body) => Some(body),
+            Self::Rigid(_) => None,
+        }
+    }
+
+    /// The body if it is one of kind `rigid`.
+    pub fn rigid(&self) -> Option<&RigidBody> {
+        match self {
+            Self::Rigid(body) => Some(body),
+            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) => None,
+        }
+    }
+
+    /// The body, to be changed, if it is one of kind `rigid`.
+    pub fn rigid_mut(&mut self) -> Option<&mut RigidBody> {
+        match self {
+            Self::Rigid(body) => Some(body),
+            Self::Cable(_) | Self::Rod(_) | Self::Beam(_) | Self::Auto(_) => None,
+        }
+    }
+}
+
+impl CableBody {
+    /// The body as an element whose sections do this, without what it has no use for.
+    pub fn made(&self, sections: Sections) -> Body {
+        let mut body = Self {
+            sections,
+            ..self.clone()
+        };
+        if sections == Sections::None {
+            body.material.shear_modulus = None;
+        }
+        body.sections_mut().for_each(|of| of.make(sections));
+        match sections {
+            Sections::None => Body::Cable(body),
+            Sections::Turn => Body::Rod(body),
+            Sections::Lean => Body::Beam(body),
+        }
+    }
+
+    /// Its cross section, and those at stations.
+    pub fn sections_mut(&mut self) -> impl Iterator<Item = &mut Section> {
+        let at_stations = self.stations.iter_mut();
+        let at_stations = at_stations.map(|station| &mut station.section);
+        at_stations.chain([&mut self.section])
+    }
+}
+
+impl Section {
+    /// Leaves out what an element has no use for, and says second moments as it does.
+    fn make(&mut self, sections: Sections) {
+        let is_cable = sections == Sections::None;
+        match (is_cable, self.second_moment, self.second_moments) {
+            (true, None, Some([first, _])) => {
+                (self.second_moment, self.second_moments) = (Some(first), None);
+            }
+            (false, Some(moment), None) => {
+                (self.second_moment, self.second_moments) = (None, Some([moment; 2]));
+            }
+            _ => (),
+        }
+        if is_cable && self.shape.is_none() {
+            self.torsion_constant = None;
+        }
+        if sections != Sections::Lean {
+            self.shear_factors = None;
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! Elements by need: what a body of `"element": "auto"` becomes, and why.
+//!
+//! Whether a cable will do is found by trying: the scene with a cable there is valid, or what it is refused for asks for the
+//! sections of a rod. So there are no rules here but those of validation, and two that it does not know: sections that
+//! are given by what a cable has no key for, and joints that hold how a line stands about its tangent.
+
+use super::description::{Body, CableBody, SectionNumbers, Sections};
+use super::resolved::{First, Hold, Place, Resolved};
+use super::{Error, Scene};
+
+/// What a body of `"element": "auto"` becomes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chosen {
+    /// Its place among the bodies.
+    pub body: usize,
+    /// Its name.
+    pub name: String,
+    /// What its sections do.
+    pub sections: Sections,
+    /// Why.
+    pub why: String,
+    /// The body as a beam, where it could be one and is none: shear decides.
+    pub beam: Option<Box<CableBody>>,
+}
+
+/// What is said of a body that nothing asks more of.
+const NOTHING_NEEDED: &str = "nothing asks how its sections stand";
+
+impl Chosen {
+    /// The element by name.
+    pub fn element(&self) -> &'static str {
+        self.sections.element()
+    }
+
+    /// The choice in words.
+    pub fn in_words(&self) -> String {
+        format!("{}: {}", self.element(), self.why)
+    }
+
+    fn new(body: usize, line: &CableBody, dimension: usize) -> Self {
+        let (sections, why) = match dimension {
+            2 => (Sections::None, "nothing twists in the plane"),
+            _ => line.need().unwrap_or((Sections::None, NOTHING_NEEDED)),
+        };
+        Self {
+            body,
+            name: line.name.clone(),
+            sections,
+            why: why.into(),
+            beam: None,
+        }
+    }
+
+    fn turns(&mut self, why: String) {
+        (self.sections, self.why) = (Sections::Turn, why);
+    }
+
+    /// Makes it a beam where shear moves something by more than an error wanted; `what` says what it does.
+    pub fn judge_shear(&mut self, part: f64, error: f64, what: &str) {
+        match part > error {
+            true => {
+                self.sections = Sections::Lean;
+                self.why = format!("shear {what}, more than {error:e}");
+            }
+            false => self.why += &format!("; shear {what}, no more than {error:e}"),
+        }
+    }
+
+    /// The same by the share that shear has in how far the body bends statically, where there is no experiment to compare in.
+    pub fn estimate_shear(&mut self, error: f64) {
+        if let Some(beam) = &self.beam {
+            let part = beam.shear_to_bending();
+            let what = format!("adds {part:.1e} to bending by 3 E I / (k G A L^2)");
+            self.judge_shear(part, error, &what);
+        }
+    }
+}
+
+impl CableBody {
+    /// What the body needs by its own keys, in space: sections that turn, or lean.
+    fn need(&self) -> Option<(Sections, &'static str)> {
+        let at_stations = self.stations.iter().map(|station| &station.section);
+        let all = || at_stations.clone().chain([&self.section]);
+        let is_unequal = |numbers: SectionNumbers| {
+            let [first, second] = numbers.second_moments;
+            first != second
+        };
+        let is_curved = !self.shape.is_straight();
+        let reasons = [
+            (
+                all().any(|of| of.stiffness.is_some() || of.inertia.is_some()),
+                Sections::Lean,
+                "its sections are given as whole matrices",
+            ),
+            (
+                self.axis.is_some(),
+                Sections::Turn,
+                "the axis of its section is given",
+            ),
+            (
+                self.stations.iter().any(|station| station.twist != 0.0),
+                Sections::Turn,
+                "it is twisted without stress",
+            ),
+            (
+                all().any(|of| of.coupling.is_some()),
+                Sections::Turn,
+                "its twist and bending are coupled",
+            ),
+            (
+                all().any(|of| is_unequal(of.numbers())),
+                Sections::Turn,
+                "it does not bend alike to all sides",
+            ),
+            (
+                is_curved && all().any(|of| of.numbers().second_moments[0] > 0.0),
+                Sections::Turn,
+                "it is curved without stress and bends",
+            ),
+        ];
+        let found = reasons.into_iter().find(|(is_there, ..)| *is_there);
+        found.map(|(_, sections, why)| (sections, why))
+    }
+
+    /// Of a beam: deflection of a cantilever by shear over that by bending, under a force at its end; the largest about both
+    /// axes of all its sections (S. P. Timoshenko, Strength of Materials I, 3rd ed. (1955), section 39: `F L / (k G A)` beside
+    /// `F L^3 / (3 E I)`).
+    fn shear_to_bending(&self) -> f64 {
+        let at_stations = self
+            .stations
+            .iter()
+            .map(|station| station.section.numbers());
+        let one = self.stations.is_empty().then(|| self.section.numbers());
+        let square = self.shape.length().powi(2);
+        let parts = at_stations.chain(one).flat_map(|numbers| {
+            let stiffness = self.whole_stiffness(&numbers);
+            // What bends about an axis shears along the other one.
+            [(4, 2), (5, 1)].map(|(bending, shear)| {
+                3.0 * stiffness[(bending, bending)] / (stiffness[(shear, shear)] * square)
+            })
+        });
+        parts.fold(0.0, f64::max)
+    }
+
+    /// Values for what rods alone need, where none are said: only to ask whether a rod would do.
+    fn fill_in(&mut self) {
+        self.material.shear_modulus.get_or_insert(1.0);
+        for section in self.sections_mut().filter(|of| of.area.is_some()) {
+            section.torsion_constant.get_or_insert(1.0);
+        }
+    }
+}
+
+impl Scene {
+    /// What every body of `"element": "auto"` becomes. Shear has decided where nothing is left to the planner.
+    ///
+    /// # Errors
+    /// What is not valid, whatever they become.
+    pub fn choose_elements(&self) -> Result<Vec<Chosen>, Error> {
+        let bodies = self.bodies.iter().enumerate();
+        let open = bodies.filter_map(|(index, body)| match body {
+            Body::Auto(line) => Some(Chosen::new(index, line, self.dimension)),
+            _ => None,
+        });
+        let mut chosen: Vec<Chosen> = open.collect();
+        if chosen.is_empty() {
+            return Ok(chosen);
+        }
+        // Each time around a cable becomes a rod, or this is the end.
+        loop {
+            let scene = self.with_elements(&chosen);
+            let error = match scene.resolve() {
+                Ok(resolved) => match held(&resolved, &chosen) {
+                    Some((place, why)) => {
+                        chosen[place].turns(why);
+                        continue;
+                    }
+                    None => break,
+                },
+                Err(error) => error,
+            };
+            match self.asked_of(&chosen, &error) {
+                Some(place) => chosen[place].turns(self.asking(&error.path)),
+                None => return Err(with_reason(&chosen, error)),
+            }
+        }
+        let beams: Vec<_> = (0..chosen.len())
+            .map(|place| self.as_beam(&chosen, place))
+            .collect();
+        for (of, beam) in chosen.iter_mut().zip(beams) {
+            of.beam = beam.map(Box::new);
+            if !self.is_to_be_planned() {
+                of.estimate_shear(self.error());
+            }
+        }
+        Ok(chosen)
+    }
+
+    /// The scene with these elements.
+    pub fn with_elements(&self, chosen: &[Chosen]) -> Self {
+        let mut scene = self.clone();
+        scene.take_elements(chosen);
+        scene.plain()
+    }
+
+    /// Says in bodies of `"element": "auto"` what their sections do.
+    pub(super) fn take_elements(&mut self, chosen: &[Chosen]) {
+        for of in chosen {
+            if let Some(line) = self.bodies[of.body].cable_mut() {
+                line.sections = of.sections;
+            }
+        }
+    }
+
+    /// The scene with every body of `"element": "auto"` as what it became when it was read.
+    pub fn plain(mut self) -> Self {
+        for body in &mut self.bodies {
+            if let Body::Auto(line) = body {
+                *body = line.made(line.sections);
+            }
+        }
+        self
+    }
+
+    /// The cable that would not be refused for this, were it a rod.
+    fn asked_of(&self, chosen: &[Chosen], error: &Error) -> Option<usize> {
+        let is_cable = |place: &usize| chosen[*place].sections == Sections::None;
+        let asks = |place: &usize| {
+            let mut tried = chosen.to_vec();
+            tried[*place].sections = Sections::Turn;
+            let mut scene = self.with_elements(&tried);
+            let body = chosen[*place].body;
+            if let Some(line) = scene.bodies[body].cable_mut() {
+                line.fill_in();
+            }
+            scene.resolve().err().is_none_or(|other| {
+                other != *error && !other.path.starts_with(&format!("bodies[{body}]"))
+            })
+        };
+        let mut cables = (0..chosen.len()).filter(is_cable);
+        cables.find(asks).filter(|_| self.dimension == 3)
+    }
+
+    /// A body as a beam, where it may be one and is none.
+    fn as_beam(&self, chosen: &[Chosen], place: usize) -> Option<CableBody> {
+        let mut tried = chosen.to_vec();
+        let of = &mut tried[place];
+        if self.dimension == 2 || of.sections == Sections::Lean {
+            return None;
+        }
+        (of.sections, of.beam) = (Sections::Lean, None);
+        let scene = self.with_elements(&tried);
+        scene.resolve().ok()?;
+        scene.bodies[chosen[place].body].cable().cloned()
+    }
+
+    /// What asks for the sections of a rod, by the path of what a cable is refused for.
+    fn asking(&self, path: &str) -> String {
+        let (list, rest) = path.split_once('[').unwrap_or((path, ""));
+        let index = rest.split(']').next().and_then(|text| text.parse().ok());
+        let index: usize = index.unwrap_or(usize::MAX);
+        let at = |marker: &Option<String>| marker.clone().unwrap_or_default();
+        let loads = [
+            ("loads", &self.loads[..]),
+            ("initial.loads", self.initial.loads()),
+        ];
+        let load = loads.into_iter().find(|(name, _)| *name == list);
+        let load = load.and_then(|(_, loads)| loads.get(index));
+        let words = match list {
+            "joints" => self.joints.get(index).map(|of| hold([&of.name])),
+            "inputs" => (self.inputs.get(index))
+                .map(|of| format!("an input at {} turns its sections", at(&of.marker))),
+            "outputs" => (self.outputs.get(index))
+                .map(|of| format!("an output at {} reads its sections", at(&of.marker))),
+            "ports" => (self.ports.get(index)).map(|of| format!("port {} turns with it", of.name)),
+            _ => load.map(|of| format!("load {} turns its sections", of.name)),
+        };
+        words.unwrap_or_else(|| format!("{path} asks for its sections"))
+    }
+}
+
+fn hold<const N: usize>(joints: [&str; N]) -> String {
+    let (many, verb) = if N == 1 { ("", "holds") } else { ("s", "hold") };
+    format!(
+        "joint{many} {} {verb} its orientation",
+        joints.join(" and ")
+    )
+}
+
+/// A cable that joints hold in how it stands about its tangent, where that lets torque through: between it and another body, or
+/// at two places of it. One joint that holds it on the ground does not: no torque comes in at its other end, and a line that bends
+/// alike to all sides does not twist then.
+fn held(resolved: &Resolved<'_>, chosen: &[Chosen]) -> Option<(usize, String)> {
+    if resolved.scene.dimension == 2 {
+        return None;
+    }
+    let cables = chosen.iter().enumerate();
+    let mut cables = cables.filter(|(_, of)| of.sections == Sections::None);
+    cables.find_map(|(place, of)| {
+        let is_of = |place: &Place<'_>| place.body_index() == of.body;
+        let joints = resolved.joints.iter().filter(|joint| {
+            let is_held = |hold: &Hold| matches!(hold, Hold::Direction(_));
+            let ends = joint.ends.markers();
+            joint.holds.iter().any(is_held) && ends.into_iter().any(|end| is_of(&end.place))
+        });
+        let joints: Vec<_> = joints.collect();
+        let is_ground = |first: &First<'_>| matches!(first, First::Ground(_));
+        if let Some(joint) = joints.iter().find(|joint| !is_ground(&joint.ends.first)) {
+            return Some((place, hold([joint.name])));
+        }
+        match joints[..] {
+            [first, second, ..] => Some((place, hold([first.name, second.name]))),
+            _ => None,
+        }
+    })
+}
+
+/// What is refused of a body that needs to be a rod says why it does.
+fn with_reason(chosen: &[Chosen], mut error: Error) -> Error {
+    let is_of = |of: &&Chosen| error.path.starts_with(&format!("bodies[{}]", of.body));
+    let turned = chosen.iter().find(is_of);
+    if let Some(of) = turned.filter(|of| of.sections != Sections::None) {
+        error.message += &format!(" (a {})", of.in_words());
+    }
+    error
+}
