@@ -1,7 +1,7 @@
 //! Loads one by one, on cables and rigid bodies in random states: forces from energies, tangents by
 //! differences, power.
 
-use flexbody::body::{Node, NodeBlock};
+use flexbody::body::{Frames, Node, NodeBlock};
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
 use flexbody::system::loads::{Bushing, JointSpring, Load, RotationalBushing, Stop};
@@ -39,6 +39,7 @@ impl Acted<'_> {
             x,
             v,
             chains: &self.frame.chains,
+            sections: (&[], &Frames::default()),
             angles: (&self.angles, &hints),
         };
         f(&self.load, instant)
@@ -324,6 +325,7 @@ fn a_rotational_spring_counts_turns() {
                 x: &frame.x,
                 v: &rest,
                 chains: &frame.chains,
+                sections: (&[], &Frames::default()),
                 angles: (&angles, &[hint]),
             });
             value + spring.stiffness * std::f64::consts::TAU * turns
@@ -339,6 +341,7 @@ fn a_rotational_spring_counts_turns() {
             x: &frame.x,
             v: &frame.v,
             chains: &frame.chains,
+            sections: (&[], &Frames::default()),
             angles: (&angles, &[0.0]),
         };
         within("a number", (held.value(at) - 2.5).abs(), 0.0)

@@ -2,7 +2,9 @@
 
 use flexbody::body::{Marker, Node};
 use flexbody::system::joints::{Joint, Primitive};
-use flexbody::system::loads::{Distributed, Force, JointSpring, Line, Load, Moment, Spring};
+use flexbody::system::loads::{
+    Density, Distributed, Force, JointSpring, Line, Load, Moment, Spring,
+};
 use flexbody::system::{
     Accepted, Angle, BuildError, CableChain, Coordinate, Drive, End, Evaluation, LumpedMass, Model,
     NotAssembled, Parts, Signal, State, System, Work,
@@ -109,7 +111,10 @@ impl Mechanism {
             }),
             Acting::Distributed { body, size } => Load::Distributed(Distributed {
                 on: Line::Chain(self.chain(*body)),
-                components: size.each_ref().map(signal),
+                density: Density {
+                    uniform: size.each_ref().map(signal),
+                    along: [Vec::new(), Vec::new()],
+                },
             }),
             Acting::Spring {
                 ends: e,

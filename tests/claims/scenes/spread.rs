@@ -31,7 +31,7 @@ fn rigid(way: [f64; 2]) -> Value {
 
 /// A force along a free rigid body moves its centre by its integral and turns it by its first moment.
 fn pushed() -> Specimen {
-    let (way, mass, time) = ([0.6, 0.8], 2.5, 0.4);
+    let (way, mass, time) = ([0.6, 0.8], 2.5, 0.4_f64);
     let scene = json!({"name": "pushed", "dimension": 2, "bodies": [rigid(way)],
         "loads": [{"name": "wind", "kind": "distributed", "body": "rod",
                    "value": ["0.5*s^2+t", "3*s^3-1.2*sin(PI*s)*cos(t)"]}],
@@ -107,7 +107,7 @@ fn clamped(element: &str, rest: Value) -> Value {
         "bodies": [{"name": "rod", "element": element, "elements": 4, "axial": "waves",
             "material": {"youngs_modulus": YOUNG, "shear_modulus": SHEAR, "density": 700.0},
             "section": {"area": 2e-3, "second_moments": MOMENTS, "torsion_constant": TORSION},
-            "axis": [0.0, 1.0, 0.0], "shape": {"line": {"from": [0.0; 3], "to": [LENGTH, 0.0, 0.0]}},
+            "axis": [0.0, 1.0, 0.0], "shape": {"line": {"from": [0.0, 0.0, 0.0], "to": [LENGTH, 0.0, 0.0]}},
             "markers": {"root": 0.0, "mid": 0.4, "tip": 1.0}}],
         "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.root"]}]});
     if element == "beam" {
