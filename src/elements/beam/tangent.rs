@@ -53,28 +53,24 @@ impl<N: Real> Kernel<N> {
         for (index, point) in POINTS.iter().enumerate() {
             let (section, leaning) = self.section(point, &placed);
             let rows = leaning.rows();
-            let mut stress = None;
-            let squares = match kind {
-                Tangent::Damping => rows.squares(&self.damping[index]),
+            let (squares, turning) = match kind {
+                Tangent::Damping => (rows.squares(&self.damping[index]), None),
                 Tangent::Stiffness => {
                     let strains = add(&leaning.strains(), &self.offset[index]);
-                    let mut all = product(&self.stiffness[index], &strains);
+                    let mut stress = product(&self.stiffness[index], &strains);
                     if let Some(moving) = &moving {
                         let local = self.local_rates(point, &section, &placed, moving);
                         let rate = rows.rates(&local);
-                        all = add(&all, &product(&self.damping[index], &rate));
+                        stress = add(&stress, &product(&self.damping[index], &rate));
                     }
                     let mut squares = rows.squares(&self.stiffness[index]);
-                    leaning.add_second(&all, &mut squares);
-                    stress = Some(rows.factors(&times(&all, geometry.number(point.weight))));
-                    squares
+                    leaning.add_second(&stress, &mut squares);
+                    let factors = rows.factors(&times(&stress, geometry.number(point.weight)));
+                    let leans = (factors.lean, factors.change);
+                    self.add_factors(point, factors.stretch, leans, &mut sum.factors);
+                    (squares, Some(factors.turning))
                 }
             };
-            if let Some(factors) = &stress {
-                let (leans, change) = (factors.lean, factors.change);
-                self.add_factors(point, factors.stretch, (leans, change), &mut sum.factors);
-            }
-            let turning = stress.map(|factors| factors.turning);
             self.add_point(point, (&section, &placed), (&squares, turning), &mut sum);
         }
         self.assemble(&placed, &mut sum, kind)
@@ -208,7 +204,7 @@ impl<N: Real> Kernel<N> {
     ) {
         let (geometry, l) = (&self.geometry, self.geometry.length);
         let (one, [first, last]) = (geometry.number(1.0), &placed.ends);
-        let middle = MIDDLE.map(|weight| geometry.number(weight));
+        let middle = each!([one; 3], k => geometry.number(MIDDLE[k]));
         let chord = middle[0] * geometry.inverse_length;
         // Vectors that a length is one of, with what these count in it.
         let places: [&[(usize, N)]; 3] = [
@@ -284,7 +280,7 @@ fn by_sections<N: Real>(ends: &[End<N>; 2], matrix: &mut Matrix<N>) {
         let zero = ends[0].size.constant(0.0);
         let (mut with_u, mut own) = ([[zero; 3]; 3], [[zero; 3]; 3]);
         for i in 0..3 {
-            let old = [0, 1, 2].map(|j| matrix[s + i.max(j)][s + i.min(j)]);
+            let old = each!([zero; 3], j => matrix[s + i.max(j)][s + i.min(j)]);
             let (by_u, moment) = end.load(old[0], &[old[1], old[2]]);
             for j in 0..3 {
                 with_u[j][i] = matrix[s + i][u + j] + by_u[j];
@@ -292,7 +288,7 @@ fn by_sections<N: Real>(ends: &[End<N>; 2], matrix: &mut Matrix<N>) {
             }
         }
         for j in 0..3 {
-            let old = [0, 1, 2].map(|i| matrix[s + i][u + j]);
+            let old = each!([zero; 3], i => matrix[s + i][u + j]);
             let (first, _) = end.load(old[0], &[old[1], old[2]]);
             let (second, mixed) = end.load(with_u[j][0], &[with_u[j][1], with_u[j][2]]);
             let (_, moment) = end.load(own[j][0], &[own[j][1], own[j][2]]);
