@@ -4,6 +4,7 @@
 
 mod lanes;
 mod loaded;
+mod shaped;
 
 use std::ops::Range;
 
@@ -13,13 +14,13 @@ use super::assembly::{Assembly, NodeBlock, no_block};
 use super::connectivity::{Node, no_node};
 use super::frame::{Carried, Frames, axes_at, combined};
 use super::marker::Marker;
-use super::stages::rotated;
 use crate::elements::beam::{At, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::section::{Section, SpinInertia};
 use crate::math::jet::Number;
-use crate::math::space::{Vector, components, vector};
+use crate::math::space::{Vector, components};
 use crate::math::sparse::Matrix;
 use lanes::{Packed, packs};
+pub use shaped::carried_nodes;
 
 /// Where the internal twist and a beam's two internal leans stand in a node inside an element: part and axis. The first axis stands one
 /// further than the lean, so that the node has a direction.
@@ -474,32 +475,4 @@ fn ends<const D: usize, N: Number>(nodes: [usize; 2], x: &[Node<D, N>]) -> [[N; 
 
 fn part<const D: usize, N: Number>(node: &Node<D, N>, k: usize) -> [N; 3] {
     components(&Vector::<D, N>::from(node[k]))
-}
-
-/// Axes of frames carried along a line, whose tangents are those at parts in [0, 1] of its elements, by so many smallest rotations an element
-/// (one where a plane holds it; else the angle that they miss falls with the square of their number), the first of them with this second
-/// axis, and then turned about the tangent by the angles of these twists, rad: position and axes in two nodes each.
-pub fn carried_nodes<const D: usize>(
-    line: &[Node<D>],
-    second: [f64; 3],
-    (tangent, steps): (impl Fn(usize, f64) -> [f64; 3], u32),
-    twists: impl Iterator<Item = f64>,
-) -> Vec<Node<D>> {
-    let mut second = Vector3::from(second);
-    let mut t = Vector3::from(tangent(0, 0.0));
-    let mut nodes = Vec::with_capacity(2 * line.len());
-    for (j, (node, twist)) in line.iter().zip(twists).enumerate() {
-        for step in (1..=steps).take_while(|_| j > 0) {
-            let next = Vector3::from(tangent(j - 1, f64::from(step) / f64::from(steps)));
-            second = rotated(&t, &next, &second);
-            t = next;
-        }
-        second = (second - t * t.dot(&second)).normalize();
-        let (sin, cos) = twist.sin_cos();
-        let turned = second * cos + t.cross(&second) * sin;
-        let [a, b, c] =
-            [t, turned, t.cross(&turned)].map(|axis| vector::<D, f64>(axis.into()).into());
-        nodes.extend([[node[0], a], [b, c]]);
-    }
-    nodes
 }

@@ -250,7 +250,7 @@ mod tests {
         let rod = Rod::new(rod, &rod_at(&bent(false)));
         let beam = Beam::new(beam, &bent(true));
         [
-            (Section::Rod(rod), false),
+            (Section::Rod(Box::new(rod)), false),
             (Section::Beam(Box::new(beam)), true),
         ]
     }
