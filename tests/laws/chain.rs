@@ -100,7 +100,7 @@ fn build(
             length: *length,
             axial_stiffness,
             bending_stiffness,
-            is_line_of_rod: false,
+            line_of: flexbody::elements::cable::LineOf::Cable,
             line_density: *line_density,
             axial_damping_time: damping_time,
             bending_damping_time: damping_time,

@@ -307,7 +307,7 @@ fn parts_without_connection_do_not_know_of_each_other() {
             length: 0.5,
             axial_stiffness: 200.0,
             bending_stiffness: 0.5,
-            is_line_of_rod: false,
+            line_of: flexbody::elements::cable::LineOf::Cable,
             line_density: 1.0,
             axial_damping_time: 0.001,
             bending_damping_time: 0.001,

@@ -18,7 +18,7 @@ fn beam(unit: f64) -> Chain {
         length,
         axial_stiffness: 1260.0,
         bending_stiffness: 8.505e-3,
-        is_line_of_rod: false,
+        line_of: flexbody::elements::cable::LineOf::Cable,
         line_density: 9.972 * unit,
         axial_damping_time: 0.0,
         bending_damping_time: 0.0,

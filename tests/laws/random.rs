@@ -204,7 +204,7 @@ impl Builder {
                 length,
                 axial_stiffness: 300.0,
                 bending_stiffness: 2.0,
-                is_line_of_rod: false,
+                line_of: flexbody::elements::cable::LineOf::Cable,
                 line_density: self.dice.between(0.3, 2.0),
                 axial_damping_time: damping_time,
                 bending_damping_time: damping_time,

@@ -44,7 +44,7 @@ fn case((elements, joints, noise): Numbers) -> Case {
             length: *length,
             axial_stiffness: 200.0,
             bending_stiffness: 1.0,
-            is_line_of_rod: false,
+            line_of: flexbody::elements::cable::LineOf::Cable,
             line_density: *line_density,
             axial_damping_time: 0.0,
             bending_damping_time: 0.0,

@@ -76,7 +76,7 @@ fn parameters() -> impl Strategy<Value = Parameters> {
             length,
             axial_stiffness: slenderness * bending_stiffness / (length * length),
             bending_stiffness,
-            is_line_of_rod: false,
+            line_of: flexbody::elements::cable::LineOf::Cable,
             line_density,
             axial_damping_time: damping[0],
             bending_damping_time: damping[1],

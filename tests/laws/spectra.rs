@@ -203,7 +203,7 @@ fn beam(elements: usize, axial_stiffness: f64, damping_time: f64, clamped: bool)
         length,
         axial_stiffness,
         bending_stiffness: 1.0,
-        is_line_of_rod: false,
+        line_of: flexbody::elements::cable::LineOf::Cable,
         line_density: 1.0,
         axial_damping_time: damping_time,
         bending_damping_time: damping_time,
