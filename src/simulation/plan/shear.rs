@@ -3,6 +3,7 @@
 
 use super::ladder::Choice;
 use super::search::{Search, cables, fewest};
+use super::time::tenth;
 use crate::scene::{Body, CableBody, Chosen, Error, Scene};
 
 /// A body that may be a beam.
@@ -83,9 +84,11 @@ impl Search<'_, '_> {
         sheared.collect()
     }
 
-    /// The output that changes most where these bodies are beams.
+    /// The output that changes most where these bodies are beams: at a tenth of the tolerance, since errors of time of two runs
+    /// would be taken for shear.
     fn sheared(&mut self, choice: &Choice, beams: &[usize]) -> Option<(String, f64)> {
         let mut same = choice.clone();
+        same.tolerance = tenth(choice.tolerance);
         for beam in beams {
             let Beam { cable, fewest, .. } = self.beams[*beam];
             same.elements[cable] = same.elements[cable].max(fewest);

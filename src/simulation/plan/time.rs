@@ -258,7 +258,7 @@ fn doubt(tolerance: f64) -> f64 {
 }
 
 /// A tenth of a tolerance, as a power of ten where it is one.
-fn tenth(tolerance: f64) -> f64 {
+pub(super) fn tenth(tolerance: f64) -> f64 {
     match tolerance == decade(tolerance) {
         true => decade(0.1 * tolerance),
         false => 0.1 * tolerance,
