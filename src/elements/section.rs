@@ -1,5 +1,8 @@
 //! What the sections of a rod or of a beam add to their line, seen alike: through the coordinates of a beam, of which a rod has fewer.
 //! A rod's section turns about the tangent alone; its first component of spins, moments and internal coordinates is all that there is.
+//!
+//! Source: J. C. Simo, L. Vu-Quoc, On the dynamics in space of rods undergoing large motions, Comput. Methods Appl. Mech. Eng. 66 (1988)
+//! 125-161 (rotary inertia of sections along their own axes).
 
 use nalgebra::Matrix3;
 

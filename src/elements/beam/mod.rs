@@ -40,13 +40,12 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
-use crate::elements::Along;
 use crate::elements::line::{sample, times};
 use crate::elements::rod::geometry::{Geometry, POINTS};
 use crate::elements::rod::vectors::{Vector, plus};
 use crate::elements::rod::{ROUNDOFF, read};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{GAUSS_5, Point};
+use crate::math::quadrature::Point;
 use kernel::Kernel;
 
 pub use crate::elements::rod::Tangent;
@@ -302,23 +301,6 @@ fn whole(mut matrix: Matrix) -> Matrix {
         }
     }
     matrix
-}
-
-/// Inertia of an element of this length (m) against angular velocities of its ends and the rates of internal twist and leans between
-/// them, from density times second moments of area along it (kg m) as a symmetric matrix over the axes of the section, kg m^2:
-/// angular velocities along the axes are interpolated as twist and lean are.
-pub fn section_inertia(length: f64, density: &[[Along; 3]; 3]) -> [[f64; 9]; 9] {
-    let mut inertia = [[0.0; 9]; 9];
-    for Point { at, weight } in GAUSS_5 {
-        let shapes = [1.0 - at, 4.0 * at * (1.0 - at), at];
-        for (r, row) in inertia.iter_mut().enumerate() {
-            for (c, entry) in row.iter_mut().enumerate() {
-                let there = weight * length * density[r % 3][c % 3].at(at);
-                *entry += shapes[r / 3] * shapes[c / 3] * there;
-            }
-        }
-    }
-    inertia
 }
 
 impl Pack {

@@ -42,10 +42,9 @@ pub(in crate::elements) mod tangent;
 pub(in crate::elements) mod tests;
 pub(in crate::elements) mod vectors;
 
-use crate::elements::Along;
 use crate::elements::line::{dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
-use crate::math::quadrature::{GAUSS_5, Point};
+use crate::math::quadrature::Point;
 use geometry::{Geometry, POINTS};
 use kernel::Kernel;
 use vectors::{cross, plus, unit};
@@ -303,21 +302,6 @@ impl Rod {
             }
         }
     }
-}
-
-/// Inertia of an element of this length (m) against spins at its ends and the rate of internal twist between them, from density times
-/// polar second moment of area along it (kg m), kg m^2: spins are interpolated as the twist is.
-pub fn spin_inertia(length: f64, density: &Along) -> [[f64; 3]; 3] {
-    let mut inertia = [[0.0; 3]; 3];
-    for Point { at, weight } in GAUSS_5 {
-        let shapes = [1.0 - at, 4.0 * at * (1.0 - at), at];
-        for (row, a) in inertia.iter_mut().zip(shapes) {
-            for (entry, b) in row.iter_mut().zip(shapes) {
-                *entry += a * b * (weight * length * density.at(at));
-            }
-        }
-    }
-    inertia
 }
 
 impl Pack {

@@ -158,13 +158,13 @@ impl<const D: usize> Builder<'_, D> {
             };
             let numbers = numbers_along(rod, s);
             let time = rod.material.damping_time;
+            let inertia = spin_inertia(length, |xi| rod.rotary_inertia_of(&numbers(xi)));
             if rod.is_beam() {
                 let parameters = beam::Parameters {
                     length,
                     stiffness: GAUSS_3.map(|p| rod.whole_stiffness(&numbers(p.at)).into()),
                     damping_times: [axial_time, time, time, time, time, time],
                 };
-                let inertia = spin_inertia(length, |xi| rod.rotary_inertia_of(&numbers(xi)));
                 let beam = Beam::new(parameters, &shape);
                 return (Section::Beam(Box::new(beam)), inertia);
             }
@@ -173,10 +173,6 @@ impl<const D: usize> Builder<'_, D> {
                 stiffness: GAUSS_3.map(|point| rod.stiffness(&numbers(point.at)).into()),
                 damping_times: [time; 3],
             };
-            let polar = |xi: f64| rod.rotary_inertia_of(&numbers(xi))[(0, 0)];
-            let inertia = rod::spin_inertia(length, &Along::through(polar));
-            let about_tangent = |mass| [[mass, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-            let inertia = inertia.map(|row| row.map(about_tangent));
             let rod = RodElement::new(parameters, &rod_at(&shape));
             (Section::Rod(Box::new(rod)), inertia)
         });
