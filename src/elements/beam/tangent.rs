@@ -273,8 +273,8 @@ fn by_sections<N: Real>(ends: &[End<N>; 2], matrix: &mut Matrix<N>) {
             let (by_u, moment) = end.load(row[s], &[row[s + 1], row[s + 2]]);
             for d in 0..3 {
                 row[u + d] += by_u[d];
-                row[s + d] = moment[d];
             }
+            row[s..s + 3].copy_from_slice(&moment);
         }
         // The end with itself: columns, then rows.
         let zero = ends[0].size.constant(0.0);

@@ -282,7 +282,7 @@ fn damping_takes_out_what_its_force_does() {
 fn rigid(at: &At<f64>, spin: V, speed: V) -> Rates<f64> {
     let turned = |k: usize| {
         let v = spin.cross(&V::from(at.e[k]));
-        if k % 2 == 0 { v + speed } else { v }
+        if k.is_multiple_of(2) { v + speed } else { v }
     };
     Rates {
         e: std::array::from_fn(|k| turned(k).into()),
