@@ -32,12 +32,14 @@ const REFUSED: [&str; 11] = [
     "initial.loads{bushing}",
 ];
 /// Keys that are refused where one of them alone is changed.
-const TOGETHER: [&str; 5] = [
+const TOGETHER: [&str; 7] = [
     "bodies{rigid}.orientation.matrix[",
     "bodies{beam}.section.stiffness[",
     "bodies{beam}.section.inertia[",
-    "bodies{beam}.stations[].section.stiffness[",
-    "bodies{beam}.stations[].section.inertia[",
+    "bodies{beam}.section.about[",
+    "bodies{beam}.stations.section.stiffness[",
+    "bodies{beam}.stations.section.inertia[",
+    "bodies{beam}.stations.section.about[",
 ];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body

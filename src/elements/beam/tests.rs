@@ -450,17 +450,24 @@ fn a_straight_beam_has_its_strains() {
 }
 
 #[test]
-fn inertia_is_that_of_spins_interpolated_with_an_internal_parabola() {
+fn inertia_is_that_of_twists_interpolated_and_of_turns_at_the_ends() {
     // Of an even density, and of one that grows in proportion to the way along the element.
     let even = [[20.0, 20.0, 10.0], [20.0, 32.0, 20.0], [10.0, 20.0, 20.0]];
     let rising = [[5.0, 8.0, 5.0], [8.0, 16.0, 12.0], [5.0, 12.0, 15.0]];
-    let moments = [[3.0, 0.1, 0.2], [0.1, 1.0, 0.3], [0.2, 0.3, 2.0]];
-    for (shapes, slope) in [(even, 0.0), (rising, 1.0)] {
+    let at_ends = [[30.0, 32.0, 30.0], [10.0, 16.0, 20.0]];
+    let moments = [[3.0, 0.0, 0.0], [0.0, 1.0, 0.3], [0.0, 0.3, 2.0]];
+    for ((shapes, slope), ends) in [(even, 0.0), (rising, 1.0)].into_iter().zip(at_ends) {
         let density = |xi: f64| Matrix3::from(moments) * (1.0 - slope + slope * xi);
         let inertia = spin_inertia(0.7, density);
         for r in 0..9 {
             for c in 0..9 {
-                let wanted = 0.7 * moments[r % 3][c % 3] * shapes[r / 3][c / 3] / 60.0;
+                let (i, j) = (r / 3, c / 3);
+                let shape = match (r % 3, i == j) {
+                    (0, _) => shapes[i][j],
+                    (_, true) => ends[i],
+                    _ => 0.0,
+                };
+                let wanted = 0.7 * moments[r % 3][c % 3] * shape / 60.0;
                 let found = inertia[r / 3][c / 3][r % 3][c % 3];
                 assert!((found - wanted).abs() < 1e-15, "{r} {c}");
             }

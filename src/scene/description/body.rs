@@ -290,6 +290,13 @@ impl CableBody {
         all.any(|section| section.coupling.is_some() || section.stiffness.is_some())
     }
 
+    /// Whether its sections are given as whole matrices.
+    pub fn is_given(&self) -> bool {
+        let at_stations = self.stations.iter().map(|station| &station.section);
+        let mut all = at_stations.chain([&self.section]);
+        all.any(|section| section.stiffness.is_some())
+    }
+
     /// Numbers of its section, and how it is twisted without stress (rad), over a part without stations inside that this
     /// material coordinate is in.
     pub fn sections_about(&self, inside: f64) -> impl Fn(f64) -> (SectionNumbers, f64) {

@@ -41,7 +41,8 @@ pub struct Section {
     /// order axial force, shear along the first axis, along the second, torque, moment about the first axis, about the second; N, N m, N m^2.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<[[f64; 6]; 6]>,
-    /// Of beams with `stiffness`: mass and inertia per length in the same order: kg/m, kg, kg m. The centre of mass is on the line.
+    /// Of beams with `stiffness`: mass and inertia per length in the same order: kg/m, kg, kg m. The centre of mass is on the line, and
+    /// the section lies across it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inertia: Option<[[f64; 6]; 6]>,
     /// Where both are given about: coordinates along the first and the second axis from the line of the body, m.

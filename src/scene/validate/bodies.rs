@@ -12,7 +12,7 @@ use super::checks::{
 use crate::math::expression::Expression;
 use crate::scene::resolved::{Mass, Place, Resolved};
 use crate::scene::{
-    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Section, Solid, Vector,
+    Body, CableBody, Error, Inertia, InitialMotion, Model, RigidBody, Solid, Vector,
 };
 
 impl Body {
@@ -97,11 +97,6 @@ impl CableBody {
     /// Moduli and density, but where the section has them.
     fn validate_material(&self, path: &str) -> Result<(), Error> {
         let material = &self.material;
-        let is_given = |section: &Section| section.stiffness.is_some();
-        let at_stations = self
-            .stations
-            .iter()
-            .any(|station| is_given(&station.section));
         let values = [
             (
                 "material.youngs_modulus",
@@ -119,7 +114,7 @@ impl CableBody {
         ];
         for (key, unit, value, is_needed) in values {
             let place = format!("{path}.{key}");
-            if at_stations || is_given(&self.section) {
+            if self.is_given() {
                 if value.is_some() {
                     let wanted = "nothing beside `stiffness` and `inertia` of the section";
                     return Err(expected(&place, wanted, "a value"));

@@ -269,6 +269,7 @@ impl Section {
         let beside = [
             ("shape", self.shape.is_some()),
             ("area", self.area.is_some()),
+            ("second_moment", self.second_moment.is_some()),
             ("second_moments", self.second_moments.is_some()),
             ("torsion_constant", self.torsion_constant.is_some()),
             ("coupling", self.coupling.is_some()),
@@ -319,6 +320,13 @@ impl Section {
                 wanted,
                 format!("it at {center:?} m"),
             ));
+        }
+        for axis in [4, 5] {
+            if inertia[(3, axis)].abs() > 1e-9 * inertia[(3, 3)] {
+                let wanted = "0 of a section that lies across the line";
+                let place = at(&format!("inertia[3][{axis}]"));
+                return Err(expected(&place, wanted, inertia[(3, axis)]));
+            }
         }
         let plain = inertia - Matrix6::from_diagonal_element(mass);
         if plain.fixed_view::<3, 3>(0, 0).norm() > 1e-9 * mass {

@@ -87,7 +87,7 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
     } else if body.is_rod() {
         add_numbers(list, cable);
     }
-    if body.section.stiffness.is_some() {
+    if body.is_given() {
         // Moduli and density are in the matrices of the section.
         rows.retain(|(.., parameter, _)| matches!(parameter, DampingTime(_) | Elements(_)));
     }
@@ -353,20 +353,18 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
             scene.loads[i].damping = Some(value);
         }
         BushingStiffness(i, axis) => {
-            let sizes = &mut scene.loads[i].translational_stiffness;
-            sizes.get_or_insert_default()[axis] = value;
+            scene.loads[i]
+                .translational_stiffness
+                .get_or_insert_default()[axis] = value;
         }
         BushingDamping(i, axis) => {
-            let sizes = &mut scene.loads[i].translational_damping;
-            sizes.get_or_insert_default()[axis] = value;
+            scene.loads[i].translational_damping.get_or_insert_default()[axis] = value;
         }
         BushingTurningStiffness(i, axis) => {
-            let sizes = &mut scene.loads[i].rotational_stiffness;
-            sizes.get_or_insert_default()[axis] = value;
+            scene.loads[i].rotational_stiffness.get_or_insert_default()[axis] = value;
         }
         BushingTurningDamping(i, axis) => {
-            let sizes = &mut scene.loads[i].rotational_damping;
-            sizes.get_or_insert_default()[axis] = value;
+            scene.loads[i].rotational_damping.get_or_insert_default()[axis] = value;
         }
         CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
         CouplingDamping(i) => scene.ports[i].damping = Some(value),

@@ -91,7 +91,10 @@ pub(super) fn lowest<const D: usize>(
         match split(&found, count, modes, distance) {
             None => {}
             Some((at, number)) => match below(system, work, at) {
-                Some(present) if present == number => return refined(linear, &krylov),
+                Some(present) if present == number => {
+                    linear.holds(krylov.basis()).then_some(()).ok_or(missing)?;
+                    return refined(linear, &krylov);
+                }
                 // A multiple eigenvalue has so far been seen less often than it is there.
                 Some(present) if present > number => krylov.start(),
                 _ => return Err(missing),
@@ -287,7 +290,10 @@ pub(super) fn slowest<const D: usize>(
         let roots = |s: &Complex<f64>| if s.im > 0.0 { 2 } else { 1 };
         let number: usize = found[..number].iter().map(roots).sum();
         match present(linear, radius, number) {
-            Some(present) if present == number => return Ok(improved(linear, &krylov, found)),
+            Some(present) if present == number => {
+                linear.holds(krylov.basis()).then_some(()).ok_or(missing)?;
+                return Ok(improved(linear, &krylov, found));
+            }
             Some(present) if present > number => krylov.start(),
             _ => return Err(missing),
         }

@@ -127,7 +127,12 @@ pub fn natural_frequencies<const D: usize>(
             linear if is_small(linear, count) => {
                 symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
             }
-            linear if linear.is_symmetric => iteration::lowest(system, work, linear, count)?,
+            linear if linear.is_symmetric => match iteration::lowest(system, work, linear, count) {
+                Err(NotFound::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
+                    symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
+                }
+                found => found?,
+            },
             linear => {
                 let found = iteration::slowest(system, work, linear, count)?;
                 let mut squares: Vec<f64> = found.iter().map(|s| -(s * s).re).collect();

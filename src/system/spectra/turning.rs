@@ -7,8 +7,12 @@ use crate::body::{Node, add_node, map_node, no_node};
 use crate::math::jet::{Jet, moving};
 use crate::math::row_space::RowSpace;
 use crate::math::space::{Vector, components, vector};
+use crate::math::vector::{dot, norm};
 use crate::system::joints::View;
 use crate::system::{System, Work};
+
+/// Part of a unit displacement against a constraint up to which it is kept.
+const HELD: f64 = 1e-6;
 
 impl<const D: usize> Linearization<'_, D> {
     /// Orthonormal directions in `q` that constraints hold, in dense rows: memory grows with coordinates times constraints, work with
@@ -21,6 +25,21 @@ impl<const D: usize> Linearization<'_, D> {
         }
         space.factor(0.0);
         space
+    }
+
+    /// Whether displacements in `q`, those that vectors begin with, keep the constraints: where solves lose digits they do not, and
+    /// what is found with them are frequencies of another system.
+    pub fn holds(&self, basis: &[Vec<f64>]) -> bool {
+        let n = self.elimination.coordinates();
+        let mut row = vec![0.0; n];
+        self.independent.iter().all(|index| {
+            row.fill(0.0);
+            self.normals.add(*index, 1.0, &mut row);
+            let size = norm(&row);
+            basis
+                .iter()
+                .all(|column| dot(&row, &column[..n]).abs() <= HELD * size)
+        })
     }
 }
 

@@ -14,7 +14,7 @@ pub fn all() -> Vec<Specimen> {
     let mut all: Vec<Specimen> = rods.map(as_beams).collect();
     all.extend([false, true].map(sheared));
     all.extend([false, true].map(whole));
-    all.extend([turning(), turning_matrices()]);
+    all.extend([turning(), turning_matrices(), damped()]);
     all
 }
 
@@ -54,7 +54,7 @@ const SHEAR: f64 = 1.2e6;
 const DENSITY: f64 = 700.0;
 const LENGTH: f64 = 0.4;
 /// So small that deflections are linear in them, to 1e-7.
-const FORCES: [f64; 2] = [3e-4, -2e-4];
+const FORCES: [f64; 2] = [3e-2, -2e-2];
 
 /// A beam along x with the first axis along y, clamped.
 fn body(name: &str, place: f64) -> Value {
@@ -179,9 +179,8 @@ fn sheared(is_tapered: bool) -> Specimen {
     };
     let own = [0.5, 0.9];
     let names = ["rectangle", "ellipse", "circle", "tube", "own", "numbers"];
-    let mut bodies: Vec<Value> = (0..4)
-        .map(|k| place(names[k], k, &|s| section(k, s, None)))
-        .collect();
+    let by_shape = (0..4).map(|k| place(names[k], k, &|s| section(k, s, None)));
+    let mut bodies: Vec<Value> = by_shape.collect();
     bodies.push(place("own", 4, &|s| section(0, s, Some(own))));
     bodies.push(place("numbers", 5, &numbers));
     let title = if is_tapered { "tapered shear" } else { "shear" };
@@ -202,10 +201,11 @@ fn sheared(is_tapered: bool) -> Specimen {
         for axis in 0..2 {
             let value = deflection(FORCES[axis], |s| of(s, axis)[0], |s| of(s, axis)[1]);
             let place = if axis == 0 { k as f64 } else { 0.0 };
-            // What counts beside the place: to 1e-5 of the deflection.
-            let within = 1e-5 * value.abs() / (place + value).abs();
-            let name = format!("{name}.tip.position[{}]", axis + 2);
-            specimen = specimen.claim_within(&name, "m", place + value, within.max(1e-9));
+            let (name, within) = (
+                format!("{name}.tip.position[{}]", axis + 2),
+                1e-4 * value.abs(),
+            );
+            specimen = specimen.claim_within(&name, "m", place + value, within);
         }
     }
     specimen
@@ -223,14 +223,10 @@ const WHOLE: [[f64; 6]; 6] = [
 const ABOUT: [f64; 2] = [0.02, -0.03];
 
 /// Inertia per length about that point: mass `m` with the centre on the line, at minus the point from there, and moments of inertia
-/// about it with all products.
+/// about it with the product of a section across the line.
 fn inertia_about() -> ([[f64; 6]; 6], f64, [[f64; 3]; 3]) {
     let mass = 5.0;
-    let own = [
-        [0.05, 0.004, -0.006],
-        [0.004, 0.03, 0.005],
-        [-0.006, 0.005, 0.02],
-    ];
+    let own = [[0.05, 0.0, 0.0], [0.0, 0.03, 0.005], [0.0, 0.005, 0.02]];
     let [y, z] = ABOUT.map(|way| -way);
     // Of velocities `v + w x c`, momentum and moment of momentum, `c = (0, y, z)`.
     let mut rows = [[0.0; 6]; 6];
@@ -302,15 +298,15 @@ fn whole(is_at_stations: bool) -> Specimen {
         .iter()
         .enumerate()
     {
-        specimen = specimen.claim_within(name, "m", way[k + 1], 2e-4);
+        specimen = specimen.claim_within(name, "m", way[k + 1], 1e-3 * way.norm());
     }
-    let within = 2e-4 * way.x.abs() / LENGTH;
+    let within = 1e-3 * way.norm();
     specimen = specimen.claim_within("beam.tip.position[1]", "m", LENGTH + way.x, within);
     // e2.z, -e1.z and e1.y of small rotations.
     let angles = [("[8]", turn.x), ("[7]", -turn.y), ("[4]", turn.z)];
     for (place, angle) in angles {
         let name = format!("beam.tip.orientation{place}");
-        specimen = specimen.claim_within(&name, "", angle, 1e-3);
+        specimen = specimen.claim_within(&name, "", angle, 1e-3 * turn.norm());
     }
     specimen
 }
@@ -359,4 +355,25 @@ fn spun(
     let found = momentum(&spin);
     let specimen = Specimen::new(title, scene).claim("energy.kinetic", "J", 0.5 * spin.dot(&found));
     vector(specimen, "angular_momentum", "N.m.s", found)
+}
+
+/// A clamped beam that is stiff but for torsion turns at `w = pi c / (2 L)`, `c^2 = G J / (rho (I1 + I2))`; with damping in proportion to
+/// stiffness that decays at `tau w^2 / 2`.
+fn damped() -> Specimen {
+    let (time, moment, torsion) = (0.02, 1e-3, 1e-6);
+    let mut made = body("beam", 0.0);
+    made["material"]["damping_time"] = json!(time);
+    made["section"] = json!({"area": 0.01, "second_moments": [moment, moment], "torsion_constant": torsion,
+                             "shear_factors": [30.0, 30.0]});
+    let mut scene = clamped(&["beam"], vec![made], |_| Vec::new());
+    scene["outputs"] = json!([{"kind": "eigenvalue", "count": 1}]);
+    let speed = (SHEAR * torsion / (DENSITY * 2.0 * moment)).sqrt();
+    let frequency = 0.5 * PI * speed / LENGTH;
+    let decay = 0.5 * time * frequency * frequency;
+    Specimen::new("damped beam", scene).claim_within(
+        "eigenvalue.decay_rate[1]",
+        "1/s",
+        decay,
+        1e-4 * decay,
+    )
 }

@@ -18,6 +18,9 @@ pub fn all() -> Vec<Specimen> {
         turned("rod", false),
         turned("beam", true),
         set(),
+        tabled(),
+        started(),
+        let_go(),
     ]
 }
 
@@ -194,4 +197,70 @@ fn set() -> Specimen {
         specimen = specimen.claim_within(&of, "N.m", moment[k], 1e-11);
     }
     specimen
+}
+
+/// Along `y`, where moments in global axes and in those of sections differ, and another that nothing acts on.
+fn upright(rest: Value) -> Value {
+    let rod = |name: &str, place: f64| {
+        json!({"name": name, "element": "rod", "elements": 4,
+            "material": {"youngs_modulus": YOUNG, "shear_modulus": SHEAR, "density": 100.0},
+            "section": {"area": 1e-3, "second_moments": MOMENTS, "torsion_constant": TORSION}, "axis": [0.0, 0.0, 1.0],
+            "shape": {"line": {"from": [place, 0.0, 0.0], "to": [place, LENGTH, 0.0]}}, "markers": {"root": 0.0, "tip": 1.0}})
+    };
+    let wall = |name: &str| json!({"name": format!("wall_{name}"), "kind": "weld", "markers": ["ground", format!("{name}.root")]});
+    let mut scene = json!({"name": "upright", "dimension": 3, "bodies": [rod("rod", 0.0), rod("other", 1.0)],
+        "joints": [wall("rod"), wall("other")], "initial": "static_equilibrium", "accuracy": {"relative_tolerance": 1e-9},
+        "outputs": [{"kind": "torque", "marker": "rod.root"}, {"kind": "torque", "marker": "other.root"},
+                    {"kind": "orientation", "marker": "rod.tip"}]});
+    for (key, value) in rest.as_object().into_iter().flatten() {
+        scene[key] = value.clone();
+    }
+    scene
+}
+
+/// A torque along the tangent by a table: `m L` at the wall.
+fn tabled() -> Specimen {
+    let value = json!([{"table": [[0.0, 0.01], [2.0, 0.03]]}, 0.0, 0.0]);
+    let scene = upright(
+        json!({"loads": [{"name": "drag", "kind": "distributed_moment", "body": "rod",
+        "follower": true, "value": value}]}),
+    );
+    Specimen::new("tabled along", scene)
+        .from(0.5)
+        .claim("rod.root.torque", "N.m", 0.015 * LENGTH)
+        .claim("other.root.torque", "N.m", 0.0)
+}
+
+/// The same as an input that starts at a value.
+fn started() -> Specimen {
+    let scene = upright(
+        json!({"inputs": [{"kind": "distributed_moment", "body": "rod", "follower": true,
+        "start": [0.02, 0.0, 0.0]}]}),
+    );
+    Specimen::new("started along", scene)
+        .claim("rod.root.torque", "N.m", 0.02 * LENGTH)
+        .claim("other.root.torque", "N.m", 0.0)
+}
+
+/// Moments that hold only before the start: number, table and expression in `s` add up, and the end turns by the integral of `m(s) s` times
+/// `L^2 / (G J)`.
+fn let_go() -> Specimen {
+    let load = |name: &str, value: Value| {
+        json!({"name": name, "kind": "distributed_moment", "body": "rod", "follower": true,
+               "value": [value, 0.0, 0.0]})
+    };
+    let loads = [
+        load("plain", json!(0.002)),
+        load("table", json!({"table": [[0.0, 0.001], [2.0, 0.003]]})),
+        load("along", json!("0.006*s")),
+    ];
+    let scene = upright(json!({"initial": {"state": "static_equilibrium", "loads": loads}}));
+    // Twist at the end: the integral of m(s) s.
+    let density = 0.5 * (0.002 + 0.0015) + 0.006 / 3.0;
+    let angle = density * LENGTH * LENGTH / (SHEAR * TORSION);
+    // The first axis is `z`, and turns about `y` towards `x`.
+    Specimen::new("let go along", scene)
+        .from(0.5)
+        .claim_within("rod.tip.orientation[2]", "", angle.sin(), 1e-8)
+        .claim_within("rod.tip.orientation[8]", "", angle.cos(), 1e-8)
 }
