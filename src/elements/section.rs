@@ -17,8 +17,8 @@ pub type SpinInertia = [[[[f64; 3]; 3]; 3]; 3];
 
 /// The same of an element of this length (m) from the rotary inertia of its sections along it, kg m. Spins about the line are interpolated
 /// as the twist of a rod is. Turns of sections across it have the sums over the element at its ends, by the trapezoidal rule: between the
-/// ends sections turn with the line, of which the internal leans are a part only, and interpolating with these is of order 2; the rule's
-/// own error vanishes on even meshes, as moments or turns do at ends.
+/// ends sections turn with the line, of which the internal leans are a part only, and interpolating with these errs by much more
+/// (docs/decisions/0050-beams-lean-on-rods.md).
 pub fn spin_inertia(length: f64, section: impl Fn(f64) -> Matrix3<f64>) -> SpinInertia {
     let mut inertia = SpinInertia::default();
     for Point { at, weight } in GAUSS_5 {
