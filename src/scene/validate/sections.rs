@@ -59,7 +59,14 @@ impl CableBody {
                 return Err(expected(&format!("{place}.twist"), wanted, station.twist));
             }
             (station.section).validate(&format!("{place}.section"), dimension, self.sections)?;
-            if station.section.stiffness.is_some() != self.stations[0].section.stiffness.is_some() {
+            let says = |said: &dyn Fn(&Section) -> bool| {
+                said(&station.section) == said(&self.stations[0].section)
+            };
+            if !says(&|section| section.shear_factors.is_some()) {
+                let wanted = "`shear_factors` at all stations or at none";
+                return Err(expected(&format!("{place}.section"), wanted, "another way"));
+            }
+            if !says(&|section| section.stiffness.is_some()) {
                 let wanted = "`stiffness` and `inertia` at all stations or at none";
                 return Err(expected(&format!("{place}.section"), wanted, "another way"));
             }

@@ -92,8 +92,7 @@ pub(super) fn lowest<const D: usize>(
             None => {}
             Some((at, number)) => match below(system, work, at) {
                 Some(present) if present == number => {
-                    linear.holds(krylov.basis()).then_some(()).ok_or(missing)?;
-                    return refined(linear, &krylov);
+                    return refined(linear, &krylov).unwrap_or(Err(missing));
                 }
                 // A multiple eigenvalue has so far been seen less often than it is there.
                 Some(present) if present > number => krylov.start(),
@@ -104,12 +103,20 @@ pub(super) fn lowest<const D: usize>(
     Err(missing)
 }
 
-/// Eigenvalues of `K` in the whole basis, free of the roundoff of its sparse form; what is roundoff still is zero.
+/// Eigenvalues of `K` in the whole basis, free of the roundoff of its sparse form; what is roundoff still is zero. Nothing where the basis
+/// leaves the constraints.
 fn refined<const D: usize>(
     linear: &Linearization<'_, D>,
     krylov: &Krylov,
-) -> Result<Vec<f64>, NotFound> {
+) -> Option<Result<Vec<f64>, NotFound>> {
     let basis = krylov.basis();
+    linear.holds(basis).then(|| symmetric_in(linear, basis))
+}
+
+fn symmetric_in<const D: usize>(
+    linear: &Linearization<'_, D>,
+    basis: &[Vec<f64>],
+) -> Result<Vec<f64>, NotFound> {
     let [stiffness, _] = linear.project(basis);
     let symmetric = (&stiffness + stiffness.transpose()) * 0.5;
     let eigen = symmetric.try_symmetric_eigen(f64::EPSILON, 100 * basis.len());
@@ -238,11 +245,8 @@ pub(super) fn slowest<const D: usize>(
     let rate = scale(system, work, count.min(linear.modes()))?.sqrt();
     let shift = 0.3 * rate;
     let mut shifted = linear.shifted(shift).ok_or(missing)?;
-    let (n, m) = (
-        linear.elimination.coordinates(),
-        linear.elimination.scratch(),
-    );
-    let (mut y, mut product) = (vec![0.0; m], vec![0.0; m]);
+    let n = linear.elimination.coordinates();
+    let (mut y, mut product) = (vec![0.0; n], vec![0.0; n]);
     let mut damped = vec![0.0; n];
     // Displacements, then velocities over `rate`: x = -(s^2 I + s R + K)^-1 (b + R a + s a), v = a + s x.
     let mut apply = |z: &mut [f64]| {
@@ -291,8 +295,7 @@ pub(super) fn slowest<const D: usize>(
         let number: usize = found[..number].iter().map(roots).sum();
         match present(linear, radius, number) {
             Some(present) if present == number => {
-                linear.holds(krylov.basis()).then_some(()).ok_or(missing)?;
-                return Ok(improved(linear, &krylov, found));
+                return surely(linear, &krylov, found).ok_or(missing);
             }
             Some(present) if present > number => krylov.start(),
             _ => return Err(missing),
@@ -327,6 +330,15 @@ fn surely_slowest(ritz: &[Ritz], shift: f64) -> (Vec<Complex<f64>>, Option<f64>)
         .map_or(f64::INFINITY, |ritz| ritz.value.inv().norm());
     found.retain(|s| s.norm() + shift < reach || reach.is_infinite());
     (found, reach.is_finite().then_some(reach - shift))
+}
+
+/// [`improved`], where displacements found keep the constraints.
+fn surely<const D: usize>(
+    linear: &Linearization<'_, D>,
+    krylov: &Krylov,
+    found: Vec<Complex<f64>>,
+) -> Option<Vec<Complex<f64>>> {
+    (linear.holds(krylov.basis())).then(|| improved(linear, krylov, found))
 }
 
 /// The values of the equations in the span of all displacements found, nearest to those found so far: free of the

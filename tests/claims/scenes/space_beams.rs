@@ -14,7 +14,8 @@ pub fn all() -> Vec<Specimen> {
     let mut all: Vec<Specimen> = rods.map(as_beams).collect();
     all.extend([false, true].map(sheared));
     all.extend([false, true].map(whole));
-    all.extend([turning(), turning_matrices(), damped()]);
+    all.extend([false, true].map(turning_matrices));
+    all.extend([turning(), damped()]);
     all
 }
 
@@ -58,7 +59,7 @@ const FORCES: [f64; 2] = [3e-2, -2e-2];
 
 /// A beam along x with the first axis along y, clamped.
 fn body(name: &str, place: f64) -> Value {
-    json!({"name": name, "element": "beam", "elements": 16,
+    json!({"name": name, "element": "beam", "elements": 16, "axial": "waves",
            "material": {"youngs_modulus": YOUNG, "shear_modulus": SHEAR, "density": DENSITY},
            "axis": [0.0, 1.0, 0.0], "shape": {"line": {"from": [0.0, place, 0.0], "to": [LENGTH, place, 0.0]}},
            "markers": {"root": 0.0, "tip": 1.0}})
@@ -139,6 +140,12 @@ fn cowper(shape: &str, [a, b]: [f64; 2]) -> ([f64; 2], f64, [f64; 2]) {
     }
 }
 
+/// A section by numbers, times this.
+fn numbers(t: f64) -> Value {
+    json!({"area": 0.01 * t, "second_moments": [9e-6 * t, 6e-6 * t], "torsion_constant": 1e-5,
+           "shear_factors": [0.7 * t, 0.4 * t]})
+}
+
 /// Short cantilevers bend and shear: shapes with Cowper's factors and with given ones, and numbers; uniform, or along stations.
 fn sheared(is_tapered: bool) -> Specimen {
     let shapes = [
@@ -172,11 +179,7 @@ fn sheared(is_tapered: bool) -> Specimen {
         }
         section
     };
-    let numbers = |s: f64| {
-        let t = taper(s);
-        json!({"area": 0.01 * t, "second_moments": [9e-6 * t, 6e-6 * t], "torsion_constant": 1e-5,
-               "shear_factors": [0.7 * t, 0.4 * t]})
-    };
+    let numbers = |s: f64| numbers(taper(s));
     let own = [0.5, 0.9];
     let names = ["rectangle", "ellipse", "circle", "tube", "own", "numbers"];
     let by_shape = (0..4).map(|k| place(names[k], k, &|s| section(k, s, None)));
@@ -213,12 +216,12 @@ fn sheared(is_tapered: bool) -> Specimen {
 
 /// Stiffness about a point of the section, and that point.
 const WHOLE: [[f64; 6]; 6] = [
-    [3.0e4, 1.0e2, -2.0e2, 3.0e1, 2.0e1, -4.0e1],
-    [1.0e2, 8.0e3, 3.0e2, 2.0e1, 1.0e1, 3.0e1],
-    [-2.0e2, 3.0e2, 5.0e3, -1.0e1, 4.0e1, 2.0e1],
-    [3.0e1, 2.0e1, -1.0e1, 2.0e1, 3.0e0, -2.0e0],
-    [2.0e1, 1.0e1, 4.0e1, 3.0e0, 3.0e1, 1.0e0],
-    [-4.0e1, 3.0e1, 2.0e1, -2.0e0, 1.0e0, 1.6e1],
+    [2.0e4, 2.5e3, -2.0e3, 4.0e2, 5.0e2, -3.0e2],
+    [2.5e3, 8.0e3, 1.2e3, -2.5e2, 3.0e2, 2.0e2],
+    [-2.0e3, 1.2e3, 5.0e3, 2.0e2, -2.4e2, 1.8e2],
+    [4.0e2, -2.5e2, 2.0e2, 2.0e2, 5.0e1, -3.0e1],
+    [5.0e2, 3.0e2, -2.4e2, 5.0e1, 3.0e2, 4.0e1],
+    [-3.0e2, 2.0e2, 1.8e2, -3.0e1, 4.0e1, 1.6e2],
 ];
 const ABOUT: [f64; 2] = [0.02, -0.03];
 
@@ -247,19 +250,24 @@ fn matrices() -> Value {
     json!({"stiffness": WHOLE, "inertia": inertia_about().0, "about": ABOUT})
 }
 
+fn place_matrices(is_at_stations: bool, made: &mut Value) {
+    match is_at_stations {
+        true => {
+            let stations = [0.0, 1.0].map(|at| json!({"at": at, "section": matrices()}));
+            made["stations"] = json!(stations);
+        }
+        false => made["section"] = matrices(),
+    }
+}
+
 /// Forces and a moment on the tip of a beam whose section is a whole matrix about another line: displacements and rotations are integrals of
 /// strains, found about that line.
 fn whole(is_at_stations: bool) -> Specimen {
-    let force = Vector3::new(4e-3, 3e-3, -2e-3);
-    let moment = Vector3::new(2e-4, -1e-4, 3e-4);
+    let force = Vector3::new(5e-2, 4e-2, -3e-2);
+    let moment = Vector3::new(8e-3, -6e-3, 7e-3);
     let mut made = body("beam", 0.0);
     made["material"] = json!({});
-    if is_at_stations {
-        made["stations"] =
-            json!([{"at": 0.0, "section": matrices()}, {"at": 1.0, "section": matrices()}]);
-    } else {
-        made["section"] = matrices();
-    }
+    place_matrices(is_at_stations, &mut made);
     let load = |_: &str| {
         vec![
             json!({"name": "pull", "kind": "force", "marker": "beam.tip", "value": array(force)}),
@@ -298,15 +306,15 @@ fn whole(is_at_stations: bool) -> Specimen {
         .iter()
         .enumerate()
     {
-        specimen = specimen.claim_within(name, "m", way[k + 1], 1e-3 * way.norm());
+        specimen = specimen.claim_within(name, "m", way[k + 1], 1e-4 * way.norm());
     }
-    let within = 1e-3 * way.norm();
+    let within = 1e-4 * way.norm();
     specimen = specimen.claim_within("beam.tip.position[1]", "m", LENGTH + way.x, within);
     // e2.z, -e1.z and e1.y of small rotations.
     let angles = [("[8]", turn.x), ("[7]", -turn.y), ("[4]", turn.z)];
     for (place, angle) in angles {
         let name = format!("beam.tip.orientation{place}");
-        specimen = specimen.claim_within(&name, "", angle, 1e-3 * turn.norm());
+        specimen = specimen.claim_within(&name, "", angle, 1e-4 * turn.norm());
     }
     specimen
 }
@@ -328,12 +336,17 @@ fn turning() -> Specimen {
 }
 
 /// The same with a whole matrix.
-fn turning_matrices() -> Specimen {
+fn turning_matrices(is_at_stations: bool) -> Specimen {
     let mut made = body("beam", 0.0);
-    (made["material"], made["section"]) = (json!({}), matrices());
+    made["material"] = json!({});
+    place_matrices(is_at_stations, &mut made);
     let (_, mass, own) = inertia_about();
     let line = mass * LENGTH.powi(3) / 12.0;
-    spun("turning whole matrices", made, |w| {
+    let title = match is_at_stations {
+        true => "turning whole matrices at stations",
+        false => "turning whole matrices",
+    };
+    spun(title, made, |w| {
         let row = |k: usize| (0..3).map(|j| own[k][j] * w[j]).sum::<f64>() * LENGTH;
         Vector3::new(row(0), row(1) + line * w.y, row(2) + line * w.z)
     })

@@ -127,7 +127,7 @@ fn twisted(element: &str) -> Specimen {
     let torque = 0.012;
     let scene = clamped(
         element,
-        json!({"loads": [{"name": "drag", "kind": "distributed_moment", "body": "rod",
+        json!({"loads": [{"name": "drag", "kind": "distributed_moment", "body": "rod", "follower": false,
                           "value": [format!("{torque}*(1+2*s^2)"), 0.0, 0.0]}],
                "outputs": [{"kind": "orientation", "marker": "rod.tip"}, {"kind": "torque", "marker": "rod.root"},
                            {"kind": "torque", "marker": "rod.mid"}]}),
@@ -145,7 +145,7 @@ fn twisted(element: &str) -> Specimen {
 /// end turns by `5 m L^2 / (6 E I)`: whether the moment stays about `z` or turns along.
 fn turned(element: &str, follower: bool) -> Specimen {
     let moment = 0.03;
-    let mut load = json!({"name": "drag", "kind": "distributed_moment", "body": "rod",
+    let mut load = json!({"name": "drag", "kind": "distributed_moment", "body": "rod", "follower": false,
                           "value": [0.0, 0.0, format!("{moment}*(1+s)")]});
     if follower {
         load["follower"] = json!(true);
@@ -181,7 +181,7 @@ fn set() -> Specimen {
     let scene = clamped(
         "rod",
         json!({"inputs": [{"kind": "distributed_moment", "body": "rod", "start": array(dead)},
-                          {"kind": "distributed_moment", "body": "rod", "follower": true}],
+                          {"kind": "distributed_moment", "body": "rod", "follower": true, "start": array(follower)}],
                "outputs": [{"kind": "bending_moment", "marker": "rod.root"}]}),
     );
     let mut specimen = Specimen::new("set along", scene);
@@ -202,7 +202,7 @@ fn set() -> Specimen {
 /// Along `y`, where moments in global axes and in those of sections differ, and another that nothing acts on.
 fn upright(rest: Value) -> Value {
     let rod = |name: &str, place: f64| {
-        json!({"name": name, "element": "rod", "elements": 4,
+        json!({"name": name, "element": "rod", "elements": 4, "axial": "waves",
             "material": {"youngs_modulus": YOUNG, "shear_modulus": SHEAR, "density": 100.0},
             "section": {"area": 1e-3, "second_moments": MOMENTS, "torsion_constant": TORSION}, "axis": [0.0, 0.0, 1.0],
             "shape": {"line": {"from": [place, 0.0, 0.0], "to": [place, LENGTH, 0.0]}}, "markers": {"root": 0.0, "tip": 1.0}})
