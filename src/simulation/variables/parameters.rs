@@ -353,8 +353,8 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
             scene.loads[i].damping = Some(value);
         }
         BushingStiffness(i, axis) => {
-            let load = &mut scene.loads[i];
-            load.translational_stiffness.get_or_insert_default()[axis] = value;
+            let Scene { loads, .. } = scene;
+            loads[i].translational_stiffness.get_or_insert_default()[axis] = value;
         }
         BushingDamping(i, axis) => {
             scene.loads[i].translational_damping.get_or_insert_default()[axis] = value;
