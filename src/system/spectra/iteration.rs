@@ -65,7 +65,8 @@ pub(super) fn lowest<const D: usize>(
     let elimination = &system.elimination;
     let mut krylov = Krylov::new(system.coordinates());
     for _ in 0..TIMES * count + BASIS {
-        if !is_below(shift, work) {
+        // Beyond what constraints leave there is nothing but roundoff of solves, which would count as directions.
+        if krylov.size() == modes || !is_below(shift, work) {
             return Err(missing);
         }
         let steps = if krylov.size() == 0 {
@@ -73,6 +74,7 @@ pub(super) fn lowest<const D: usize>(
         } else {
             STEPS
         };
+        let steps = steps.min(modes - krylov.size());
         let more = krylov.extend(steps, |x| work.tangent.solve(elimination, x));
         if !more {
             krylov.start();
@@ -91,8 +93,8 @@ pub(super) fn lowest<const D: usize>(
         match split(&found, count, modes, distance) {
             None => {}
             Some((at, number)) => match below(system, work, at) {
-                Some(present) if present == number => {
-                    return refined(linear, &krylov).unwrap_or(Err(missing));
+                Some(present) if present == number && linear.holds(krylov.basis()) => {
+                    return refined(linear, &krylov);
                 }
                 // A multiple eigenvalue has so far been seen less often than it is there.
                 Some(present) if present > number => krylov.start(),
@@ -103,20 +105,12 @@ pub(super) fn lowest<const D: usize>(
     Err(missing)
 }
 
-/// Eigenvalues of `K` in the whole basis, free of the roundoff of its sparse form; what is roundoff still is zero. Nothing where the basis
-/// leaves the constraints.
+/// Eigenvalues of `K` in the whole basis, free of the roundoff of its sparse form; what is roundoff still is zero.
 fn refined<const D: usize>(
     linear: &Linearization<'_, D>,
     krylov: &Krylov,
-) -> Option<Result<Vec<f64>, NotFound>> {
-    let basis = krylov.basis();
-    linear.holds(basis).then(|| symmetric_in(linear, basis))
-}
-
-fn symmetric_in<const D: usize>(
-    linear: &Linearization<'_, D>,
-    basis: &[Vec<f64>],
 ) -> Result<Vec<f64>, NotFound> {
+    let basis = krylov.basis();
     let [stiffness, _] = linear.project(basis);
     let symmetric = (&stiffness + stiffness.transpose()) * 0.5;
     let eigen = symmetric.try_symmetric_eigen(f64::EPSILON, 100 * basis.len());
@@ -294,8 +288,8 @@ pub(super) fn slowest<const D: usize>(
         let roots = |s: &Complex<f64>| if s.im > 0.0 { 2 } else { 1 };
         let number: usize = found[..number].iter().map(roots).sum();
         match present(linear, radius, number) {
-            Some(present) if present == number => {
-                return surely(linear, &krylov, found).ok_or(missing);
+            Some(present) if present == number && linear.holds(krylov.basis()) => {
+                return Ok(improved(linear, &krylov, found));
             }
             Some(present) if present > number => krylov.start(),
             _ => return Err(missing),
@@ -330,15 +324,6 @@ fn surely_slowest(ritz: &[Ritz], shift: f64) -> (Vec<Complex<f64>>, Option<f64>)
         .map_or(f64::INFINITY, |ritz| ritz.value.inv().norm());
     found.retain(|s| s.norm() + shift < reach || reach.is_infinite());
     (found, reach.is_finite().then_some(reach - shift))
-}
-
-/// [`improved`], where displacements found keep the constraints.
-fn surely<const D: usize>(
-    linear: &Linearization<'_, D>,
-    krylov: &Krylov,
-    found: Vec<Complex<f64>>,
-) -> Option<Vec<Complex<f64>>> {
-    (linear.holds(krylov.basis())).then(|| improved(linear, krylov, found))
 }
 
 /// The values of the equations in the span of all displacements found, nearest to those found so far: free of the
