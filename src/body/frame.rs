@@ -153,6 +153,11 @@ impl Frame {
         )
     }
 
+    /// Forces on axes whose moment along them is this, N.
+    pub fn on_axes<N: Number>([a, b, c]: &Axes<N>, moment: &Vector3<N>) -> Axes<N> {
+        [b * moment[2], c * moment[0], a * moment[1]]
+    }
+
     /// `-w x J w`, N m, along its axes.
     pub fn gyroscopic<N: Number>(&self, spin: &Vector3<N>) -> Vector3<N> {
         let [a, b, c] = self.moments.map(N::of);

@@ -20,6 +20,7 @@ use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
 use crate::math::sparse::Matrix;
 use lanes::{Packed, packs};
+use loaded::add_moment;
 pub use shaped::carried_nodes;
 
 /// Where the internal twist and a beam's two internal leans stand in a node inside an element: part and axis. The first axis stands one
@@ -312,15 +313,7 @@ impl RodChain {
         for j in 0..self.elements.len() {
             let [a, inner, b] = self.momenta(j, (x, dx), frames);
             for (k, moment) in [(j, a), (j + 1, b)] {
-                let frame = self.frame(k, frames);
-                let [first, second, third] = frame.axes(x);
-                let on_axes = [second * moment[2], third * moment[0], first * moment[1]];
-                let [_, to_first] = &mut force[frame.node];
-                (to_first.iter_mut().zip(&on_axes[0])).for_each(|(sum, f)| *sum += f);
-                let others = force[frame.node + 1].iter_mut().zip(&on_axes[1..]);
-                for (to, f) in others {
-                    to.iter_mut().zip(f).for_each(|(sum, f)| *sum += f);
-                }
+                add_moment(self.frame(k, frames).node, &moment, x, force);
             }
             for ((part, axis), f) in self.inside().zip(inner) {
                 force[self.inner + j][part][axis] += f;

@@ -22,6 +22,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::turn::{rate_of, spin_of};
 use crate::math::jet::{Jet, Number, part};
 use crate::math::lanes::Real;
 use crate::math::rotation::{Quaternion, axes, product};
@@ -44,17 +45,6 @@ fn turned_back<N: Number>(x: &Vector3<N>, v: &Vector3<N>) -> Vector3<N> {
     let across = x.cross(v);
     let scale = N::of(1.0) / (N::of(1.0) + N::of(0.25) * x.norm_squared());
     v - (across - x.cross(&across) * N::of(0.5)) * scale
-}
-
-/// Angular velocity along the turned axes.
-fn spin_of<N: Number>(x: &Vector3<N>, rate: &Vector3<N>) -> Vector3<N> {
-    let scale = N::of(1.0) / (N::of(1.0) + N::of(0.25) * x.norm_squared());
-    (rate - x.cross(rate) * N::of(0.5)) * scale
-}
-
-/// The rate that makes this angular velocity along the turned axes.
-fn rate_of<N: Number>(x: &Vector3<N>, spin: &Vector3<N>) -> Vector3<N> {
-    spin + x.cross(spin) * N::of(0.5) + x * (N::of(0.25) * x.dot(spin))
 }
 
 /// `s` of (1), and its rate.

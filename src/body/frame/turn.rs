@@ -4,6 +4,7 @@
 use nalgebra::Vector3;
 
 use super::{Frame, Frames};
+use crate::math::jet::Number;
 use crate::math::rotation::{Quaternion, normalized, product};
 
 /// How a body has turned from the frame that the state holds.
@@ -17,6 +18,16 @@ pub struct Turn {
     pub spin: Vector3<f64>,
 }
 
+/// Angular velocity along the turned axes at a rate of a rotation `p`.
+pub(super) fn spin_of<N: Number>(p: &Vector3<N>, rate: &Vector3<N>) -> Vector3<N> {
+    (rate - p.cross(rate) * N::of(0.5)) / (N::of(1.0) + N::of(0.25) * p.norm_squared())
+}
+
+/// Rate of a rotation `p` at an angular velocity along the turned axes.
+pub(super) fn rate_of<N: Number>(p: &Vector3<N>, spin: &Vector3<N>) -> Vector3<N> {
+    spin + p.cross(spin) * N::of(0.5) + p * (N::of(0.25) * p.dot(spin))
+}
+
 impl Turn {
     /// The quaternion, of any length, from that where the rotation is zero: on the same side of it, however far the body turned.
     pub(super) fn quaternion(&self, from: &Quaternion) -> Quaternion {
@@ -26,14 +37,12 @@ impl Turn {
 
     /// Angular velocity along the body's axes at this rate.
     pub(super) fn spin_of(&self, rate: &Vector3<f64>) -> Vector3<f64> {
-        let p = self.rotation;
-        (rate - p.cross(rate) * 0.5) / (1.0 + 0.25 * p.norm_squared())
+        spin_of(&self.rotation, rate)
     }
 
     /// Rate of the rotation, or its change, of a spin, or a small rotation about the body's axes.
     pub fn rate_of(&self, spin: &Vector3<f64>) -> Vector3<f64> {
-        let p = self.rotation;
-        spin + p.cross(spin) * 0.5 + p * (0.25 * p.dot(spin))
+        rate_of(&self.rotation, spin)
     }
 
     /// Second derivative of the rotation, of angular accelerations along the body's axes.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::RodChain;
 use crate::body::connectivity::Node;
-use crate::body::frame::{Frames, axes_at};
+use crate::body::frame::{Frame, Frames, axes_at};
 use crate::elements::beam::{Force, Rates};
 use crate::elements::section::Vectors;
 use crate::math::jet::Number;
@@ -52,11 +52,7 @@ impl RodChain {
             add(&mut out[[a, b][k / 2]][k % 2], &(*vector).into());
         }
         for (frame, moment) in [first, last].into_iter().zip(&force.moment) {
-            let [e1, e2, e3] = axes_at(frame, x);
-            let [about_first, about_second, about_third] = *moment;
-            add(&mut out[frame][1], &(e2 * about_third));
-            add(&mut out[frame + 1][0], &(e3 * about_first));
-            add(&mut out[frame + 1][1], &(e1 * about_second));
+            add_moment(frame, moment, x, out);
         }
         for ((part, axis), f) in self.inside().zip(force.inner) {
             out[inner][part][axis] += f;
@@ -98,6 +94,19 @@ impl RodChain {
         let [a, first, b, last, inner] = self.nodes(j);
         [a, first, first + 1, b, last, last + 1, inner]
     }
+}
+
+/// Adds a moment along the axes of a frame, by its first node, as forces on them.
+pub(super) fn add_moment<const D: usize, N: Number>(
+    frame: usize,
+    moment: &[N; 3],
+    x: &[Node<D, N>],
+    out: &mut [Node<D, N>],
+) {
+    let [first, second, third] = Frame::on_axes(&axes_at(frame, x), &(*moment).into());
+    add(&mut out[frame][1], &first);
+    add(&mut out[frame + 1][0], &second);
+    add(&mut out[frame + 1][1], &third);
 }
 
 fn add<const D: usize, N: Number>(to: &mut [N; D], vector: &Vector3<N>) {
