@@ -79,8 +79,7 @@ impl Chosen {
 impl CableBody {
     /// What the body needs by its own keys, in space: sections that turn, or lean.
     fn need(&self) -> Option<(Sections, &'static str)> {
-        let at_stations = self.stations.iter().map(|station| &station.section);
-        let all = || at_stations.clone().chain([&self.section]);
+        let all = || self.all_sections();
         let is_unequal = |numbers: SectionNumbers| {
             let [first, second] = numbers.second_moments;
             first != second

@@ -285,16 +285,18 @@ impl CableBody {
 
     /// Whether sections couple twist and bending.
     pub fn is_coupled(&self) -> bool {
+        self.is_given() || (self.all_sections()).any(|section| section.coupling.is_some())
+    }
+
+    /// Its cross section, and those at stations.
+    pub fn all_sections(&self) -> impl Iterator<Item = &Section> {
         let at_stations = self.stations.iter().map(|station| &station.section);
-        let mut all = at_stations.chain([&self.section]);
-        all.any(|section| section.coupling.is_some() || section.stiffness.is_some())
+        at_stations.chain([&self.section])
     }
 
     /// Whether its sections are given as whole matrices.
     pub fn is_given(&self) -> bool {
-        let at_stations = self.stations.iter().map(|station| &station.section);
-        let mut all = at_stations.chain([&self.section]);
-        all.any(|section| section.stiffness.is_some())
+        (self.all_sections()).any(|section| section.stiffness.is_some())
     }
 
     /// Numbers of its section, and how it is twisted without stress (rad), over a part without stations inside that this
