@@ -27,12 +27,17 @@ struct Pack<P> {
     kernel: P,
 }
 
+/// Elements that have forces of their own.
 fn packs<E: Element<D>, const D: usize>(elements: &[E]) -> Vec<Pack<E::Pack>> {
     let (mut packs, mut start) = (Vec::new(), 0);
     while start < elements.len() {
         let rest = &elements[start..];
-        let alike = rest.iter().take_while(|element| rest[0].goes_with(element));
-        let count = alike.take(PACK).count();
+        if !rest[0].resists() {
+            start += 1;
+            continue;
+        }
+        let alike = |element: &&E| element.resists() && rest[0].goes_with(element);
+        let count = rest.iter().take_while(alike).take(PACK).count();
         packs.push(Pack {
             elements: start..start + count,
             kernel: E::pack(&rest[..count]),

@@ -82,6 +82,8 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     fn damping(&self, e: &Nodal<D>) -> Blocks<D>;
     /// Whether the element dissipates.
     fn is_damped(&self) -> bool;
+    /// Whether it has forces of its own: not the line of a beam, whose sections have them.
+    fn resists(&self) -> bool;
     /// Whether the element has bending stiffness.
     fn bends(&self) -> bool;
     /// Axial strain and curvature (1/m) of the position field at `xi` in [0, 1], in the strain measure of the element.

@@ -108,11 +108,6 @@ impl Section {
         }
     }
 
-    /// Whether it holds the line's stretching too.
-    pub fn stretches(&self) -> bool {
-        matches!(self, Self::Beam(_))
-    }
-
     /// Strain energy, J.
     pub fn energy<N: Real>(&self, at: &At<N>) -> N {
         match self {

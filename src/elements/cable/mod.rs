@@ -323,6 +323,10 @@ impl<const D: usize> Element<D> for Cable<D> {
         self.kernel.is_damped
     }
 
+    fn resists(&self) -> bool {
+        self.parameters.line_of != LineOf::Beam
+    }
+
     fn bends(&self) -> bool {
         self.kernel.bends || self.parameters.line_of != LineOf::Cable
     }
