@@ -5,6 +5,7 @@
 mod lanes;
 mod loaded;
 mod shaped;
+mod turning;
 
 use std::ops::Range;
 
@@ -420,12 +421,12 @@ impl RodChain {
     }
 
     /// What element `j` lacks for equilibrium: elastic and damping forces less the inertia of spins, with the force that these ask for
-    /// where tangents turn.
+    /// where tangents turn, in a scene that turns at this rate, rad/s.
     pub fn lack<const D: usize, N: Number>(
         &self,
         j: usize,
         [x, v, a]: [&[Node<D, N>]; 3],
-        frames: &Frames,
+        (rotation, frames): ([f64; 3], &Frames),
     ) -> Force<N> {
         let (section, _) = &self.elements[j];
         let rates = self.rates(j, (x, v), frames);
@@ -455,6 +456,9 @@ impl RodChain {
                 false => &mut force.e[2 * k + 1],
             };
             on.iter_mut().zip(&asked).for_each(|(sum, f)| *sum += *f);
+        }
+        if rotation != [0.0; 3] {
+            force.add(&self.turning(j, (x, v), rotation, frames));
         }
         force
     }

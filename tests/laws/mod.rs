@@ -40,4 +40,5 @@ mod spectra_in_space;
 mod spinning;
 mod sprung;
 mod tangents;
+mod turning_rods;
 mod whirl;

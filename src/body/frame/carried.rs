@@ -155,7 +155,7 @@ impl Carried {
         set_axes_at(self.node, axes, x);
     }
 
-    pub(super) fn slope<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Vector3<N> {
+    pub(in crate::body) fn slope<const D: usize, N: Number>(&self, x: &[Node<D, N>]) -> Vector3<N> {
         part(&x[self.line], 1)
     }
 

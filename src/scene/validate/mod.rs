@@ -20,7 +20,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use super::resolved::{Holder, HolderId, Resolved};
-use super::{CableBody, Error, InitialState, Scene};
+use super::{Error, InitialState, Scene};
 use checks::{expected, name, positive, scene_name, sentence, spin, vector};
 
 /// Numbers of elements of a body: the limit on memory is far beyond any use.
@@ -149,13 +149,6 @@ impl Scene {
     }
 }
 
-/// Rods by their places among the bodies.
-fn rods(scene: &Scene) -> impl Iterator<Item = (usize, &CableBody)> {
-    let cables = scene.bodies.iter().enumerate();
-    let cables = cables.filter_map(|(index, body)| Some((index, body.cable()?)));
-    cables.filter(|(_, cable)| cable.is_rod())
-}
-
 impl<'a> Resolved<'a> {
     fn resolve_initial(&mut self) -> Result<(), Error> {
         let scene = self.scene;
@@ -171,15 +164,6 @@ impl<'a> Resolved<'a> {
                 wanted,
                 format!("{:?}", scene.rotation.full()),
             ));
-        }
-        if let Some((index, _)) = rods(scene).next() {
-            let (key, found) = match (state, scene.turns()) {
-                (InitialState::Steady, _) => ("initial.state", "steady"),
-                (_, true) => ("rotation", "a frame that turns"),
-                _ => return self.resolve_initial_loads(),
-            };
-            let wanted = format!("another beside a rod (bodies[{index}])");
-            return Err(expected(key, &wanted, found));
         }
         self.resolve_initial_loads()
     }

@@ -122,6 +122,10 @@ impl<const D: usize> System<D> {
                 *carried = carried_node(self.rotation, x, v);
             }
             self.add_inertia(-1.0, &work.other, &mut force);
+            for chain in self.rod_chains() {
+                let motion = (&work.x[..], &work.v[..]);
+                chain.add_turning(motion, self.rotation, &self.frames, &mut force);
+            }
         }
         work.f = force;
     }
@@ -326,9 +330,14 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// Energy of the centrifugal force in a turning frame, with the other sign, J: that of the velocities `W x r`.
+    /// Energy of the centrifugal force in a turning frame, with the other sign, J: that of the velocities `W x r` and of spins.
     pub(in crate::system) fn centrifugal<N: Number>(&self, x: &[Node<D, N>]) -> N {
-        self.quadratic(x, |v| spun(self.rotation, v))
+        let spins = self.rod_chains().iter();
+        let spins = spins.map(|chain| chain.turning_energy(x, self.rotation, &self.frames));
+        spins.fold(
+            self.quadratic(x, |v| spun(self.rotation, v)),
+            |sum, energy| sum + energy,
+        )
     }
 
     /// Kinetic energy at coordinates `x` and rates `v`, J.

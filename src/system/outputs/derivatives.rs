@@ -220,6 +220,10 @@ impl<const D: usize> Derivatives<D> {
                 system.add_inertia(-1.0, &self.one, &mut self.other);
                 add_order(&self.other, order, &mut self.f);
             }
+            for chain in &system.rod_chains {
+                let motion = (&values.x[..], &values.v[..]);
+                chain.add_turning(motion, system.rotation, &system.frames, &mut self.f);
+            }
         }
     }
 

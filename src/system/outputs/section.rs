@@ -142,7 +142,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let mut torques = [Vector3::zeros(); 2];
         if let Some(sections) = system.sections(chain) {
             let motion = [&self.x[..], &self.v[..], &self.acceleration[..]];
-            let mut force = sections.lack(j, motion, &system.frames);
+            let mut force = sections.lack(j, motion, (system.rotation, &system.frames));
             if let Some(moments) = self.moments(system, (chain, j)) {
                 force.add(&sections.loaded(j, &self.x, &moments.map(Into::into)));
             }

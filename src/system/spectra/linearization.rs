@@ -95,6 +95,7 @@ impl<const D: usize> System<D> {
         let mut probe = Probe::new(&work.x, &work.v);
         self.linearize_loads(time, work, at_rest, &mut probe, &mut made);
         self.linearize_rotation(work, &mut made);
+        self.linearize_turning(work, &mut probe, &mut made);
         let mut elsewhere = Vec::new();
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             let blocks = self.linearize_constraint(work, (constraint, *lambda), &mut probe);

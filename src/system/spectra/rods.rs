@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::linearization::Linearization;
+use super::probe::{Nodes, Probe};
 use crate::body::{Frames, Node, RodChain};
 use crate::elements::beam::VELOCITIES;
 use crate::elements::rod::Tangent;
@@ -42,6 +43,36 @@ impl<const D: usize> System<D> {
             });
         }
         made.stiffness.add_symmetric(1.0, &stiffness);
+    }
+
+    /// What a scene that turns adds to the inertia of spins.
+    pub(super) fn linearize_turning(
+        &self,
+        work: &Work<D>,
+        probe: &mut Probe<D>,
+        made: &mut Linearization<'_, D>,
+    ) {
+        if !self.is_turning() {
+            return;
+        }
+        let assembly = &self.elimination.assembly;
+        let mut none = |_: usize, _: usize, _: f64| {};
+        for chain in &self.rod_chains {
+            for j in 0..chain.count() {
+                let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
+                    let force = chain.turning(j, (x, v), self.rotation, &self.frames);
+                    chain.add_load(j, &force, x, f);
+                };
+                let nodes = chain.all_nodes(j);
+                let blocks = probe.differentiate(&nodes, false, &force);
+                let mut blocks = blocks.pulled(&self.frames, &work.x);
+                let by_rates = probe.differentiate(&nodes, true, &force);
+                blocks.add_turned(&by_rates, &self.frames, (&work.x, &work.v));
+                blocks.add(assembly, &mut made.stiffness, &mut none);
+                let by_rates = by_rates.pulled(&self.frames, &work.x);
+                by_rates.add(assembly, &mut made.damping, &mut none);
+            }
+        }
     }
 
     /// Bending and torsion of rods, at rest.

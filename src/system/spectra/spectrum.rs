@@ -40,7 +40,10 @@ pub enum SpectrumError {
     )]
     Turns(f64),
     /// A thin rigid rod of space, or a section of a rod, turns at this rate, rad/s.
-    #[error("expected thin rods and rods that do not turn in space, found one at {0} rad/s")]
+    #[error(
+        "expected thin rods and rods that do not turn in space, found one at {0} rad/s: describe the scene in a \
+         frame that turns with them (\"rotation\")"
+    )]
     Spins(f64),
     /// Numbers that are not finite.
     #[error("expected a linearization of finite numbers, found others")]

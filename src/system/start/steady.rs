@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::Turning;
-use crate::body::{Node, add_node, carried_node, no_node, product};
+use crate::body::{Node, NodeKind, add_node, carried_node, no_node, product};
 use crate::math::least::Least;
 use crate::math::space::{Vector, spins, spun};
 use crate::system::{State, System, Work};
@@ -106,12 +106,15 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// The rates of nodes in a steady motion. The second node of a rigid body of space holds axes alone.
+    /// The rates of nodes in a steady motion. Second nodes of frames hold axes alone, and what is inside elements stands still.
     pub fn field(&self, steady: &Steady<D>, x: &[Node<D>]) -> Vec<Node<D>> {
         let mut rates = steady.rates(x);
-        for frame in self.frames.list() {
-            let second = &mut rates[frame.node + 1];
-            *second = x[frame.node + 1].map(|axis| spun(steady.rate, axis.into()).into());
+        for (node, rate) in rates.iter_mut().enumerate() {
+            match self.frames.kind(node) {
+                NodeKind::Point => {}
+                NodeKind::Axes => *rate = x[node].map(|axis| spun(steady.rate, axis.into()).into()),
+                NodeKind::Inner => *rate = no_node(),
+            }
         }
         rates
     }

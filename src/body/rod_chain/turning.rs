@@ -1,0 +1,123 @@
+//! What a scene that turns adds to the inertia of spins (`"rotation"`): sections that are at rest in it turn with it. With `W` its
+//! rotation along the axes of a section (of a rod about the tangent alone), the spin against space is `w + W`, and with momenta `P` of
+//! `w` and `Q` of `W` the equations of motion in space ask, beside what they ask for where nothing turns,
+//!
+//! - of a beam for the moment `-dQ + P x W + Q x (w + W)`, with `dQ` that of `W' = W x w`;
+//! - of a rod for the moment `-dQ` about the tangent, with `dQ` that of `W' = W . t'`, and for the force
+//!   `(Q t x t' + (P + Q) (W - t t . W)) / |u|` on the slope.
+//!
+//! Half the product of `Q` and `W` is their energy, part of that of the centrifugal force.
+//!
+//! Source: A. A. Shabana, Dynamics of Multibody Systems, 5th ed. (2020), sections 3.6 and 5.4 (inertia in frames that move), for the
+//! equations of `frame/carried.rs` and `frame/lean.rs`.
+
+use nalgebra::Vector3;
+
+use super::RodChain;
+use crate::body::connectivity::Node;
+use crate::body::frame::{Carried, Frames};
+use crate::elements::beam::{Force, Rates};
+use crate::math::jet::Number;
+
+/// Rotation of the scene, rad/s.
+type Rotation = [f64; 3];
+
+impl RodChain {
+    /// What the rotation of the scene adds to the inertia of spins of element `j`, as a force on it.
+    pub fn turning<const D: usize, N: Number>(
+        &self,
+        j: usize,
+        (x, v): (&[Node<D, N>], &[Node<D, N>]),
+        rotation: Rotation,
+        frames: &Frames,
+    ) -> Force<N> {
+        let rates = self.rates(j, (x, v), frames);
+        let ends = [j, j + 1].map(|k| self.frame(k, frames));
+        let carried = ends.map(|frame| along(frame, rotation, x));
+        let changes = [0, 1].map(|k| match ends[k].leans {
+            true => {
+                let [turn, spin] = [carried[k], rates.spin[k]].map(Vector3::from);
+                spin.cross(&turn).map(|change| -change).into()
+            }
+            false => along(ends[k], rotation, v),
+        });
+        let none = [N::of(0.0); 3];
+        let of_spins = |spin| {
+            let (e, inner) = ([none; 4], none);
+            self.momenta_of(j, &Rates { e, spin, inner })
+        };
+        let own = self.momenta_of(j, &rates);
+        let ([with, changing], minus) = ([carried, changes].map(of_spins), |p: N| -p);
+        let mut force = Force {
+            e: [none; 4],
+            moment: [changing[0], changing[2]].map(|p| p.map(minus)),
+            inner: changing[1].map(minus),
+        };
+        for (k, frame) in ends.into_iter().enumerate() {
+            let [own, with] = [&own, &with].map(|momenta| Vector3::from(momenta[2 * k]));
+            let turn = Vector3::from(carried[k]);
+            if frame.leans {
+                let spin = turn + Vector3::from(rates.spin[k]);
+                let asked = own.cross(&turn) + with.cross(&spin);
+                (force.moment[k].iter_mut().zip(&asked)).for_each(|(sum, f)| *sum += *f);
+                continue;
+            }
+            let ([tangent, ..], [change, ..]) = (frame.axes(x), frame.axes(v));
+            let across = Vector3::from(rotation.map(N::of)) - tangent * turn[0];
+            let asked = tangent.cross(&change) * with[0] + across * (own[0] + with[0]);
+            let stretch = frame.slope(x).norm_squared().sqrt();
+            force.e[2 * k + 1] = (asked / stretch).into();
+        }
+        force
+    }
+
+    /// Adds the same of all elements to forces over the nodes.
+    pub fn add_turning<const D: usize, N: Number>(
+        &self,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        rotation: Rotation,
+        frames: &Frames,
+        force: &mut [Node<D, N>],
+    ) {
+        for j in 0..self.count() {
+            self.add_load(
+                j,
+                &self.turning(j, motion, rotation, frames),
+                motion.0,
+                force,
+            );
+        }
+    }
+
+    /// Kinetic energy of the spins that the rotation of the scene gives to sections, J.
+    pub fn turning_energy<const D: usize, N: Number>(
+        &self,
+        x: &[Node<D, N>],
+        rotation: Rotation,
+        frames: &Frames,
+    ) -> N {
+        let mut sum = N::of(0.0);
+        for j in 0..self.count() {
+            let none = [N::of(0.0); 3];
+            let spin = [j, j + 1].map(|k| along(self.frame(k, frames), rotation, x));
+            let (e, inner) = ([none; 4], none);
+            let [first, _, last] = self.momenta_of(j, &Rates { e, spin, inner });
+            let pairs = [first, last].into_iter().flatten();
+            let terms = pairs.zip(spin.into_iter().flatten());
+            sum = terms.fold(sum, |sum, (momentum, rate)| sum + momentum * rate);
+        }
+        sum * N::of(0.5)
+    }
+}
+
+/// Components of the rotation along the axes about which a section spins freely, or their rates where `x` holds rates.
+fn along<const D: usize, N: Number>(
+    frame: &Carried,
+    rotation: Rotation,
+    x: &[Node<D, N>],
+) -> [N; 3] {
+    let rotation = Vector3::from(rotation.map(N::of));
+    let mut along = frame.axes(x).map(|axis| axis.dot(&rotation));
+    along[frame.turns()..].fill(N::of(0.0));
+    along
+}
