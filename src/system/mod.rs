@@ -32,6 +32,7 @@ pub use motion::multipliers::ConstraintRow;
 pub use motion::rank::{Held, Redundant};
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
+pub use outputs::stress::SectionPoint;
 pub use rod::Rod;
 pub use signal::{Drive, Given, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;

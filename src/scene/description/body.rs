@@ -311,6 +311,15 @@ impl CableBody {
         }
     }
 
+    /// Numbers of its section just after a material coordinate, at the last end those there.
+    pub fn section_after(&self, s: f64) -> SectionNumbers {
+        let mut stations = self.stations.iter().map(|station| station.at);
+        // What roundoff keeps apart is one place.
+        let next = stations.find(|at| *at > s + 1e-12);
+        let inside = next.map_or(s, |next| 0.5 * (s + next));
+        self.sections_about(inside)(s).0
+    }
+
     /// Numbers of its section at a material coordinate, on one side of a step.
     pub fn section_at(&self, s: f64) -> SectionNumbers {
         self.sections_about(s)(s).0

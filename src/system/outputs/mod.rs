@@ -5,3 +5,4 @@ pub(in crate::system) mod evaluation;
 mod resolution;
 pub(in crate::system) mod rod;
 pub(in crate::system) mod section;
+pub(in crate::system) mod stress;

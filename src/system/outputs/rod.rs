@@ -62,13 +62,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         self.on_part(system, rod, before).0
     }
 
-    /// Axial force (N) and bending moment (N m) at a marker of a rod, just after what acts there, but at the last end.
+    /// Force (N) and bending moment (N m) in the section at a marker of a rod, just after what acts there, but at the last end.
     pub(super) fn rod_section(
         &self,
         system: &System<D>,
         rod: &Rod,
         marker: &Marker,
-    ) -> (N, [N; 3]) {
+    ) -> (Vector<D, N>, [N; 3]) {
         let Section { at, half, near } = Section::new(rod, marker);
         let is_last = at > half - near;
         let after = Part {
@@ -76,7 +76,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             acts: [if is_last { at - near } else { at + near }, f64::INFINITY],
         };
         let (force, moment) = self.on_part(system, rod, after);
-        (force.dot(&self.along(rod)), moment.into())
+        (force, moment.into())
     }
 
     /// Force, N, and moment about where it begins, N m, on a part of a rod, less its inertia.
