@@ -324,6 +324,7 @@ impl<const D: usize> Builder<'_, D> {
                     _ => holds.extend(self.primitives(hold, joint, ends)),
                 }
             }
+            holds.extend(self.clamp(joint));
             let springs = joint.holds.iter();
             let turn = self.turn_of(joint);
             let spring = springs.filter_map(|hold| self.spring_of(hold, ends, turn));

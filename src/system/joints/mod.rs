@@ -1,6 +1,7 @@
 //! Joints and motions: what they are made of, one file a primitive. What is linear in nodal coordinates becomes rows of
 //! `Phi`; the rest becomes constraints with multipliers.
 
+mod clamp;
 mod direction;
 mod distance;
 mod driven_orientation;
@@ -13,6 +14,7 @@ mod point_on_curve;
 mod related;
 mod unit;
 
+pub use clamp::Clamp;
 pub use direction::AngleBetween;
 pub use distance::Distance;
 pub use driven_orientation::DrivenOrientation;
@@ -44,6 +46,8 @@ pub enum Primitive<const D: usize = 2> {
     Direction(f64),
     /// The direction of a cable is along this unit vector (first end: ground).
     Clamped(Vector<D>),
+    /// A section of a rod or beam is held by rows alone, whatever else of its joint is said (first end: ground).
+    Clamp(Clamp),
     /// The distance, m.
     Distance(f64),
     /// A right angle: in space.
@@ -398,6 +402,14 @@ impl<const D: usize> Joint<D> {
         })
     }
 
+    /// The section that it holds by rows alone.
+    pub fn clamp(&self) -> Option<&Clamp> {
+        self.holds.iter().find_map(|primitive| match primitive {
+            Primitive::Clamp(clamp) => Some(clamp),
+            _ => None,
+        })
+    }
+
     /// Whether it holds one position on the other and nothing else.
     pub fn is_pin(&self) -> bool {
         matches!(self.holds[..], [Primitive::Coincident])
@@ -423,6 +435,12 @@ impl<const D: usize> Joint<D> {
                 Primitive::Line(along) => line::hold(&mut rows, *along),
                 Primitive::Direction(angle) => direction::hold(&mut rows, *angle),
                 Primitive::Clamped(along) => direction::clamp(&mut rows, along),
+                Primitive::Clamp(clamp) => {
+                    if let End::Ground(point) = &self.ends[0] {
+                        rows.linear.extend(clamp.rows(point, nodes));
+                    }
+                    None
+                }
                 Primitive::Distance(length) => distance::hold(&rows, *length),
                 Primitive::Perpendicular(right) => {
                     Some(ConstraintKind::Perpendicular(right.clone()))

@@ -1,5 +1,6 @@
 //! What is read of a system at a state, and its derivatives.
 
+mod clamp;
 pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
 mod resolution;

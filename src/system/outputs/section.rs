@@ -128,7 +128,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// What an element lacks for equilibrium, on its coordinates: elastic and damping forces and loads less
     /// inertia, N and N m; and the moments on the sections at the ends of an element of a rod or beam, N m. Its neighbours exert the opposite.
-    fn lack(
+    pub(super) fn lack(
         &self,
         system: &System<D>,
         (chain, j): (&CableChain<D>, usize),

@@ -1,4 +1,4 @@
-//! Directions of joints in the axes of the section of a rod or beam.
+//! Joints of rods and beams: directions in the axes of the section, and clamps on the ground.
 
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
@@ -7,7 +7,12 @@ use super::space::{array, vector};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    vec![joined("rod"), joined("beam")]
+    vec![
+        joined("rod"),
+        joined("beam"),
+        clamped("rod"),
+        clamped("beam"),
+    ]
 }
 
 /// Half the angle of the arc, and twist at its end, rad.
@@ -17,8 +22,8 @@ const AXIS: [f64; 3] = [0.3, 0.8, 0.5];
 
 /// An arc of the upright plane that begins at a place, twisted along it.
 fn arc(name: &str, element: &str, place: f64) -> Value {
-    let section = json!({"area": 2e-3, "second_moments": [3e-7, 7e-7], "torsion_constant": 5e-7});
-    let mut section = section;
+    let mut section =
+        json!({"area": 2e-3, "second_moments": [3e-7, 7e-7], "torsion_constant": 5e-7});
     if element == "beam" {
         section["shear_factors"] = json!([0.8, 0.8]);
     }
@@ -118,6 +123,50 @@ fn joined(element: &'static str) -> Specimen {
             "rad/s",
             spin,
         );
+    }
+    specimen
+}
+
+/// What a clamp holds is all that acts, on the section that it holds too: weight, a mass with its weight, forces and moments there and at
+/// the tip. Rods are so stiff that they keep their shape, to 1e-7.
+fn clamped(element: &'static str) -> Specimen {
+    let (root, way) = (Vector3::new(0.3, -0.2, 0.5), Vector3::new(0.6, 0.3, -0.4));
+    let gravity = Vector3::new(0.4, -1.1, -3.0);
+    let (area, density, lump) = (2e-3, 700.0, 0.35);
+    let mut section =
+        json!({"area": area, "second_moments": [3e-7, 7e-7], "torsion_constant": 5e-7});
+    if element == "beam" {
+        section["shear_factors"] = json!([0.8, 0.8]);
+    }
+    let rod = json!({"name": "rod", "element": element, "elements": 2, "axial": "waves",
+        "material": {"youngs_modulus": 4e14, "shear_modulus": 1e14, "density": density}, "section": section,
+        "axis": AXIS, "shape": {"line": {"from": array(root), "to": array(root + way)}},
+        "markers": {"root": 0.0, "tip": 1.0}});
+    let forces = [Vector3::new(1.3, 0.4, -0.9), Vector3::new(-0.7, 2.1, 0.8)];
+    let moments = [Vector3::new(0.2, -0.5, 0.3), Vector3::new(0.6, 0.1, -0.4)];
+    let mut loads = Vec::new();
+    for (k, marker) in ["rod.root", "rod.tip"].into_iter().enumerate() {
+        loads.push(json!({"name": format!("push{k}"), "kind": "force", "marker": marker, "value": array(forces[k])}));
+        loads.push(json!({"name": format!("turn{k}"), "kind": "moment", "marker": marker, "value": array(moments[k])}));
+    }
+    let scene = json!({"name": "clamped", "dimension": 3, "gravity": array(gravity), "bodies": [rod], "loads": loads,
+        "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.root"]}],
+        "masses": [{"marker": "rod.root", "mass": lump}],
+        "initial": "static_equilibrium", "accuracy": {"relative_tolerance": 1e-9},
+        "outputs": [{"kind": "reaction", "joint": "wall"}, {"kind": "reaction_moment", "joint": "wall"}]});
+    let weight = gravity * (density * area * way.norm());
+    let force = forces[0] + forces[1] + weight + gravity * lump;
+    let moment = moments[0] + moments[1] + way.cross(&forces[1]) + (way * 0.5).cross(&weight);
+    let title = match element {
+        "rod" => "clamped rod",
+        _ => "clamped beam",
+    };
+    let mut specimen = Specimen::new(title, scene);
+    for k in 0..3 {
+        let of = |key: &str| format!("wall.{key}[{}]", k + 1);
+        specimen = specimen
+            .claim_within(&of("reaction"), "N", -force[k], 2e-6)
+            .claim_within(&of("reaction_moment"), "N.m", -moment[k], 2e-6);
     }
     specimen
 }
