@@ -208,31 +208,6 @@ impl<'a> Place<'a> {
     }
 }
 
-impl CableBody {
-    /// The first axis of a rod's section at its first end: as described, or across the tangent and as far along `z` as can be, along `y`
-    /// of a rod along `z`.
-    pub fn first_axis(&self) -> [f64; 3] {
-        let tangent = Vector3::from(self.shape.tangent(0.0));
-        let across = |axis: Vector3<f64>| axis - tangent * tangent.dot(&axis);
-        let upright = across(Vector3::z());
-        let axis = match self.axis {
-            Some(axis) => across(axis.full().into()),
-            None if upright.norm() > 1e-6 => upright,
-            None => across(Vector3::y()),
-        };
-        axis.normalize().into()
-    }
-
-    /// A direction along the tangent and the axes of a rod's section at a material coordinate as described, in global components.
-    pub fn directed(&self, s: f64, [along, first, second]: [f64; 3]) -> [f64; 3] {
-        let tangent = Vector3::from(self.shape.tangent(s));
-        let carried = Vector3::from(self.shape.carried(self.first_axis(), s));
-        let (sin, cos) = self.sections_about(s)(s).1.sin_cos();
-        let axis = carried * cos + tangent.cross(&carried) * sin;
-        (tangent * along + axis * first + tangent.cross(&axis) * second).into()
-    }
-}
-
 impl RigidBody {
     /// Where a point of the body's frame is at the start, m.
     pub fn point(&self, point: [f64; 3]) -> [f64; 3] {

@@ -12,6 +12,7 @@ mod motion;
 mod perpendicular;
 mod point_on_curve;
 mod related;
+mod rows;
 mod unit;
 
 pub use clamp::Clamp;
@@ -24,6 +25,7 @@ pub use line::PointOnLine;
 pub use perpendicular::{Across, Perpendicular};
 pub use point_on_curve::PointOnCurve;
 pub use related::Related;
+use rows::Rows;
 pub use unit::UnitLength;
 
 use super::CableChain;
@@ -474,44 +476,5 @@ impl<const D: usize> Joint<D> {
             };
             nonlinear.extend(kind.map(|kind| Constraint::of(index, kind)));
         }
-    }
-}
-
-/// Where joints put their rows.
-struct Rows<'a, const D: usize> {
-    joint: usize,
-    ends: &'a [End<D>; 2],
-    nodes: &'a [Node<D>],
-    linear: &'a mut Vec<Linear<D>>,
-}
-
-impl<const D: usize> Rows<'_, D> {
-    /// `second . (position, direction of the second end) - first . (of the first end) = target`.
-    fn push(&mut self, first: [Vector<D>; 2], second: [Vector<D>; 2], target: Target) {
-        let mut row = Row {
-            terms: Vec::new(),
-            is_driven: target.is_driven(),
-        };
-        let on_ends = [first.map(|part| -part), second];
-        for (end, [position, direction]) in self.ends.iter().zip(on_ends) {
-            end.add_terms(position, direction, &mut row);
-        }
-        self.linear.push(Linear {
-            joint: Some(self.joint),
-            row,
-            target,
-            on_ends,
-        });
-    }
-
-    /// Holds the position of the second end along an axis against that of the first; `target` takes
-    /// where a first end on the ground is along it.
-    fn hold_position(&mut self, axis: Vector<D>, target: impl Fn(f64) -> Target) {
-        let none = Vector::zeros();
-        let start = match self.ends[0] {
-            End::Ground(point) => axis.dot(&point),
-            End::Body(_) => 0.0,
-        };
-        self.push([axis, none], [axis, none], target(start));
     }
 }

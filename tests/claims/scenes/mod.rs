@@ -4,6 +4,7 @@
 mod bushings;
 mod cables;
 mod coordinates;
+mod coupled;
 mod frames;
 mod initial;
 mod inputs;

@@ -48,13 +48,15 @@ fn axes() -> Matrix3<f64> {
     Matrix3::from_columns(&[end, axis, end.cross(&axis)])
 }
 
-/// Bodies at the ends of clamped rods move as their joints let them, from the start on, and the rods stay at rest.
-fn joined(element: &'static str) -> Specimen {
+/// Kind of a joint, its keys, and velocity and angular velocity that it lets a body at the end have.
+type Motion = (&'static str, Value, Vector3<f64>, Vector3<f64>);
+
+fn motions() -> [Motion; 5] {
     let (given, second) = (Vector3::new(0.4, -0.7, 0.6), Vector3::new(0.7, 0.4, 0.0));
     let axes = axes();
     let (along, beside) = ((axes * given).normalize(), (axes * second).normalize());
     let none = Vector3::zeros();
-    let joints = [
+    [
         (
             "revolute",
             json!({"direction": array(given)}),
@@ -82,10 +84,15 @@ fn joined(element: &'static str) -> Specimen {
         (
             "generic",
             json!({"free": ["rotation_y", "x"]}),
-            axes.column(0) * 0.5,
-            axes.column(1) * 1.2,
+            axes.column(0).into_owned() * 0.5,
+            axes.column(1).into_owned() * 1.2,
         ),
-    ];
+    ]
+}
+
+/// Bodies at the ends of clamped rods move as their joints let them, from the start on, and the rods stay at rest.
+fn joined(element: &'static str) -> Specimen {
+    let joints = motions();
     let (mut bodies, mut held, mut outputs) = (vec![], vec![], vec![]);
     for (k, (kind, keys, velocity, spin)) in joints.iter().enumerate() {
         let (rod, body, place) = (format!("arm_{kind}"), format!("body_{kind}"), k as f64);
