@@ -135,7 +135,7 @@ fn joined(element: &'static str) -> Specimen {
 }
 
 /// What a clamp holds is all that acts, on the section that it holds too: weight, a mass with its weight, forces and moments there and at
-/// the tip. Rods are so stiff that they keep their shape, to 1e-7.
+/// the tip. Rods are so stiff that they keep their shape, to 3e-6 m.
 fn clamped(element: &'static str) -> Specimen {
     let (root, way) = (Vector3::new(0.3, -0.2, 0.5), Vector3::new(0.6, 0.3, -0.4));
     let gravity = Vector3::new(0.4, -1.1, -3.0);
@@ -146,7 +146,7 @@ fn clamped(element: &'static str) -> Specimen {
         section["shear_factors"] = json!([0.8, 0.8]);
     }
     let rod = json!({"name": "rod", "element": element, "elements": 2, "axial": "waves",
-        "material": {"youngs_modulus": 4e14, "shear_modulus": 1e14, "density": density}, "section": section,
+        "material": {"youngs_modulus": 4e11, "shear_modulus": 1e11, "density": density}, "section": section,
         "axis": AXIS, "shape": {"line": {"from": array(root), "to": array(root + way)}},
         "markers": {"root": 0.0, "tip": 1.0}});
     let forces = [Vector3::new(1.3, 0.4, -0.9), Vector3::new(-0.7, 2.1, 0.8)];
@@ -172,8 +172,8 @@ fn clamped(element: &'static str) -> Specimen {
     for k in 0..3 {
         let of = |key: &str| format!("wall.{key}[{}]", k + 1);
         specimen = specimen
-            .claim_within(&of("reaction"), "N", -force[k], 2e-6)
-            .claim_within(&of("reaction_moment"), "N.m", -moment[k], 2e-6);
+            .claim_within(&of("reaction"), "N", -force[k], 2e-5)
+            .claim_within(&of("reaction_moment"), "N.m", -moment[k], 2e-5);
     }
     specimen
 }
