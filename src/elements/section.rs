@@ -245,6 +245,7 @@ mod tests {
             length,
             stiffness: [one.into(); 3],
             damping_times: [0.0; 3],
+            axial: None,
         };
         let beam = beam::Parameters {
             length,

@@ -102,9 +102,9 @@ impl CableBody {
                 "it is twisted without stress",
             ),
             (
-                all().any(|of| of.coupling.is_some()),
+                self.is_coupled(),
                 Sections::Turn,
-                "its twist and bending are coupled",
+                "its twist, bending or stretching are coupled",
             ),
             (
                 all().any(|of| is_unequal(of.numbers())),

@@ -43,6 +43,7 @@ impl<'a> Resolved<'a> {
             ports: Vec::new(),
             holders: Vec::new(),
             angles: Vec::new(),
+            points: Vec::new(),
             couplings: 0,
             numbers: 0,
             bodies_by_name: Default::default(),

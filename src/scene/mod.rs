@@ -30,8 +30,8 @@ pub use elements::Chosen;
 pub use resolved::{
     Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First,
     Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
-    LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output, Pivot, Place, Port,
-    PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider, Spring, Turning,
+    LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output, Pivot, Place, PointId,
+    Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider, Spring, Turning,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};

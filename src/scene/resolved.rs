@@ -36,10 +36,19 @@ numbers! {
     SlideId;
     /// An angle that is counted on over full turns.
     AngleId;
+    /// A point of a section whose stress is read.
+    PointId;
     /// A spring and damper of a port.
     CouplingId;
     /// A rigid body, by its place among all bodies.
     RigidId;
+}
+
+impl PointId {
+    /// The one so many after it.
+    pub fn after(self, count: usize) -> Self {
+        Self(self.0 + count)
+    }
 }
 
 /// A cable.
@@ -328,6 +337,8 @@ pub enum Of<'a> {
     Turning(Turning<'a>),
     /// What turns, its angle counted on over full turns.
     Angle(Turning<'a>, AngleId),
+    /// Points of the section at a marker: the first, and the points as described.
+    Points(Marker<'a>, PointId, &'a [Vec<f64>]),
     /// A joint of this name, and its slide.
     Slide(&'a str, SlideId),
     /// A joint or a motion.
@@ -340,6 +351,19 @@ pub enum Of<'a> {
     Scene,
     /// The spectrum of the scene: the body whose name those of the variables begin with, and how many there are.
     Spectrum(Option<&'a str>, u32),
+}
+
+/// A point of a section whose stress is read.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionPoint<'a> {
+    /// Where the section is.
+    pub marker: Marker<'a>,
+    /// The cable, rod or beam.
+    pub cable: Cable<'a>,
+    /// Its material coordinate.
+    pub at: f64,
+    /// Coordinates along the first and the second axis of the section; in the plane the way from the line to the left, and 0, m.
+    pub point: [f64; 2],
 }
 
 /// A port.
@@ -445,6 +469,8 @@ pub struct Resolved<'a> {
     pub holders: Vec<Holder<'a>>,
     /// Angles that are counted, by [`AngleId`].
     pub angles: Vec<Turning<'a>>,
+    /// Points of sections whose stress is read, by [`PointId`].
+    pub points: Vec<SectionPoint<'a>>,
     /// Number of couplings.
     pub couplings: usize,
     /// How many numbers the master sets: those of inputs, then those of motions, then those of ports. The

@@ -1,11 +1,11 @@
-//! Geometry of unstressed shapes.
+//! Geometry of unstressed shapes, and how sections stand along them.
 
 use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
 use super::marker::{difference, length};
-use super::{Shape, Vector};
+use super::{CableBody, Shape, Vector};
 use crate::math::vector::dot;
 
 /// A sum of two vectors with factors, from a point on.
@@ -84,6 +84,42 @@ impl Shape {
         sum([0.0; 3], [(along, angle.cos()), (out, -angle.sin())])
     }
 
+    /// What the smallest rotations of tangents along the shape make, at `s`, of a direction across the tangent at the first end.
+    ///
+    /// Source: R. L. Bishop, There is more than one way to frame a curve, Am. Math. Mon. 82 (1975) 246-251: against the normal such a
+    /// direction turns by minus the torsion of the curve, of a helix its angle times rise over length.
+    pub fn carried(&self, across: [f64; 3], s: f64) -> [f64; 3] {
+        let frame = |s: f64| {
+            let (tangent, normal) = (self.tangent(s), self.normal(s, across));
+            [normal, cross(&tangent, &normal)]
+        };
+        let torsion = match self {
+            Self::Helix { turns, .. } => TAU * turns * s * self.chord() / self.length(),
+            Self::Line { .. } | Self::Arc { .. } => 0.0,
+        };
+        let ([normal, side], [now, beside]) = (frame(0.0), frame(s));
+        let angle = dot(&across, &side).atan2(dot(&across, &normal)) - torsion;
+        let size = length(across);
+        let parts = [(now, size * angle.cos()), (beside, size * angle.sin())];
+        sum([0.0; 3], parts)
+    }
+
+    /// The unit vector across the tangent at `s` that points away from the centre of curvature; of a line along the direction across it.
+    fn normal(&self, s: f64, across: [f64; 3]) -> [f64; 3] {
+        let [along, out] = self.axes();
+        match self {
+            Self::Line { .. } => unit(across),
+            Self::Arc { .. } => {
+                let angle = self.half_angle().unwrap_or(0.0) * (2.0 * s - 1.0);
+                sum([0.0; 3], [(out, angle.cos()), (along, angle.sin())])
+            }
+            Self::Helix { turns, .. } => {
+                let (sin, cos) = (TAU * turns * s).sin_cos();
+                sum([0.0; 3], [(out, cos), (cross(&along, &out), sin)])
+            }
+        }
+    }
+
     /// Whether a plane holds it.
     pub fn is_plane(&self) -> bool {
         !matches!(self, Self::Helix { .. })
@@ -125,6 +161,31 @@ impl Shape {
             }
         }
         Some(0.5 * (low + high))
+    }
+}
+
+impl CableBody {
+    /// The first axis of a rod's section at its first end: as described, or across the tangent and as far along `z` as can be, along `y`
+    /// of a rod along `z`.
+    pub fn first_axis(&self) -> [f64; 3] {
+        let tangent = Vector3::from(self.shape.tangent(0.0));
+        let across = |axis: Vector3<f64>| axis - tangent * tangent.dot(&axis);
+        let upright = across(Vector3::z());
+        let axis = match self.axis {
+            Some(axis) => across(axis.full().into()),
+            None if upright.norm() > 1e-6 => upright,
+            None => across(Vector3::y()),
+        };
+        axis.normalize().into()
+    }
+
+    /// A direction along the tangent and the axes of a rod's section at a material coordinate as described, in global components.
+    pub fn directed(&self, s: f64, [along, first, second]: [f64; 3]) -> [f64; 3] {
+        let tangent = Vector3::from(self.shape.tangent(s));
+        let carried = Vector3::from(self.shape.carried(self.first_axis(), s));
+        let (sin, cos) = self.sections_about(s)(s).1.sin_cos();
+        let axis = carried * cos + tangent.cross(&carried) * sin;
+        (tangent * along + axis * first + tangent.cross(&axis) * second).into()
     }
 }
 
@@ -206,6 +267,45 @@ mod tests {
             );
             assert!(length(difference(tilted.point(s), sum(from, [(a, 1.0), (a, 0.0)]))) < 1e-14);
             assert!(length(difference(tilted.tangent(s), b)) < 1e-14);
+        }
+    }
+
+    /// Directions across the tangent, carried by many small rotations.
+    #[test]
+    fn what_is_across_is_carried_by_the_smallest_rotations() {
+        let shapes = [
+            Shape::Helix {
+                from: [1.0, 2.0, 3.0].into(),
+                to: [1.2, 2.0, 3.5].into(),
+                radius: 0.2,
+                turns: -1.3,
+                start: [0.0, 3.0, 4.0].into(),
+            },
+            Shape::Arc {
+                from: [1.0, 2.0, 3.0].into(),
+                to: [4.0, 6.0, 4.0].into(),
+                length: 17.0,
+            },
+            Shape::Line {
+                from: [1.0, 2.0, 3.0].into(),
+                to: [4.0, 6.0, 4.0].into(),
+            },
+        ];
+        for shape in shapes {
+            let start = Vector3::from(shape.tangent(0.0));
+            let first = Vector3::new(0.3, -0.8, 0.5);
+            let first = first - start * start.dot(&first);
+            let (mut carried, mut from, steps) = (first, start, 4000);
+            for step in 1..=steps {
+                let s = f64::from(step) / f64::from(steps);
+                let to = Vector3::from(shape.tangent(s));
+                carried -= (from + to) * (to.dot(&carried) / (1.0 + from.dot(&to)));
+                from = to;
+                if step % 1000 == 0 {
+                    let found = Vector3::from(shape.carried(first.into(), s));
+                    assert!((found - carried).norm() < 1e-5, "{shape:?} {s}");
+                }
+            }
         }
     }
 }

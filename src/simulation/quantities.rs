@@ -10,7 +10,7 @@ use crate::integrators::Tolerance;
 use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{axis, components};
-use crate::scene::{Along, AngleId, Assembled, CouplingId, HolderId, MarkerId, SlideId};
+use crate::scene::{Along, AngleId, Assembled, CouplingId, HolderId, MarkerId, PointId, SlideId};
 use crate::system::{End, Evaluation, System};
 
 /// Outputs.
@@ -50,6 +50,10 @@ pub enum Quantity {
     BendingMoment(MarkerId, usize),
     /// Torque about the tangent at a marker, N m.
     Torque(MarkerId),
+    /// Normal stress at a point of a section.
+    Stress(PointId),
+    /// Shear stress by torsion at a point of a section.
+    TorsionStress(PointId),
     /// Component of the force that the part of a cable before a marker exerts on the part after it.
     ConnectivityForce(MarkerId, usize),
     /// Where a slide is on its cable.
@@ -150,6 +154,8 @@ pub(super) fn value<const D: usize, N: Number>(
         AxialForce(id) => values.section(system, at(id)).0,
         BendingMoment(id, axis) => values.section(system, at(id)).1[axis],
         Torque(id) => values.torque(system, at(id)),
+        Stress(id) => values.stress(system, assembled.point(id)),
+        TorsionStress(id) => values.torsion_stress(system, assembled.point(id)),
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, ..) | ReactionMoment(joint, ..) => {
@@ -321,6 +327,7 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         BendingMoment(..) | Torque(_) | ReactionMoment(..) | MotionMoment(..) | GearTorque(_) => {
             (Dynamics, |by| Some(by.force * by.size))
         }
+        Stress(_) | TorsionStress(_) => (Dynamics, |by| Some(by.force / (by.size * by.size))),
         CouplingForce(..) => (Kinematics, |by| Some(by.force)),
         CouplingMoment(..) | KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => {
             (Kinematics, |by| Some(by.force * by.size))

@@ -91,6 +91,10 @@ impl<const D: usize> System<D> {
     pub fn new(mut parts: Parts<D>) -> Result<Self, BuildError> {
         free_ends(&mut parts);
         let (linear, nonlinear) = constraints(&parts);
+        let is_clamp = |joint: usize| parts.joints[joint].clamp().is_some();
+        let (clamped, nonlinear) =
+            (nonlinear.into_iter()).partition(|constraint| constraint.joint.is_some_and(is_clamp));
+        let nonlinear: Vec<Constraint<D>> = nonlinear;
         let rows: Vec<Row<D>> = linear.iter().map(|linear| linear.row.clone()).collect();
         let links = links(&parts, &nonlinear);
         let (assembly, dependent) = Assembly::new(parts.nodes.len(), &rows, &links);
@@ -130,6 +134,7 @@ impl<const D: usize> System<D> {
             driven: Vec::new(),
             constraints: Vec::new(),
             settled: Vec::new(),
+            clamped,
             multipliers: Vec::new(),
             tree: None,
             redundant,
@@ -223,7 +228,7 @@ impl<const D: usize> System<D> {
                 self.elimination.assembly.restrict(&unit, &mut y);
                 unit[frame.node][1][axis] = 0.0;
                 let place = y.iter().position(|y| *y != 0.0);
-                frame.places[axis] = place.map_or((0, 0.0), |at| (at, y[at]));
+                frame.places[axis] = place.map(|at| (at, y[at]));
             }
         }
         self.frames = frames;
@@ -366,7 +371,7 @@ fn take_frames<const D: usize>(parts: &mut Parts<D>) -> Frames {
         node,
         line,
         leans: turns > 1,
-        places: [(0, 1.0); 3],
+        places: [None; 3],
     });
     let inner = parts.rod_chains.iter().flat_map(RodChain::inner);
     let of_rods = (carried.collect(), inner);

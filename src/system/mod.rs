@@ -32,6 +32,7 @@ pub use motion::multipliers::ConstraintRow;
 pub use motion::rank::{Held, Redundant};
 pub use outputs::derivatives::Derivatives;
 pub use outputs::evaluation::Evaluation;
+pub use outputs::stress::SectionPoint;
 pub use rod::Rod;
 pub use signal::{Drive, Given, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;
@@ -84,6 +85,8 @@ pub struct System<const D: usize = 2> {
     constraints: Vec<Constraint<D>>,
     /// Those that nothing free can violate, though a motion might.
     settled: Vec<Constraint<D>>,
+    /// What joints hold of sections that rows hold: what placement is told by.
+    clamped: Vec<Constraint<D>>,
     /// For each of them its multiplier, as the assembly counts them.
     multipliers: Vec<usize>,
     /// The tree that they make of rigid bodies in space, where they do.

@@ -36,7 +36,7 @@ named! { label, LABELS, Quantity:
      JointVelocity(_) => "joint velocity",
     AngularAcceleration(_, 0, Along::Global) => "angular acceleration x", AngularAcceleration(_, 1, Along::Global) => "angular acceleration y", AngularAcceleration(_, _, Along::Global) => "angular acceleration",
     AngularAcceleration(_, 0, Along::Body) => "angular acceleration x along the body", AngularAcceleration(_, 1, Along::Body) => "angular acceleration y along the body", AngularAcceleration(_, _, Along::Body) => "angular acceleration along the body", JointAcceleration(_) => "joint acceleration",
-    Strain(_) => "strain", Curvature(_) => "curvature", AxialForce(_) => "axial force", Torque(_) => "torque",
+    Strain(_) => "strain", Curvature(_) => "curvature", AxialForce(_) => "axial force", Torque(_) => "torque", Stress(_) => "stress", TorsionStress(_) => "torsion stress",
     BendingMoment(_, 0) => "bending moment x", BendingMoment(_, 1) => "bending moment y", BendingMoment(..) => "bending moment",
     ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(_, 1) => "connectivity force y", ConnectivityForce(..) => "connectivity force z",
     Displacement(_) => "displacement", SlidingVelocity(_) => "sliding velocity", SlidingAcceleration(_) => "sliding acceleration",

@@ -30,8 +30,8 @@ pub struct Carried {
     pub line: usize,
     /// Whether it leans against the tangent, as those of beams do: three coordinates; else one, the rotation about the tangent.
     pub leans: bool,
-    /// Where its rotations are among the free coordinates, and how many of that make a radian.
-    pub places: [(usize, f64); 3],
+    /// Where its rotations are among the free coordinates, and how many of that make a radian; none where the ground holds it.
+    pub places: [Option<(usize, f64)>; 3],
 }
 
 /// Which derivative of rotations.
@@ -161,12 +161,15 @@ impl Carried {
 
     /// What stands among free coordinates for its three rotations.
     fn read(&self, y: &[f64]) -> Vector3<f64> {
-        self.places.map(|(at, scale)| y[at] / scale).into()
+        let value = |place: Option<(usize, f64)>| place.map_or(0.0, |(at, scale)| y[at] / scale);
+        self.places.map(value).into()
     }
 
     fn write(&self, rotations: &Vector3<f64>, y: &mut [f64]) {
-        for ((at, scale), value) in self.places.into_iter().zip(rotations) {
-            y[at] = value * scale;
+        for (place, value) in self.places.into_iter().zip(rotations) {
+            if let Some((at, scale)) = place {
+                y[at] = value * scale;
+            }
         }
     }
 
@@ -241,6 +244,17 @@ impl Frames {
     /// The same, to be changed.
     pub fn carried_mut(&mut self) -> &mut [Carried] {
         &mut self.carried
+    }
+
+    /// Frames that the ground holds stand as in other nodes.
+    pub fn keep_held<const D: usize>(&self, nodes: &[Node<D>], x: &mut [Node<D>]) {
+        for frame in self
+            .carried
+            .iter()
+            .filter(|frame| frame.places[0].is_none())
+        {
+            frame.set_axes(&frame.axes(nodes), x);
+        }
     }
 
     /// The carried frame that a node belongs to, and whether it is its second node.
@@ -415,7 +429,9 @@ impl Frames {
                 frame.write(&changed, y);
                 continue;
             }
-            let (at, scale) = frame.places[0];
+            let Some((at, scale)) = frame.places[0] else {
+                continue;
+            };
             y[at] += scale
                 * match order {
                     Derivative::First => carry.rate_of(0.0, &slope),
@@ -448,8 +464,9 @@ impl Frames {
                 frame.write(&carry.lean.rate_anew(&axes), v);
                 continue;
             }
-            let (at, scale) = frame.places[0];
-            (q[at], v[at]) = (0.0, scale * carry.spin);
+            if let Some((at, scale)) = frame.places[0] {
+                (q[at], v[at]) = (0.0, scale * carry.spin);
+            }
         }
     }
 }

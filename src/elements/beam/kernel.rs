@@ -9,6 +9,7 @@ use crate::elements::line::{Sample, combine, dot, times};
 use crate::elements::rod;
 use crate::elements::rod::geometry::{Frame, Geometry, MIDDLE, Motion, POINTS, Section, Sum};
 use crate::elements::rod::kernel::product;
+use crate::elements::rod::stretch::parabola;
 use crate::elements::rod::vectors::{Vector, add, plus};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 
@@ -60,7 +61,7 @@ impl Shapes {
     pub fn new(at: f64) -> Self {
         let (rest, bubble) = (1.0 - at, 4.0 * at * (1.0 - at));
         Self {
-            stretch: [rest * (1.0 - 2.0 * at), bubble, at * (2.0 * at - 1.0)],
+            stretch: parabola(at),
             lean: [rest, at, bubble],
             change: [-1.0, 1.0, 4.0 - 8.0 * at],
         }
@@ -147,11 +148,7 @@ impl<N: Real> Kernel<N> {
         };
         Moving {
             motion: self.geometry.motion(&placed.frame, &rates),
-            stretches: [
-                dot(&first.tangent, &dv[1]),
-                dot(&placed.frame.middle, &combine(&MIDDLE, &dv)),
-                dot(&last.tangent, &dv[2]),
-            ],
+            stretches: self.geometry.lengths(&dv, &placed.frame),
             leans: [lean, other_lean, [p, q]],
         }
     }
@@ -267,12 +264,7 @@ impl<N: Real> Kernel<N> {
         leans: &[[N; 2]; 3],
     ) -> Force<N> {
         let (geometry, [first, last]) = (&self.geometry, &placed.ends);
-        let middle = times(&placed.frame.middle, stretches[1]);
-        for k in 0..3 {
-            sum.vectors[k] = plus(&middle, geometry.number(MIDDLE[k]), &sum.vectors[k]);
-        }
-        sum.vectors[1] = plus(&first.tangent, stretches[0], &sum.vectors[1]);
-        sum.vectors[2] = plus(&last.tangent, stretches[2], &sum.vectors[2]);
+        geometry.add_lengths(&placed.frame, stretches, &mut sum);
         let rod::Force { e, torque, bubble } = geometry.spread(&placed.frame, &sum);
         let leans = [
             times(&leans[0], -geometry.length),

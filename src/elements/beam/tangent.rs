@@ -11,7 +11,7 @@ use super::lean::Eight;
 use super::{At, Matrix, Rates, Tangent, VELOCITIES};
 use crate::elements::line::{Sample, times};
 use crate::elements::rod;
-use crate::elements::rod::geometry::{MIDDLE, POINTS, Section, Sum};
+use crate::elements::rod::geometry::{POINTS, Section, Sum};
 use crate::elements::rod::kernel::product;
 use crate::elements::rod::tangent::Curved;
 use crate::elements::rod::vectors::{add, plus};
@@ -19,6 +19,9 @@ use crate::math::lanes::Real;
 
 /// Places of the velocities of a rod.
 const ROD: [usize; rod::VELOCITIES] = [0, 1, 2, 3, 4, 5, 6, 9, 10, 11, 12, 13, 14, 15, 18];
+
+/// Places of position and slope at the first end, and at the last.
+const SLOPES: [usize; 4] = [0, 3, 9, 12];
 
 /// Places of the leans at the first end, at the last and inside.
 const LEANS: [usize; 6] = [7, 8, 16, 17, 19, 20];
@@ -177,7 +180,10 @@ impl<N: Real> Kernel<N> {
                 }
             }
         }
-        self.add_lengths(placed, &mut lengths, (&sum.more, &sum.factors), &mut matrix);
+        let more = each!([[zero; 3]; 3], i => [sum.more[i][0], sum.more[i][1], sum.more[i][2]]);
+        let factors = [sum.factors[0], sum.factors[1], sum.factors[2]];
+        let at = (frame, SLOPES);
+        geometry.add_second_lengths(at, &mut lengths, (&more, &factors), &mut matrix);
         by_sections(&placed.ends, &mut matrix);
         if kind == Tangent::Stiffness {
             for k in 0..2 {
@@ -191,68 +197,6 @@ impl<N: Real> Kernel<N> {
             }
         }
         matrix
-    }
-
-    /// Adds what lengths of the slope have with all others and with each other, and their second derivatives.
-    #[inline(always)]
-    fn add_lengths(
-        &self,
-        placed: &Placed<N>,
-        mixed: &mut [[N; VELOCITIES]; 3],
-        (more, factors): (&[[N; MORE]; MORE], &[N; MORE]),
-        matrix: &mut Matrix<N>,
-    ) {
-        let (geometry, l) = (&self.geometry, self.geometry.length);
-        let (one, [first, last]) = (geometry.number(1.0), &placed.ends);
-        let middle = each!([one; 3], k => geometry.number(MIDDLE[k]));
-        let chord = middle[0] * geometry.inverse_length;
-        // Vectors that a length is one of, with what these count in it.
-        let places: [&[(usize, N)]; 3] = [
-            &[(3, one)],
-            &[(0, -chord), (3, middle[1]), (9, chord), (12, middle[2])],
-            &[(12, one)],
-        ];
-        let along = [
-            (&first.tangent, first.inverse_size),
-            (&placed.frame.middle, placed.frame.inverse_size),
-            (&last.tangent, last.inverse_size),
-        ];
-        for i in 0..3 {
-            for j in 0..3 {
-                let half = more[i][j] * l * geometry.number(0.5);
-                for (place, count) in places[j] {
-                    for d in 0..3 {
-                        let form = along[j].0[d] * *count;
-                        mixed[i][place + d] = form.times_plus(half, mixed[i][place + d]);
-                    }
-                }
-            }
-        }
-        for i in 0..3 {
-            let (t, inverse_size) = along[i];
-            // What is across the tangent makes it longer in the second order.
-            let rise = factors[i] * l * inverse_size;
-            for (place, count) in places[i] {
-                for d in 0..3 {
-                    let form = t[d] * *count;
-                    let row = place + d;
-                    for k in 0..=row {
-                        matrix[row][k] = form.times_plus(mixed[i][k], matrix[row][k]);
-                    }
-                    for k in row..VELOCITIES {
-                        matrix[k][row] = form.times_plus(mixed[i][k], matrix[k][row]);
-                    }
-                    for (other, part) in places[i] {
-                        let share = rise * *count * *part;
-                        for c in 0..3 {
-                            let entry = &mut matrix[row][other + c];
-                            *entry = *entry - share * t[d] * t[c];
-                        }
-                        matrix[row][other + d] += share;
-                    }
-                }
-            }
-        }
     }
 }
 

@@ -37,7 +37,7 @@ pub enum LineOf {
     Cable,
     /// A rod, whose sections bend and twist.
     Rod,
-    /// A beam, whose sections stretch too.
+    /// A beam, whose sections stretch too; or a rod whose stretching is coupled with twist or bending.
     Beam,
 }
 

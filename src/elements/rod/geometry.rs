@@ -62,7 +62,7 @@ pub(in crate::elements) struct Frame<N> {
 
 /// Rates of the three vectors, of the frame, and of the internal twist.
 pub(in crate::elements) struct Motion<N> {
-    dv: [Vector<N>; 3],
+    pub dv: [Vector<N>; 3],
     change: FrameRate<N>,
     bubble: N,
 }

@@ -3,6 +3,7 @@
 //! Source: the equations of `rod/mod.rs`; the gradient is theirs by the variation of a carried frame (1).
 
 use super::geometry::{Geometry, POINTS, Sum};
+use super::stretch::{Axial, Coupled};
 use super::vectors::add;
 use super::{At, Force, Rates};
 use crate::elements::line::{Sample, dot, times};
@@ -22,6 +23,8 @@ pub(super) struct Kernel<N> {
     /// unstressed shape.
     pub offset: Square<N>,
     pub is_damped: bool,
+    /// Stretching, where twist or bending are coupled with it; else it is the line's own.
+    pub axial: Option<Axial<N>>,
 }
 
 impl Kernel<f64> {
@@ -35,6 +38,7 @@ impl Kernel<f64> {
             damping: self.damping.each_ref().map(lifted),
             offset: lifted(&self.offset),
             is_damped: self.is_damped,
+            axial: of_rate!(&self.axial, axial => axial.lift(like)),
         }
     }
 }
@@ -61,6 +65,7 @@ impl Kernel<[f64; PACK]> {
             damping: [d, e, f],
             offset,
             is_damped: self.is_damped,
+            axial: of_rate!(&self.axial, axial => axial.group(simd, group)),
         }
     }
 }
@@ -93,8 +98,15 @@ impl<N: Real> Kernel<N> {
         for (index, point) in POINTS.iter().enumerate() {
             let section = geometry.section(point, &v, &frame, at.bubble);
             let strains = add(&section.strains, &self.offset[index]);
-            sum += geometry.number(0.5 * point.weight)
-                * dot(&strains, &product(&self.stiffness[index], &strains));
+            let mut twice = dot(&strains, &product(&self.stiffness[index], &strains));
+            if let Some(axial) = &self.axial {
+                let stretch = geometry.at_point(point.at, &geometry.lengths(&v, &frame));
+                let stretch = stretch + axial.offset[index];
+                let Coupled { own, with } = &axial.stiffness;
+                let coupled = dot(&with[index], &strains);
+                twice += stretch * (own[index] * stretch + coupled + coupled);
+            }
+            sum += geometry.number(0.5 * point.weight) * twice;
         }
         sum * geometry.length
     }
@@ -107,19 +119,44 @@ impl<N: Real> Kernel<N> {
         let frame = geometry.frame(&v, &at.d);
         let motion = of_rate!(rates, rates => geometry.motion(&frame, rates));
         let mut power = geometry.number(0.0);
-        let mut sum = Sum::nothing(power);
+        let (mut sum, mut by_lengths) = (Sum::nothing(power), [power; 3]);
         for (index, point) in POINTS.iter().enumerate() {
             let section = geometry.section(point, &v, &frame, at.bubble);
             let strains = add(&section.strains, &self.offset[index]);
             let mut stress = product(&self.stiffness[index], &strains);
+            let mut pull = power.constant(0.0);
+            if let Some(axial) = &self.axial {
+                let stretch = geometry.at_point(point.at, &geometry.lengths(&v, &frame));
+                let stretch = stretch + axial.offset[index];
+                axial
+                    .stiffness
+                    .add(index, (stretch, &strains), (&mut pull, &mut stress));
+            }
             if let Some(motion) = &motion {
                 let rate = geometry.strain_rates(point, &section, &frame, motion);
-                let damped = product(&self.damping[index], &rate);
+                let mut damped = product(&self.damping[index], &rate);
+                if let Some(axial) = &self.axial {
+                    let stretching = geometry.length_rates(motion, &frame);
+                    let stretching = geometry.at_point(point.at, &stretching);
+                    let mut own = power.constant(0.0);
+                    axial
+                        .damping
+                        .add(index, (stretching, &rate), (&mut own, &mut damped));
+                    power += geometry.number(point.weight) * own * stretching;
+                    pull += own;
+                }
                 power += geometry.number(point.weight) * dot(&damped, &rate);
                 stress = add(&stress, &damped);
             }
             let stress = times(&stress, geometry.number(point.weight));
             geometry.add_section(point, &section, &frame, &stress, &mut sum);
+            if self.axial.is_some() {
+                let pull = pull * geometry.number(point.weight);
+                geometry.add_at_point(point.at, pull, &mut by_lengths);
+            }
+        }
+        if self.axial.is_some() {
+            geometry.add_lengths(&frame, &by_lengths, &mut sum);
         }
         (geometry.spread(&frame, &sum), power * geometry.length)
     }

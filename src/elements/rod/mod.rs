@@ -25,7 +25,9 @@
 //! ```
 //!
 //! and the energy `1/2 l sum w (s - s0)^T C (s - s0)` over three Gauss points, with the strains `s0` of the unstressed shape. It
-//! is the same seen from both ends (`beta` changes its sign) and from all frames, and of order 4 in the length.
+//! is the same seen from both ends (`beta` changes its sign) and from all frames, and of order 4 in the length. Where stretching is
+//! coupled with twist or bending (an elastic centre off the line, a rope of wires) it belongs to the same energy, and `C` to four
+//! strains: the first is the parabola through `|u|` at both ends and in the middle, less 1.
 //!
 //! Velocities are those of `e`, the angular velocity about the tangent at both ends, and the rate of `beta`; `d` follows by
 //! `d' = spin t x d - (d . u') u / (u . u)`. Forces are the factors of these in the power.
@@ -37,6 +39,7 @@ mod quadratic;
 mod second;
 #[cfg(test)]
 mod statics;
+pub(in crate::elements) mod stretch;
 pub(in crate::elements) mod tangent;
 #[cfg(test)]
 pub(in crate::elements) mod tests;
@@ -47,6 +50,7 @@ use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::Point;
 use geometry::{Geometry, POINTS};
 use kernel::Kernel;
+use stretch::{Axial, Coupled};
 use vectors::{cross, plus, unit};
 
 /// Velocities of an element: `r`, `u`, spin of the first end, the same of the last, internal twist.
@@ -65,6 +69,19 @@ pub struct Parameters {
     pub stiffness: [[[f64; 3]; 3]; 3],
     /// Kelvin-Voigt damping times `T` of the components, s: stress is `C (s - s0) + T^1/2 C T^1/2 s'`.
     pub damping_times: [f64; 3],
+    /// Stretching, where it is coupled with twist or bending: the line then has none of its own.
+    pub axial: Option<Stretch>,
+}
+
+/// Stretching that is coupled with twist or bending.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Axial force by stretch at the three Gauss points, N.
+    pub stiffness: [f64; 3],
+    /// Axial force by twist and curvatures there, and torque and moments by stretch, N m.
+    pub coupling: [[f64; 3]; 3],
+    /// Damping time of stretching, s.
+    pub damping_time: f64,
 }
 
 /// Where an element is.
@@ -142,7 +159,11 @@ impl Rod {
             stiffness: parameters.stiffness,
             damping: parameters.stiffness,
             offset: [[0.0; 3]; 3],
-            is_damped: times.iter().any(|time| *time > 0.0),
+            is_damped: times.iter().any(|time| *time > 0.0)
+                || parameters
+                    .axial
+                    .is_some_and(|axial| axial.damping_time > 0.0),
+            axial: parameters.axial.map(|axial| axial.damped_with(times)),
         };
         for i in 0..3 {
             for j in 0..3 {
@@ -161,6 +182,13 @@ impl Rod {
             for (k, strain) in kernel.strains(&shape, point).into_iter().enumerate() {
                 if strain.abs() * l * l > ROUNDOFF * far {
                     kernel.offset[index][k] = -strain;
+                }
+            }
+            if let Some(axial) = &mut kernel.axial {
+                let stretch = kernel.geometry.stretch(&shape, point);
+                axial.offset[index] = -stretch;
+                if (stretch - 1.0).abs() * l <= ROUNDOFF * far {
+                    axial.offset[index] = -1.0;
                 }
             }
         }
@@ -219,7 +247,7 @@ impl Rod {
 
     /// Whether this element and another can be in one pack.
     pub fn goes_with(&self, other: &Self) -> bool {
-        let kind = |k: &Kernel<f64>| (k.geometry.is_round, k.is_damped);
+        let kind = |k: &Kernel<f64>| (k.geometry.is_round, k.is_damped, k.axial.is_some());
         kind(&self.kernel) == kind(&other.kernel)
     }
 
@@ -243,6 +271,7 @@ impl Rod {
             damping: POINT.map(|i| square(&|k| k.damping[i])),
             offset: square(&|k| k.offset),
             is_damped: first.is_damped,
+            axial: Axial::pack(elements.iter().map(|rod| &rod.kernel.axial)),
         };
         Pack {
             kernel,
@@ -360,7 +389,9 @@ fn is_round(kernel: &Kernel<f64>) -> bool {
         coupled == [0.0; 3] && m[1][1] == m[2][2]
     };
     let mut all = kernel.stiffness.iter().chain(&kernel.damping);
-    straight && all.all(turns)
+    let bends = |of: &Coupled<f64>| of.with.iter().any(|with| with[1..] != [0.0; 2]);
+    let pulls = |axial: &Axial<f64>| bends(&axial.stiffness) || bends(&axial.damping);
+    straight && all.all(turns) && !kernel.axial.as_ref().is_some_and(pulls)
 }
 
 impl<N: Real> At<N> {

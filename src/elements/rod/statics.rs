@@ -51,6 +51,7 @@ impl Chain {
             length: l,
             stiffness: [stiffness.0; 3],
             damping_times: [0.0; 3],
+            axial: None,
         };
         let stretching = cable::Parameters {
             length: l,

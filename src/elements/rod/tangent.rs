@@ -7,6 +7,7 @@ use super::geometry::{Frame, Geometry, MIDDLE, POINTS, Section};
 use super::kernel::{Kernel, Square, product};
 use super::quadratic::Quadratic;
 use super::second::{Seen, Z};
+use super::stretch::Stretching;
 use super::vectors::{Vector, across, add, plus};
 use super::{At, Matrix, Rates, Tangent, VELOCITIES};
 use crate::elements::line::{Sample, dot, times};
@@ -51,7 +52,9 @@ impl<N: Real> Kernel<N> {
         let v = geometry.vectors(&at.e);
         let frame = geometry.frame(&v, &at.d);
         let motion = of_rate!(rates, rates => geometry.motion(&frame, rates));
-        let mut sum = Curved::nothing(geometry.number(0.0));
+        let zero = geometry.number(0.0);
+        let mut sum = Curved::nothing(zero);
+        let mut stretching = of_rate!(&self.axial, _axial => Stretching::nothing(zero));
         for (index, point) in POINTS.iter().enumerate() {
             let section = geometry.section(point, &v, &frame, at.bubble);
             let by = match kind {
@@ -60,17 +63,44 @@ impl<N: Real> Kernel<N> {
             };
             let strains = add(&section.strains, &self.offset[index]);
             let mut stress = product(&self.stiffness[index], &strains);
+            let mut pull = zero;
+            if let Some(axial) = &self.axial {
+                let stretch = geometry.at_point(point.at, &geometry.lengths(&v, &frame));
+                let stretch = stretch + axial.offset[index];
+                axial
+                    .stiffness
+                    .add(index, (stretch, &strains), (&mut pull, &mut stress));
+            }
             if let Some(motion) = &motion {
                 let rate = geometry.strain_rates(point, &section, &frame, motion);
                 stress = add(&stress, &product(&self.damping[index], &rate));
+                if let Some(axial) = &self.axial {
+                    let lengths = geometry.length_rates(motion, &frame);
+                    let stretch = geometry.at_point(point.at, &lengths);
+                    axial
+                        .damping
+                        .add(index, (stretch, &rate), (&mut pull, &mut stress));
+                }
             }
             let stress = match kind {
                 Tangent::Stiffness => Some(times(&stress, geometry.number(point.weight))),
                 Tangent::Damping => None,
             };
             geometry.add_curved(point, (&section, &frame), (by, stress.as_ref()), &mut sum);
+            if let (Some(axial), Some(stretching)) = (&self.axial, &mut stretching) {
+                let (by, pull) = match kind {
+                    Tangent::Stiffness => (&axial.stiffness, pull),
+                    Tangent::Damping => (&axial.damping, zero),
+                };
+                let by = (by.own[index], &by.with[index]);
+                stretching.add(geometry, point, (&section, &frame), (by, pull));
+            }
         }
-        geometry.whole(&frame, &mut sum)
+        let mut matrix = geometry.whole(&frame, &mut sum);
+        if let Some(stretching) = &stretching {
+            stretching.add_to(geometry, &frame, &mut matrix);
+        }
+        matrix
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Source: derivatives of the energy by differences; rotations and the exchange of ends.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix4, Rotation3, Vector3, Vector4};
 
 use super::*;
 use crate::elements::{Element, Nodal};
@@ -60,6 +60,7 @@ const GENERAL: Parameters = Parameters {
     length: 0.7,
     stiffness: [[[1.3, 0.2, -0.1], [0.2, 2.0, 0.3], [-0.1, 0.3, 0.9]]; 3],
     damping_times: [0.1, 0.02, 0.3],
+    axial: None,
 };
 
 const TAPERED: Parameters = Parameters {
@@ -70,21 +71,43 @@ const TAPERED: Parameters = Parameters {
         [[0.4, 0.0, 0.1], [0.0, 1.1, 0.1], [0.1, 0.1, 0.7]],
     ],
     damping_times: [0.1, 0.02, 0.3],
+    axial: None,
+};
+
+const COUPLED: Parameters = Parameters {
+    axial: Some(Stretch {
+        stiffness: [3.0, 2.5, 2.0],
+        coupling: [[0.4, -0.3, 0.5], [0.3, -0.2, 0.4], [0.1, -0.2, 0.3]],
+        damping_time: 0.2,
+    }),
+    ..TAPERED
+};
+
+const ROPE: Parameters = Parameters {
+    axial: Some(Stretch {
+        stiffness: [3.0; 3],
+        coupling: [[0.4, 0.0, 0.0]; 3],
+        damping_time: 0.2,
+    }),
+    ..ROUND
 };
 
 const ROUND: Parameters = Parameters {
     length: 0.7,
     stiffness: [[[1.3, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]]; 3],
     damping_times: [0.1, 0.3, 0.3],
+    axial: None,
 };
 
-fn rods() -> [Rod; 4] {
+fn rods() -> [Rod; 6] {
     let straight = bent(1, 0.0);
     [
         Rod::new(GENERAL, &bent(2, 0.3)),
         Rod::new(GENERAL, &straight),
         Rod::new(ROUND, &straight),
         Rod::new(TAPERED, &bent(3, 0.3)),
+        Rod::new(COUPLED, &bent(3, 0.3)),
+        Rod::new(ROPE, &straight),
     ]
 }
 
@@ -182,6 +205,25 @@ fn stiffness_and_damping_are_derivatives_of_the_force() {
     }
 }
 
+/// Stiffness or damping at a point over stretch, twist and curvatures; stretching that is the line's own counts 1.
+fn whole(kernel: &Kernel<f64>, point: usize, is_damping: bool) -> Matrix4<f64> {
+    let (square, axial) = match is_damping {
+        false => (
+            &kernel.stiffness[point],
+            kernel.axial.as_ref().map(|axial| &axial.stiffness),
+        ),
+        true => (
+            &kernel.damping[point],
+            kernel.axial.as_ref().map(|axial| &axial.damping),
+        ),
+    };
+    Matrix4::from_fn(|i, j| match (i, j, axial) {
+        (0, 0, axial) => axial.map_or(1.0, |axial| axial.own[point]),
+        (0, k, axial) | (k, 0, axial) => axial.map_or(0.0, |axial| axial.with[point][k - 1]),
+        _ => square[i - 1][j - 1],
+    })
+}
+
 #[test]
 fn stresses_that_damping_adds_stiffen_as_any() {
     let h = 1e-4;
@@ -189,14 +231,28 @@ fn stresses_that_damping_adds_stiffen_as_any() {
         let (at, rates) = (bent(10, 0.5), Noise(4).rates());
         let mut other = rod.clone();
         other.kernel.geometry.is_round = false;
-        let matrix = |of: [[f64; 3]; 3]| Matrix3::from_fn(|i, j| of[i][j]);
-        let offsets = other.kernel.offset.iter_mut().zip(&POINTS);
-        for (k, (offset, point)) in offsets.enumerate() {
-            let stiffness = matrix(rod.kernel.stiffness[k]);
-            let shift = stiffness.try_inverse().expect("positive") * matrix(rod.kernel.damping[k]);
-            let strains = |time: f64| V::from(rod.strains(&moved(&at, &rates, time), point.at));
+        for (k, point) in POINTS.iter().enumerate() {
+            let [stiffness, damping] =
+                [false, true].map(|is_damping| whole(&rod.kernel, k, is_damping));
+            let strains = |time: f64| {
+                let at = moved(&at, &rates, time);
+                let [twist, first, second] = rod.strains(&at, point.at);
+                Vector4::new(
+                    rod.kernel.geometry.stretch(&at, point),
+                    twist,
+                    first,
+                    second,
+                )
+            };
             let [near, far] = [h, 2.0 * h].map(|time| strains(time) - strains(-time));
-            *offset = (V::from(*offset) + shift * (8.0 * near - far) / (12.0 * h)).into();
+            let shift = stiffness.try_inverse().expect("positive") * damping * (8.0 * near - far)
+                / (12.0 * h);
+            if let Some(axial) = &mut other.kernel.axial {
+                axial.offset[k] += shift[0];
+            }
+            for (offset, shift) in other.kernel.offset[k].iter_mut().zip(shift.iter().skip(1)) {
+                *offset += shift;
+            }
         }
         let [found, wanted] = [rod.stiffness(&at, Some(&rates)), other.stiffness(&at, None)];
         for (a, b) in found.as_flattened().iter().zip(wanted.as_flattened()) {
@@ -232,21 +288,28 @@ fn from_the_last_end(at: &At<f64>) -> At<f64> {
 
 #[test]
 fn both_ends_are_alike() {
-    let mut parameters = TAPERED;
-    for (i, j) in [(0, 1), (1, 0), (1, 2), (2, 1)] {
-        for stiffness in &mut parameters.stiffness {
-            stiffness[i][j] *= -1.0;
+    for given in [TAPERED, COUPLED] {
+        let mut parameters = given;
+        for (i, j) in [(0, 1), (1, 0), (1, 2), (2, 1)] {
+            for stiffness in &mut parameters.stiffness {
+                stiffness[i][j] *= -1.0;
+            }
         }
-    }
-    parameters.stiffness.reverse();
-    let shape = bent(2, 0.3);
-    let rod = Rod::new(TAPERED, &shape);
-    let turned = Rod::new(parameters, &from_the_last_end(&shape));
-    for seed in 30..40 {
-        let at = bent(seed, 0.5);
-        let energy = rod.energy(&at);
-        let change = turned.energy(&from_the_last_end(&at)) - energy;
-        assert!(change.abs() < 1e-14 * energy, "{seed} {change}");
+        parameters.stiffness.reverse();
+        if let Some(axial) = &mut parameters.axial {
+            axial.stiffness.reverse();
+            axial.coupling.reverse();
+            axial.coupling.iter_mut().for_each(|with| with[1] *= -1.0);
+        }
+        let shape = bent(2, 0.3);
+        let rod = Rod::new(given, &shape);
+        let turned = Rod::new(parameters, &from_the_last_end(&shape));
+        for seed in 30..40 {
+            let at = bent(seed, 0.5);
+            let energy = rod.energy(&at);
+            let change = turned.energy(&from_the_last_end(&at)) - energy;
+            assert!(change.abs() < 1e-14 * energy, "{seed} {change}");
+        }
     }
 }
 

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::Builder;
 use crate::body::{Marker, axes_at};
 use crate::math::space::{Vector, axis, components, moment, normal, normals, vector};
-use crate::scene::resolved::{self, Action, Pivot, Place, Turning};
-use crate::system::joints::{Across, Perpendicular, Primitive};
+use crate::scene::resolved::{self, Action, Hold, Pivot, Place, Turning};
+use crate::system::joints::{Across, Clamp, Perpendicular, Primitive};
 use crate::system::loads::{Couple, Load};
 use crate::system::{AxisTurn, Direction, End, reach};
 
@@ -132,6 +132,24 @@ impl<const D: usize> Builder<'_, D> {
         normals
             .map(|normal| self.right_angle(ends, [normal, axis]))
             .collect()
+    }
+
+    /// A section of a rod or beam that is welded to the ground is held by rows alone, if no other joint does so already.
+    pub(super) fn clamp(&self, joint: &resolved::Joint<'_>) -> Option<Primitive<D>> {
+        let ([Hold::Position, Hold::Direction(_)], true, Place::Along(cable, s)) = (
+            &joint.holds[..],
+            D == 3 && joint.ends.is_grounded(),
+            joint.ends.second.place,
+        ) else {
+            return None;
+        };
+        let marker = self.marker(joint.ends.second);
+        let (line, frame) = (self.on_line_of(cable, s), marker.nodes[0]);
+        let before = self.parts.joints.iter().filter_map(|joint| joint.clamp());
+        let is_held = before.map(|clamp| clamp.frame).any(|held| held == frame);
+        let leans = cable.body.is_beam();
+        let clamp = Clamp { line, frame, leans };
+        (marker.is_framed() && !is_held).then_some(Primitive::Clamp(clamp))
     }
 
     /// How both bodies stand to each other; the direction of a cable across two axes of a rigid body.

@@ -1,7 +1,6 @@
 //! Bodies: a cable becomes a chain of elements or, where it does not bend, a rod; a rigid body a node.
 
 use super::Builder;
-use nalgebra::Vector3;
 
 use crate::body::{Frame, Marker, RodChain, carried_nodes, untwisted};
 use crate::elements::beam::{self, At, Beam};
@@ -142,7 +141,7 @@ impl<const D: usize> Builder<'_, D> {
             rod.shape.tangent(s)
         };
         let steps = if rod.shape.is_plane() { 1 } else { STEPS };
-        let axes = carried_nodes(&line, first_axis(rod), (tangent, steps), twists);
+        let axes = carried_nodes(&line, rod.first_axis(), (tangent, steps), twists);
         let carried = self.parts.rod_chains.iter().map(|chain| chain.count() + 1);
         let carried = carried.sum();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {
@@ -168,10 +167,16 @@ impl<const D: usize> Builder<'_, D> {
                 let beam = Beam::new(parameters, &shape);
                 return (Section::Beam(Box::new(beam)), inertia);
             }
+            let axial = rod.is_coupled_axially().then(|| rod::Stretch {
+                stiffness: GAUSS_3.map(|point| rod.axial_stiffness_of(&numbers(point.at))),
+                coupling: GAUSS_3.map(|point| numbers(point.at).axial_coupling),
+                damping_time: axial_time,
+            });
             let parameters = rod::Parameters {
                 length,
                 stiffness: GAUSS_3.map(|point| rod.stiffness(&numbers(point.at)).into()),
                 damping_times: [time; 3],
+                axial,
             };
             let rod = RodElement::new(parameters, &rod_at(&shape));
             (Section::Rod(Box::new(rod)), inertia)
@@ -255,20 +260,6 @@ fn full<const D: usize>(v: [f64; D]) -> [f64; 3] {
     components(&Vector::<D>::from(v))
 }
 
-/// The first axis of a rod's section at its first end: as described, or across the tangent and as far along `z` as can be, along `y`
-/// of a rod along `z`.
-fn first_axis(rod: &CableBody) -> [f64; 3] {
-    let tangent = Vector3::from(rod.shape.tangent(0.0));
-    let across = |axis: Vector3<f64>| axis - tangent * tangent.dot(&axis);
-    let upright = across(Vector3::z());
-    let axis = match rod.axis {
-        Some(axis) => across(axis.full().into()),
-        None if upright.norm() > 1e-6 => upright,
-        None => across(Vector3::y()),
-    };
-    axis.normalize().into()
-}
-
 /// Numbers of the section at `xi` in [0, 1] between two neighbouring nodes.
 fn numbers_along(body: &CableBody, s: &[f64]) -> impl Fn(f64) -> SectionNumbers {
     let (from, to) = (s[0], s[1]);
@@ -301,6 +292,7 @@ fn build_elements<const D: usize>(
             bending_stiffness: bending(0.5),
             line_of: match body.sections {
                 Sections::None => LineOf::Cable,
+                Sections::Turn if body.is_coupled_axially() => LineOf::Beam,
                 Sections::Turn => LineOf::Rod,
                 Sections::Lean => LineOf::Beam,
             },

@@ -9,19 +9,22 @@ mod loads;
 mod motions;
 mod ports;
 mod solids;
+mod stress;
 
 pub use initial::Motions;
 
 use nalgebra::Matrix3;
 
-use super::resolved::{self, CouplingId, Ends, First, Hold, MarkerId, Place, Resolved, Turning};
+use super::resolved::{
+    self, CouplingId, Ends, First, Hold, MarkerId, Place, PointId, Resolved, Turning,
+};
 use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
 use crate::math::rotation::{Quaternion, inverse, product, quaternion};
 use crate::math::space::{Vector, vector};
 use crate::system::joints::{Joint, Primitive};
 use crate::system::{
-    Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, State, System,
+    Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, SectionPoint, State, System,
 };
 
 /// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
@@ -48,6 +51,8 @@ pub struct Assembled<const D: usize = 2> {
     stances: Vec<Quaternion>,
     /// For every coupling, its place among the loads of the system.
     couplings: Vec<usize>,
+    /// Points of sections whose stress is read.
+    points: Vec<SectionPoint>,
 }
 
 impl<const D: usize> Assembled<D> {
@@ -85,6 +90,11 @@ impl<const D: usize> Assembled<D> {
                 *held = held.map(|part| -part);
             }
         }
+    }
+
+    /// A point of a section whose stress is read.
+    pub fn point(&self, id: PointId) -> &SectionPoint {
+        &self.points[id.index()]
     }
 
     /// Place among the loads of the system of a coupling.
@@ -130,12 +140,14 @@ impl Resolved<'_> {
         builder.loads()?;
         builder.inputs();
         builder.ports();
+        let points = builder.section_points();
         let nodes = builder.parts.nodes.clone();
         let frames = self.bodies.iter().map(|body| self.principal(body));
         let frames: Vec<Matrix3<f64>> = frames.collect();
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
         Ok(Assembled {
             system,
+            points,
             error: self.scene.error_wanted(),
             rates: builder.motions.rates(&nodes),
             motions: builder.motions,
@@ -312,6 +324,7 @@ impl<const D: usize> Builder<'_, D> {
                     _ => holds.extend(self.primitives(hold, joint, ends)),
                 }
             }
+            holds.extend(self.clamp(joint));
             let springs = joint.holds.iter();
             let turn = self.turn_of(joint);
             let spring = springs.filter_map(|hold| self.spring_of(hold, ends, turn));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix4, Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -283,9 +283,16 @@ impl CableBody {
         self.sections == Sections::Lean
     }
 
-    /// Whether sections couple twist and bending.
+    /// Whether sections couple twist and bending, or either with stretching.
     pub fn is_coupled(&self) -> bool {
-        self.is_given() || (self.all_sections()).any(|section| section.coupling.is_some())
+        let says = |of: &Section| of.coupling.is_some() || of.axial_coupling.is_some();
+        self.is_given() || self.all_sections().any(says)
+    }
+
+    /// Whether sections couple stretching with twist or bending.
+    pub fn is_coupled_axially(&self) -> bool {
+        let mut numbers = self.all_sections().map(Section::numbers);
+        numbers.any(|numbers| numbers.axial_coupling != [0.0; 3])
     }
 
     /// Its cross section, and those at stations.
@@ -309,6 +316,15 @@ impl CableBody {
             Some([first, last]) => between([first, last], (s - first.at) / (last.at - first.at)),
             _ => (self.section.numbers(), 0.0),
         }
+    }
+
+    /// Numbers of its section just after a material coordinate, at the last end those there.
+    pub fn section_after(&self, s: f64) -> SectionNumbers {
+        let mut stations = self.stations.iter().map(|station| station.at);
+        // What roundoff keeps apart is one place.
+        let next = stations.find(|at| *at > s + 1e-12);
+        let inside = next.map_or(s, |next| 0.5 * (s + next));
+        self.sections_about(inside)(s).0
     }
 
     /// Numbers of its section at a material coordinate, on one side of a step.
@@ -373,6 +389,18 @@ impl CableBody {
         Matrix3::from([[torsion, p, q], [p, first, r], [q, r, second]])
     }
 
+    /// The same with the axial force by stretch, first.
+    pub fn coupled_stiffness(&self, numbers: &SectionNumbers) -> Matrix4<f64> {
+        let mut stiffness = Matrix4::zeros();
+        stiffness[(0, 0)] = self.axial_stiffness_of(numbers);
+        let turns = self.stiffness(numbers);
+        stiffness.fixed_view_mut::<3, 3>(1, 1).copy_from(&turns);
+        for (k, entry) in numbers.axial_coupling.into_iter().enumerate() {
+            (stiffness[(0, 1 + k)], stiffness[(1 + k, 0)]) = (entry, entry);
+        }
+        stiffness
+    }
+
     /// Of a beam: axial and shear forces, torque and moments by stretch, shear, twist and curvatures, N, N m, N m^2.
     pub fn whole_stiffness(&self, numbers: &SectionNumbers) -> Matrix6<f64> {
         if let Some(given) = &numbers.given {
@@ -386,6 +414,9 @@ impl CableBody {
         }
         let turns = self.stiffness(numbers);
         stiffness.fixed_view_mut::<3, 3>(3, 3).copy_from(&turns);
+        for (k, entry) in numbers.axial_coupling.into_iter().enumerate() {
+            (stiffness[(0, 3 + k)], stiffness[(3 + k, 0)]) = (entry, entry);
+        }
         stiffness
     }
 

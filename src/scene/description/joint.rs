@@ -19,7 +19,8 @@ pub struct Joint {
     /// With `ground` only: where on the ground, m; where the second marker is at the start by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vector>,
-    /// In the axes of the body of the first marker at the start (of ground: the global ones). `slider`, `cylindrical`, `screw`: direction
+    /// In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    /// its section there). `slider`, `cylindrical`, `screw`: direction
     /// of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
     /// first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
     /// `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.

@@ -15,6 +15,7 @@ mod rotation;
 mod section;
 mod solid;
 mod strict;
+mod torsion;
 mod value;
 mod vector;
 

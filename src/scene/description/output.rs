@@ -35,6 +35,12 @@ pub struct Output {
     /// the scene has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u32>,
+    /// `stress` and `torsion_stress` only: points of the section, m. Of a rod or beam `[y, z]` along the first and the second axis of the
+    /// section from the line of the body; of a cable in the plane `[y]`, the way from its line to the left of its direction. One variable
+    /// a point, in this order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 1, max = 100), inner(length(min = 1, max = 2)))]
+    pub points: Option<Vec<Vec<f64>>>,
 }
 
 /// Axes along which components of an output are.
@@ -101,6 +107,16 @@ pub enum OutputKind {
     /// Torque about the tangent at a marker of a rod, N m: of the part after on the part before, positive where the twist is, from the
     /// balance of moments with inertia. Where a load or joint acts, that after it.
     Torque,
+    /// Normal stress at `points` of the section at a marker of a rod or beam, or of a cable in the plane, Pa, tension positive:
+    /// `N / A + M1 z / I1 - M2 y / I2` of the force across the section and of the moments about its axes, from the balance of forces
+    /// with inertia, so with what damps. Per area without stress, and without what a curved shape without stress makes of it (a part of
+    /// about height over radius). Not of sections that are given as `stiffness` or have a `coupling`, where moments alone do not say it.
+    /// Where a load or joint acts, that after it.
+    Stress,
+    /// Shear stress by torsion at `points` of the section at a marker of a rod or beam, Pa, with the sign of the torque: that of
+    /// Saint-Venant in the shape of the section (`T r / J` in a circle or tube). Shear by transverse forces and what a clamp that
+    /// prevents warping adds are not in it. Of sections with a shape.
+    TorsionStress,
     /// Force that the part of a cable before a marker exerts on the part after it, global axes, N.
     ConnectivityForce,
     /// Where along the cable a joint of kind `along` stands: length from the first end, m.
@@ -160,6 +176,8 @@ pub enum ReadAt {
     Rod,
     /// A marker of a cable that bends.
     Flexible,
+    /// Points of the section at a marker.
+    Points,
     /// A marker of a cable, where its mesh, if it has one, has a node.
     Node,
     /// A marker of a rigid body in space that turns.
@@ -193,6 +211,7 @@ impl OutputKind {
             Self::Strain | Self::Curvature => ReadAt::Flexible,
             Self::AxialForce | Self::BendingMoment => ReadAt::Cable,
             Self::Torque => ReadAt::Rod,
+            Self::Stress | Self::TorsionStress => ReadAt::Points,
             Self::ConnectivityForce => ReadAt::Node,
             Self::AngularVelocity | Self::AngularAcceleration => ReadAt::Turning,
             Self::Angle => ReadAt::Angle,
@@ -222,6 +241,7 @@ impl Kind for OutputKind {
             | ReadAt::Rod
             | ReadAt::Flexible
             | ReadAt::Node => &[(&["marker"], &[])],
+            ReadAt::Points => &[(&["marker", "points"], &[])],
             ReadAt::Angle | ReadAt::Moving => &[(&["joint"], &[]), (&["marker"], &[])],
             ReadAt::Turning => &[(&["joint"], &[]), (&["marker"], &["axes"])],
             ReadAt::Gear => &[(&["gear"], &[])],

@@ -33,6 +33,11 @@ pub struct Section {
     /// about the first axis, and so on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coupling: Option<[f64; 3]>,
+    /// Of rods: stiffness that couples stretching with twist, with bending about the first axis and with bending about the second, N m; none
+    /// where nothing is said. The axial force is the first times the twist, and so on: ropes of wires untwist when they are pulled. An
+    /// elastic centre at `[y, z]` is `[0, E A z, -E A y]`, with second moments about the line and `coupling` `-E A y z` of both bendings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axial_coupling: Option<[f64; 3]>,
     /// Of beams: ratios of the areas that carry shear along the first and along the second axis to the area. Of a shape, where nothing
     /// is said, those of Cowper, which take the material's ratio of Poisson.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -110,6 +115,8 @@ pub struct SectionNumbers {
     pub torsion_constant: f64,
     /// Stiffness that couples twist with bending about both axes, and both bendings, N m^2.
     pub coupling: [f64; 3],
+    /// Stiffness that couples stretching with twist and with bending about both axes, N m.
+    pub axial_coupling: [f64; 3],
     /// Ratios of shear areas to the area, where they are said.
     pub shear_factors: Option<[f64; 2]>,
     /// The shape that these are of.
@@ -251,6 +258,7 @@ impl Section {
         if let Some(shape) = &self.shape {
             return SectionNumbers {
                 coupling: self.coupling.unwrap_or_default(),
+                axial_coupling: self.axial_coupling.unwrap_or_default(),
                 shear_factors: self.shear_factors,
                 ..shape.numbers()
             };
@@ -261,6 +269,7 @@ impl Section {
             second_moments: self.second_moments.unwrap_or(alike),
             torsion_constant: self.torsion_constant.unwrap_or_default(),
             coupling: self.coupling.unwrap_or_default(),
+            axial_coupling: self.axial_coupling.unwrap_or_default(),
             shear_factors: self.shear_factors,
             shape: None,
             given: self.given(),
@@ -286,10 +295,12 @@ impl Section {
         if let (Some(shape), Some(end)) = (&self.shape, &other.shape)
             && let Some(shape) = shape.between(end, part)
         {
+            let mixed = self.numbers().mixed(&other.numbers(), part);
             let section = Self {
                 shape: Some(shape),
-                coupling: Some(self.numbers().mixed(&other.numbers(), part).coupling),
-                shear_factors: self.numbers().mixed(&other.numbers(), part).shear_factors,
+                coupling: Some(mixed.coupling),
+                axial_coupling: Some(mixed.axial_coupling),
+                shear_factors: mixed.shear_factors,
                 ..Self::default()
             };
             return section.numbers();
@@ -302,8 +313,8 @@ impl SectionNumbers {
     /// Linear between these and others, whose part counts.
     fn mixed(&self, other: &Self, part: f64) -> Self {
         let mix = |a: f64, b: f64| a + part * (b - a);
+        let three = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|k| mix(a[k], b[k]));
         let [first, second] = self.second_moments;
-        let [p, q, r] = self.coupling;
         Self {
             area: mix(self.area, other.area),
             second_moments: [
@@ -311,11 +322,8 @@ impl SectionNumbers {
                 mix(second, other.second_moments[1]),
             ],
             torsion_constant: mix(self.torsion_constant, other.torsion_constant),
-            coupling: [
-                mix(p, other.coupling[0]),
-                mix(q, other.coupling[1]),
-                mix(r, other.coupling[2]),
-            ],
+            coupling: three(self.coupling, other.coupling),
+            axial_coupling: three(self.axial_coupling, other.axial_coupling),
             shear_factors: (self.shear_factors.zip(other.shear_factors))
                 .map(|([a, b], [c, d])| [mix(a, c), mix(b, d)]),
             shape: None,

@@ -306,6 +306,10 @@ impl<'a> Resolved<'a> {
                 place: Place::Point(rigid, _),
                 ..
             }) => rigid.body.directed(direction),
+            First::Marker(Marker {
+                place: Place::Along(cable, s),
+                ..
+            }) if cable.body.is_rod() => cable.body.directed(s, direction),
             _ => direction,
         }
     }

@@ -13,6 +13,7 @@ mod ports;
 mod references;
 mod sections;
 mod springs;
+mod stress;
 #[cfg(test)]
 mod tests;
 

@@ -14,7 +14,7 @@ const MOST_FREQUENCIES: u32 = 100;
 
 impl Output {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 7] = [
+        let all: [Key; 8] = [
             ("marker", self.marker.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
             ("gear", self.gear.is_some(), "a name"),
@@ -22,6 +22,7 @@ impl Output {
             ("axes", !self.axes.is_global(), "axes"),
             ("body", self.body.is_some(), "a name"),
             ("count", self.count.is_some(), "a count"),
+            ("points", self.points.is_some(), "points"),
         ];
         let alternatives = self.kind.keys();
         let of = [&self.marker, &self.joint, &self.motion];
@@ -123,6 +124,7 @@ impl<'a> Resolved<'a> {
             ReadAt::Cable | ReadAt::Node => Of::Marker(marker(Self::require_cable_marker)?),
             ReadAt::Rod => Of::Marker(marker(Self::require_rod_marker)?),
             ReadAt::Flexible => Of::Marker(marker(Self::require_flexible_marker)?),
+            ReadAt::Points => self.section_points(path, output)?,
             ReadAt::Turning => Of::Turning(spinning()?),
             ReadAt::Angle => {
                 let turning = turning()?;

@@ -127,22 +127,36 @@ impl CableBody {
         self.validate_coupling(path)
     }
 
-    /// Stiffness is positive with what couples twist and bending.
+    /// Stiffness is positive with what couples stretching, twist and bending.
     fn validate_coupling(&self, path: &str) -> Result<(), Error> {
         let one = [(&self.section, format!("{path}.section"))];
         let stations = self.stations.iter().enumerate();
         let all = stations.map(|(k, s)| (&s.section, format!("{path}.stations[{k}].section")));
         for (section, place) in one.into_iter().chain(all) {
-            let Some(coupling) = section.coupling else {
-                continue;
-            };
-            let place = format!("{place}.coupling");
-            for entry in coupling {
-                finite(&place, entry)?;
-            }
-            if self.stiffness(&section.numbers()).cholesky().is_none() {
-                let wanted = "stiffness that couples less than twist and bending alone have";
-                return Err(expected(&place, wanted, format!("{coupling:?}")));
+            for (key, coupling) in [
+                ("coupling", section.coupling),
+                ("axial_coupling", section.axial_coupling),
+            ] {
+                let Some(coupling) = coupling else {
+                    continue;
+                };
+                let (place, numbers) = (format!("{place}.{key}"), section.numbers());
+                for entry in coupling {
+                    finite(&place, entry)?;
+                }
+                let (is_positive, wanted) = match key {
+                    "coupling" => (
+                        self.stiffness(&numbers).cholesky().is_some(),
+                        "stiffness that couples less than twist and bending alone have",
+                    ),
+                    _ => (
+                        self.coupled_stiffness(&numbers).cholesky().is_some(),
+                        "stiffness that couples less than stretching, twist and bending alone have",
+                    ),
+                };
+                if !is_positive {
+                    return Err(expected(&place, wanted, format!("{coupling:?}")));
+                }
             }
         }
         Ok(())
@@ -226,8 +240,12 @@ impl Section {
                 inner_radius,
             ));
         }
-        if !is_rod && self.coupling.is_some() {
-            return Err(expected(&format!("{path}.coupling"), OF_RODS, "a value"));
+        let couplings = [
+            ("coupling", self.coupling.is_some()),
+            ("axial_coupling", self.axial_coupling.is_some()),
+        ];
+        if let Some((key, _)) = couplings.iter().find(|(_, is_said)| *is_said && !is_rod) {
+            return Err(expected(&format!("{path}.{key}"), OF_RODS, "a value"));
         }
         let [first, second] = shape.numbers().second_moments;
         if is_rod || first == second {
@@ -280,6 +298,7 @@ impl Section {
             ("second_moments", self.second_moments.is_some()),
             ("torsion_constant", self.torsion_constant.is_some()),
             ("coupling", self.coupling.is_some()),
+            ("axial_coupling", self.axial_coupling.is_some()),
             ("shear_factors", self.shear_factors.is_some()),
         ];
         if let Some((key, _)) = beside.iter().find(|(_, is_said)| *is_said) {
@@ -348,6 +367,7 @@ impl Section {
             ("second_moments", self.second_moments.is_some()),
             ("torsion_constant", self.torsion_constant.is_some()),
             ("coupling", self.coupling.is_some()),
+            ("axial_coupling", self.axial_coupling.is_some()),
         ];
         match of_rods.iter().find(|(_, is_said)| *is_said) {
             Some((key, _)) => Err(expected(&format!("{path}.{key}"), OF_RODS, "a value")),

@@ -3,6 +3,7 @@
 
 mod schema;
 mod space;
+mod stress;
 
 use serde_json::{Value, json};
 

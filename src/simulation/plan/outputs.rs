@@ -130,7 +130,7 @@ fn nature(source: Source) -> Option<(Measure, bool, bool)> {
     Some((measure, is_dynamic, counts))
 }
 
-/// Whether an output is a force or a moment.
+/// Whether an output is a force, a moment or a stress.
 fn is_force(source: Source) -> bool {
     use Quantity::*;
     let Source::Output(quantity) = source else {
@@ -141,6 +141,8 @@ fn is_force(source: Source) -> bool {
         AxialForce(_)
             | BendingMoment(..)
             | Torque(_)
+            | Stress(_)
+            | TorsionStress(_)
             | ConnectivityForce(..)
             | Reaction(..)
             | ReactionMoment(..)

@@ -3,7 +3,7 @@
 use super::unit::*;
 use super::{AXES, List, PARTS, Quantity, Source, Unit, component};
 use crate::scene::{
-    Along, AngleId, HolderId, InputKind, MarkerId, Of, Output, OutputKind, Port, PortKind,
+    Along, AngleId, HolderId, InputKind, MarkerId, Of, Output, OutputKind, PointId, Port, PortKind,
     Resolved, SlideId, Turning,
 };
 use crate::simulation::quantities::{Evaluated, needs};
@@ -23,6 +23,8 @@ enum Shape {
     Quaternion,
     /// As many as are asked for; in its meaning, `{}` is the number from 1 on.
     List,
+    /// One a point of a section, which its meaning ends with.
+    Points,
 }
 
 /// Quantities by what they are read at, and the place in their shape.
@@ -39,6 +41,7 @@ enum Read {
     /// One number of a joint or a gear.
     Joint(fn(HolderId) -> Quantity),
     Counted(fn(AngleId) -> Quantity),
+    Points(fn(PointId) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
     Holder(fn(HolderId, usize, Along) -> Quantity),
     Scene(fn(usize) -> Quantity),
@@ -53,7 +56,7 @@ type Row = (&'static str, &'static str, Option<Unit>, Shape, Read);
 fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
     use OutputKind as Kind;
     use Quantity::*;
-    use Shape::{List, Matrix, Quaternion as Four, Scalar, Turn, Vector};
+    use Shape::{List, Matrix, Points as AtPoints, Quaternion as Four, Scalar, Turn, Vector};
     match kind {
         Kind::Position => vec![("position", "Position of {}", Some(METRE), Vector, Read::Marker(Position))],
         Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Moving(Velocity, SlidingVelocity))],
@@ -80,6 +83,8 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         Kind::AxialForce => vec![("axial_force", "Axial force at {}", Some(NEWTON), Scalar, Read::Marker(|m, _| AxialForce(m)))],
         Kind::BendingMoment => vec![("bending_moment", "Bending moment at {}", Some(NEWTON_METRE), Turn, Read::Marker(BendingMoment))],
         Kind::Torque => vec![("torque", "Torque about the tangent at {}", Some(NEWTON_METRE), Scalar, Read::Marker(|m, _| Torque(m)))],
+        Kind::Stress => vec![("stress", "Normal stress at {}", Some(PASCAL), AtPoints, Read::Points(Stress))],
+        Kind::TorsionStress => vec![("torsion_stress", "Shear stress by torsion at {}", Some(PASCAL), AtPoints, Read::Points(TorsionStress))],
         Kind::ConnectivityForce => vec![
             ("connectivity_force", "Force of the part before on the part after {}", Some(NEWTON), Vector, Read::Marker(ConnectivityForce)),
         ],
@@ -183,6 +188,10 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             ),
         };
         let source = |k| source(read, output, k);
+        if let Of::Points(_, _, points) = output.of {
+            list.at_points((&name, &what), unit, points, source);
+            continue;
+        }
         list.shaped((&name, &what), unit, (shape, count), source);
     }
 }
@@ -191,7 +200,7 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
 fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
     let second = |joint: &str| format!("the second marker of {joint} less that of its first");
     match of {
-        Of::Marker(marker) => (marker.name, marker.name.into()),
+        Of::Marker(marker) | Of::Points(marker, ..) => (marker.name, marker.name.into()),
         Of::Turning(Turning::Marker(marker)) => {
             (marker.name, format!("the direction at {}", marker.name))
         }
@@ -238,6 +247,7 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
         }
         (Read::Joint(quantity), Of::Gear(_, holder)) => quantity(*holder),
         (Read::Counted(quantity), Of::Angle(_, angle)) => quantity(*angle),
+        (Read::Points(quantity), Of::Points(_, first, _)) => quantity(first.after(k)),
         (Read::Slide(quantity), Of::Slide(_, slide)) => quantity(*slide),
         (Read::Holder(quantity), Of::Reaction(reaction)) => quantity(reaction.holder, k, along),
         (Read::Scene(quantity), Of::Scene) => quantity(k),
@@ -336,6 +346,20 @@ impl List {
                 };
                 self.output(component(name, k), what, unit, source(k));
             }),
+        }
+    }
+
+    /// One output a point of a section.
+    fn at_points(
+        &mut self,
+        (name, what): (&str, &str),
+        unit: Option<Unit>,
+        points: &[Vec<f64>],
+        source: impl Fn(usize) -> Source,
+    ) {
+        for (k, point) in points.iter().enumerate() {
+            let what = format!("{what}, {point:?} m from the line of its section");
+            self.output(component(name, k), what, unit, source(k));
         }
     }
 

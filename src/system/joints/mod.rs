@@ -1,6 +1,7 @@
 //! Joints and motions: what they are made of, one file a primitive. What is linear in nodal coordinates becomes rows of
 //! `Phi`; the rest becomes constraints with multipliers.
 
+mod clamp;
 mod direction;
 mod distance;
 mod driven_orientation;
@@ -11,8 +12,10 @@ mod motion;
 mod perpendicular;
 mod point_on_curve;
 mod related;
+mod rows;
 mod unit;
 
+pub use clamp::Clamp;
 pub use direction::AngleBetween;
 pub use distance::Distance;
 pub use driven_orientation::DrivenOrientation;
@@ -22,6 +25,7 @@ pub use line::PointOnLine;
 pub use perpendicular::{Across, Perpendicular};
 pub use point_on_curve::PointOnCurve;
 pub use related::Related;
+use rows::Rows;
 pub use unit::UnitLength;
 
 use super::CableChain;
@@ -44,6 +48,8 @@ pub enum Primitive<const D: usize = 2> {
     Direction(f64),
     /// The direction of a cable is along this unit vector (first end: ground).
     Clamped(Vector<D>),
+    /// A section of a rod or beam is held by rows alone, whatever else of its joint is said (first end: ground).
+    Clamp(Clamp),
     /// The distance, m.
     Distance(f64),
     /// A right angle: in space.
@@ -398,6 +404,14 @@ impl<const D: usize> Joint<D> {
         })
     }
 
+    /// The section that it holds by rows alone.
+    pub fn clamp(&self) -> Option<&Clamp> {
+        self.holds.iter().find_map(|primitive| match primitive {
+            Primitive::Clamp(clamp) => Some(clamp),
+            _ => None,
+        })
+    }
+
     /// Whether it holds one position on the other and nothing else.
     pub fn is_pin(&self) -> bool {
         matches!(self.holds[..], [Primitive::Coincident])
@@ -423,6 +437,12 @@ impl<const D: usize> Joint<D> {
                 Primitive::Line(along) => line::hold(&mut rows, *along),
                 Primitive::Direction(angle) => direction::hold(&mut rows, *angle),
                 Primitive::Clamped(along) => direction::clamp(&mut rows, along),
+                Primitive::Clamp(clamp) => {
+                    if let End::Ground(point) = &self.ends[0] {
+                        rows.linear.extend(clamp.rows(point, nodes));
+                    }
+                    None
+                }
                 Primitive::Distance(length) => distance::hold(&rows, *length),
                 Primitive::Perpendicular(right) => {
                     Some(ConstraintKind::Perpendicular(right.clone()))
@@ -456,44 +476,5 @@ impl<const D: usize> Joint<D> {
             };
             nonlinear.extend(kind.map(|kind| Constraint::of(index, kind)));
         }
-    }
-}
-
-/// Where joints put their rows.
-struct Rows<'a, const D: usize> {
-    joint: usize,
-    ends: &'a [End<D>; 2],
-    nodes: &'a [Node<D>],
-    linear: &'a mut Vec<Linear<D>>,
-}
-
-impl<const D: usize> Rows<'_, D> {
-    /// `second . (position, direction of the second end) - first . (of the first end) = target`.
-    fn push(&mut self, first: [Vector<D>; 2], second: [Vector<D>; 2], target: Target) {
-        let mut row = Row {
-            terms: Vec::new(),
-            is_driven: target.is_driven(),
-        };
-        let on_ends = [first.map(|part| -part), second];
-        for (end, [position, direction]) in self.ends.iter().zip(on_ends) {
-            end.add_terms(position, direction, &mut row);
-        }
-        self.linear.push(Linear {
-            joint: Some(self.joint),
-            row,
-            target,
-            on_ends,
-        });
-    }
-
-    /// Holds the position of the second end along an axis against that of the first; `target` takes
-    /// where a first end on the ground is along it.
-    fn hold_position(&mut self, axis: Vector<D>, target: impl Fn(f64) -> Target) {
-        let none = Vector::zeros();
-        let start = match self.ends[0] {
-            End::Ground(point) => axis.dot(&point),
-            End::Body(_) => 0.0,
-        };
-        self.push([axis, none], [axis, none], target(start));
     }
 }

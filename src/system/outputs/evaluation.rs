@@ -161,6 +161,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Force (N) and moment (N m), in the plane its third component, of a joint or motion on its second end.
     pub fn reaction(&self, system: &System<D>, joint: usize) -> (Vector<D, N>, [N; 3]) {
+        if let Some(clamp) = system.joints[joint].clamp() {
+            return self.clamped(system, clamp);
+        }
         let mut force = Vector::zeros();
         let second = system.joints[joint].ends[1].lift();
         let u = second.direction(&self.x);

@@ -1,7 +1,9 @@
 //! What is read of a system at a state, and its derivatives.
 
+mod clamp;
 pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
 mod resolution;
 pub(in crate::system) mod rod;
 pub(in crate::system) mod section;
+pub(in crate::system) mod stress;

@@ -62,13 +62,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         self.on_part(system, rod, before).0
     }
 
-    /// Axial force (N) and bending moment (N m) at a marker of a rod, just after what acts there, but at the last end.
+    /// Force (N) and bending moment (N m) in the section at a marker of a rod, just after what acts there, but at the last end.
     pub(super) fn rod_section(
         &self,
         system: &System<D>,
         rod: &Rod,
         marker: &Marker,
-    ) -> (N, [N; 3]) {
+    ) -> (Vector<D, N>, [N; 3]) {
         let Section { at, half, near } = Section::new(rod, marker);
         let is_last = at > half - near;
         let after = Part {
@@ -76,7 +76,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             acts: [if is_last { at - near } else { at + near }, f64::INFINITY],
         };
         let (force, moment) = self.on_part(system, rod, after);
-        (force.dot(&self.along(rod)), moment.into())
+        (force, moment.into())
     }
 
     /// Force, N, and moment about where it begins, N m, on a part of a rod, less its inertia.
@@ -84,7 +84,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let along = self.along(rod);
         let (mut force, mut turning) = self.spread(system, rod, part.ends);
         let [first, last] = part.acts;
-        self.each_force(system, rod, |end, [position, direction]| {
+        let is_on = |marker: &Marker| marker.nodes[0] == rod.node;
+        let is_its_own = |mass: usize| mass == rod.mass;
+        self.each_force(system, (is_on, is_its_own), |end, [position, direction]| {
             if let End::Body(marker) = end
                 && marker.nodes[0] == rod.node
                 && (first..last).contains(&marker.offset().plain())
@@ -168,17 +170,16 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         ]
     }
 
-    /// Calls with everything that acts on a rod at points, among others: loads, joints, and masses with their weight less
-    /// their inertia.
-    fn each_force(
+    /// Calls with everything that acts at points where markers are, among others: loads, joints, and masses, but one of a body's own, with
+    /// their weight less their inertia.
+    pub(super) fn each_force(
         &self,
         system: &System<D>,
-        rod: &Rod,
+        (is_on, is_own): (impl Fn(&Marker) -> bool, impl Fn(usize) -> bool),
         mut call: impl FnMut(&End<D, N>, Forces<D, N>),
     ) {
-        let is_on = |marker: &Marker| marker.nodes[0] == rod.node;
         for (index, lump) in system.lumped_masses.iter().enumerate() {
-            if index != rod.mass && is_on(&lump.marker) {
+            if !is_own(index) && is_on(&lump.marker) {
                 let marker = lump.marker.lift();
                 let [position, direction] = self.inertia_at(system, &marker);
                 let force = (system.gravity.map(N::of) - position) * N::of(lump.mass);
@@ -196,7 +197,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             let Some(joint) = linear.joint.map(|joint| &system.joints[joint]) else {
                 continue;
             };
-            if !joint.ends.iter().filter_map(End::marker).any(is_on) {
+            if !joint.ends.iter().filter_map(End::marker).any(&is_on) {
                 continue;
             }
             let lambda = system.row_multiplier(row, &self.supply);

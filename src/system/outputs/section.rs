@@ -43,24 +43,30 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// marker of a cable; zero elsewhere. At a node they are those just after what acts there, but at
     /// the last end.
     pub fn section(&self, system: &System<D>, marker: &Marker) -> (N, [N; 3]) {
+        let (force, moment) = self.cut(system, marker);
+        let tangent = marker.lift::<N>().direction(&self.x).normalize();
+        (force.dot(&tangent), moment)
+    }
+
+    /// Force (N) and bending moment (N m) in a section, of the part after on the part before; the latter as of [`Self::section`].
+    pub(super) fn cut(&self, system: &System<D>, marker: &Marker) -> (Vector<D, N>, [N; 3]) {
         if let Some(rod) = system.rod(marker) {
             return self.rod_section(system, rod, marker);
         }
         let Some((chain, j, xi)) = system.element_after(marker) else {
-            return (N::of(0.0), [N::of(0.0); 3]);
+            return (Vector::zeros(), [N::of(0.0); 3]);
         };
         let (part, e) = (&chain.elements()[j], chain.element(j, &self.x));
         let (lack, torques) = self.lack(system, (chain, j));
         let column = |k: usize| -> Vector<D, N> { lack.column(k).into() };
         let slope = |xi: f64| -> Vector<D, N> { e * shape::slopes(N::of(xi), part.length()) };
-        let tangent = slope(xi).normalize();
         let bends = part.bends();
         let bending = |m: Vector3<N>| if bends { m } else { Vector3::zeros() };
         // At the ends: what the neighbours exert.
         let first = Vector3::from(moment(&slope(0.0), &column(1))) + torques[0];
         let last = -Vector3::from(moment(&slope(1.0), &column(3))) - torques[1];
         if xi == 1.0 {
-            return (-column(2).dot(&tangent), bending(last).into());
+            return (-column(2), bending(last).into());
         }
         let (force, turned) = self.integrated(system, (chain, j), column(0), xi);
         // The mass matrix counts quadratic and cubic parts of the motion more than the integral of their
@@ -68,7 +74,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (_, whole) = self.integrated(system, (chain, j), column(0), 1.0);
         let missing = last - first + whole;
         let moment = bending(first - turned + missing * N::of(xi));
-        (force.dot(&tangent), moment.into())
+        (force, moment.into())
     }
 
     /// Torque about the tangent at a marker of a rod, N m; zero elsewhere.
@@ -122,7 +128,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// What an element lacks for equilibrium, on its coordinates: elastic and damping forces and loads less
     /// inertia, N and N m; and the moments on the sections at the ends of an element of a rod or beam, N m. Its neighbours exert the opposite.
-    fn lack(
+    pub(super) fn lack(
         &self,
         system: &System<D>,
         (chain, j): (&CableChain<D>, usize),

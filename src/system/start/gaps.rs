@@ -102,7 +102,8 @@ impl<const D: usize> System<D> {
     }
 
     fn all_constraints(&self) -> impl Iterator<Item = &Constraint<D>> {
-        self.constraints.iter().chain(&self.settled)
+        let held = self.settled.iter().chain(&self.clamped);
+        self.constraints.iter().chain(held)
     }
 
     /// Joints of the entries of [`System::gaps`], and whether those are of angles.

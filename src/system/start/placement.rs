@@ -83,6 +83,7 @@ impl<const D: usize> System<D> {
         self.turn_driven(&mut x, work);
         let left = self.fit(&mut x, work);
         self.start_hints(&mut state, &x, inputs);
+        self.frames.keep_held(nodes, &mut x);
         self.frames.frames_at(&x, &mut state.frames);
         work.resume(&state);
         self.forward_kinematics(time, &state.coordinates, None, work);

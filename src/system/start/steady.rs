@@ -142,7 +142,7 @@ impl<const D: usize> System<D> {
             }
         }
         let view = self.view(work);
-        for constraint in &self.constraints {
+        for constraint in self.constraints.iter().chain(&self.clamped) {
             let mut row = vec![0.0; fields.len()];
             constraint.for_each(&view, |node, term| {
                 for (sum, field) in row.iter_mut().zip(fields) {

@@ -4,6 +4,7 @@
 mod bushings;
 mod cables;
 mod coordinates;
+mod coupled;
 mod frames;
 mod initial;
 mod inputs;
@@ -15,6 +16,7 @@ mod motions;
 mod ports;
 mod rigid;
 mod rods;
+mod section_joints;
 mod sections;
 mod shapes;
 mod slides;
@@ -27,6 +29,7 @@ mod space_modes;
 mod space_ports;
 mod space_rods;
 mod spread;
+mod stress;
 mod tables;
 mod tapers;
 
@@ -63,6 +66,8 @@ pub fn all() -> Vec<Specimen> {
         space_rods::all(),
         space_beams::all(),
         spread::all(),
+        stress::all(),
+        section_joints::all(),
         shapes::all(),
         tapers::all(),
     ];

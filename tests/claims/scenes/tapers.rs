@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 
-use super::space::{array, vector};
+use super::coupled;
+use super::space::vector;
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
@@ -18,7 +19,8 @@ pub fn all() -> Vec<Specimen> {
 /// Those of rods.
 pub fn rods() -> Vec<Specimen> {
     let mut rods = of(true);
-    rods.extend([twisted(), coupled(false), coupled(true), helix(true)]);
+    rods.extend([twisted(), helix(true)]);
+    rods.extend(coupled::all());
     rods
 }
 
@@ -27,17 +29,17 @@ fn of(is_rod: bool) -> Vec<Specimen> {
     vec![uniform, tapered, numbers(is_rod), bent(is_rod)]
 }
 
-const YOUNG: f64 = 3.0e6;
-const SHEAR: f64 = 1.1e6;
+pub const YOUNG: f64 = 3.0e6;
+pub const SHEAR: f64 = 1.1e6;
 const DENSITY: f64 = 700.0;
-const LENGTH: f64 = 0.9;
+pub const LENGTH: f64 = 0.9;
 const GRAVITY: f64 = 4.0;
 const TORQUE: f64 = 3e-3;
 /// Where the middle station of tapered bodies is.
 const MIDDLE: f64 = 0.4;
 
 /// A body along -y (plane) or -z (space) from a point, held at its first end.
-fn body(name: &str, is_rod: bool, place: f64) -> Value {
+pub fn body(name: &str, is_rod: bool, place: f64) -> Value {
     let (from, to) = match is_rod {
         true => (json!([place, 0.0, 0.0]), json!([place, 0.0, -LENGTH])),
         false => (json!([place, 0.0]), json!([place, -LENGTH])),
@@ -52,7 +54,7 @@ fn body(name: &str, is_rod: bool, place: f64) -> Value {
 }
 
 /// Bodies that hang at walls and, if they are rods, are twisted by a torque at the tip.
-fn hung(name: &str, is_rod: bool, bodies: Vec<Value>) -> Value {
+pub fn hung(name: &str, is_rod: bool, bodies: Vec<Value>) -> Value {
     let names: Vec<String> = bodies
         .iter()
         .map(|body| body["name"].as_str().expect("a name").into())
@@ -362,68 +364,6 @@ fn helix(is_rod: bool) -> Specimen {
         let (sin, cos) = (2.0 * PI * turns * s).sin_cos();
         let place = Vector3::new(0.2 + rise * s, -0.1 - radius * sin, 0.4 + radius * cos);
         specimen = vector(specimen, &format!("coil.{at}.position"), "m", place);
-    }
-    specimen
-}
-
-/// Under a dead moment along an eigenvector of its stiffness a rod of coupled sections bends to a helix about it, of the
-/// rate moment over eigenvalue.
-fn coupled(is_at_stations: bool) -> Specimen {
-    let (moments, torsion, coupling) = ([3.0e-7, 7.0e-7], 5.0e-7, [0.2, -0.3, 0.25]);
-    let section = json!({"area": 2e-2, "second_moments": moments, "torsion_constant": torsion, "coupling": coupling});
-    let mut made = body("rod", true, 0.0);
-    made["elements"] = json!(32);
-    if is_at_stations {
-        made["stations"] =
-            json!([{"at": 0.0, "section": section}, {"at": 1.0, "section": section}]);
-    } else {
-        made["section"] = section;
-    }
-    made["axis"] = json!([0.0, 1.0, 0.0]);
-    let [p, q, r] = coupling;
-    let stiffness = Matrix3::new(
-        SHEAR * torsion,
-        p,
-        q, //
-        p,
-        YOUNG * moments[0],
-        r, //
-        q,
-        r,
-        YOUNG * moments[1],
-    );
-    let eigen = stiffness.symmetric_eigen();
-    let k = eigen.eigenvalues.imin();
-    // In the axes of the section at the root: tangent -z, first axis y, second x.
-    let own: Vector3<f64> = eigen.eigenvectors.column(k).into();
-    let axes = Matrix3::from_columns(&[-Vector3::z(), Vector3::y(), Vector3::x()]);
-    let way = axes * own * own.iter().sum::<f64>().signum();
-    let rate = 1.2;
-    let moment = way * rate * eigen.eigenvalues[k];
-    let scene = json!({"name": "coupled", "dimension": 3, "bodies": [made], "initial": "static_equilibrium",
-        "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.root"]}],
-        "loads": [{"name": "end", "kind": "moment", "marker": "rod.tip", "value": array(moment)}],
-        "accuracy": {"relative_tolerance": 1e-9},
-        "outputs": [{"kind": "position", "marker": "rod.tip"}, {"kind": "orientation", "marker": "rod.tip"}]});
-    let angle = rate * LENGTH;
-    let tangent = -Vector3::z();
-    let along = way * way.dot(&tangent);
-    let tip = along * LENGTH
-        + (tangent - along) * (angle.sin() / rate)
-        + way.cross(&tangent) * ((1.0 - angle.cos()) / rate);
-    let turned = Rotation3::from_axis_angle(&Unit::new_normalize(way), angle) * axes;
-    let title = match is_at_stations {
-        true => "coupled sections at stations",
-        false => "coupled sections",
-    };
-    let mut specimen = Specimen::new(title, scene);
-    for row in 0..3 {
-        for column in 0..3 {
-            let of = format!("rod.tip.orientation[{}]", 3 * row + column + 1);
-            specimen = specimen.claim_within(&of, "", turned[(row, column)], 2e-6);
-        }
-        let of = format!("rod.tip.position[{}]", row + 1);
-        specimen = specimen.claim_within(&of, "m", tip[row], 2e-6);
     }
     specimen
 }

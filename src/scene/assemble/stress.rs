@@ -1,0 +1,31 @@
+//! Points of sections whose stress is read.
+
+use super::Builder;
+use crate::scene::resolved;
+use crate::system::SectionPoint;
+
+impl<const D: usize> Builder<'_, D> {
+    /// All of them, as the scene numbers them.
+    pub(super) fn section_points(&self) -> Vec<SectionPoint> {
+        let points = self.resolved.points.iter();
+        points.map(|point| self.section_point(point)).collect()
+    }
+
+    fn section_point(&self, given: &resolved::SectionPoint<'_>) -> SectionPoint {
+        let section = given.cable.body.section_after(given.at);
+        let [y, z] = given.point;
+        // On the line of what does not bend there is no more than the force.
+        let over = |way: f64, moment: f64| if way == 0.0 { 0.0 } else { way / moment };
+        let [first, second] = section.second_moments;
+        SectionPoint {
+            marker: self.marker(given.marker),
+            by_force: section.area.recip(),
+            by_moments: match D {
+                // Bending in the plane is about the first axis, which is across it.
+                2 => [0.0, -over(y, first)],
+                _ => [over(z, first), -over(y, second)],
+            },
+            by_torque: (section.shape).map_or(0.0, |shape| shape.torsion_stress(given.point)),
+        }
+    }
+}

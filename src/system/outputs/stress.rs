@@ -1,0 +1,54 @@
+//! Stress at points of sections.
+//!
+//! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), section 102 (bending: stress is linear over the
+//! section) and chapter 10 (torsion).
+
+use nalgebra::Vector3;
+
+use super::evaluation::Evaluation;
+use crate::body::Marker;
+use crate::math::jet::Number;
+use crate::math::space::{axis, components};
+use crate::system::System;
+
+/// A point of a section whose stress is read: stress by force and moments.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionPoint {
+    /// Where the section is.
+    pub marker: Marker,
+    /// Normal stress by the force across the section, 1/m^2.
+    pub by_force: f64,
+    /// Normal stress by the moments about the first and the second axis; in the plane by the moment, and 0 before, 1/m^3.
+    pub by_moments: [f64; 2],
+    /// Shear stress by the torque, 1/m^3.
+    pub by_torque: f64,
+}
+
+impl<const D: usize, N: Number> Evaluation<D, N> {
+    /// Normal stress at a point of a section, Pa.
+    pub fn stress(&self, system: &System<D>, point: &SectionPoint) -> N {
+        let (force, moment) = self.cut(system, &point.marker);
+        let [normal, first, second] = self.section_axes(system, &point.marker);
+        let moment = Vector3::from(moment);
+        let [by_first, by_second] = point.by_moments.map(N::of);
+        normal.dot(&Vector3::from(components(&force))) * N::of(point.by_force)
+            + first.dot(&moment) * by_first
+            + second.dot(&moment) * by_second
+    }
+
+    /// Shear stress by torsion at a point of a section, Pa.
+    pub fn torsion_stress(&self, system: &System<D>, point: &SectionPoint) -> N {
+        let (_, moment) = self.cut(system, &point.marker);
+        let [normal, ..] = self.section_axes(system, &point.marker);
+        normal.dot(&Vector3::from(moment)) * N::of(point.by_torque)
+    }
+
+    /// What is across a section, and its axes; in the plane the tangent, and the axis across it last.
+    fn section_axes(&self, system: &System<D>, marker: &Marker) -> [Vector3<N>; 3] {
+        if marker.is_framed() {
+            return self.axes(system, marker).map(Vector3::from);
+        }
+        let tangent = marker.lift::<N>().direction(&self.x).normalize();
+        [components(&tangent).into(), Vector3::zeros(), axis(2)]
+    }
+}
