@@ -39,5 +39,6 @@ mod spectra;
 mod spectra_in_space;
 mod spinning;
 mod sprung;
+mod spun_beams;
 mod tangents;
 mod whirl;
