@@ -189,6 +189,7 @@ impl Rods {
             length: 0.1,
             stiffness: [stiffness; 3],
             damping_times: [0.0; 3],
+            axial: None,
         };
         let straight = rod::At {
             e: [[0.0; 3], [1.0, 0.0, 0.0], [0.1, 0.0, 0.0], [1.0, 0.0, 0.0]],

@@ -4,7 +4,7 @@ use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
 use super::{State, System};
-use crate::body::{Articulated, Carry, Jacobian, Node, Tangent, Turn, no_node};
+use crate::body::{Articulated, Carry, Jacobian, Node, STAGES, Tangent, Turn, no_node};
 use crate::math::recent::Recent;
 use crate::math::rotation::{NO_TURN, Quaternion};
 
@@ -43,6 +43,8 @@ pub struct Work<const D: usize = 2> {
     pub(super) turns: Vec<Turn>,
     /// The same of frames that rods carry.
     pub(super) carries: Vec<Carry>,
+    /// The same where the tangent was made, and at the stages of an implicit method.
+    pub(super) stages: [Vec<Carry>; 1 + STAGES],
     /// Moments of rods on their sections, about the tangents, or of beams along the axes, N m.
     pub(super) torques: Vec<[f64; 3]>,
     /// The state accepted last, to go back to from a step that leaves a cable.
@@ -155,6 +157,7 @@ impl<const D: usize> Work<D> {
             frames: vec![NO_TURN; system.frames.count()],
             turns: vec![Turn::default(); system.frames.list().len()],
             carries: vec![Carry::default(); system.frames.carried().len()],
+            stages: std::array::from_fn(|_| vec![Carry::default(); system.frames.carried().len()]),
             torques: vec![[0.0; 3]; system.frames.carried().len()],
             before: system.blank_state(0.0),
             right: lambda.clone(),

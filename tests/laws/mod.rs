@@ -39,6 +39,7 @@ mod spectra;
 mod spectra_in_space;
 mod spinning;
 mod sprung;
+mod spun_beams;
 mod tangents;
 mod turning_rods;
 mod whirl;

@@ -257,6 +257,11 @@ impl Frames {
         }
     }
 
+    /// Whether any of them leans.
+    pub fn lean(&self) -> bool {
+        self.carried.iter().any(|frame| frame.leans)
+    }
+
     /// The carried frame that a node belongs to, and whether it is its second node.
     pub(in crate::body) fn carried_of<const D: usize>(
         &self,
@@ -437,6 +442,28 @@ impl Frames {
                     Derivative::First => carry.rate_of(0.0, &slope),
                     Derivative::Second => carry.second_of(0.0, &slope),
                 };
+        }
+    }
+
+    /// The way back of [`Frames::turn_carried`] for first derivatives: what stands among free coordinates for changes of rotations becomes
+    /// small rotations about tangents, or along the axes of sections that lean.
+    pub fn spins_of_carried<const D: usize>(
+        &self,
+        carries: &[Carry],
+        dx: &[Node<D>],
+        y: &mut [f64],
+    ) {
+        for (frame, carry) in self.carried.iter().zip(carries) {
+            let slope = frame.slope(dx);
+            if frame.leans {
+                let spin = carry.lean.spin_of(&frame.read(y), &slope);
+                frame.write(&spin, y);
+                continue;
+            }
+            let Some((at, scale)) = frame.places[0] else {
+                continue;
+            };
+            y[at] -= scale * carry.rate_of(0.0, &slope);
         }
     }
 

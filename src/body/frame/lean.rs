@@ -1,20 +1,22 @@
 //! Frames of sections that lean against the tangent of their line, those of beams: how they follow from the slope and three coordinates.
 //!
-//! With `R0` the frame that the state holds, `tau = R0^T u / |u|` the tangent along its axes, and `cay(p)` the rotation by the vector of
-//! Rodrigues `p` (twice the tangent of half the angle along the axis), the frame is
+//! With `R0` the frame that the state holds, `tau = R0^T u / |u|` the tangent along its axes, `cay(x)` the rotation by the vector of
+//! Rodrigues `x` (twice the tangent of half the angle along the axis) and `roll(p_1)` that by the angle `p_1` about the first axis, the
+//! frame is
 //!
 //! ```text
-//! R = R0 cay(s) cay(p - s),   s = 2 (0, -tau_3, tau_2) / (1 + tau_1)                                        (1)
+//! R = R0 cay(s) cay(e) roll(p_1),   s = 2 (0, -tau_3, tau_2) / (1 + tau_1),   e = (0, p_2, p_3) - s         (1)
 //! ```
 //!
-//! The first rotation is the smallest that takes the first axis of `R0` to the tangent, so that where `p - s` stays, the section follows
+//! The first rotation is the smallest that takes the first axis of `R0` to the tangent, so that where `e` stays, the section follows
 //! the tangent and its shear does not change, however far the tangent turns: a shear stiffness of any size leaves increments of `u` and
-//! `p` that are found from linearized equations what they are. At `p = 0` the frame is `R0` whatever the lean.
+//! `p` that are found from linearized equations what they are. At `p = 0` the frame is `R0` whatever the lean. A section that spins about
+//! its normal moves by an angle, at a constant rate: what methods integrate without error.
 //!
 //! With the angular velocity `w(x, x') = (x' - x x x' / 2) / (1 + x.x / 4)` of `cay(x)` along its own axes, that of the section is
 //!
 //! ```text
-//! w = w(e, e') + cay(e)^T w(s, s'),   e = p - s                                                             (2)
+//! w = (p_1', 0, 0) + roll(p_1)^T (w(e, e') + cay(e)^T w(s, s'))                                             (2)
 //! ```
 //!
 //! Source: M. Borri, L. Trainelli, C. L. Bottasso, On representations and parameterizations of motion, Multibody System Dynamics 4
@@ -22,7 +24,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::turn::{rate_of, spin_of};
+use super::turn::spin_of;
 use crate::math::jet::{Jet, Number, part};
 use crate::math::lanes::Real;
 use crate::math::rotation::{Quaternion, axes, product};
@@ -50,9 +52,23 @@ fn turned_back<N: Number>(x: &Vector3<N>, v: &Vector3<N>) -> Vector3<N> {
 /// `s` of (1), and its rate.
 fn smallest<N: Number>(tau: &Vector3<N>, rate: &Vector3<N>) -> [Vector3<N>; 2] {
     let scale = N::of(2.0) / (N::of(1.0) + tau[0]);
-    let across = |of: &Vector3<N>| Vector3::new(N::of(0.0), -of[2], of[1]);
-    let s = across(tau) * scale;
-    [s, across(rate) * scale - s * (rate[0] * scale * N::of(0.5))]
+    let normal = |of: &Vector3<N>| Vector3::new(N::of(0.0), -of[2], of[1]);
+    let s = normal(tau) * scale;
+    [s, normal(rate) * scale - s * (rate[0] * scale * N::of(0.5))]
+}
+
+/// The part across the first axis.
+fn across<N: Number>(x: &Vector3<N>) -> Vector3<N> {
+    Vector3::new(N::of(0.0), x[1], x[2])
+}
+
+/// A vector along axes that have turned about the first one, by an angle of this sine and cosine, along those before.
+fn unrolled<N: Number>(v: &Vector3<N>, (sine, cosine): (N, N)) -> Vector3<N> {
+    Vector3::new(
+        v[0],
+        v[1] * cosine - v[2] * sine,
+        v[2] * cosine + v[1] * sine,
+    )
 }
 
 /// Rate of `p` from the angular velocity of the section along its axes, at a tangent and its rate.
@@ -62,9 +78,13 @@ fn rotation_rate<N: Number>(
     spin: &Vector3<N>,
 ) -> Vector3<N> {
     let [s, s_rate] = smallest(tau, rate);
-    let e = p - s;
-    let own = spin - turned_back(&e, &spin_of(&s, &s_rate));
-    rate_of(&e, &own) + s_rate
+    let e = across(p) - s;
+    let by_tangent = turned_back(&e, &spin_of(&s, &s_rate));
+    let own = across(&(unrolled(spin, p[0].sine_cosine()) - by_tangent));
+    let e_rate = own * (N::of(1.0) + N::of(0.25) * e.norm_squared());
+    let mut turning = s_rate + e_rate;
+    turning[0] = spin[0] - by_tangent[0] - spin_of(&e, &e_rate)[0];
+    turning
 }
 
 impl Lean {
@@ -82,31 +102,44 @@ impl Lean {
         };
         let [s, _] = smallest(&lean.tangent()[0], &Vector3::zeros());
         let half = |x: Vector3<f64>| [1.0, 0.5 * x.x, 0.5 * x.y, 0.5 * x.z];
-        let turned = product(&product(from, &half(s)), &half(rotation - s));
-        (lean, axes(&turned))
+        let leaned = product(&product(from, &half(s)), &half(across(&rotation) - s));
+        let (sine, cosine) = (0.5 * rotation[0]).sin_cos();
+        (lean, axes(&product(&leaned, &[cosine, sine, 0.0, 0.0])))
     }
 
     /// The tangent along the axes of the state's frame, and its rate, 1/s.
     fn tangent(&self) -> [Vector3<f64>; 2] {
-        let [slope, rate] = self.slope;
-        let [tau, rate] = [slope, rate].map(|v| self.from.tr_mul(&v) / slope.norm());
-        [tau, rate - tau * tau.dot(&rate)]
+        self.tangent_and(&self.slope[1])
+    }
+
+    /// The tangent along the axes of the state's frame, and its change at one of the slope.
+    fn tangent_and(&self, change: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        let slope = &self.slope[0];
+        let [tau, change] = [slope, change].map(|v| self.from.tr_mul(v) / slope.norm());
+        [tau, change - tau * tau.dot(&change)]
     }
 
     /// Takes a rate of the slope and of the rotation: its angular velocity follows.
     pub fn set_rates(&mut self, slope: Vector3<f64>, rate: Vector3<f64>) {
         (self.slope[1], self.rate) = (slope, rate);
-        let [tau, tau_rate] = self.tangent();
-        let [s, s_rate] = smallest(&tau, &tau_rate);
-        let e = self.rotation - s;
-        self.spin = spin_of(&e, &(rate - s_rate)) + turned_back(&e, &spin_of(&s, &s_rate));
+        self.spin = self.spin_of(&rate, &slope);
+    }
+
+    /// Angular velocity along the section's axes, or a small rotation about them, of a change of the rotation and one of the slope.
+    pub fn spin_of(&self, rate: &Vector3<f64>, slope: &Vector3<f64>) -> Vector3<f64> {
+        let [tau, change] = self.tangent_and(slope);
+        let [s, s_rate] = smallest(&tau, &change);
+        let e = across(&self.rotation) - s;
+        let leaning =
+            spin_of(&e, &(across(rate) - s_rate)) + turned_back(&e, &spin_of(&s, &s_rate));
+        let (sine, cosine) = self.rotation[0].sin_cos();
+        let spin = unrolled(&leaning, (-sine, cosine));
+        Vector3::new(spin[0] + rate[0], spin[1], spin[2])
     }
 
     /// Change of the rotation by a small rotation along the section's axes and a change of the slope.
     pub fn change_of(&self, spin: &Vector3<f64>, slope: &Vector3<f64>) -> Vector3<f64> {
-        let [tau, _] = self.tangent();
-        let change = self.from.tr_mul(slope) / self.slope[0].norm();
-        let change = change - tau * tau.dot(&change);
+        let [tau, change] = self.tangent_and(slope);
         rotation_rate(&self.rotation, [&tau, &change], spin)
     }
 
@@ -202,6 +235,7 @@ mod tests {
         let [[_, slope, second], [_, rate, wanted]] = path(t);
         near(lean.second_of(&spin_rate, &second), wanted, 1e-7);
         near(lean.change_of(&lean.spin, &slope), rate, 1e-14);
+        near(lean.spin_of(&rate, &slope), lean.spin, 1e-14);
     }
 
     #[test]
@@ -215,6 +249,18 @@ mod tests {
         }
         anew.set_rates(rate, lean.rate_anew(&frame));
         near(anew.spin, lean.spin, 1e-14);
+    }
+
+    #[test]
+    fn a_steady_spin_about_the_normal_is_an_angle_that_grows_steadily() {
+        let from = normalized(FROM);
+        let [normal, ..] = axes(&from);
+        let still = Vector3::zeros();
+        let (mut lean, _) = Lean::placed(&from, normal * 1.2, Vector3::new(2.5, 0.0, 0.0));
+        let rate = Vector3::new(300.0, 0.0, 0.0);
+        lean.set_rates(still, rate);
+        near(lean.spin, rate, 1e-13);
+        near(lean.second_of(&still, &still), still, 1e-10);
     }
 
     #[test]

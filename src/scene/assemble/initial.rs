@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 
+use nalgebra::Vector3;
+
 use crate::body::{Node, add_node, no_node};
 use crate::math::expression::Expression;
-use crate::math::space::{Vector, spun, vector};
+use crate::math::space::{Vector, components, spun, vector};
 use crate::scene::{Error, InitialMotion};
 
 /// Motion of a body at the start.
@@ -117,7 +119,27 @@ impl<const D: usize> Motions<D> {
                 let moved = velocity + spun(*spin, way.into());
                 add_node(rate, 1.0, &[moved.into(), spun(*spin, x[1].into()).into()]);
             }
+            // Sections turn with the line that deforms: they begin without a rate of shear.
+            for (line, second) in (nodes.start..).zip(axes) {
+                let frame = *second - 1;
+                let slope = components(&x[line][1].into()).into();
+                let turn = turn_of(
+                    &slope,
+                    &components(&self.deformation[line][1].into()).into(),
+                );
+                for (node, part) in [(frame, 1), (*second, 0), (*second, 1)] {
+                    let by_line = Vector::from(spun(turn, x[node][part].into()));
+                    for (rate, by_line) in rates[node][part].iter_mut().zip(&by_line) {
+                        *rate += by_line;
+                    }
+                }
+            }
         }
         rates
     }
+}
+
+/// Angular velocity of the direction of a slope, rad/s, at this rate of it, 1/s.
+fn turn_of(slope: &Vector3<f64>, rate: &Vector3<f64>) -> [f64; 3] {
+    (slope.cross(rate) / slope.norm_squared()).into()
 }

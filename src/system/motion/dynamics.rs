@@ -407,20 +407,26 @@ impl<const D: usize> Dynamics for Model<'_, D> {
 
     fn solve(&mut self, x: &mut [f64]) {
         self.operations += SOLVE;
+        self.system.to_tangent(0, self.work, x);
         self.work.tangent.solve(&self.system.elimination, x);
+        self.system.from_tangent(0, self.work, x);
     }
 
     fn set_stage(&mut self, stage: usize) {
-        let Work { tangent, x, .. } = &mut *self.work;
-        let assembly = &self.system.elimination.assembly;
-        tangent.stages.set(assembly, stage, x);
+        self.system.set_stage(stage, self.work);
     }
 
     fn solve_stages(&mut self, forward: &[f64], back: &[f64], stages: &mut [Vec<f64>]) {
         self.operations += SOLVE_STAGES;
-        let elimination = &self.system.elimination;
+        let system = self.system;
+        for (i, q) in stages.iter_mut().enumerate() {
+            system.to_tangent(1 + i, self.work, q);
+        }
         let tangent = &mut self.work.tangent;
-        tangent.solve_stages(elimination, [forward, back], stages);
+        tangent.solve_stages(&system.elimination, [forward, back], stages);
+        for (i, q) in stages.iter_mut().enumerate() {
+            system.from_tangent(1 + i, self.work, q);
+        }
     }
 
     fn take_out_normal(&mut self, a: &mut [f64]) {
@@ -428,7 +434,9 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn apply_damping(&mut self, x: &mut [f64]) {
+        self.system.to_tangent(0, self.work, x);
         self.work.tangent.apply_damping(&self.system.elimination, x);
+        self.system.from_tangent(0, self.work, x);
     }
 
     fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64 {

@@ -157,9 +157,9 @@ impl<const D: usize> System<D> {
         if !self.has_no_frames() {
             self.add_multiplied(work);
         }
+        self.set_base(work);
         let Work { tangent, x, v, .. } = work;
         let (drives, travel, angles) = (&work.drives, &work.travel, &work.angles);
-        tangent.stages.set_base(x);
         tangent.clear();
         let (stiffness, damping) = (&mut tangent.stiffness, &mut tangent.damping);
         for chain in &self.chains {

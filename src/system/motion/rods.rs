@@ -41,6 +41,44 @@ impl<const D: usize> System<D> {
         self.turn_carried(Derivative::First, work, q);
     }
 
+    /// The configuration is that in which the tangent is made.
+    pub(in crate::system) fn set_base(&self, work: &mut Work<D>) {
+        work.tangent.stages.set_base(&work.x);
+        for stage in &mut work.stages {
+            stage.copy_from_slice(&work.carries);
+        }
+    }
+
+    /// The configuration is that of a stage.
+    pub(in crate::system) fn set_stage(&self, stage: usize, work: &mut Work<D>) {
+        let assembly = &self.elimination.assembly;
+        work.tangent.stages.set(assembly, stage, &work.x);
+        work.stages[1 + stage].copy_from_slice(&work.carries);
+    }
+
+    /// Changes of rotations of carried frames in `q` become small rotations, in which tangents are made, where the tangent was made (0)
+    /// or at a stage (from 1 on). Taken for each other, rotations of beams that have rolled by an angle would be off by half of it, times
+    /// the stiffness of shear; of rods alone they differ by what is not stiff and are taken for each other.
+    pub(in crate::system) fn to_tangent(&self, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
+        if !self.frames.lean() {
+            return;
+        }
+        self.change_carried(work, q, |work| {
+            (self.frames).spins_of_carried(&work.stages[stage], &work.other, &mut work.y);
+        });
+    }
+
+    /// The way back of [`System::to_tangent`].
+    pub(in crate::system) fn from_tangent(&self, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
+        if !self.frames.lean() {
+            return;
+        }
+        self.change_carried(work, q, |work| {
+            let (carries, order) = (&work.stages[stage], Derivative::First);
+            (self.frames).turn_carried(order, carries, &work.other, &mut work.y);
+        });
+    }
+
     /// Angular accelerations become second derivatives of rotations.
     pub(in crate::system) fn to_second(&self, work: &mut Work<D>, a: &mut [f64]) {
         if self.has_no_frames() {
@@ -52,16 +90,20 @@ impl<const D: usize> System<D> {
 
     /// Changes of `q` that stand for spins of carried frames, or second derivatives, become those of their rotations.
     fn turn_carried(&self, order: Derivative, work: &mut Work<D>, q: &mut [f64]) {
+        self.change_carried(work, q, |work| {
+            (self.frames).turn_carried(order, &work.carries, &work.other, &mut work.y);
+        });
+    }
+
+    /// Changes what stands in `q` for carried frames: among the free coordinates `y`, with `other` over the nodes.
+    fn change_carried(&self, work: &mut Work<D>, q: &mut [f64], change: impl Fn(&mut Work<D>)) {
         if self.frames.carried().is_empty() {
             return;
         }
         self.elimination.expand(q, &mut work.y, &mut work.other);
-        let Work {
-            carries, other, y, ..
-        } = work;
-        self.frames.turn_carried(order, carries, other, y);
-        self.elimination.coordinates_of(y);
-        q.copy_from_slice(y);
+        change(work);
+        self.elimination.coordinates_of(&mut work.y);
+        q.copy_from_slice(&work.y);
     }
 
     /// Rotations larger than this, rad, begin at zero anew. Whether there were any.
@@ -99,6 +141,12 @@ impl<const D: usize> System<D> {
         }
         self.frames.renew(&mut state.frames, q, v);
         work.frames.copy_from_slice(&state.frames);
+        if self.frames.lean() {
+            // A tangent that is kept is one of the new coordinates from now on.
+            let (time, q) = (state.time, &state.coordinates);
+            self.forward_kinematics(time, q, Some(&state.rates), work);
+            work.stages[0].copy_from_slice(&work.carries);
+        }
         true
     }
 }

@@ -115,7 +115,8 @@ fn moving() -> Specimen {
         "deformation": ["0.2*s", "s^2", "0.3*sin(s)"]});
     let scene = json!({"name": "rod", "dimension": 3, "bodies": [body],
         "outputs": [{"kind": "velocity", "marker": "rod.root"}, {"kind": "velocity", "marker": "rod.mid"},
-                    {"kind": "velocity", "marker": "rod.tip"}]});
+                    {"kind": "velocity", "marker": "rod.tip"},
+                    {"kind": "angular_velocity", "marker": "rod.root"}, {"kind": "angular_velocity", "marker": "rod.tip"}]});
     let place = |s: f64| {
         let deformed = Vector3::new(0.2 * s, s * s, 0.3 * s.sin());
         velocity + spin.cross(&((to - from) * s)) + deformed
@@ -123,6 +124,15 @@ fn moving() -> Specimen {
     let mut specimen = Specimen::new("moving rod", scene);
     for (marker, s) in [("root", 0.0), ("mid", 0.4), ("tip", 1.0)] {
         specimen = vector(specimen, &format!("rod.{marker}.velocity"), "m/s", place(s));
+    }
+    // Sections turn with their line, those of beams as well.
+    let turn = |s: f64| {
+        let slope_rate = Vector3::new(0.2, 2.0 * s, 0.3 * s.cos()) / (to - from).norm();
+        spin + (to - from).normalize().cross(&slope_rate)
+    };
+    for (marker, s) in [("root", 0.0), ("tip", 1.0)] {
+        let name = format!("rod.{marker}.angular_velocity");
+        specimen = vector(specimen, &name, "rad/s", turn(s));
     }
     specimen
 }
