@@ -75,6 +75,10 @@ impl Step {
 /// hinges in space.
 pub(super) const CHAINS: [usize; 5] = [2, 3, 4, 5, 6];
 
+/// Constraints on the same vertices from which on these are eliminated late. A chain that is laid out from its end costs up to an eighth
+/// of a planar step (scene `slider_crank`), rows that reach along it a third of a clamped rod's.
+const MANY: usize = 3;
+
 /// Does something with the size of a run's blocks known when compiling.
 macro_rules! of_size {
     ([$($known:literal)*] or $last:literal, $size:expr, $b:ident => $call:expr) => {
@@ -162,8 +166,8 @@ impl Pattern {
     /// The same where vertices from number `first` on are multipliers: rows and columns of constraints, without
     /// anything on the diagonal. Each is eliminated after the last vertex that it has an edge to, where its pivot is
     /// negative; none of them are linked to each other. All others are eliminated as if a multiplier linked its vertices
-    /// in the order in which its edges tell of them, and of several with the same degree what a multiplier holds last: what
-    /// a constraint takes out of vectors then passes few vertices.
+    /// in the order in which its edges tell of them, and of several with the same degree what [`MANY`] multipliers of one
+    /// vertex hold last: what constraints take out of vectors then passes few vertices.
     ///
     /// Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005),
     /// section 7.
@@ -185,7 +189,9 @@ impl Pattern {
             plain.extend(vertices.windows(2).map(|pair| (pair[0], pair[1])));
         }
         let mut is_held = vec![false; first];
-        held.iter().flatten().for_each(|v| is_held[*v] = true);
+        let of_many = held.iter().zip(&sizes[first..]);
+        let of_many = of_many.filter(|(_, rows)| **rows >= MANY);
+        of_many.for_each(|(on, _)| on.iter().for_each(|v| is_held[*v] = true));
         let order = least_degree(&sizes[..first], &plain, &is_held);
         let mut place = vec![0; first];
         order.iter().enumerate().for_each(|(k, v)| place[*v] = k);
