@@ -332,7 +332,7 @@ def function_of_time(value):
     if isinstance(value, str):
         code = compile(re.sub(r"\^", "**", value), "expression", "eval")
         names = ["sin", "cos", "tanh", "exp", "sqrt"]
-        return lambda t, m: eval(code, {"t": t, **{n: getattr(m, n) for n in names}})
+        return lambda t, m: eval(code, {"t": t, "PI": np.pi, **{n: getattr(m, n) for n in names}})
     table = value["table"]
     slopes = [0.0] + [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(table, table[1:])] + [0.0]
     kinks = [(point[0], right - left) for point, left, right in zip(table, slopes, slopes[1:])]

@@ -1,35 +1,48 @@
-"""A scene of rods in space in the product's format, as a system of Exudyn's geometrically exact beams: the same data,
-from the same file. What these beams have beside, compliance in shear and rotary inertia, can be divided (`stiffer`)."""
+"""A scene of rods, beams and rigid bodies in space in the product's format, as a system of Exudyn's geometrically exact beams:
+the same data, from the same file. What these beams have beside rods, compliance in shear and rotary inertia, can be divided
+(`stiffer`)."""
 
 import numpy as np
 from exudyn import BeamSection
+from exudyn.advancedUtilities import CreateSymbolicUserFunction
 from exudyn.itemInterface import (
     CoordinateConstraint,
+    GenericJoint,
     LoadForceVector,
     LoadMassProportional,
     LoadTorqueVector,
     MarkerBodyMass,
+    MarkerBodyRigid,
     MarkerNodePosition,
     MarkerNodeRigid,
     NodeRigidBodyEP,
     NodeRigidBodyRotVecLG,
     ObjectBeamGeometricallyExact,
+    ObjectGround,
+    ObjectJointRevoluteZ,
+    ObjectJointSpherical,
+    ObjectRigidBody,
 )
 
 from model import Model, esym, function_of_time
 
-# Shear coefficient of a section.
-SHEAR = 5 / 6
+# Shear coefficients of a section that says none.
+SHEAR = [5 / 6, 5 / 6]
 
 
 class SpaceModel(Model):
-    """Rods, clamps of their ends, forces and moments at nodes."""
+    """Rods, clamps of their ends, forces and moments at nodes; rigid bodies and what joins them to each other and to rods."""
+
+    def __init__(self, scene, options):
+        # Axes of bodies at the start; joints about an axis: markers, and what takes their axes to its.
+        self.axes, self.hinges = {}, {}
+        super().__init__(scene, options)
 
     def cable(self, body):
         """Nodes, elements and weight of a rod."""
         line = body["shape"]["line"]
         start, end = (np.array(line[key], dtype=float) for key in ("from", "to"))
-        count, length = self.options["elements"], np.linalg.norm(end - start)
+        count, length = max(round(self.options["elements"] * body.get("share", 1)), 1), np.linalg.norm(end - start)
         axes = axes_of(end - start, body["axis"])
         nodes = []
         for part in np.linspace(0.0, 1.0, count + 1):
@@ -46,7 +59,25 @@ class SpaceModel(Model):
                 marker = self.mbs.AddMarker(MarkerBodyMass(bodyNumber=element))
                 self.mbs.AddLoad(LoadMassProportional(markerNumber=marker, loadVector=self.scene["gravity"]))
         for name, where in body["markers"].items():
-            self.markers[f"{body['name']}.{name}"] = nodes[round(where * count)]
+            # One that no node is at is none of this mesh.
+            if abs(where * count - round(where * count)) < 1e-9:
+                self.markers[f"{body['name']}.{name}"] = nodes[round(where * count)]
+        self.axes[body["name"]] = axes
+
+    def rigid(self, body):
+        """A rigid body that stands still at the start."""
+        place, mass = np.array(body["position"], dtype=float), body["mass"]
+        node = self.node(place, np.eye(3), np.zeros(3), np.zeros(3))
+        number = self.mbs.AddObject(
+            ObjectRigidBody(physicsMass=mass, physicsInertia=[*body["inertia"], 0.0, 0.0, 0.0], nodeNumber=node)
+        )
+        if any(self.scene["gravity"]):
+            marker = self.mbs.AddMarker(MarkerBodyMass(bodyNumber=number))
+            self.mbs.AddLoad(LoadMassProportional(markerNumber=marker, loadVector=self.scene["gravity"]))
+        for name, point in body["markers"].items():
+            marker = self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=number, localPosition=point))
+            self.points[f"{body['name']}.{name}"] = marker, place + point
+        self.axes[body["name"]] = np.eye(3)
 
     def section(self, body):
         """Stiffnesses and inertia about the axis, the first and the second axis of the section."""
@@ -57,9 +88,9 @@ class SpaceModel(Model):
         result = BeamSection()
         result.massPerLength = density * area
         result.inertia = density * np.diag([first + second, first / stiffer, second / stiffer])
-        across = SHEAR * shear * area * stiffer
+        across = [factor * shear * area * stiffer for factor in section.get("shear_factors", SHEAR)]
         twisting = shear * section["torsion_constant"]
-        result.stiffnessMatrix = np.diag([young * area, across, across, twisting, young * first, young * second])
+        result.stiffnessMatrix = np.diag([young * area, *across, twisting, young * first, young * second])
         return result
 
     def node(self, place, axes, velocity, spin):
@@ -75,10 +106,52 @@ class SpaceModel(Model):
         return self.mbs.AddNode(node)
 
     def joint(self, joint):
-        """Clamps to the ground. Of Euler parameters the first follows from the others."""
+        """Clamps to the ground, and other joints by multipliers."""
         first, second = joint["markers"]
-        if joint["kind"] != "weld" or first != "ground":
-            raise ValueError(f"joint {joint['name']}: expected a weld to the ground")
+        if joint["kind"] == "weld" and first == "ground":
+            return self.clamp(second)
+        ends = [self.end(end, self.points.get(second)) for end in (first, second)]
+        markers, axes = [marker for marker, _ in ends], [axes for _, axes in ends]
+        turned = dict(zip(("rotationMarker0", "rotationMarker1"), axes))
+        if joint["kind"] == "weld":
+            self.mbs.AddObject(GenericJoint(markerNumbers=markers, **turned))
+        elif joint["kind"] == "spherical":
+            self.mbs.AddObject(ObjectJointSpherical(markerNumbers=markers))
+        elif joint["kind"] == "revolute":
+            # Its axis is the third one.
+            normal = axes_of(np.array(joint["direction"], dtype=float), np.roll(joint["direction"], 1))[:, [1, 2, 0]]
+            turned = {name: axes @ normal for name, axes in turned.items()}
+            self.mbs.AddObject(ObjectJointRevoluteZ(markerNumbers=markers, **turned))
+            self.hinges[joint["name"]] = markers, turned
+        else:
+            raise ValueError(f"joint {joint['name']}: expected a weld, a spherical or a revolute joint")
+
+    def end(self, name, other):
+        """A marker for a joint, and what takes global axes to its own; the ground is where the other end is."""
+        if name == "ground":
+            ground = self.mbs.AddObject(ObjectGround())
+            return self.mbs.AddMarker(MarkerBodyRigid(bodyNumber=ground, localPosition=other[1])), np.eye(3)
+        axes = self.axes[name.split(".")[0]].T
+        if name in self.points:
+            return self.points[name][0], axes
+        return self.mbs.AddMarker(MarkerNodeRigid(nodeNumber=self.markers[name])), axes
+
+    def drive(self, motion):
+        """Turns a joint about its axis as told."""
+        markers, turned = self.hinges[motion["joint"]]
+        angle = function_of_time(motion["value"])
+
+        def offset(mbs, t, itemNumber, offsetUserFunctionParameters):
+            zero = 0.0 * t
+            return [zero, zero, zero, zero, zero, angle(t, esym)]
+
+        number = self.mbs.AddObject(GenericJoint(markerNumbers=markers, constrainedAxes=[0, 0, 0, 0, 0, 1], **turned))
+        function = CreateSymbolicUserFunction(self.mbs, offset, "offsetUserFunction", number)
+        self.mbs.SetObjectParameter(number, "offsetUserFunction", function)
+        self.kept.append(function)
+
+    def clamp(self, second):
+        """A clamp of an end to the ground. Of Euler parameters the first follows from the others."""
         skipped = self.options.get("nodes", "parameters") == "parameters"
         for coordinate in [0, 1, 2] + [axis + skipped for axis in (3, 4, 5)]:
             here = self.coordinate(self.markers[second], coordinate)

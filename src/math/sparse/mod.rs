@@ -11,6 +11,7 @@ mod chains;
 mod cholesky;
 mod general;
 mod kernels;
+mod order;
 mod pattern;
 #[cfg(test)]
 mod tests;

@@ -1,14 +1,12 @@
 //! Which blocks of a sparse symmetric matrix are stored, and in which order they are eliminated.
 
-use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BTreeSet;
 use std::ops::Range;
+
+use super::order::{graph, least_degree, parts, take_out};
 
 /// The elimination order, the stored blocks (with fill) and the components of symmetric matrices
 /// over one graph. Vectors are laid out in elimination order: see [`Pattern::range`].
-///
-/// Minimum degree: A. George, J. W. H. Liu, The evolution of the minimum degree ordering
-/// algorithm, SIAM Review 31 (1989).
 #[derive(Clone, Debug)]
 pub struct Pattern {
     /// Variables of every vertex.
@@ -76,6 +74,10 @@ impl Step {
 /// The block sizes for which runs have loops of their own: pins and nodes of cables, in the plane and in space, and
 /// hinges in space.
 pub(super) const CHAINS: [usize; 5] = [2, 3, 4, 5, 6];
+
+/// Constraints on the same vertices from which on these are eliminated late. A chain that is laid out from its end costs up to an eighth
+/// of a planar step (scene `slider_crank`), rows that reach along it a third of a clamped rod's.
+const MANY: usize = 3;
 
 /// Does something with the size of a run's blocks known when compiling.
 macro_rules! of_size {
@@ -164,7 +166,8 @@ impl Pattern {
     /// The same where vertices from number `first` on are multipliers: rows and columns of constraints, without
     /// anything on the diagonal. Each is eliminated after the last vertex that it has an edge to, where its pivot is
     /// negative; none of them are linked to each other. All others are eliminated as if a multiplier linked its vertices
-    /// in the order in which its edges tell of them.
+    /// in the order in which its edges tell of them, and of several with the same degree what [`MANY`] multipliers of one
+    /// vertex hold last: what constraints take out of vectors then passes few vertices.
     ///
     /// Source: M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005),
     /// section 7.
@@ -185,7 +188,11 @@ impl Pattern {
             vertices.retain(|v| sizes[*v] > 0);
             plain.extend(vertices.windows(2).map(|pair| (pair[0], pair[1])));
         }
-        let order = least_degree(&sizes[..first], &plain);
+        let mut is_held = vec![false; first];
+        let of_many = held.iter().zip(&sizes[first..]);
+        let of_many = of_many.filter(|(_, rows)| **rows >= MANY);
+        of_many.for_each(|(on, _)| on.iter().for_each(|v| is_held[*v] = true));
+        let order = least_degree(&sizes[..first], &plain, &is_held);
         let mut place = vec![0; first];
         order.iter().enumerate().for_each(|(k, v)| place[*v] = k);
         let mut after: Vec<Vec<usize>> = vec![Vec::new(); first];
@@ -205,12 +212,20 @@ impl Pattern {
         Self::in_order(sizes, order, &parts, &mut graph)
     }
 
-    /// The pattern of some of the edges over the first `sizes.len()` vertices, in the same order and as one
-    /// component.
+    /// The pattern of some of the edges over the first `sizes.len()` vertices, as one component. What these edges join stands
+    /// together, at the place of its first vertex and in the same order: chains that other edges join are chains again.
     pub fn of_part(&self, sizes: &[usize], edges: &[(usize, usize)]) -> Self {
         let mut graph = graph(sizes, edges);
         let order = self.order.iter().copied();
-        let order: Vec<usize> = order.filter(|v| *v < sizes.len()).collect();
+        let mut order: Vec<usize> = order.filter(|v| *v < sizes.len()).collect();
+        let mut place = vec![0; sizes.len()];
+        order.iter().enumerate().for_each(|(k, v)| place[*v] = k);
+        let mut first = vec![0; sizes.len()];
+        for part in parts(&graph) {
+            let least = part.iter().map(|v| place[*v]).min();
+            part.iter().for_each(|v| first[*v] = least.unwrap_or(0));
+        }
+        order.sort_by_key(|v| first[*v]);
         let whole = [order.clone()];
         Self::in_order(sizes, order, &whole, &mut graph)
     }
@@ -404,86 +419,4 @@ impl Pattern {
             columns,
         })
     }
-}
-
-/// The vertices of every connected part, lowest first vertices first.
-fn parts(graph: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
-    let mut seen = vec![false; graph.len()];
-    let mut parts = Vec::new();
-    for first in 0..graph.len() {
-        if seen[first] {
-            continue;
-        }
-        seen[first] = true;
-        let mut part = vec![first];
-        let mut next = 0;
-        while let Some(&v) = part.get(next) {
-            for &w in &graph[v] {
-                if !seen[w] {
-                    seen[w] = true;
-                    part.push(w);
-                }
-            }
-            next += 1;
-        }
-        parts.push(part);
-    }
-    parts
-}
-
-/// The neighbours of every vertex.
-fn graph(sizes: &[usize], edges: &[(usize, usize)]) -> Vec<BTreeSet<usize>> {
-    let mut graph = vec![BTreeSet::new(); sizes.len()];
-    for &(v, w) in edges {
-        if v != w && sizes[v] > 0 && sizes[w] > 0 {
-            graph[v].insert(w);
-            graph[w].insert(v);
-        }
-    }
-    graph
-}
-
-/// Takes a vertex out of the graph, joining its neighbours, which are returned; tells of every new pair of them, both
-/// ways round.
-fn take_out(
-    v: usize,
-    graph: &mut [BTreeSet<usize>],
-    mut joined: impl FnMut(usize, usize),
-) -> Vec<usize> {
-    let neighbours: Vec<usize> = std::mem::take(&mut graph[v]).into_iter().collect();
-    for &u in &neighbours {
-        graph[u].remove(&v);
-        for &w in &neighbours {
-            if w != u && graph[u].insert(w) {
-                joined(u, w);
-            }
-        }
-    }
-    neighbours
-}
-
-/// The vertices in the order of least degree (variables of the neighbours, those that elimination joins among them),
-/// at ties by lowest index, one component after the other in the order of their lowest vertices.
-fn least_degree(sizes: &[usize], edges: &[(usize, usize)]) -> Vec<usize> {
-    const ELIMINATED: usize = usize::MAX;
-    let mut graph = graph(sizes, edges);
-    let degree = |near: &BTreeSet<usize>| near.iter().map(|&w| sizes[w]).sum();
-    let mut degrees: Vec<usize> = graph.iter().map(degree).collect();
-    let mut order = Vec::with_capacity(sizes.len());
-    for part in parts(&graph) {
-        let mut queue: BinaryHeap<_> = part.iter().map(|&v| Reverse((degrees[v], v))).collect();
-        while let Some(Reverse((degree, v))) = queue.pop() {
-            if degrees[v] != degree {
-                continue; // out of date
-            }
-            degrees[v] = ELIMINATED;
-            let neighbours = take_out(v, &mut graph, |u, w| degrees[u] += sizes[w]);
-            for &u in &neighbours {
-                degrees[u] -= sizes[v];
-                queue.push(Reverse((degrees[u], u)));
-            }
-            order.push(v);
-        }
-    }
-    order
 }

@@ -396,6 +396,36 @@ fn multipliers_come_after_what_they_hold() {
     }
 }
 
+/// A chain that is held at its first vertex is eliminated from its last one, so that forces on the held one stay there.
+#[test]
+fn of_equal_degrees_what_multipliers_hold_comes_last() {
+    let edges = [(0, 1), (1, 2), (2, 3), (4, 0)];
+    let pattern = Pattern::with_multipliers(&[6, 6, 6, 6, 3], &edges, 4);
+    assert_eq!(pattern.order(), [3, 2, 1, 0, 4]);
+    let free = Pattern::with_multipliers(&[6, 6, 6, 6], &edges[..3], 4);
+    assert_eq!(free.order(), [0, 1, 2, 3]);
+}
+
+/// Vertices of two chains that only other edges join: in a part without these each chain stands by itself, in one piece.
+#[test]
+fn chains_stand_together_in_a_part() {
+    let sizes = [6, 1, 6, 1, 6, 1];
+    let chains = [(0, 2), (2, 4), (1, 3), (3, 5)];
+    let across = [(0, 1), (2, 3), (4, 5), (0, 3), (1, 2), (2, 5), (3, 4)];
+    let pattern = Pattern::new(&sizes, &[&chains[..], &across].concat());
+    let part = pattern.of_part(&sizes, &chains);
+    let of = |part: &[usize], is_even: bool| {
+        let chosen = part.iter().filter(|v| (**v % 2 == 0) == is_even);
+        chosen.copied().collect::<Vec<_>>()
+    };
+    let order = part.order();
+    assert_eq!(of(&order[..3], true).len() % 3, 0, "{order:?}");
+    for is_even in [true, false] {
+        assert_eq!(of(order, is_even), of(pattern.order(), is_even));
+    }
+    assert_eq!(part.components().len(), 1);
+}
+
 #[test]
 fn rows_with_little_pivots_drop_out() {
     // Every row twice, in blocks of every kind: chains of equal blocks, other columns, one dense block.
