@@ -213,9 +213,10 @@ impl Scene {
 
     /// The scene with every body of `"element": "auto"` as what it became when it was read.
     pub fn plain(mut self) -> Self {
+        let dimension = self.dimension;
         for body in &mut self.bodies {
             if let Body::Auto(line) = body {
-                *body = line.made(line.sections);
+                *body = line.made(line.sections, dimension);
             }
         }
         self

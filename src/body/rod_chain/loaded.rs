@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::RodChain;
+use super::{RodChain, plane};
 use crate::body::connectivity::Node;
 use crate::body::frame::{Frame, Frames, axes_at};
 use crate::elements::beam::{Force, Rates};
@@ -54,8 +54,8 @@ impl RodChain {
         for (frame, moment) in [first, last].into_iter().zip(&force.moment) {
             add_moment(frame, moment, x, out);
         }
-        for ((part, axis), f) in self.inside().zip(force.inner) {
-            out[inner][part][axis] += f;
+        for (k, (part, axis)) in self.inside() {
+            out[inner][part][axis] += force.inner[k];
         }
     }
 
@@ -90,9 +90,10 @@ impl RodChain {
     }
 
     /// The nodes that element `j` follows and acts on, both of its frames among them.
-    pub fn all_nodes(&self, j: usize) -> [usize; 7] {
+    pub fn all_nodes(&self, j: usize) -> Vec<usize> {
         let [a, first, b, last, inner] = self.nodes(j);
-        [a, first, first + 1, b, last, last + 1, inner]
+        let frames = [first, last].map(|node| node..node + self.stride);
+        frames.into_iter().flatten().chain([a, b, inner]).collect()
     }
 }
 
@@ -103,6 +104,9 @@ pub(super) fn add_moment<const D: usize, N: Number>(
     x: &[Node<D, N>],
     out: &mut [Node<D, N>],
 ) {
+    if D == 2 {
+        return plane::turn(&x[frame][1], moment, &mut out[frame][1]);
+    }
     let [first, second, third] = Frame::on_axes(&axes_at(frame, x), &(*moment).into());
     add(&mut out[frame][1], &first);
     add(&mut out[frame + 1][0], &second);

@@ -79,10 +79,9 @@ impl<const D: usize> Builder<'_, D> {
     /// A moment along a rod or beam.
     fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> Load<D> {
         let end = self.along(cable, 0.0);
-        let frames = self.parts.rod_chains.iter().map(RodChain::frames);
-        let on = frames
-            .map(|mut frames| frames.next().map(|(node, _)| node))
-            .position(|first| first == Some(end.nodes[0]));
+        let first = |chain: &RodChain| chain.frames().next();
+        let mut firsts = self.parts.rod_chains.iter().filter_map(first);
+        let on = firsts.position(|(frame, line)| [frame, line].contains(&end.nodes[0]));
         Load::DistributedMoment(Box::new(DistributedMoment {
             // What has sections is among them.
             on: on.unwrap_or(0),

@@ -57,7 +57,7 @@ pub struct CableBody {
     /// What becomes of waves of stretching.
     #[serde(default)]
     pub axial: Axial,
-    /// Of rods and beams: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    /// Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
     /// there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<Vector>,
@@ -387,6 +387,13 @@ impl CableBody {
         let turns = self.stiffness(numbers);
         stiffness.fixed_view_mut::<3, 3>(3, 3).copy_from(&turns);
         stiffness
+    }
+
+    /// The same of what moves in the plane, which the first axis of sections is across: nothing else resists.
+    pub fn planar_stiffness(&self, numbers: &SectionNumbers) -> Matrix6<f64> {
+        let whole = self.whole_stiffness(numbers);
+        let counts = |k: usize| k % 2 == 0;
+        Matrix6::from_fn(|r, c| whole[(r, c)] * f64::from(u8::from(counts(r) && counts(c))))
     }
 
     /// Ratios of shear areas to the area, along both axes: as said, or of the shape.

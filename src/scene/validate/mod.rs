@@ -175,7 +175,7 @@ impl<'a> Resolved<'a> {
         if let Some((index, _)) = rods(scene).next() {
             let (key, found) = match (state, scene.turns()) {
                 (InitialState::Steady, _) => ("initial.state", "steady"),
-                (_, true) => ("rotation", "a frame that turns"),
+                (_, true) if scene.dimension == 3 => ("rotation", "a frame that turns"),
                 _ => return self.resolve_initial_loads(),
             };
             let wanted = format!("another beside a rod (bodies[{index}])");

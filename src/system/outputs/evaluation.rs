@@ -371,7 +371,7 @@ impl<const D: usize> System<D> {
         let first = self.bodies[marker.body].start;
         let chain = self.chains.iter().find(|c| c.nodes(0)[0] == first)?;
         let (j, xi) = match self.sections(chain) {
-            Some(sections) if marker.is_framed() => sections.element_at(marker.nodes[0]),
+            Some(sections) if marker.element.is_none() => sections.element_at(marker.nodes[0]),
             _ => marker.element?,
         };
         Some((chain, j, xi))
