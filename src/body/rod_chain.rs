@@ -21,7 +21,7 @@ use crate::elements::section::{Section, SpinInertia};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
 use lanes::{Packed, packs};
-pub use plane::axes as planar_axes;
+pub use plane::{axes as planar_axes, middle};
 pub use shaped::carried_nodes;
 
 /// Where the internal twist and a beam's two internal leans stand in a node inside an element: part and axis. The first axis stands one
@@ -34,7 +34,7 @@ const AHEAD: [f64; 3] = [0.0, 1.0, 0.0];
 /// A node inside an element without internal twist and leans.
 pub fn untwisted<const D: usize>() -> Node<D> {
     let mut node = no_node();
-    for ((part, axis), ahead) in INNER.into_iter().zip(AHEAD).take(D) {
+    for ((part, axis), ahead) in INNER.into_iter().zip(AHEAD) {
         node[part][axis] = ahead;
     }
     node
@@ -52,7 +52,7 @@ pub struct RodChain {
     /// Its elements, each with its inertia against spins at its ends and the rates inside, kg m^2.
     elements: Vec<(Section, SpinInertia)>,
     /// Which components of spins, moments and internal coordinates there are: the first of a rod, all of a beam, the second of one in the
-    /// plane.
+    /// plane, where the internal coordinate is the angle of the section in the middle of the element.
     parts: Range<usize>,
     /// First node of the line, of the carried frames, and inside the elements.
     line: usize,
@@ -176,15 +176,17 @@ impl RodChain {
         At {
             e: ends([a, b], x),
             axes: [axes(fa), axes(fb)],
-            inner: self.read_inner(&x[inner], AHEAD),
+            inner: match D {
+                2 => plane::inner(&x[inner]),
+                _ => self.read_inner(&x[inner], AHEAD),
+            },
         }
     }
 
-    /// What stands for the internal coordinates in a node, beside what stands there ahead of them.
+    /// What stands for the internal coordinates in a node, beside what stands there ahead of them; or their rates.
     fn read_inner<const D: usize, N: Number>(&self, node: &Node<D, N>, ahead: [f64; 3]) -> [N; 3] {
         let mut inner = [N::of(0.0); 3];
-        for k in self.parts.clone() {
-            let (part, axis) = INNER[k];
+        for (k, (part, axis)) in self.inside() {
             inner[k] = node[part][axis] - N::of(ahead[k]);
         }
         inner
@@ -283,7 +285,12 @@ impl RodChain {
 
     /// Coordinates inside its elements, and where they stand in their nodes.
     pub fn inside(&self) -> impl Iterator<Item = (usize, (usize, usize))> + use<> {
-        self.parts.clone().map(|k| (k, INNER[k]))
+        let places = if self.is_planar() {
+            [plane::ANGLE; 3]
+        } else {
+            INNER
+        };
+        self.parts.clone().map(move |k| (k, places[k]))
     }
 
     /// The blocks of a symmetric matrix over the velocities of element `j`, on and below the diagonal of its nodes.
@@ -322,6 +329,7 @@ impl RodChain {
         let places = numbers.map(move |k| {
             let place = match node {
                 0 | 2 => (k / 3, k % 3),
+                4 if is_planar => plane::ANGLE,
                 4 => INNER[k],
                 _ => (1, k),
             };

@@ -38,10 +38,14 @@ impl Chosen {
     }
 
     fn new(body: usize, line: &CableBody, dimension: usize) -> Self {
-        let (sections, why) = match dimension {
-            2 => (Sections::None, "nothing twists in the plane"),
-            _ => line.need().unwrap_or((Sections::None, NOTHING_NEEDED)),
+        let needed = line
+            .need()
+            .filter(|(sections, _)| dimension == 3 || *sections == Sections::Lean);
+        let unneeded = match dimension {
+            2 => "nothing twists in the plane",
+            _ => NOTHING_NEEDED,
         };
+        let (sections, why) = needed.unwrap_or((Sections::None, unneeded));
         Self {
             body,
             name: line.name.clone(),
@@ -67,9 +71,9 @@ impl Chosen {
     }
 
     /// The same by the share that shear has in how far the body bends statically, where there is no experiment to compare in.
-    pub fn estimate_shear(&mut self, error: f64) {
+    pub fn estimate_shear(&mut self, error: f64, dimension: usize) {
         if let Some(beam) = &self.beam {
-            let part = beam.shear_to_bending();
+            let part = beam.shear_to_bending(dimension);
             let what = format!("adds {part:.1e} to bending by 3 E I / (k G A L^2)");
             self.judge_shear(part, error, &what);
         }
@@ -77,7 +81,7 @@ impl Chosen {
 }
 
 impl CableBody {
-    /// What the body needs by its own keys, in space: sections that turn, or lean.
+    /// What the body needs by its own keys: sections that lean, or in space turn.
     fn need(&self) -> Option<(Sections, &'static str)> {
         let all = || self.all_sections();
         let is_unequal = |numbers: SectionNumbers| {
@@ -124,7 +128,7 @@ impl CableBody {
     /// Of a beam: deflection of a cantilever by shear over that by bending, under a force at its end; the largest about both
     /// axes of all its sections (S. P. Timoshenko, Strength of Materials I, 3rd ed. (1955), section 39: `F L / (k G A)` beside
     /// `F L^3 / (3 E I)`).
-    fn shear_to_bending(&self) -> f64 {
+    fn shear_to_bending(&self, dimension: usize) -> f64 {
         let at_stations = self
             .stations
             .iter()
@@ -133,8 +137,9 @@ impl CableBody {
         let square = self.shape.length().powi(2);
         let parts = at_stations.chain(one).flat_map(|numbers| {
             let stiffness = self.whole_stiffness(&numbers);
-            // What bends about an axis shears along the other one.
-            [(4, 2), (5, 1)].map(|(bending, shear)| {
+            // What bends about an axis shears along the other one; in the plane about the first alone.
+            let axes = [(4, 2), (5, 1)].into_iter().take(dimension - 1);
+            axes.map(move |(bending, shear)| {
                 3.0 * stiffness[(bending, bending)] / (stiffness[(shear, shear)] * square)
             })
         });
@@ -189,7 +194,7 @@ impl Scene {
         for (of, beam) in chosen.iter_mut().zip(beams) {
             of.beam = beam.map(Box::new);
             if !self.is_to_be_planned() {
-                of.estimate_shear(self.error());
+                of.estimate_shear(self.error(), self.dimension);
             }
         }
         Ok(chosen)
@@ -245,7 +250,7 @@ impl Scene {
     fn as_beam(&self, chosen: &[Chosen], place: usize) -> Option<CableBody> {
         let mut tried = chosen.to_vec();
         let of = &mut tried[place];
-        if self.dimension == 2 || of.sections == Sections::Lean {
+        if of.sections == Sections::Lean {
             return None;
         }
         (of.sections, of.beam) = (Sections::Lean, None);

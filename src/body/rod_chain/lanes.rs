@@ -7,6 +7,7 @@ use crate::body::assembly::Assembly;
 use crate::body::chain::both;
 use crate::body::connectivity::Node;
 use crate::body::frame::Frames;
+use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::rod::{self, Rod, Tangent};
 use crate::elements::section::{Section, SectionPack, rod_at, rod_rates};
@@ -61,7 +62,8 @@ impl RodChain {
             let motion = (&place, self.is_damped.then_some(&rate));
             power += match kernel {
                 SectionPack::Rod(kernel) => rod_force(kernel, motion, &mut force),
-                SectionPack::Beam(kernel) => beam_force(kernel, motion, &mut force),
+                SectionPack::Beam(kernel) => beam_force(&**kernel, motion, &mut force),
+                SectionPack::Planar(kernel) => beam_force(&**kernel, motion, &mut force),
             };
             self.write(elements, &force, motion_of.0, (nodes, moments));
         }
@@ -108,7 +110,8 @@ impl RodChain {
                 let motion = (&place, self.is_damped.then_some(&rate));
                 match kernel {
                     SectionPack::Rod(kernel) => rod_tangent(kernel, motion, kind, &mut out),
-                    SectionPack::Beam(kernel) => beam_tangent(kernel, motion, kind, &mut out),
+                    SectionPack::Beam(kernel) => beam_tangent(&**kernel, motion, kind, &mut out),
+                    SectionPack::Planar(kernel) => beam_tangent(&**kernel, motion, kind, &mut out),
                 }
                 for (lane, j) in elements.clone().enumerate() {
                     let mut whole = of_lane(&out, lane);
@@ -171,6 +174,10 @@ impl RodChain {
         for (lane, j) in elements.clone().enumerate() {
             for (k, (part, axis)) in self.inside() {
                 pack.inner[k][lane] = from[self.inner + j][part][axis] - ahead[k];
+            }
+            if D == 2 && frames.is_none() {
+                let [c, s, _] = plane::inner(&x[self.inner + j]);
+                (pack.inner[0][lane], pack.inner[1][lane]) = (c, s);
             }
         }
     }
@@ -329,8 +336,11 @@ impl Work for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
     }
 }
 
-/// The same of beams.
-fn beam_force(kernel: &beam::Pack, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64 {
+/// The same of beams, in space or in the plane.
+fn beam_force<K>(kernel: &K, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64
+where
+    for<'a> InLanes<'a, K, Force<[f64; PACK]>>: Work,
+{
     let mut power = 0.0;
     vectorized(InLanes {
         kernel,
@@ -381,12 +391,14 @@ impl Work for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
 }
 
 /// The same of beams.
-fn beam_tangent(
-    kernel: &beam::Pack,
+fn beam_tangent<K>(
+    kernel: &K,
     motion: Motion<'_>,
     kind: Tangent,
     out: &mut ElementMatrix<[f64; PACK]>,
-) {
+) where
+    for<'a> InLanes<'a, K, ElementMatrix<[f64; PACK]>>: Work,
+{
     vectorized(InLanes {
         kernel,
         motion,
@@ -402,5 +414,23 @@ impl Work for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
         let rates = self.motion.1.map(NodePack::rates);
         let motion = (&self.motion.0.at(), rates.as_ref());
         Beam::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
+    }
+}
+
+impl Work for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let rates = self.motion.1.map(NodePack::rates);
+        let motion = (&self.motion.0.at(), rates.as_ref());
+        *self.power += Planar::pack_force(simd, self.kernel, motion, self.out);
+    }
+}
+
+impl Work for InLanes<'_, planar::Pack, ElementMatrix<[f64; PACK]>> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let rates = self.motion.1.map(NodePack::rates);
+        let motion = (&self.motion.0.at(), rates.as_ref());
+        Planar::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
 }

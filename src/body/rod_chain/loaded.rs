@@ -81,10 +81,13 @@ impl RodChain {
             let turn: Vector3<f64> = (0..3).map(|k| from[k].cross(&to[k])).sum();
             from.map(|axis| 0.5 * axis.dot(&turn))
         };
+        let inner = self.nodes(j)[4];
+        let inside = |x: &[Node<D>]| self.read_inner(&x[inner], [0.0; 3]);
+        let [out, of] = [after, before].map(inside);
         let changes = Rates {
             e: std::array::from_fn(|k| std::array::from_fn(|i| to.e[k][i] - from.e[k][i])),
             spin: [turned(0), turned(1)],
-            inner: std::array::from_fn(|k| to.inner[k] - from.inner[k]),
+            inner: std::array::from_fn(|k| out[k] - of[k]),
         };
         product(force, &changes)
     }

@@ -1,5 +1,5 @@
 //! Sections of a beam in the plane: a unit vector `d` across each of them, a natural coordinate as that of a rigid body is, in the second
-//! vector of a node. The element is that of space, whose second axis stands across the plane and does not move.
+//! vector of a node. The sections in the middle of elements, which nothing is joined to, have angles. Second axes stand across the plane.
 //!
 //! The section's angle changes by `d x d' / d.d`, so that a moment `M` on it is the force `M perp(d) / d.d`, which has no part along `d`.
 //!
@@ -8,11 +8,15 @@
 
 use std::ops::Range;
 
+use super::{Node, part};
 use crate::elements::beam::Matrix;
 use crate::math::jet::Number;
 
 /// Components that there are: about the second axis.
 pub(super) const PARTS: Range<usize> = 1..2;
+
+/// Where the angle of the section in the middle of an element stands in its node: part and axis.
+pub(super) const ANGLE: (usize, usize) = (0, 0);
 
 /// Where the spins of both ends stand in the matrix of an element.
 const SPINS: [usize; 2] = [6, 15];
@@ -29,6 +33,21 @@ pub fn axes<const D: usize, N: Number>(d: &[N; D]) -> [[N; 3]; 3] {
 pub(super) fn spin<const D: usize, N: Number>(d: &[N; D], rate: &[N; D]) -> [N; 3] {
     let [c, s] = turned(d);
     [N::of(0.0), c * rate[0] + s * rate[1], N::of(0.0)]
+}
+
+/// The normal of the section in the middle of an element, from the node there.
+pub(super) fn inner<const D: usize, N: Number>(node: &Node<D, N>) -> [N; 3] {
+    let (sin, cos) = node[ANGLE.0][ANGLE.1].sin_cos();
+    [cos, sin, N::of(0.0)]
+}
+
+/// The node inside an element whose section is across the line there, from those of the line at its ends.
+pub fn middle<const D: usize>([a, b]: [&Node<D>; 2], length: f64) -> Node<D> {
+    let ([p, u], [q, v]) = ([0, 1].map(|k| part(a, k)), [0, 1].map(|k| part(b, k)));
+    let slope = |k: usize| 1.5 * (q[k] - p[k]) / length - 0.25 * (u[k] + v[k]);
+    let mut node = [[0.0; D]; 2];
+    (node[ANGLE.0][ANGLE.1], node[1][0]) = (slope(1).atan2(slope(0)), 1.0);
+    node
 }
 
 /// Adds what a moment along its axes does to the direction.

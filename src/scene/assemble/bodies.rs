@@ -3,11 +3,12 @@
 use super::Builder;
 use nalgebra::Vector3;
 
-use crate::body::{Frame, Marker, Node, RodChain, carried_nodes, planar_axes, untwisted};
+use crate::body::{Frame, Marker, Node, RodChain, carried_nodes, middle, planar_axes, untwisted};
+use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam};
 use crate::elements::cable::{self, Inertia, LineOf};
 use crate::elements::rod::{self, Rod as RodElement};
-use crate::elements::section::{Section, rod_at, spin_inertia};
+use crate::elements::section::{Section, SpinInertia, planar_inertia, rod_at, spin_inertia};
 use crate::elements::{self, Along, Nodal};
 use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
@@ -159,8 +160,9 @@ impl<const D: usize> Builder<'_, D> {
         };
         let carried = self.parts.rod_chains.iter().map(|chain| chain.count() + 1);
         let carried = carried.sum();
+        let length_of = |j: usize| (mesh[j + 1] - mesh[j]) * rod.shape.length();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {
-            let length = (s[1] - s[0]) * rod.shape.length();
+            let length = length_of(j);
             let [[a, u], [b, v]] = [line[j], line[j + 1]].map(|node| node.map(full));
             let shape = At {
                 e: [a, u, b, v],
@@ -168,16 +170,15 @@ impl<const D: usize> Builder<'_, D> {
                 inner: [0.0; 3],
             };
             let numbers = numbers_along(rod, s);
+            if D == 2 {
+                return planar_beam(rod, (&shape, length), (axial_time, &numbers));
+            }
             let time = rod.material.damping_time;
             let inertia = spin_inertia(length, |xi| rod.rotary_inertia_of(&numbers(xi)));
             if rod.is_beam() {
-                let stiffness = |xi: f64| match D {
-                    2 => rod.planar_stiffness(&numbers(xi)),
-                    _ => rod.whole_stiffness(&numbers(xi)),
-                };
                 let parameters = beam::Parameters {
                     length,
-                    stiffness: GAUSS_3.map(|p| stiffness(p.at).into()),
+                    stiffness: GAUSS_3.map(|p| rod.whole_stiffness(&numbers(p.at)).into()),
                     damping_times: [axial_time, time, time, time, time, time],
                 };
                 let beam = Beam::new(parameters, &shape);
@@ -193,7 +194,11 @@ impl<const D: usize> Builder<'_, D> {
         });
         let chain = RodChain::new::<D>(elements.collect(), first, carried);
         self.parts.nodes.extend(axes);
-        self.parts.nodes.extend(chain.inner().map(|_| untwisted()));
+        let inner = (0..chain.count()).map(|j| match D {
+            2 => middle([&line[j], &line[j + 1]], length_of(j)),
+            _ => untwisted(),
+        });
+        self.parts.nodes.extend(inner);
         self.parts.rod_chains.push(chain);
     }
 
@@ -260,6 +265,30 @@ impl<const D: usize> Builder<'_, D> {
             }
         }
     }
+}
+
+/// An element of a planar beam along its unstressed shape, and its inertia.
+fn planar_beam(
+    beam: &CableBody,
+    (shape, length): (&At<f64>, f64),
+    (axial_time, numbers): (f64, &dyn Fn(f64) -> SectionNumbers),
+) -> (Section, SpinInertia) {
+    let time = beam.material.damping_time;
+    let ends = [[shape.e[0], shape.e[1]], [shape.e[2], shape.e[3]]];
+    let (sin, cos) = middle([&ends[0], &ends[1]], length)[0][0].sin_cos();
+    let shape = At {
+        inner: [cos, sin, 0.0],
+        ..*shape
+    };
+    let parameters = planar::Parameters {
+        length,
+        stiffness: GAUSS_3.map(|point| beam.planar_stiffness(&numbers(point.at)).into()),
+        damping_times: [axial_time, time, time],
+    };
+    // Against turns about the first axis, which is across the plane.
+    let inertia = planar_inertia(length, |xi| beam.rotary_inertia_of(&numbers(xi))[(1, 1)]);
+    let beam = Planar::new(parameters, &shape);
+    (Section::Planar(Box::new(beam)), inertia)
 }
 
 /// Axes of the section at a node of a rod or beam, from the nodes that hold them.

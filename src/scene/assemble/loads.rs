@@ -87,7 +87,13 @@ impl<const D: usize> Builder<'_, D> {
             on: on.unwrap_or(0),
             end,
             follower: action.follower,
-            density: uniform(&action.components),
+            density: match D {
+                2 => {
+                    let none = || Signal::Function(Function::Constant(0.0));
+                    uniform(&[none(), none(), action.components[0].clone()])
+                }
+                _ => uniform(&action.components),
+            },
         }))
     }
 
@@ -100,7 +106,9 @@ impl<const D: usize> Builder<'_, D> {
                     self.fill(cable, (action, path), &mut on.density.along)?;
                 }
                 Load::DistributedMoment(on) => {
-                    self.fill(cable, (action, path), &mut on.density.along)?;
+                    // In the plane the third alone.
+                    let first = if D == 2 { 2 } else { 0 };
+                    self.fill(cable, (action, path), &mut on.density.along[first..])?;
                 }
                 _ => {}
             }

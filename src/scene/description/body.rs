@@ -389,11 +389,10 @@ impl CableBody {
         stiffness
     }
 
-    /// The same of what moves in the plane, which the first axis of sections is across: nothing else resists.
-    pub fn planar_stiffness(&self, numbers: &SectionNumbers) -> Matrix6<f64> {
+    /// The same in the plane, which the first axis of sections is across: axial force, shear force and moment.
+    pub fn planar_stiffness(&self, numbers: &SectionNumbers) -> Matrix3<f64> {
         let whole = self.whole_stiffness(numbers);
-        let counts = |k: usize| k % 2 == 0;
-        Matrix6::from_fn(|r, c| whole[(r, c)] * f64::from(u8::from(counts(r) && counts(c))))
+        Matrix3::from_fn(|r, c| whole[(2 * r, 2 * c)])
     }
 
     /// Ratios of shear areas to the area, along both axes: as said, or of the shape.

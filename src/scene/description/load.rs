@@ -253,10 +253,10 @@ impl ActionKind {
         self.declaration().2
     }
 
-    /// Number of components: those of a force in so many dimensions; of a moment 1 in the plane, 3 in space; 1 of a torque.
+    /// Number of components: those of a force in so many dimensions; of moments 1 in the plane, 3 in space; 1 of a torque.
     pub fn components(self, dimension: usize) -> usize {
         match self {
-            Self::Moment if dimension == 2 => 1,
+            Self::Moment | Self::DistributedMoment if dimension == 2 => 1,
             Self::Torque => 1,
             Self::Force | Self::Distributed | Self::Moment | Self::DistributedMoment => dimension,
         }

@@ -88,7 +88,7 @@ fn rest<const D: usize>(parts: &Parts<D>, frame: &Frame, linear: &mut Vec<Linear
 }
 
 /// Of a carried frame its rotations alone are coordinates, one about the tangent of a rod, three of a beam; of a node inside an element the
-/// internal twist and leans. In the plane they are the direction of a section, and the internal lean.
+/// internal twist and leans. In the plane they are the direction of a section, and the angle of that inside.
 fn rest_of_rod<const D: usize>(parts: &Parts<D>, chain: &RodChain, linear: &mut Vec<Linear<D>>) {
     let mut nodes = parts.nodes.clone();
     unplaced_rod(chain, &mut nodes);
@@ -113,7 +113,7 @@ pub(super) fn unplaced_rod<const D: usize>(chain: &RodChain, nodes: &mut [Node<D
         let at = unplaced(&nodes[line]);
         nodes[node..][..2].fill(at);
     }
-    for (j, node) in chain.inner().enumerate() {
+    for (j, node) in chain.inner().enumerate().filter(|_| D > 2) {
         let [line, ..] = chain.nodes(j);
         nodes[node] = [nodes[line][0], untwisted::<D>()[1]];
     }
