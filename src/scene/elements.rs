@@ -55,8 +55,9 @@ impl Chosen {
         }
     }
 
-    fn turns(&mut self, why: String) {
-        (self.sections, self.why) = (Sections::Turn, why);
+    /// Something asks for its sections.
+    fn turns(&mut self, why: String, dimension: usize) {
+        (self.sections, self.why) = (least(dimension), why);
     }
 
     /// Makes it a beam where shear moves something by more than an error wanted; `what` says what it does.
@@ -77,6 +78,14 @@ impl Chosen {
             let what = format!("adds {part:.1e} to bending by 3 E I / (k G A L^2)");
             self.judge_shear(part, error, &what);
         }
+    }
+}
+
+/// The least that sections do which are asked for: in the plane they lean, as nothing twists.
+fn least(dimension: usize) -> Sections {
+    match dimension {
+        2 => Sections::Lean,
+        _ => Sections::Turn,
     }
 }
 
@@ -146,11 +155,14 @@ impl CableBody {
         parts.fold(0.0, f64::max)
     }
 
-    /// Values for what rods alone need, where none are said: only to ask whether a rod would do.
-    fn fill_in(&mut self) {
+    /// Values for what rods alone need, in the plane beams, where none are said: only to ask whether one would do.
+    fn fill_in(&mut self, dimension: usize) {
         self.material.shear_modulus.get_or_insert(1.0);
         for section in self.sections_mut().filter(|of| of.area.is_some()) {
-            section.torsion_constant.get_or_insert(1.0);
+            match dimension {
+                2 => section.shear_factor.get_or_insert(1.0),
+                _ => section.torsion_constant.get_or_insert(1.0),
+            };
         }
     }
 }
@@ -176,7 +188,7 @@ impl Scene {
             let error = match scene.resolve() {
                 Ok(resolved) => match held(&resolved, &chosen) {
                     Some((place, why)) => {
-                        chosen[place].turns(why);
+                        chosen[place].turns(why, self.dimension);
                         continue;
                     }
                     None => break,
@@ -184,7 +196,7 @@ impl Scene {
                 Err(error) => error,
             };
             match self.asked_of(&chosen, &error) {
-                Some(place) => chosen[place].turns(self.asking(&error.path)),
+                Some(place) => chosen[place].turns(self.asking(&error.path), self.dimension),
                 None => return Err(with_reason(&chosen, error)),
             }
         }
@@ -227,23 +239,23 @@ impl Scene {
         self
     }
 
-    /// The cable that would not be refused for this, were it a rod.
+    /// The cable that would not be refused for this, were it a rod, or a beam in the plane.
     fn asked_of(&self, chosen: &[Chosen], error: &Error) -> Option<usize> {
         let is_cable = |place: &usize| chosen[*place].sections == Sections::None;
         let asks = |place: &usize| {
             let mut tried = chosen.to_vec();
-            tried[*place].sections = Sections::Turn;
+            tried[*place].sections = least(self.dimension);
             let mut scene = self.with_elements(&tried);
             let body = chosen[*place].body;
             if let Some(line) = scene.bodies[body].cable_mut() {
-                line.fill_in();
+                line.fill_in(self.dimension);
             }
             scene.resolve().err().is_none_or(|other| {
                 other != *error && !other.path.starts_with(&format!("bodies[{body}]"))
             })
         };
         let mut cables = (0..chosen.len()).filter(is_cable);
-        cables.find(asks).filter(|_| self.dimension == 3)
+        cables.find(asks)
     }
 
     /// A body as a beam, where it may be one and is none.

@@ -25,6 +25,7 @@ mod moved_bodies;
 mod moved_rods;
 mod pinned;
 mod planar;
+mod planar_beams;
 mod ports;
 mod projection;
 mod random;

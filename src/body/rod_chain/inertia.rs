@@ -54,6 +54,16 @@ impl RodChain {
         }
     }
 
+    /// Angular momentum, N m s, of what in the plane has inertia that is none of a node: the sections inside elements.
+    pub fn planar_momentum<const D: usize, N: Number>(
+        &self,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        frames: &Frames,
+    ) -> N {
+        let inside = |j: usize| self.momenta(j, motion, frames)[1][plane::PARTS.start];
+        (0..self.elements.len()).fold(N::of(0.0), |sum, j| sum + inside(j))
+    }
+
     /// Kinetic energy of spin, J.
     pub fn spin_energy<const D: usize, N: Number>(
         &self,

@@ -20,9 +20,9 @@ pub enum Body {
     /// The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
     /// shear. In space.
     Rod(CableBody),
-    /// The same with sections that lean against the line: shears too, with the rotary inertia of its sections. In space.
+    /// The same with sections that lean against the line: shears too, with the rotary inertia of its sections.
     Beam(CableBody),
-    /// A cable, a rod or a beam, as needed: a cable in the plane, and in space where nothing asks for its sections; else a rod; a beam
+    /// A cable, a rod or a beam, as needed: a cable where nothing asks for its sections; else in space a rod; a beam
     /// where shear moves an output by more than the error wanted, or whole matrices are given. Takes the keys of all three; those
     /// that the element chosen has no use for are not used. Found while packaging; the page of the unit says why.
     Auto(CableBody),

@@ -335,6 +335,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             chain.for_each_momentum(motion, &system.frames, |frame, momentum| {
                 angular += combined(&frame.axes(&self.x), &momentum.into());
             });
+            if D == 2 {
+                angular[2] += chain.planar_momentum(motion, &system.frames);
+            }
         }
         (linear, angular.into())
     }
