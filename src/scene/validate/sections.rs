@@ -56,7 +56,10 @@ impl CableBody {
             }
             let has_axes = self.is_rod() && dimension == 3;
             if !has_axes && station.twist != 0.0 {
-                let wanted = "0 in the plane, and of a cable, whose sections have no axes";
+                let wanted = match self.is_rod() {
+                    true => "0 in the plane, where nothing twists",
+                    false => "0 of a cable, whose sections have no axes",
+                };
                 return Err(expected(&format!("{place}.twist"), wanted, station.twist));
             }
             (station.section).validate(&format!("{place}.section"), dimension, self.sections)?;
