@@ -28,6 +28,7 @@ fn scenes() -> Vec<PathBuf> {
         "tests/cases/coupled_mass/scene.json",
         "tests/cases/driven_orientation/scene.json",
         "tests/cases/falling_rod/scene.json",
+        "tests/cases/planar_beam_statics/swing.json",
         "tests/fmpy/mechanism.json",
         "tests/fmpy/swing.json",
         "tests/masters/scenes/inner.json",

@@ -201,6 +201,7 @@ fn in_space() -> impl Iterator<Item = String> {
         include_str!("../scenes/crane_3d.json"),
         include_str!("cases/driven_orientation/scene.json"),
         include_str!("cases/driven_orientation/port.json"),
+        include_str!("cases/planar_beam_statics/swing.json"),
     ];
     ready.into_iter().flat_map(|text| {
         ["radau", "rk4", "dopri853", "auto"].map(|integrator| {

@@ -228,14 +228,21 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// For these bodies and carried frames, among so many nodes, of which these are inside elements.
+    /// For these bodies and carried frames, among so many nodes, of which these are inside elements, and these hold directions of
+    /// planar sections.
     pub fn new(
         list: Vec<Frame>,
-        (carried, inner): (Vec<Carried>, impl Iterator<Item = usize>),
-        nodes: usize,
+        carried: Vec<Carried>,
+        nodes: (
+            usize,
+            impl Iterator<Item = usize>,
+            impl Iterator<Item = usize>,
+        ),
     ) -> Self {
+        let (nodes, inner, planar) = nodes;
         let mut of_node = vec![None; nodes];
         inner.for_each(|node| of_node[node] = Some((NO_FRAME, false)));
+        planar.for_each(|node| of_node[node] = Some((NO_FRAME, true)));
         let firsts = list.iter().map(|frame| frame.node);
         let firsts = firsts.chain(carried.iter().map(|frame| frame.node));
         for (index, first) in firsts.enumerate() {
@@ -430,7 +437,7 @@ impl Frames {
     /// What the vectors of a node are.
     pub fn kind(&self, node: usize) -> NodeKind {
         match self.of_node.get(node).copied().flatten() {
-            Some((NO_FRAME, _)) => NodeKind::Inner,
+            Some((NO_FRAME, false)) => NodeKind::Inner,
             Some((_, true)) => NodeKind::Axes,
             _ => NodeKind::Point,
         }
@@ -438,7 +445,8 @@ impl Frames {
 
     /// Whether a node belongs to a frame or is inside an element: rows between its numbers are none that joints see.
     pub fn holds(&self, node: usize) -> bool {
-        self.of_node.get(node).is_some_and(Option::is_some)
+        let of = self.of_node.get(node).copied().flatten();
+        of.is_some_and(|of| of != (NO_FRAME, true))
     }
 
     /// Whether a node is the first of a frame, which its axes begin in.

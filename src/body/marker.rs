@@ -55,6 +55,18 @@ impl Marker {
         }
     }
 
+    /// The section of a planar beam at a node of its line: its position is that of the line, its direction that of the section's node.
+    pub fn leaning(body: usize, nodes: [usize; 2]) -> Self {
+        Self {
+            body,
+            nodes,
+            values: [1.0, 0.0, 0.0, 0.0],
+            slopes: [0.0, 0.0, 0.0, 1.0],
+            across: 0.0,
+            element: None,
+        }
+    }
+
     /// The same point of a rigid body of space with another direction.
     pub fn directed(&self, direction: [f64; 3]) -> Self {
         let [a, b, c] = direction;
@@ -174,9 +186,9 @@ impl<N: Number> Marker<N> {
         }
     }
 
-    /// Whether it belongs to a rigid body of space that turns: to both of its nodes.
+    /// Whether it belongs to a rigid body of space that turns: to both of its nodes, of which the second follows the first.
     pub fn is_framed(&self) -> bool {
-        self.element.is_none() && !self.is_nodal()
+        self.element.is_none() && self.nodes[1] == self.nodes[0] + 1
     }
 
     /// Components along the axes of a rigid body of space: of the point, m, and of the direction.

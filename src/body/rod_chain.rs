@@ -1,9 +1,11 @@
 //! The sections of a rod or beam, along the chain that is its line: bending and torsion; of a beam shear and stretching too. Its nodes are
 //! those of the line, two for the frame carried at each of them, and one inside every element, which holds the internal twist and a beam's
-//! internal leans alone.
+//! internal leans alone. In the plane there are beams alone; the section at a node is a unit vector in one node (`plane.rs`).
 
+mod inertia;
 mod lanes;
 mod loaded;
+mod plane;
 mod shaped;
 mod turning;
 
@@ -11,7 +13,7 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use super::assembly::{Assembly, NodeBlock, no_block};
+use super::assembly::{NodeBlock, no_block};
 use super::connectivity::{Node, no_node};
 use super::frame::{Carried, Frames, axes_at, combined};
 use super::marker::Marker;
@@ -19,9 +21,8 @@ use crate::elements::beam::{At, Force, Matrix as ElementMatrix, Rates, VELOCITIE
 use crate::elements::section::{Section, SpinInertia};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
-use crate::math::sparse::Matrix;
 use lanes::{Packed, packs};
-use loaded::add_moment;
+pub use plane::{axes as planar_axes, middle};
 pub use shaped::carried_nodes;
 
 /// Where the internal twist and a beam's two internal leans stand in a node inside an element: part and axis. The first axis stands one
@@ -34,7 +35,7 @@ const AHEAD: [f64; 3] = [0.0, 1.0, 0.0];
 /// A node inside an element without internal twist and leans.
 pub fn untwisted<const D: usize>() -> Node<D> {
     let mut node = no_node();
-    for ((part, axis), ahead) in INNER.into_iter().zip(AHEAD).take(D) {
+    for ((part, axis), ahead) in INNER.into_iter().zip(AHEAD) {
         node[part][axis] = ahead;
     }
     node
@@ -51,12 +52,15 @@ pub struct RodChain {
     packs: Vec<Packed>,
     /// Its elements, each with its inertia against spins at its ends and the rates inside, kg m^2.
     elements: Vec<(Section, SpinInertia)>,
-    /// Spins of a section: 1 of a rod, 3 of a beam.
-    turns: usize,
+    /// Which components of spins, moments and internal coordinates there are: the first of a rod, all of a beam, the second of one in the
+    /// plane, where the internal coordinate is the angle of the section in the middle of the element.
+    parts: Range<usize>,
     /// First node of the line, of the carried frames, and inside the elements.
     line: usize,
     frames: usize,
     inner: usize,
+    /// Nodes of a frame: 2, in the plane 1.
+    stride: usize,
     /// Its first carried frame among those of the system.
     carried: usize,
     is_damped: bool,
@@ -65,14 +69,20 @@ pub struct RodChain {
 impl RodChain {
     /// Along the line from node `line` on, whose nodes those of its frames follow and then those inside its elements; each element with its
     /// inertia against spins. So many frames are carried before its own.
-    pub fn new(elements: Vec<(Section, SpinInertia)>, line: usize, carried: usize) -> Self {
-        let nodes = elements.len() + 1;
+    pub fn new<const D: usize>(
+        elements: Vec<(Section, SpinInertia)>,
+        line: usize,
+        carried: usize,
+    ) -> Self {
+        let (nodes, stride) = (elements.len() + 1, D - 1);
+        let turns = elements.first().map_or(1, |(section, _)| section.turns());
         Self {
-            turns: elements.first().map_or(1, |(section, _)| section.turns()),
+            parts: if D == 2 { plane::PARTS } else { 0..turns },
             is_damped: elements.iter().any(|(section, _)| section.is_damped()),
             line,
             frames: line + nodes,
-            inner: line + 3 * nodes,
+            inner: line + (1 + stride) * nodes,
+            stride,
             packs: packs(&elements),
             elements,
             carried,
@@ -81,24 +91,36 @@ impl RodChain {
 
     /// The nodes of element `j`: line and frame at both ends, then that inside.
     pub fn nodes(&self, j: usize) -> [usize; 5] {
-        let [a, b] = [j, j + 1].map(|k| [self.line + k, self.frames + 2 * k]);
+        let [a, b] = [j, j + 1].map(|k| [self.line + k, self.frames + self.stride * k]);
         [a[0], a[1], b[0], b[1], self.inner + j]
     }
 
     /// First nodes of its carried frames, and the nodes of the line that they are at.
     pub fn frames(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..=self.elements.len()).map(|k| (self.frames + 2 * k, self.line + k))
+        (0..=self.elements.len()).map(|k| (self.frames + self.stride * k, self.line + k))
     }
 
-    /// First node of the frame at a marker of its line that is at a node.
-    pub fn frame_at(&self, marker: &Marker) -> Option<usize> {
+    /// Nodes that hold axes alone: the second ones of its frames, in the plane the only ones.
+    pub fn axes_nodes(&self) -> impl Iterator<Item = usize> {
+        self.frames().map(|(node, _)| node + self.stride - 1)
+    }
+
+    /// What stands at a marker of its line that is at a node: the section there.
+    pub fn section_at(&self, marker: &Marker) -> Option<Marker> {
         let k = marker.nodes[0] - self.line;
-        marker.is_nodal().then_some(self.frames + 2 * k)
+        let frame = self.frames + self.stride * k;
+        marker.is_nodal().then(|| match self.is_planar() {
+            true => Marker::leaning(marker.body, [self.line + k, frame]),
+            false => Marker::framed(marker.body, frame, [0.0; 3], [1.0, 0.0, 0.0]),
+        })
     }
 
-    /// Element and place inside it of a frame by its first node: the element after it, but at the last end.
-    pub fn element_at(&self, frame: usize) -> (usize, f64) {
-        let k = (frame - self.frames) / 2;
+    /// Element and place inside it of a section by the first node of its marker: the element after it, but at the last end.
+    pub fn element_at(&self, node: usize) -> (usize, f64) {
+        let k = match self.is_planar() {
+            true => node - self.line,
+            false => (node - self.frames) / self.stride,
+        };
         match k == self.elements.len() {
             true => (k - 1, 1.0),
             false => (k, 0.0),
@@ -120,9 +142,19 @@ impl RodChain {
         self.line
     }
 
-    /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam.
+    /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam; in the plane 1.
     pub fn turns(&self) -> usize {
-        self.turns
+        self.parts.len()
+    }
+
+    /// Whether its sections lean against the tangent: those of a beam.
+    pub fn leans(&self) -> bool {
+        self.parts.end > 1
+    }
+
+    /// Whether it is one of the plane.
+    fn is_planar(&self) -> bool {
+        self.stride == 1
     }
 
     /// Element `j`.
@@ -138,15 +170,27 @@ impl RodChain {
     /// Where element `j` is.
     pub fn at<const D: usize, N: Number>(&self, j: usize, x: &[Node<D, N>]) -> At<N> {
         let [a, fa, b, fb, inner] = self.nodes(j);
-        let axes = |frame: usize| {
-            let ([_, first], [second, third]) = (&x[frame], &x[frame + 1]);
-            [first, second, third].map(|axis| components(&Vector::<D, N>::from(*axis)))
+        let axes = |frame: usize| match D {
+            2 => plane::axes(&x[frame][1]),
+            _ => axes_at(frame, x).map(Into::into),
         };
         At {
             e: ends([a, b], x),
             axes: [axes(fa), axes(fb)],
-            inner: [0, 1, 2].map(|k| x[inner][INNER[k].0][INNER[k].1] - N::of(AHEAD[k])),
+            inner: match D {
+                2 => plane::inner(&x[inner]),
+                _ => self.read_inner(&x[inner], AHEAD),
+            },
         }
+    }
+
+    /// What stands for the internal coordinates in a node, beside what stands there ahead of them; or their rates.
+    fn read_inner<const D: usize, N: Number>(&self, node: &Node<D, N>, ahead: [f64; 3]) -> [N; 3] {
+        let mut inner = [N::of(0.0); 3];
+        for (k, (part, axis)) in self.inside() {
+            inner[k] = node[part][axis] - N::of(ahead[k]);
+        }
+        inner
     }
 
     /// Velocities of element `j`, or changes.
@@ -156,12 +200,15 @@ impl RodChain {
         (x, v): (&[Node<D, N>], &[Node<D, N>]),
         frames: &Frames,
     ) -> Rates<N> {
-        let [a, _, b, _, inner] = self.nodes(j);
-        let spin = |k: usize| self.frame(k, frames).spin(x, v);
+        let [a, fa, b, fb, inner] = self.nodes(j);
+        let spin = |k: usize, node: usize| match D {
+            2 => plane::spin(&x[node][1], &v[node][1]),
+            _ => self.frame(k, frames).spin(x, v),
+        };
         Rates {
             e: ends([a, b], v),
-            spin: [spin(j), spin(j + 1)],
-            inner: INNER.map(|(part, axis)| v[inner][part][axis]),
+            spin: [spin(j, fa), spin(j + 1, fb)],
+            inner: self.read_inner(&v[inner], [0.0; 3]),
         }
     }
 
@@ -189,7 +236,7 @@ impl RodChain {
                 },
                 power,
             ) = section.force(&at, rates.as_ref());
-            let [a, _, b, _, inner] = self.nodes(j);
+            let [a, first, b, last, inner] = self.nodes(j);
             for (k, vector) in e.iter().enumerate() {
                 let node = &mut force[[a, b][k / 2]][k % 2];
                 for (sum, f) in node.iter_mut().zip(vector) {
@@ -197,12 +244,17 @@ impl RodChain {
                 }
             }
             for (k, moment) in moment.into_iter().enumerate() {
+                if D == 2 {
+                    let node = [first, last][k];
+                    plane::turn(&motion.0[node][1], &moment, &mut force[node][1]);
+                    continue;
+                }
                 for (sum, m) in moments[self.carried + j + k].iter_mut().zip(moment) {
                     *sum += m;
                 }
             }
-            for ((part, axis), f) in self.inside().zip(f) {
-                force[inner][part][axis] += f;
+            for (k, (part, axis)) in self.inside() {
+                force[inner][part][axis] += f[k];
             }
             sum += power;
         }
@@ -232,120 +284,14 @@ impl RodChain {
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
-    /// Momenta conjugate to the spins at the ends of element `j` and to its rates inside, N m s: first end, inside, last end.
-    fn momenta<const D: usize, N: Number>(
-        &self,
-        j: usize,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
-    ) -> [[N; 3]; 3] {
-        self.momenta_of(j, &self.rates(j, motion, frames))
-    }
-
-    /// The same of these velocities; of their rates, what changes it.
-    fn momenta_of<N: Number>(&self, j: usize, rates: &Rates<N>) -> [[N; 3]; 3] {
-        let (_, inertia) = &self.elements[j];
-        let rates = [rates.spin[0], rates.inner, rates.spin[1]];
-        let mut momenta = [[N::of(0.0); 3]; 3];
-        for (momentum, row) in momenta.iter_mut().zip(inertia) {
-            for (block, rate) in row.iter().zip(&rates) {
-                for r in 0..self.turns {
-                    for c in 0..self.turns {
-                        momentum[r] += rate[c] * N::of(block[r][c]);
-                    }
-                }
-            }
-        }
-        momenta
-    }
-
-    /// For every carried frame its momentum about the tangent or, of a beam, along its axes, N m s, part by part of the elements.
-    pub fn for_each_momentum<const D: usize, N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
-        mut each: impl FnMut(&Carried, [N; 3]),
-    ) {
-        for j in 0..self.elements.len() {
-            let [a, _, b] = self.momenta(j, motion, frames);
-            each(self.frame(j, frames), a);
-            each(self.frame(j + 1, frames), b);
-        }
-    }
-
-    /// Kinetic energy of spin, J.
-    pub fn spin_energy<const D: usize, N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
-    ) -> N {
-        let mut sum = N::of(0.0);
-        for j in 0..self.elements.len() {
-            let rates = self.rates(j, motion, frames);
-            let momenta = self.momenta_of(j, &rates);
-            let rates = [rates.spin[0], rates.inner, rates.spin[1]];
-            for (momentum, rate) in momenta.iter().zip(&rates) {
-                let terms = momentum.iter().zip(rate).take(self.turns);
-                sum = terms.fold(sum, |sum, (p, w)| sum + *p * *w);
-            }
-        }
-        sum * N::of(0.5)
-    }
-
-    /// Adds the force on slopes, or of a beam the moment on sections, that spin asks for where sections turn.
-    pub fn add_gyroscopic<const D: usize, N: Number>(
-        &self,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        frames: &Frames,
-        force: &mut [Node<D, N>],
-    ) {
-        self.for_each_momentum(motion, frames, |frame, momentum| {
-            frame.add_gyroscopic(momentum, motion, force);
-        });
-    }
-
-    /// Adds mass times changes of spins and internal coordinates, over the nodes: forces on axes whose moments along them these are.
-    pub fn add_spin_inertia<const D: usize>(
-        &self,
-        (x, dx): (&[Node<D>], &[Node<D>]),
-        frames: &Frames,
-        force: &mut [Node<D>],
-    ) {
-        for j in 0..self.elements.len() {
-            let [a, inner, b] = self.momenta(j, (x, dx), frames);
-            for (k, moment) in [(j, a), (j + 1, b)] {
-                add_moment(self.frame(k, frames).node, &moment, x, force);
-            }
-            for ((part, axis), f) in self.inside().zip(inner) {
-                force[self.inner + j][part][axis] += f;
-            }
-        }
-    }
-
-    /// Adds the inertia of spins to a matrix of the system.
-    pub fn add_mass<const D: usize>(&self, assembly: &Assembly<D>, matrix: &mut Matrix<f64>) {
-        let turns: Vec<_> = (0..self.turns).map(|axis| (1, axis)).collect();
-        let inside: Vec<_> = self.inside().collect();
-        for (j, (_, inertia)) in self.elements.iter().enumerate() {
-            let [_, a, _, b, inner] = self.nodes(j);
-            let places = [(a, &turns), (inner, &inside), (b, &turns)];
-            for (r, (row, at)) in places.iter().enumerate() {
-                for (c, (column, on)) in places.iter().enumerate().take(r + 1) {
-                    let mut block: NodeBlock<D> = no_block();
-                    for (i, (p, axis)) in at.iter().enumerate() {
-                        for (k, (q, other)) in on.iter().enumerate() {
-                            block[*p][*axis][*q][*other] = inertia[r][c][i][k];
-                        }
-                    }
-                    assembly.add(*row, *column, &block, matrix);
-                }
-            }
-        }
-    }
-
-    /// Where the coordinates inside its elements stand in their nodes.
-    pub fn inside(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        INNER.into_iter().take(self.turns)
+    /// Coordinates inside its elements, and where they stand in their nodes.
+    pub fn inside(&self) -> impl Iterator<Item = (usize, (usize, usize))> + use<> {
+        let places = if self.is_planar() {
+            [plane::ANGLE; 3]
+        } else {
+            INNER
+        };
+        self.parts.clone().map(move |k| (k, places[k]))
     }
 
     /// The blocks of a symmetric matrix over the velocities of element `j`, on and below the diagonal of its nodes.
@@ -369,19 +315,28 @@ impl RodChain {
         }
     }
 
-    /// Velocities of an element at one of its nodes `[line, frame, line, frame, inner]`: number, then part and axis.
+    /// Velocities of an element at one of its nodes `[line, frame, line, frame, inner]`: number, then part and axis. In the plane those of
+    /// a section are the rates of its direction.
     fn entries(&self, node: usize) -> impl Iterator<Item = (usize, (usize, usize))> {
-        let turns = self.turns;
+        let (is_planar, parts) = (self.is_planar(), self.parts.clone());
+        let turns = if is_planar { 3 } else { parts.len() };
         let first = [0, 6, 6 + turns, 12 + turns, 12 + 2 * turns][node];
-        let count = if [0, 2].contains(&node) { 6 } else { turns };
-        (0..count).map(move |k| {
+        let numbers = match node {
+            0 | 2 => 0..6,
+            4 => parts,
+            _ if is_planar => 0..2,
+            _ => parts,
+        };
+        let places = numbers.map(move |k| {
             let place = match node {
                 0 | 2 => (k / 3, k % 3),
+                4 if is_planar => plane::ANGLE,
                 4 => INNER[k],
                 _ => (1, k),
             };
             (first + k, place)
-        })
+        });
+        places.filter(move |(_, (_, axis))| !is_planar || *axis < 2)
     }
 
     /// Velocities of element `j`, or small displacements, in the order of its matrices: what nodes hold that have coordinates, so for
@@ -415,52 +370,10 @@ impl RodChain {
         moments: [[N; 3]; 2],
         x: &[Node<D, N>],
     ) -> [Vector3<N>; 2] {
-        let [_, a, _, b, _] = self.nodes(j);
         let [first, last] = moments.map(Vector3::from);
-        [(a, first), (b, last)].map(|(frame, moment)| combined(&axes_at(frame, x), &moment))
-    }
-
-    /// What element `j` lacks for equilibrium: elastic and damping forces less the inertia of spins, with the force that these ask for
-    /// where tangents turn, in a scene that turns at this rate, rad/s.
-    pub fn lack<const D: usize, N: Number>(
-        &self,
-        j: usize,
-        [x, v, a]: [&[Node<D, N>]; 3],
-        (rotation, frames): ([f64; 3], &Frames),
-    ) -> Force<N> {
-        let (section, _) = &self.elements[j];
-        let rates = self.rates(j, (x, v), frames);
-        let mut force = section.force(&self.at(j, x), Some(&rates)).0;
-        let ends = [self.frame(j, frames), self.frame(j + 1, frames)];
-        let changes = self.momenta_of(
-            j,
-            &Rates {
-                e: rates.e,
-                spin: ends.map(|frame| frame.spin_rate(x, a)),
-                inner: INNER.map(|(part, axis)| a[self.inner + j][part][axis]),
-            },
-        );
-        for (k, change) in changes.iter().enumerate() {
-            let on = match k {
-                1 => &mut force.inner,
-                _ => &mut force.moment[k / 2],
-            };
-            on.iter_mut().zip(change).for_each(|(f, p)| *f -= *p);
-        }
-        let [first, _, last] = self.momenta_of(j, &rates);
-        for (k, (frame, momentum)) in ends.into_iter().zip([first, last]).enumerate() {
-            let [slope, rate] = [x, v].map(|of| part(&of[frame.line], 1).into());
-            let asked = frame.gyroscopic(momentum, [&slope, &rate, &rates.spin[k].into()]);
-            let on = match frame.leans {
-                true => &mut force.moment[k],
-                false => &mut force.e[2 * k + 1],
-            };
-            on.iter_mut().zip(&asked).for_each(|(sum, f)| *sum += *f);
-        }
-        if rotation != [0.0; 3] {
-            force.add(&self.turning(j, (x, v), rotation, frames));
-        }
-        force
+        let at = self.at(j, x);
+        let axes = at.axes.map(|axes| axes.map(Vector3::from));
+        [combined(&axes[0], &first), combined(&axes[1], &last)]
     }
 }
 

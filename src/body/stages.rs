@@ -105,6 +105,7 @@ impl<const D: usize> Stages<D> {
     /// The tangent is made at this configuration.
     pub fn set_base(&mut self, x: &[Node<D>]) {
         unit_directions(x, &self.elastic, &mut self.base);
+        self.sections.direct(&mut self.base);
         self.sections.set_base(x);
         for turned in &mut self.turned {
             turned.copy_from_slice(&self.base);
@@ -114,6 +115,7 @@ impl<const D: usize> Stages<D> {
     /// Sets the configuration of a stage.
     pub fn set(&mut self, assembly: &Assembly<D>, stage: usize, x: &[Node<D>]) {
         unit_directions(x, &self.elastic, &mut self.turned[stage]);
+        self.sections.direct(&mut self.turned[stage]);
         self.sections.set(stage, x);
         let directions = (&self.base[..], &self.turned[stage][..]);
         for knot in &mut self.knots {

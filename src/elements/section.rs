@@ -6,6 +6,7 @@
 
 use nalgebra::Matrix3;
 
+use super::beam::planar::{self, Planar};
 use super::beam::{self, At, Beam, Force, Rates};
 use super::rod::{self, Rod};
 use crate::math::lanes::Real;
@@ -39,6 +40,16 @@ pub fn spin_inertia(length: f64, section: impl Fn(f64) -> Matrix3<f64>) -> SpinI
     inertia
 }
 
+/// The same of a beam in the plane, from the rotary inertia of its sections against turns in it, kg m: the three sections whose directions
+/// are coordinates have their parts by Simpson's rule, which leaves errors of order 4.
+pub fn planar_inertia(length: f64, section: impl Fn(f64) -> f64) -> SpinInertia {
+    let mut inertia = SpinInertia::default();
+    for (k, (at, weight)) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)].into_iter().enumerate() {
+        inertia[k][k][1][1] = section(at) * weight * length / 6.0;
+    }
+    inertia
+}
+
 /// An element of a rod or of a beam.
 #[derive(Clone, Debug)]
 pub enum Section {
@@ -46,6 +57,8 @@ pub enum Section {
     Rod(Box<Rod>),
     /// Stretching, shear, bending and torsion.
     Beam(Box<Beam>),
+    /// Stretching, shear and bending in the plane.
+    Planar(Box<Planar>),
 }
 
 /// Elements that are computed in lanes.
@@ -55,6 +68,8 @@ pub enum SectionPack {
     Rod(Box<rod::Pack>),
     /// Of beams.
     Beam(Box<beam::Pack>),
+    /// Of beams in the plane.
+    Planar(Box<planar::Pack>),
 }
 
 /// A rod's view of coordinates.
@@ -92,11 +107,12 @@ fn of_rod<N: Real>(force: rod::Force<N>) -> Force<N> {
 pub type Vectors<N> = [[N; 3]; GAUSS_5.len()];
 
 impl Section {
-    /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam.
+    /// Spins of a section, and numbers inside an element: 1 of a rod, 3 of a beam, 1 of one in the plane.
     pub fn turns(&self) -> usize {
         match self {
             Self::Rod(_) => 1,
             Self::Beam(_) => 3,
+            Self::Planar(_) => 1,
         }
     }
 
@@ -105,6 +121,7 @@ impl Section {
         match self {
             Self::Rod(rod) => rod.is_damped(),
             Self::Beam(beam) => beam.is_damped(),
+            Self::Planar(beam) => beam.is_damped(),
         }
     }
 
@@ -113,6 +130,7 @@ impl Section {
         match self {
             Self::Rod(rod) => rod.energy(&rod_at(at)),
             Self::Beam(beam) => beam.energy(at),
+            Self::Planar(beam) => beam.energy(at),
         }
     }
 
@@ -124,14 +142,16 @@ impl Section {
                 (of_rod(force), power)
             }
             Self::Beam(beam) => beam.force(at, rates),
+            Self::Planar(beam) => beam.force(at, rates),
         }
     }
 
-    /// Vectors along the axes of the sections at five Gauss points, in global components.
+    /// Vectors along the axes of the sections at five Gauss points, in global components; in the plane those across it stay.
     pub fn outward<N: Real>(&self, at: &At<N>, vectors: &Vectors<N>) -> Vectors<N> {
         match self {
             Self::Rod(rod) => rod.outward(&rod_at(at), vectors),
             Self::Beam(beam) => beam.outward(at, vectors),
+            Self::Planar(_) => *vectors,
         }
     }
 
@@ -141,6 +161,7 @@ impl Section {
         match self {
             Self::Rod(rod) => of_rod(rod.loaded(&rod_at(at), moments)),
             Self::Beam(beam) => beam.loaded(at, moments),
+            Self::Planar(beam) => beam.loaded(at, moments),
         }
     }
 
@@ -149,6 +170,7 @@ impl Section {
         match self {
             Self::Rod(rod) => rod.angles(&rod_at(at)),
             Self::Beam(beam) => beam.angles(at),
+            Self::Planar(beam) => beam.angles(at),
         }
     }
 
@@ -157,25 +179,28 @@ impl Section {
         match (self, other) {
             (Self::Rod(a), Self::Rod(b)) => a.goes_with(b),
             (Self::Beam(a), Self::Beam(b)) => a.goes_with(b),
+            (Self::Planar(a), Self::Planar(b)) => a.goes_with(b),
             _ => false,
         }
     }
 
     /// Elements that go together, up to [`PACK`](crate::math::lanes::PACK).
     pub fn pack(elements: &[&Self]) -> SectionPack {
-        let rods = elements.iter().filter_map(|element| match element {
-            Self::Rod(rod) => Some((**rod).clone()),
-            Self::Beam(_) => None,
-        });
-        let rods: Vec<Rod> = rods.collect();
+        // What goes together is of one kind.
+        let (mut rods, mut beams, mut planar) = (Vec::new(), Vec::new(), Vec::new());
+        for element in elements {
+            match element {
+                Self::Rod(rod) => rods.push((**rod).clone()),
+                Self::Beam(beam) => beams.push((**beam).clone()),
+                Self::Planar(beam) => planar.push((**beam).clone()),
+            }
+        }
         if !rods.is_empty() {
             return SectionPack::Rod(Box::new(Rod::pack(&rods)));
         }
-        let beams = elements.iter().filter_map(|element| match element {
-            Self::Beam(beam) => Some((**beam).clone()),
-            Self::Rod(_) => None,
-        });
-        let beams: Vec<Beam> = beams.collect();
+        if !planar.is_empty() {
+            return SectionPack::Planar(Box::new(Planar::pack(&planar)));
+        }
         SectionPack::Beam(Box::new(Beam::pack(&beams)))
     }
 }

@@ -38,10 +38,14 @@ impl Chosen {
     }
 
     fn new(body: usize, line: &CableBody, dimension: usize) -> Self {
-        let (sections, why) = match dimension {
-            2 => (Sections::None, "nothing twists in the plane"),
-            _ => line.need().unwrap_or((Sections::None, NOTHING_NEEDED)),
+        let needed = line
+            .need()
+            .filter(|(sections, _)| dimension == 3 || *sections == Sections::Lean);
+        let unneeded = match dimension {
+            2 => "nothing twists in the plane",
+            _ => NOTHING_NEEDED,
         };
+        let (sections, why) = needed.unwrap_or((Sections::None, unneeded));
         Self {
             body,
             name: line.name.clone(),
@@ -51,8 +55,9 @@ impl Chosen {
         }
     }
 
-    fn turns(&mut self, why: String) {
-        (self.sections, self.why) = (Sections::Turn, why);
+    /// Something asks for its sections.
+    fn turns(&mut self, why: String, dimension: usize) {
+        (self.sections, self.why) = (least(dimension), why);
     }
 
     /// Makes it a beam where shear moves something by more than an error wanted; `what` says what it does.
@@ -67,17 +72,25 @@ impl Chosen {
     }
 
     /// The same by the share that shear has in how far the body bends statically, where there is no experiment to compare in.
-    pub fn estimate_shear(&mut self, error: f64) {
+    pub fn estimate_shear(&mut self, error: f64, dimension: usize) {
         if let Some(beam) = &self.beam {
-            let part = beam.shear_to_bending();
+            let part = beam.shear_to_bending(dimension);
             let what = format!("adds {part:.1e} to bending by 3 E I / (k G A L^2)");
             self.judge_shear(part, error, &what);
         }
     }
 }
 
+/// The least that sections do which are asked for: in the plane they lean, as nothing twists.
+fn least(dimension: usize) -> Sections {
+    match dimension {
+        2 => Sections::Lean,
+        _ => Sections::Turn,
+    }
+}
+
 impl CableBody {
-    /// What the body needs by its own keys, in space: sections that turn, or lean.
+    /// What the body needs by its own keys: sections that lean, or in space turn.
     fn need(&self) -> Option<(Sections, &'static str)> {
         let all = || self.all_sections();
         let is_unequal = |numbers: SectionNumbers| {
@@ -124,7 +137,7 @@ impl CableBody {
     /// Of a beam: deflection of a cantilever by shear over that by bending, under a force at its end; the largest about both
     /// axes of all its sections (S. P. Timoshenko, Strength of Materials I, 3rd ed. (1955), section 39: `F L / (k G A)` beside
     /// `F L^3 / (3 E I)`).
-    fn shear_to_bending(&self) -> f64 {
+    fn shear_to_bending(&self, dimension: usize) -> f64 {
         let at_stations = self
             .stations
             .iter()
@@ -133,19 +146,23 @@ impl CableBody {
         let square = self.shape.length().powi(2);
         let parts = at_stations.chain(one).flat_map(|numbers| {
             let stiffness = self.whole_stiffness(&numbers);
-            // What bends about an axis shears along the other one.
-            [(4, 2), (5, 1)].map(|(bending, shear)| {
+            // What bends about an axis shears along the other one; in the plane about the first alone.
+            let axes = [(4, 2), (5, 1)].into_iter().take(dimension - 1);
+            axes.map(move |(bending, shear)| {
                 3.0 * stiffness[(bending, bending)] / (stiffness[(shear, shear)] * square)
             })
         });
         parts.fold(0.0, f64::max)
     }
 
-    /// Values for what rods alone need, where none are said: only to ask whether a rod would do.
-    fn fill_in(&mut self) {
+    /// Values for what rods alone need, in the plane beams, where none are said: only to ask whether one would do.
+    fn fill_in(&mut self, dimension: usize) {
         self.material.shear_modulus.get_or_insert(1.0);
         for section in self.sections_mut().filter(|of| of.area.is_some()) {
-            section.torsion_constant.get_or_insert(1.0);
+            match dimension {
+                2 => section.shear_factor.get_or_insert(1.0),
+                _ => section.torsion_constant.get_or_insert(1.0),
+            };
         }
     }
 }
@@ -171,7 +188,7 @@ impl Scene {
             let error = match scene.resolve() {
                 Ok(resolved) => match held(&resolved, &chosen) {
                     Some((place, why)) => {
-                        chosen[place].turns(why);
+                        chosen[place].turns(why, self.dimension);
                         continue;
                     }
                     None => break,
@@ -179,7 +196,7 @@ impl Scene {
                 Err(error) => error,
             };
             match self.asked_of(&chosen, &error) {
-                Some(place) => chosen[place].turns(self.asking(&error.path)),
+                Some(place) => chosen[place].turns(self.asking(&error.path), self.dimension),
                 None => return Err(with_reason(&chosen, error)),
             }
         }
@@ -189,7 +206,7 @@ impl Scene {
         for (of, beam) in chosen.iter_mut().zip(beams) {
             of.beam = beam.map(Box::new);
             if !self.is_to_be_planned() {
-                of.estimate_shear(self.error());
+                of.estimate_shear(self.error(), self.dimension);
             }
         }
         Ok(chosen)
@@ -213,38 +230,39 @@ impl Scene {
 
     /// The scene with every body of `"element": "auto"` as what it became when it was read.
     pub fn plain(mut self) -> Self {
+        let dimension = self.dimension;
         for body in &mut self.bodies {
             if let Body::Auto(line) = body {
-                *body = line.made(line.sections);
+                *body = line.made(line.sections, dimension);
             }
         }
         self
     }
 
-    /// The cable that would not be refused for this, were it a rod.
+    /// The cable that would not be refused for this, were it a rod, or a beam in the plane.
     fn asked_of(&self, chosen: &[Chosen], error: &Error) -> Option<usize> {
         let is_cable = |place: &usize| chosen[*place].sections == Sections::None;
         let asks = |place: &usize| {
             let mut tried = chosen.to_vec();
-            tried[*place].sections = Sections::Turn;
+            tried[*place].sections = least(self.dimension);
             let mut scene = self.with_elements(&tried);
             let body = chosen[*place].body;
             if let Some(line) = scene.bodies[body].cable_mut() {
-                line.fill_in();
+                line.fill_in(self.dimension);
             }
             scene.resolve().err().is_none_or(|other| {
                 other != *error && !other.path.starts_with(&format!("bodies[{body}]"))
             })
         };
         let mut cables = (0..chosen.len()).filter(is_cable);
-        cables.find(asks).filter(|_| self.dimension == 3)
+        cables.find(asks)
     }
 
     /// A body as a beam, where it may be one and is none.
     fn as_beam(&self, chosen: &[Chosen], place: usize) -> Option<CableBody> {
         let mut tried = chosen.to_vec();
         let of = &mut tried[place];
-        if self.dimension == 2 || of.sections == Sections::Lean {
+        if of.sections == Sections::Lean {
             return None;
         }
         (of.sections, of.beam) = (Sections::Lean, None);

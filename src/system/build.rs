@@ -15,8 +15,8 @@ use super::motion::tree::Tree;
 use super::signal::Drive;
 use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
-    Assembly, Carried, Dependent, Elimination, Frame, Frames, Marker, Node, RodChain, Row,
-    add_node, no_block, no_node, product,
+    Assembly, Carried, Dependent, Elimination, Frame, Frames, Marker, Node, NodeKind, RodChain,
+    Row, add_node, no_block, no_node, product,
 };
 use crate::math::function::Function;
 use crate::math::space::Vector;
@@ -248,9 +248,9 @@ impl<const D: usize> System<D> {
             *arm = arm.max(marker.arm());
         }
         let far = |place: Vector<D>| (place - first).norm();
-        // The second node of a body stands where the first does.
-        let nodes = self.reference.iter().zip(&arms);
-        let nodes = nodes.map(|(node, arm)| far(node[0].into()) + arm);
+        let nodes = self.reference.iter().zip(&arms).enumerate();
+        let nodes = nodes.filter(|(node, _)| self.frames.kind(*node) == NodeKind::Point);
+        let nodes = nodes.map(|(_, (node, arm))| far(node[0].into()) + arm);
         let on_ground = ends().filter(|end| end.marker().is_none());
         let on_ground = on_ground.map(|end| far(end.position(&self.reference)));
         nodes.chain(on_ground).fold(0.0, f64::max)
@@ -365,18 +365,20 @@ fn unplace<const D: usize>(parts: &mut Parts<D>, frames: &Frames) {
 
 /// Frames of rigid bodies, which are taken out of the parts, and those that rods carry.
 fn take_frames<const D: usize>(parts: &mut Parts<D>) -> Frames {
-    let chains = parts.rod_chains.iter();
-    let carried = chains.flat_map(|chain| chain.frames().map(|frame| (chain.turns(), frame)));
-    let carried = carried.map(|(turns, (node, line))| Carried {
+    let chains = || parts.rod_chains.iter();
+    let carried = chains().filter(|_| D > 2);
+    let carried = carried.flat_map(|chain| chain.frames().map(|frame| (chain.leans(), frame)));
+    let carried = carried.map(|(leans, (node, line))| Carried {
         node,
         line,
-        leans: turns > 1,
+        leans,
         places: [None; 3],
     });
-    let inner = parts.rod_chains.iter().flat_map(RodChain::inner);
-    let of_rods = (carried.collect(), inner);
+    let inner = chains().flat_map(RodChain::inner);
+    let planar = chains().filter(|_| D == 2).flat_map(RodChain::axes_nodes);
+    let nodes = (parts.nodes.len(), inner, planar);
     let bodies = std::mem::take(&mut parts.frames);
-    Frames::new(bodies, of_rods, parts.nodes.len())
+    Frames::new(bodies, carried.collect(), nodes)
 }
 
 fn redundant<const D: usize>(

@@ -212,13 +212,9 @@ impl<const D: usize> System<D> {
         D == 2 || self.frames.is_empty()
     }
 
-    /// Sections of rods: none in the plane, which is known when compiling.
-    #[inline(always)]
+    /// Sections of rods and beams.
     pub(in crate::system) fn rod_chains(&self) -> &[RodChain] {
-        match D {
-            2 => &[],
-            _ => &self.rod_chains,
-        }
+        &self.rod_chains
     }
 
     /// Whether the frame turns that the scene is described in.

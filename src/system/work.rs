@@ -122,13 +122,16 @@ impl<const D: usize> Work<D> {
         let mut still = vec![false; nodes.len()];
         let mut sections = Vec::new();
         for chain in &system.rod_chains {
-            if chain.turns() > 1 {
-                // These turn with their sections.
+            if chain.leans() {
+                // These turn with their sections; in the plane by directions, as cables do.
                 sections.extend(chain.frames().map(|(frame, line)| (line, frame)));
-                sections.iter().for_each(|(line, _)| elastic[*line] = false);
+                sections
+                    .iter()
+                    .for_each(|(line, _)| elastic[*line] &= D == 2);
             }
-            let frames = chain.frames().flat_map(|(node, _)| [node, node + 1]);
+            let frames = chain.frames().map(|(node, _)| node);
             frames
+                .chain(chain.axes_nodes())
                 .chain(chain.inner())
                 .for_each(|node| still[node] = true);
         }

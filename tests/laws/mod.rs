@@ -27,6 +27,7 @@ mod moved_rods;
 mod overbent;
 mod pinned;
 mod planar;
+mod planar_beams;
 mod ports;
 mod projection;
 mod random;

@@ -335,7 +335,7 @@ fn rods_and_beams_move_alike_from_whichever_end_they_are_drawn() {
 }
 
 /// Cables that stand, hang on pins and welds, and carry a body that turns; forces, a moment, a spring.
-fn flat() -> Value {
+pub fn flat() -> Value {
     let cable = |name: &str, elements: usize, from: [f64; 2], to: [f64; 2]| {
         json!({"name": name, "element": "cable", "elements": elements,
                "material": {"youngs_modulus": 1e9, "density": 1000.0, "damping_time": 1e-3},

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use super::{AHEAD, RodChain, SpinInertia};
+use super::{AHEAD, RodChain, SpinInertia, plane};
 use crate::body::assembly::Assembly;
 use crate::body::chain::both;
 use crate::body::connectivity::Node;
 use crate::body::frame::Frames;
+use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam, Force, Matrix as ElementMatrix, Rates, VELOCITIES};
 use crate::elements::rod::{self, Rod, Tangent};
 use crate::elements::section::{Section, SectionPack, rod_at, rod_rates};
@@ -41,7 +42,7 @@ impl RodChain {
     /// frames. The power that damping takes out, W.
     pub fn add_force<const D: usize>(
         &self,
-        motion: (&[Node<D>], &[Node<D>]),
+        motion_of: (&[Node<D>], &[Node<D>]),
         frames: &Frames,
         out: (&mut [Node<D>], &mut [[f64; 3]]),
     ) -> f64 {
@@ -54,16 +55,17 @@ impl RodChain {
         };
         let (nodes, moments) = out;
         for Packed { elements, kernel } in &self.packs {
-            self.read(motion, None, elements, &mut place);
+            self.read(motion_of, None, elements, &mut place);
             if self.is_damped {
-                self.read(motion, Some(frames), elements, &mut rate);
+                self.read(motion_of, Some(frames), elements, &mut rate);
             }
             let motion = (&place, self.is_damped.then_some(&rate));
             power += match kernel {
                 SectionPack::Rod(kernel) => rod_force(kernel, motion, &mut force),
-                SectionPack::Beam(kernel) => beam_force(kernel, motion, &mut force),
+                SectionPack::Beam(kernel) => beam_force(&**kernel, motion, &mut force),
+                SectionPack::Planar(kernel) => beam_force(&**kernel, motion, &mut force),
             };
-            self.write(elements, &force, (nodes, moments));
+            self.write(elements, &force, motion_of.0, (nodes, moments));
         }
         power
     }
@@ -84,11 +86,12 @@ impl RodChain {
         });
     }
 
-    /// Calls with the tangent stiffness of every element, then with the damping of every one where there is any.
+    /// Calls with the tangent stiffness of every element, then with the damping of every one where there is any: over small rotations of
+    /// sections, in the plane over changes of their directions.
     #[inline(always)]
     pub fn for_each_tangent<const D: usize>(
         &self,
-        motion: (&[Node<D>], &[Node<D>]),
+        motion_of: (&[Node<D>], &[Node<D>]),
         frames: &Frames,
         mut each: impl FnMut(Tangent, usize, &ElementMatrix),
     ) {
@@ -100,17 +103,24 @@ impl RodChain {
             .take(count)
         {
             for Packed { elements, kernel } in &self.packs {
-                self.read(motion, None, elements, &mut place);
+                self.read(motion_of, None, elements, &mut place);
                 if self.is_damped {
-                    self.read(motion, Some(frames), elements, &mut rate);
+                    self.read(motion_of, Some(frames), elements, &mut rate);
                 }
                 let motion = (&place, self.is_damped.then_some(&rate));
                 match kernel {
                     SectionPack::Rod(kernel) => rod_tangent(kernel, motion, kind, &mut out),
-                    SectionPack::Beam(kernel) => beam_tangent(kernel, motion, kind, &mut out),
+                    SectionPack::Beam(kernel) => beam_tangent(&**kernel, motion, kind, &mut out),
+                    SectionPack::Planar(kernel) => beam_tangent(&**kernel, motion, kind, &mut out),
                 }
                 for (lane, j) in elements.clone().enumerate() {
-                    each(kind, j, &of_lane(&out, lane));
+                    let mut whole = of_lane(&out, lane);
+                    if D == 2 {
+                        let [_, first, _, last, _] = self.nodes(j);
+                        let directions = [first, last].map(|node| &motion_of.0[node][1]);
+                        plane::over_directions(directions, &mut whole);
+                    }
+                    each(kind, j, &whole);
                 }
             }
         }
@@ -131,18 +141,30 @@ impl RodChain {
                 pack.line[0][d][lane] = node[0][d];
                 pack.line[1][d][lane] = node[1][d];
             }
+            let frame = self.frames + self.stride * k;
             if let Some(frames) = frames {
-                let spin = self.frame(k, frames).spin(x, v);
-                for (to, spin) in pack.turn[0].iter_mut().zip(spin).take(self.turns) {
+                let spin = match D {
+                    2 => plane::spin(&x[frame][1], &v[frame][1]),
+                    _ => self.frame(k, frames).spin(x, v),
+                };
+                for (to, spin) in pack.turn[0].iter_mut().zip(spin).take(self.parts.end) {
                     to[lane] = spin;
                 }
                 continue;
             }
-            let ([_, first], [second, third]) =
-                (&x[self.frames + 2 * k], &x[self.frames + 2 * k + 1]);
+            if D == 2 {
+                let [first, second, third] = plane::axes(&x[frame][1]);
+                for (to, axis) in pack.turn.iter_mut().zip([second, first, third]) {
+                    for d in 0..3 {
+                        to[d][lane] = axis[d];
+                    }
+                }
+                continue;
+            }
+            let ([_, first], [second, third]) = (&x[frame], &x[frame + 1]);
             // A rod asks for the second axis alone.
             let axes = [second, first, third];
-            for (to, axis) in pack.turn.iter_mut().zip(axes).take(self.turns) {
+            for (to, axis) in pack.turn.iter_mut().zip(axes).take(self.turns()) {
                 for d in 0..D.min(3) {
                     to[d][lane] = axis[d];
                 }
@@ -150,9 +172,12 @@ impl RodChain {
         }
         let ahead = if frames.is_some() { [0.0; 3] } else { AHEAD };
         for (lane, j) in elements.clone().enumerate() {
-            let places = self.inside().zip(ahead);
-            for (to, ((part, axis), ahead)) in pack.inner.iter_mut().zip(places) {
-                to[lane] = from[self.inner + j][part][axis] - ahead;
+            for (k, (part, axis)) in self.inside() {
+                pack.inner[k][lane] = from[self.inner + j][part][axis] - ahead[k];
+            }
+            if D == 2 && frames.is_none() {
+                let [c, s, _] = plane::inner(&x[self.inner + j]);
+                (pack.inner[0][lane], pack.inner[1][lane]) = (c, s);
             }
         }
     }
@@ -161,6 +186,7 @@ impl RodChain {
         &self,
         elements: &Range<usize>,
         f: &Force<[f64; PACK]>,
+        x: &[Node<D>],
         (nodes, moments): (&mut [Node<D>], &mut [[f64; 3]]),
     ) {
         for (lane, j) in elements.clone().enumerate() {
@@ -171,13 +197,19 @@ impl RodChain {
                         node[p][d] += f.e[2 * end + p][d][lane];
                     }
                 }
+                if D == 2 {
+                    let frame = self.frames + j + end;
+                    let moment = f.moment[end].map(|m| m[lane]);
+                    plane::turn(&x[frame][1], &moment, &mut nodes[frame][1]);
+                    continue;
+                }
                 let moment = moments[self.carried + j + end].iter_mut();
-                for (sum, m) in moment.zip(&f.moment[end]).take(self.turns) {
+                for (sum, m) in moment.zip(&f.moment[end]).take(self.turns()) {
                     *sum += m[lane];
                 }
             }
-            for ((part, axis), f) in self.inside().zip(&f.inner) {
-                nodes[self.inner + j][part][axis] += f[lane];
+            for (k, (part, axis)) in self.inside() {
+                nodes[self.inner + j][part][axis] += f.inner[k][lane];
             }
         }
     }
@@ -304,8 +336,11 @@ impl Work for InLanes<'_, rod::Pack, rod::Force<[f64; PACK]>> {
     }
 }
 
-/// The same of beams.
-fn beam_force(kernel: &beam::Pack, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64 {
+/// The same of beams, in space or in the plane.
+fn beam_force<K>(kernel: &K, motion: Motion<'_>, force: &mut Force<[f64; PACK]>) -> f64
+where
+    for<'a> InLanes<'a, K, Force<[f64; PACK]>>: Work,
+{
     let mut power = 0.0;
     vectorized(InLanes {
         kernel,
@@ -356,12 +391,14 @@ impl Work for InLanes<'_, rod::Pack, rod::Matrix<[f64; PACK]>> {
 }
 
 /// The same of beams.
-fn beam_tangent(
-    kernel: &beam::Pack,
+fn beam_tangent<K>(
+    kernel: &K,
     motion: Motion<'_>,
     kind: Tangent,
     out: &mut ElementMatrix<[f64; PACK]>,
-) {
+) where
+    for<'a> InLanes<'a, K, ElementMatrix<[f64; PACK]>>: Work,
+{
     vectorized(InLanes {
         kernel,
         motion,
@@ -377,5 +414,23 @@ impl Work for InLanes<'_, beam::Pack, ElementMatrix<[f64; PACK]>> {
         let rates = self.motion.1.map(NodePack::rates);
         let motion = (&self.motion.0.at(), rates.as_ref());
         Beam::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
+    }
+}
+
+impl Work for InLanes<'_, planar::Pack, Force<[f64; PACK]>> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let rates = self.motion.1.map(NodePack::rates);
+        let motion = (&self.motion.0.at(), rates.as_ref());
+        *self.power += Planar::pack_force(simd, self.kernel, motion, self.out);
+    }
+}
+
+impl Work for InLanes<'_, planar::Pack, ElementMatrix<[f64; PACK]>> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let rates = self.motion.1.map(NodePack::rates);
+        let motion = (&self.motion.0.at(), rates.as_ref());
+        Planar::pack_tangent(simd, self.kernel, motion, self.kind, self.out);
     }
 }

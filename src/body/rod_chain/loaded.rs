@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::RodChain;
+use super::{RodChain, plane};
 use crate::body::connectivity::Node;
 use crate::body::frame::{Frame, Frames, axes_at};
 use crate::elements::beam::{Force, Rates};
@@ -54,8 +54,8 @@ impl RodChain {
         for (frame, moment) in [first, last].into_iter().zip(&force.moment) {
             add_moment(frame, moment, x, out);
         }
-        for ((part, axis), f) in self.inside().zip(force.inner) {
-            out[inner][part][axis] += f;
+        for (k, (part, axis)) in self.inside() {
+            out[inner][part][axis] += force.inner[k];
         }
     }
 
@@ -81,18 +81,22 @@ impl RodChain {
             let turn: Vector3<f64> = (0..3).map(|k| from[k].cross(&to[k])).sum();
             from.map(|axis| 0.5 * axis.dot(&turn))
         };
+        let inner = self.nodes(j)[4];
+        let inside = |x: &[Node<D>]| self.read_inner(&x[inner], [0.0; 3]);
+        let [out, of] = [after, before].map(inside);
         let changes = Rates {
             e: std::array::from_fn(|k| std::array::from_fn(|i| to.e[k][i] - from.e[k][i])),
             spin: [turned(0), turned(1)],
-            inner: std::array::from_fn(|k| to.inner[k] - from.inner[k]),
+            inner: std::array::from_fn(|k| out[k] - of[k]),
         };
         product(force, &changes)
     }
 
     /// The nodes that element `j` follows and acts on, both of its frames among them.
-    pub fn all_nodes(&self, j: usize) -> [usize; 7] {
+    pub fn all_nodes(&self, j: usize) -> Vec<usize> {
         let [a, first, b, last, inner] = self.nodes(j);
-        [a, first, first + 1, b, last, last + 1, inner]
+        let frames = [first, last].map(|node| node..node + self.stride);
+        frames.into_iter().flatten().chain([a, b, inner]).collect()
     }
 }
 
@@ -103,6 +107,9 @@ pub(super) fn add_moment<const D: usize, N: Number>(
     x: &[Node<D, N>],
     out: &mut [Node<D, N>],
 ) {
+    if D == 2 {
+        return plane::turn(&x[frame][1], moment, &mut out[frame][1]);
+    }
     let [first, second, third] = Frame::on_axes(&axes_at(frame, x), &(*moment).into());
     add(&mut out[frame][1], &first);
     add(&mut out[frame + 1][0], &second);

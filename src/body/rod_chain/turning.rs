@@ -79,7 +79,8 @@ impl RodChain {
         frames: &Frames,
         force: &mut [Node<D, N>],
     ) {
-        for j in 0..self.count() {
+        // In the plane directions of sections have inertia as other directions have.
+        for j in (0..self.count()).filter(|_| D > 2) {
             self.add_load(
                 j,
                 &self.turning(j, motion, rotation, frames),
@@ -97,7 +98,7 @@ impl RodChain {
         frames: &Frames,
     ) -> N {
         let mut sum = N::of(0.0);
-        for j in 0..self.count() {
+        for j in (0..self.count()).filter(|_| D > 2) {
             let none = [N::of(0.0); 3];
             let spin = [j, j + 1].map(|k| along(self.frame(k, frames), rotation, x));
             let (e, inner) = ([none; 4], none);

@@ -1,7 +1,8 @@
 //! Nodes whose sections hold them: the line of a beam turns with its sections, roll included. Turned by the smallest rotation of their
-//! tangents alone, lines and sections would come apart by the roll between the tangent and a stage, times the stiffness of shear.
+//! tangents alone, lines and sections would come apart by the roll between the tangent and a stage, times the stiffness of shear. In the
+//! plane there is no roll, and a direction is all that a line turns by.
 
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 
 use crate::body::connectivity::Node;
 use crate::body::frame::{Axes, axes_at, combined};
@@ -22,6 +23,13 @@ impl Sections {
             nodes: nodes.to_vec(),
             turned: [axes.clone(), axes.clone(), axes.clone()],
             base: axes,
+        }
+    }
+
+    /// In the plane, the unit directions of lines are those of their sections.
+    pub fn direct<const D: usize>(&self, units: &mut [SVector<f64, D>]) {
+        for (line, section) in self.nodes.iter().filter(|_| D == 2) {
+            units[*line] = units[*section];
         }
     }
 
@@ -49,6 +57,9 @@ impl Sections {
     }
 
     fn turn<const D: usize>(&self, [from, to]: [&[Axes]; 2], nodes: &mut [Node<D>]) {
+        if D == 2 {
+            return;
+        }
         for ((line, _), (from, to)) in self.nodes.iter().zip(from.iter().zip(to)) {
             for v in &mut nodes[*line] {
                 let whole = Vector3::from(components(&Vector::<D>::from(*v)));
@@ -60,6 +71,9 @@ impl Sections {
 }
 
 fn place<const D: usize>(nodes: &[(usize, usize)], x: &[Node<D>], axes: &mut [Axes]) {
+    if D == 2 {
+        return;
+    }
     for ((_, frame), axes) in nodes.iter().zip(axes) {
         *axes = axes_at(*frame, x);
     }

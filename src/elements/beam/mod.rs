@@ -34,6 +34,7 @@ mod end;
 mod kernel;
 mod lean;
 mod loaded;
+pub mod planar;
 #[cfg(test)]
 mod statics;
 mod tangent;

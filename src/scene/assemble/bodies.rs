@@ -2,11 +2,12 @@
 
 use super::Builder;
 
-use crate::body::{Frame, Marker, RodChain, carried_nodes, untwisted};
+use crate::body::{Frame, Marker, Node, RodChain, carried_nodes, middle, planar_axes, untwisted};
+use crate::elements::beam::planar::{self, Planar};
 use crate::elements::beam::{self, At, Beam};
 use crate::elements::cable::{self, Inertia, LineOf};
 use crate::elements::rod::{self, Rod as RodElement};
-use crate::elements::section::{Section, rod_at, spin_inertia};
+use crate::elements::section::{Section, SpinInertia, planar_inertia, rod_at, spin_inertia};
 use crate::elements::{self, Along, Nodal};
 use crate::math::quadrature::GAUSS_3;
 use crate::math::space::{Vector, axis, components, turned, vector};
@@ -47,12 +48,7 @@ impl<const D: usize> Builder<'_, D> {
         let mut axes = Vec::new();
         axes.extend((self.parts.frames.last()).map(|frame| frame.node + 1));
         let sections = (self.parts.rod_chains.last()).filter(|rod| rod.line() == first);
-        axes.extend(
-            sections
-                .into_iter()
-                .flat_map(RodChain::frames)
-                .map(|(node, _)| node + 1),
-        );
+        axes.extend(sections.into_iter().flat_map(RodChain::axes_nodes));
         axes.retain(|node| nodes.contains(node));
         let still = sections.map_or(nodes.end, |rod| rod.inner().start);
         self.motions.push((nodes.clone(), axes, still), motion, arm);
@@ -129,7 +125,23 @@ impl<const D: usize> Builder<'_, D> {
         if cable.is_rod() {
             self.sections((cable, axial), &mesh, first);
         }
+        if cable.is_rod() && D == 2 {
+            self.directions(reference.id.body);
+        }
         Ok(())
+    }
+
+    /// The directions of the sections of the planar beam built last keep their length, and have its rotary inertia.
+    fn directions(&mut self, body: usize) {
+        let chain = self.parts.rod_chains.last();
+        for (node, inertia) in chain.into_iter().flat_map(RodChain::planar_inertia) {
+            self.parts.rigid.push((node, true));
+            self.parts.lumped_masses.push(LumpedMass {
+                marker: Marker::rigid(body, node, [0.0; 2]),
+                mass: 0.0,
+                inertia,
+            });
+        }
     }
 
     /// The sections of a rod along its line, whose first node is this one: their frames, and the twist inside elements.
@@ -141,21 +153,25 @@ impl<const D: usize> Builder<'_, D> {
             rod.shape.tangent(s)
         };
         let steps = if rod.shape.is_plane() { 1 } else { STEPS };
-        let axes = carried_nodes(&line, rod.first_axis(), (tangent, steps), twists);
+        let axes = match D {
+            2 => line.iter().map(|[_, slope]| [[0.0; D], *slope]).collect(),
+            _ => carried_nodes(&line, rod.first_axis(), (tangent, steps), twists),
+        };
         let carried = self.parts.rod_chains.iter().map(|chain| chain.count() + 1);
         let carried = carried.sum();
+        let length_of = |j: usize| (mesh[j + 1] - mesh[j]) * rod.shape.length();
         let elements = mesh.windows(2).enumerate().map(|(j, s)| {
-            let length = (s[1] - s[0]) * rod.shape.length();
+            let length = length_of(j);
             let [[a, u], [b, v]] = [line[j], line[j + 1]].map(|node| node.map(full));
             let shape = At {
                 e: [a, u, b, v],
-                axes: [j, j + 1].map(|k| {
-                    let [[_, first], [second, third]] = [axes[2 * k], axes[2 * k + 1]];
-                    [first, second, third].map(full)
-                }),
+                axes: [j, j + 1].map(|k| section_axes(&axes, k)),
                 inner: [0.0; 3],
             };
             let numbers = numbers_along(rod, s);
+            if D == 2 {
+                return planar_beam(rod, (&shape, length), (axial_time, &numbers));
+            }
             let time = rod.material.damping_time;
             let inertia = spin_inertia(length, |xi| rod.rotary_inertia_of(&numbers(xi)));
             if rod.is_beam() {
@@ -181,9 +197,13 @@ impl<const D: usize> Builder<'_, D> {
             let rod = RodElement::new(parameters, &rod_at(&shape));
             (Section::Rod(Box::new(rod)), inertia)
         });
-        let chain = RodChain::new(elements.collect(), first, carried);
+        let chain = RodChain::new::<D>(elements.collect(), first, carried);
         self.parts.nodes.extend(axes);
-        self.parts.nodes.extend(chain.inner().map(|_| untwisted()));
+        let inner = (0..chain.count()).map(|j| match D {
+            2 => middle([&line[j], &line[j + 1]], length_of(j)),
+            _ => untwisted(),
+        });
+        self.parts.nodes.extend(inner);
         self.parts.rod_chains.push(chain);
     }
 
@@ -224,16 +244,13 @@ impl<const D: usize> Builder<'_, D> {
 
     /// A marker of a cable at a material coordinate in [0, 1].
     pub(super) fn along(&self, cable: Cable<'_>, s: f64) -> Marker {
-        let body = cable.id.body;
         match cable.id.form {
             Form::Chain(chain) => {
                 let (chain, marker) = (&self.parts.chains[chain], self.on_line_of(cable, s));
                 let sections = self.parts.rod_chains.iter();
                 let mut sections = sections.filter(|rod| rod.line() == chain.nodes(0)[0]);
-                match sections.next().and_then(|rod| rod.frame_at(&marker)) {
-                    Some(node) => Marker::framed(body, node, [0.0; 3], [1.0, 0.0, 0.0]),
-                    None => marker,
-                }
+                let section = sections.next().and_then(|rod| rod.section_at(&marker));
+                section.unwrap_or(marker)
             }
             Form::Rod(_) => self.on_line_of(cable, s),
         }
@@ -253,6 +270,39 @@ impl<const D: usize> Builder<'_, D> {
             }
         }
     }
+}
+
+/// An element of a planar beam along its unstressed shape, and its inertia.
+fn planar_beam(
+    beam: &CableBody,
+    (shape, length): (&At<f64>, f64),
+    (axial_time, numbers): (f64, &dyn Fn(f64) -> SectionNumbers),
+) -> (Section, SpinInertia) {
+    let time = beam.material.damping_time;
+    let ends = [[shape.e[0], shape.e[1]], [shape.e[2], shape.e[3]]];
+    let (sin, cos) = middle([&ends[0], &ends[1]], length)[0][0].sin_cos();
+    let shape = At {
+        inner: [cos, sin, 0.0],
+        ..*shape
+    };
+    let parameters = planar::Parameters {
+        length,
+        stiffness: GAUSS_3.map(|point| beam.planar_stiffness(&numbers(point.at)).into()),
+        damping_times: [axial_time, time, time],
+    };
+    // Against turns about the first axis, which is across the plane.
+    let inertia = planar_inertia(length, |xi| beam.rotary_inertia_of(&numbers(xi))[(1, 1)]);
+    let beam = Planar::new(parameters, &shape);
+    (Section::Planar(Box::new(beam)), inertia)
+}
+
+/// Axes of the section at a node of a rod or beam, from the nodes that hold them.
+fn section_axes<const D: usize>(axes: &[Node<D>], k: usize) -> [[f64; 3]; 3] {
+    if D == 2 {
+        return planar_axes(&axes[k][1]);
+    }
+    let [[_, first], [second, third]] = [axes[2 * k], axes[2 * k + 1]];
+    [first, second, third].map(full)
 }
 
 /// Three components of a vector.

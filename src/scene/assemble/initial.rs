@@ -15,7 +15,7 @@ struct Moving<const D: usize> {
     nodes: Range<usize>,
     /// Those that hold axes alone.
     axes: Vec<usize>,
-    /// From which node on they hold numbers that do not move.
+    /// From which node on they hold numbers that do not move; in the plane angles, which turn.
     still: usize,
     /// Velocity, m/s, of the point that is so far from the first node along its direction, and along the axes in the second
     /// one where that holds axes, m.
@@ -107,6 +107,9 @@ impl<const D: usize> Motions<D> {
                 for k in 0..D {
                     origin[k] += arm[1] * second[k] + arm[2] * third[k];
                 }
+            }
+            for node in (*still..nodes.end).filter(|_| D == 2) {
+                rates[node][0][0] = spin[2];
             }
             let moved = nodes.start..*still;
             let of_body = rates[moved.clone()].iter_mut().zip(&x[moved.clone()]);

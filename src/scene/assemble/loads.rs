@@ -79,16 +79,21 @@ impl<const D: usize> Builder<'_, D> {
     /// A moment along a rod or beam.
     fn moment_along(&self, cable: Cable<'_>, action: &Action<'_>) -> Load<D> {
         let end = self.along(cable, 0.0);
-        let frames = self.parts.rod_chains.iter().map(RodChain::frames);
-        let on = frames
-            .map(|mut frames| frames.next().map(|(node, _)| node))
-            .position(|first| first == Some(end.nodes[0]));
+        let first = |chain: &RodChain| chain.frames().next();
+        let mut firsts = self.parts.rod_chains.iter().filter_map(first);
+        let on = firsts.position(|(frame, line)| [frame, line].contains(&end.nodes[0]));
         Load::DistributedMoment(Box::new(DistributedMoment {
             // What has sections is among them.
             on: on.unwrap_or(0),
             end,
             follower: action.follower,
-            density: uniform(&action.components),
+            density: match D {
+                2 => {
+                    let none = || Signal::Function(Function::Constant(0.0));
+                    uniform(&[none(), none(), action.components[0].clone()])
+                }
+                _ => uniform(&action.components),
+            },
         }))
     }
 
@@ -101,7 +106,9 @@ impl<const D: usize> Builder<'_, D> {
                     self.fill(cable, (action, path), &mut on.density.along)?;
                 }
                 Load::DistributedMoment(on) => {
-                    self.fill(cable, (action, path), &mut on.density.along)?;
+                    // In the plane the third alone.
+                    let first = if D == 2 { 2 } else { 0 };
+                    self.fill(cable, (action, path), &mut on.density.along[first..])?;
                 }
                 _ => {}
             }

@@ -250,11 +250,22 @@ impl<const D: usize> Builder<'_, D> {
             if marker.is_framed() {
                 continue;
             }
+            // Of a planar beam its inertia turns with the section.
+            let section = Some(self.marker(mass.marker));
+            let section = section.filter(|of| D == 2 && of.nodes != marker.nodes);
+            let inertia = if section.is_some() { 0.0 } else { mass.inertia };
             self.parts.lumped_masses.push(LumpedMass {
                 marker,
                 mass: mass.mass,
-                inertia: mass.inertia,
+                inertia,
             });
+            self.parts
+                .lumped_masses
+                .extend(section.map(|of| LumpedMass {
+                    marker: Marker::rigid(of.body, of.nodes[1], [0.0; 2]),
+                    mass: 0.0,
+                    inertia: mass.inertia,
+                }));
         }
     }
 

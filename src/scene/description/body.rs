@@ -20,9 +20,9 @@ pub enum Body {
     /// The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
     /// shear. In space.
     Rod(CableBody),
-    /// The same with sections that lean against the line: shears too, with the rotary inertia of its sections. In space.
+    /// The same with sections that lean against the line: shears too, with the rotary inertia of its sections.
     Beam(CableBody),
-    /// A cable, a rod or a beam, as needed: a cable in the plane, and in space where nothing asks for its sections; else a rod; a beam
+    /// A cable, a rod or a beam, as needed: a cable where nothing asks for its sections; else in space a rod; a beam
     /// where shear moves an output by more than the error wanted, or whole matrices are given. Takes the keys of all three; those
     /// that the element chosen has no use for are not used. Found while packaging; the page of the unit says why.
     Auto(CableBody),
@@ -57,7 +57,7 @@ pub struct CableBody {
     /// What becomes of waves of stretching.
     #[serde(default)]
     pub axial: Axial,
-    /// Of rods and beams: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    /// Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
     /// there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<Vector>,
@@ -419,6 +419,12 @@ impl CableBody {
             (stiffness[(0, 3 + k)], stiffness[(3 + k, 0)]) = (entry, entry);
         }
         stiffness
+    }
+
+    /// The same in the plane, which the first axis of sections is across: axial force, shear force and moment.
+    pub fn planar_stiffness(&self, numbers: &SectionNumbers) -> Matrix3<f64> {
+        let whole = self.whole_stiffness(numbers);
+        Matrix3::from_fn(|r, c| whole[(2 * r, 2 * c)])
     }
 
     /// Ratios of shear areas to the area, along both axes: as said, or of the shape.

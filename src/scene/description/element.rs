@@ -117,8 +117,8 @@ impl Body {
 }
 
 impl CableBody {
-    /// The body as an element whose sections do this, without what it has no use for.
-    pub fn made(&self, sections: Sections) -> Body {
+    /// The body as an element whose sections do this in so many dimensions, without what it has no use for.
+    pub fn made(&self, sections: Sections, dimension: usize) -> Body {
         let mut body = Self {
             sections,
             ..self.clone()
@@ -126,7 +126,8 @@ impl CableBody {
         if sections == Sections::None {
             body.material.shear_modulus = None;
         }
-        body.sections_mut().for_each(|of| of.make(sections));
+        body.sections_mut()
+            .for_each(|of| of.make(sections, dimension));
         match sections {
             Sections::None => Body::Cable(body),
             Sections::Turn => Body::Rod(body),
@@ -144,9 +145,10 @@ impl CableBody {
 
 impl Section {
     /// Leaves out what an element has no use for, and says second moments as it does.
-    fn make(&mut self, sections: Sections) {
+    fn make(&mut self, sections: Sections, dimension: usize) {
         let is_cable = sections == Sections::None;
-        match (is_cable, self.second_moment, self.second_moments) {
+        let has_one_axis = is_cable || dimension == 2;
+        match (has_one_axis, self.second_moment, self.second_moments) {
             (true, None, Some([first, _])) => {
                 (self.second_moment, self.second_moments) = (Some(first), None);
             }
@@ -155,11 +157,11 @@ impl Section {
             }
             _ => (),
         }
-        if is_cable && self.shape.is_none() {
+        if has_one_axis && self.shape.is_none() {
             self.torsion_constant = None;
         }
         if sections != Sections::Lean {
-            self.shear_factors = None;
+            (self.shear_factors, self.shear_factor) = (None, None);
         }
     }
 }

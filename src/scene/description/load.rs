@@ -37,7 +37,7 @@ pub struct Load {
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
     /// `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
-    /// per length (N m/m) or of a moment in space (N m), one of a moment in the plane or of a torque (N m). What is distributed along a body
+    /// per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
     /// takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<LoadValue>,
@@ -253,10 +253,10 @@ impl ActionKind {
         self.declaration().2
     }
 
-    /// Number of components: those of a force in so many dimensions; of a moment 1 in the plane, 3 in space; 1 of a torque.
+    /// Number of components: those of a force in so many dimensions; of moments 1 in the plane, 3 in space; 1 of a torque.
     pub fn components(self, dimension: usize) -> usize {
         match self {
-            Self::Moment if dimension == 2 => 1,
+            Self::Moment | Self::DistributedMoment if dimension == 2 => 1,
             Self::Torque => 1,
             Self::Force | Self::Distributed | Self::Moment | Self::DistributedMoment => dimension,
         }

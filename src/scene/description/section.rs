@@ -17,7 +17,7 @@ pub struct Section {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub area: Option<f64>,
-    /// Of cables: second moment of area, m^4; 0 is a cable without bending stiffness.
+    /// Of cables, and of beams in the plane: second moment of area, m^4; 0 is a cable without bending stiffness.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub second_moment: Option<f64>,
@@ -38,12 +38,17 @@ pub struct Section {
     /// elastic centre at `[y, z]` is `[0, E A z, -E A y]`, with second moments about the line and `coupling` `-E A y z` of both bendings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axial_coupling: Option<[f64; 3]>,
-    /// Of beams: ratios of the areas that carry shear along the first and along the second axis to the area. Of a shape, where nothing
-    /// is said, those of Cowper, which take the material's ratio of Poisson.
+    /// Of beams in space: ratios of the areas that carry shear along the first and along the second axis to the area. Of a shape, where
+    /// nothing is said, those of Cowper, which take the material's ratio of Poisson.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shear_factors: Option<[f64; 2]>,
+    /// Of beams in the plane: the same ratio for shear in the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub shear_factor: Option<f64>,
     /// Of beams: the whole stiffness of the section, instead of a shape or numbers and of the moduli of the material. Symmetric, in the
     /// order axial force, shear along the first axis, along the second, torque, moment about the first axis, about the second; N, N m, N m^2.
+    /// In the plane, which the first axis is across, axial force, shear along the second and moment about the first count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<[[f64; 6]; 6]>,
     /// Of beams with `stiffness`: mass and inertia per length in the same order: kg/m, kg, kg m. The centre of mass is on the line, and
@@ -259,7 +264,7 @@ impl Section {
             return SectionNumbers {
                 coupling: self.coupling.unwrap_or_default(),
                 axial_coupling: self.axial_coupling.unwrap_or_default(),
-                shear_factors: self.shear_factors,
+                shear_factors: self.shear_factors(),
                 ..shape.numbers()
             };
         }
@@ -270,10 +275,16 @@ impl Section {
             torsion_constant: self.torsion_constant.unwrap_or_default(),
             coupling: self.coupling.unwrap_or_default(),
             axial_coupling: self.axial_coupling.unwrap_or_default(),
-            shear_factors: self.shear_factors,
+            shear_factors: self.shear_factors(),
             shape: None,
             given: self.given(),
         }
+    }
+
+    /// Ratios of shear areas to the area as said, in the plane the same twice.
+    pub fn shear_factors(&self) -> Option<[f64; 2]> {
+        let planar = self.shear_factor.map(|factor| [factor; 2]);
+        self.shear_factors.or(planar)
     }
 
     /// Stiffness and inertia as given, about the line.

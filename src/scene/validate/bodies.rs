@@ -24,7 +24,9 @@ impl Body {
             }
             Self::Auto(body) => {
                 body.validate_spare(path)?;
-                return body.made(body.sections).validate(path, dimension);
+                return body
+                    .made(body.sections, dimension)
+                    .validate(path, dimension);
             }
             Self::Rigid(body) => body.validate(path, dimension),
         }?;

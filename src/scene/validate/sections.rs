@@ -54,16 +54,20 @@ impl CableBody {
                 let wanted = "the twist of the other station at this place";
                 return Err(expected(&format!("{place}.twist"), wanted, station.twist));
             }
-            if !self.is_rod() && station.twist != 0.0 {
-                let wanted = "0 of a cable, whose sections have no axes";
+            let has_axes = self.is_rod() && dimension == 3;
+            if !has_axes && station.twist != 0.0 {
+                let wanted = match self.is_rod() {
+                    true => "0 in the plane, where nothing twists",
+                    false => "0 of a cable, whose sections have no axes",
+                };
                 return Err(expected(&format!("{place}.twist"), wanted, station.twist));
             }
             (station.section).validate(&format!("{place}.section"), dimension, self.sections)?;
             let says = |said: &dyn Fn(&Section) -> bool| {
                 said(&station.section) == said(&self.stations[0].section)
             };
-            if !says(&|section| section.shear_factors.is_some()) {
-                let wanted = "`shear_factors` at all stations or at none";
+            if !says(&|section| section.shear_factors().is_some()) {
+                let wanted = "shear factors at all stations or at none";
                 return Err(expected(&format!("{place}.section"), wanted, "another way"));
             }
             if !says(&|section| section.stiffness.is_some()) {
@@ -89,9 +93,7 @@ impl CableBody {
             for (k, moment) in section.second_moments.iter().flatten().enumerate() {
                 not_negative(&at(&format!("second_moments[{k}]")), "m^4", *moment)?;
             }
-            for (k, factor) in section.shear_factors.iter().flatten().enumerate() {
-                positive(&at(&format!("shear_factors[{k}]")), "1", *factor)?;
-            }
+            section.validate_factors(&place)?;
         }
         Ok(())
     }
@@ -114,8 +116,8 @@ impl CableBody {
     /// What a rod says beside its sections.
     fn validate_rod(&self, path: &str, dimension: usize) -> Result<(), Error> {
         let at = |key: &str| format!("{path}.{key}");
-        if dimension == 2 {
-            let wanted = "\"cable\" or \"rigid\" in the plane, where nothing twists";
+        if dimension == 2 && !self.is_beam() {
+            let wanted = "\"cable\", \"beam\" or \"rigid\" in the plane, where nothing twists";
             let found = format!("{:?}", self.sections.element());
             return Err(expected(&at("element"), wanted, found));
         }
@@ -124,7 +126,11 @@ impl CableBody {
             return Err(expected(&at("strain"), wanted, "another measure"));
         }
         self.validate_axis(&at("axis"), dimension)?;
-        self.validate_coupling(path)
+        match dimension {
+            // What couples is refused with the sections.
+            2 => Ok(()),
+            _ => self.validate_coupling(path),
+        }
     }
 
     /// Stiffness is positive with what couples stretching, twist and bending.
@@ -167,6 +173,10 @@ impl CableBody {
         let Some(axis) = &self.axis else {
             return Ok(());
         };
+        if dimension == 2 {
+            let wanted = "nothing in the plane, which the first axis of sections is across";
+            return Err(expected(path, wanted, "an axis"));
+        }
         vector(path, dimension, axis)?;
         let tangent = Vector3::from(self.shape.tangent(0.0));
         let axis = Vector3::from(axis.full());
@@ -179,12 +189,21 @@ impl CableBody {
 }
 
 const OF_RODS: &str = "nothing of a cable (an element of \"rod\" has sections that turn)";
+const OF_SPACE: &str =
+    "nothing in the plane, where nothing twists and sections bend about one axis";
+
+/// What is wanted in the place of what sections have that turn about their line.
+fn instead_of_turning(kind: Sections) -> &'static str {
+    match kind {
+        Sections::None => OF_RODS,
+        _ => OF_SPACE,
+    }
+}
 
 impl Section {
     fn validate(&self, path: &str, dimension: usize, kind: Sections) -> Result<(), Error> {
-        let is_rod = kind != Sections::None;
         if kind == Sections::Lean {
-            self.validate_beam(path)?;
+            self.validate_beam(path, dimension)?;
             if self.stiffness.is_some() {
                 return Ok(());
             }
@@ -192,15 +211,18 @@ impl Section {
             self.refuse_what_is_of_beams(path)?;
         }
         if let Some(shape) = self.shape {
-            return self.validate_shape(path, dimension, is_rod, shape);
+            return self.validate_shape(path, dimension, kind, shape);
         }
         let at = |key: &str| format!("{path}.{key}");
-        if is_rod {
+        if kind != Sections::None && dimension == 3 {
             self.validate_numbers_of_rod(path)?;
         } else {
-            self.refuse_numbers_of_rods(path)?;
+            self.refuse_numbers_of_rods(path, instead_of_turning(kind))?;
             let moment = needed(path, "second_moment", "a value", self.second_moment)?;
-            not_negative(&at("second_moment"), "m^4", moment)?;
+            match kind {
+                Sections::None => not_negative(&at("second_moment"), "m^4", moment)?,
+                _ => positive(&at("second_moment"), "m^4", moment)?,
+            }
         }
         let area = needed(path, "area", "a value, or a `shape`", self.area)?;
         positive(&at("area"), "m^2", area)
@@ -210,9 +232,10 @@ impl Section {
         &self,
         path: &str,
         dimension: usize,
-        is_rod: bool,
+        kind: Sections,
         mut shape: Profile,
     ) -> Result<(), Error> {
+        let turns = kind != Sections::None && dimension == 3;
         let numbers = [
             ("area", self.area.is_some()),
             ("second_moment", self.second_moment.is_some()),
@@ -244,11 +267,12 @@ impl Section {
             ("coupling", self.coupling.is_some()),
             ("axial_coupling", self.axial_coupling.is_some()),
         ];
-        if let Some((key, _)) = couplings.iter().find(|(_, is_said)| *is_said && !is_rod) {
-            return Err(expected(&format!("{path}.{key}"), OF_RODS, "a value"));
+        if let Some((key, _)) = couplings.iter().find(|(_, is_said)| *is_said && !turns) {
+            let wanted = instead_of_turning(kind);
+            return Err(expected(&format!("{path}.{key}"), wanted, "a value"));
         }
         let [first, second] = shape.numbers().second_moments;
-        if is_rod || first == second {
+        if turns || first == second {
             return Ok(());
         }
         let instead = "a circle or a tube of a cable, which bends alike to all sides (an element of \"rod\" does not),";
@@ -258,6 +282,7 @@ impl Section {
     fn refuse_what_is_of_beams(&self, path: &str) -> Result<(), Error> {
         let of_beams = [
             ("shear_factors", self.shear_factors.is_some()),
+            ("shear_factor", self.shear_factor.is_some()),
             ("stiffness", self.stiffness.is_some()),
             ("inertia", self.inertia.is_some()),
             ("about", self.about.is_some()),
@@ -271,11 +296,35 @@ impl Section {
         }
     }
 
-    /// What a beam's section says beside what a rod's does.
-    fn validate_beam(&self, path: &str) -> Result<(), Error> {
-        let at = |key: &str| format!("{path}.{key}");
+    /// Shear factors are positive.
+    fn validate_factors(&self, path: &str) -> Result<(), Error> {
         for (k, factor) in self.shear_factors.iter().flatten().enumerate() {
-            positive(&at(&format!("shear_factors[{k}]")), "1", *factor)?;
+            positive(&format!("{path}.shear_factors[{k}]"), "1", *factor)?;
+        }
+        match self.shear_factor {
+            Some(factor) => positive(&format!("{path}.shear_factor"), "1", factor),
+            None => Ok(()),
+        }
+    }
+
+    /// What a beam's section says beside what a rod's does.
+    fn validate_beam(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        self.validate_factors(path)?;
+        let elsewhere = match dimension {
+            2 => (
+                "shear_factors",
+                "`shear_factor` in the plane, where sections shear one way",
+                self.shear_factors.is_some(),
+            ),
+            _ => (
+                "shear_factor",
+                "`shear_factors` in space, one along each axis",
+                self.shear_factor.is_some(),
+            ),
+        };
+        if let (key, wanted, true) = elsewhere {
+            return Err(expected(&at(key), wanted, "a value"));
         }
         if self.stiffness.is_none() {
             let alone = [
@@ -285,7 +334,10 @@ impl Section {
             if let Some((key, _)) = alone.iter().find(|(_, is_said)| *is_said) {
                 return Err(expected(&at(key), "nothing without `stiffness`", "a value"));
             }
-            if self.shape.is_none() {
+            if self.shape.is_none() && dimension == 2 {
+                let wanted = "a value of a beam, or a `shape`, or `stiffness`";
+                needed(path, "shear_factor", wanted, self.shear_factor)?;
+            } else if self.shape.is_none() {
                 let wanted = "two values of a beam, or a `shape`, or `stiffness`";
                 needed(path, "shear_factors", wanted, self.shear_factors)?;
             }
@@ -300,12 +352,36 @@ impl Section {
             ("coupling", self.coupling.is_some()),
             ("axial_coupling", self.axial_coupling.is_some()),
             ("shear_factors", self.shear_factors.is_some()),
+            ("shear_factor", self.shear_factor.is_some()),
         ];
         if let Some((key, _)) = beside.iter().find(|(_, is_said)| *is_said) {
             let wanted = "nothing beside `stiffness`, which holds it";
             return Err(expected(&at(key), wanted, "a value"));
         }
-        self.validate_matrices(path)
+        self.validate_matrices(path)?;
+        match dimension {
+            2 => self.validate_planar(path),
+            _ => Ok(()),
+        }
+    }
+
+    /// In the plane nothing couples what moves in it with what would leave it.
+    fn validate_planar(&self, path: &str) -> Result<(), Error> {
+        let Some(given) = self.given() else {
+            return Ok(());
+        };
+        for (key, matrix) in [("stiffness", given.stiffness), ("inertia", given.inertia)] {
+            let both = (0..6).flat_map(|r| (0..r).map(move |c| (r, c)));
+            for (r, c) in both.filter(|(r, c)| r % 2 != c % 2) {
+                let size = (matrix[(r, r)] * matrix[(c, c)]).sqrt();
+                if matrix[(r, c)].abs() > 1e-9 * size {
+                    let wanted = "0 about the line in the plane, which the body would leave";
+                    let place = format!("{path}.{key}[{r}][{c}]");
+                    return Err(expected(&place, wanted, matrix[(r, c)]));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Whole matrices are symmetric and positive, and the centre of mass is on the line.
@@ -362,7 +438,7 @@ impl Section {
         Ok(())
     }
 
-    fn refuse_numbers_of_rods(&self, path: &str) -> Result<(), Error> {
+    fn refuse_numbers_of_rods(&self, path: &str, wanted: &str) -> Result<(), Error> {
         let of_rods = [
             ("second_moments", self.second_moments.is_some()),
             ("torsion_constant", self.torsion_constant.is_some()),
@@ -370,7 +446,7 @@ impl Section {
             ("axial_coupling", self.axial_coupling.is_some()),
         ];
         match of_rods.iter().find(|(_, is_said)| *is_said) {
-            Some((key, _)) => Err(expected(&format!("{path}.{key}"), OF_RODS, "a value")),
+            Some((key, _)) => Err(expected(&format!("{path}.{key}"), wanted, "a value")),
             None => Ok(()),
         }
     }

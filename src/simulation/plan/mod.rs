@@ -48,7 +48,7 @@ pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), E
     let mut search = Search::new(&plain, beams, &mut *progress)?;
     let (mut planned, mut plan, sheared) = search.find()?;
     for of in sheared {
-        of.judge(&mut elements, plan.error);
+        of.judge(&mut elements, plan.error, scene.dimension);
     }
     // What shears takes a mesh of its own.
     let sheared = scene.with_elements(&elements);

@@ -106,7 +106,7 @@ impl Search<'_, '_> {
 
 impl Sheared {
     /// Decides whether the body is a beam.
-    pub fn judge(&self, chosen: &mut [Chosen], error: f64) {
+    pub fn judge(&self, chosen: &mut [Chosen], error: f64, dimension: usize) {
         let Some(of) = chosen.iter_mut().find(|of| of.body == self.body) else {
             return;
         };
@@ -114,7 +114,7 @@ impl Sheared {
             Some((name, part)) => {
                 of.judge_shear(*part, error, &format!("moves {name} by {part:.1e}"))
             }
-            None => of.estimate_shear(error),
+            None => of.estimate_shear(error, dimension),
         }
     }
 }

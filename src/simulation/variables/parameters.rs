@@ -71,8 +71,11 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
         ("second_moment", "Second moment of area", Some(METRE_4), SecondMoment(i), numbers.second_moments[0]),
         ("elements", "Number of elements", None, Elements(i), elements),
     ];
-    if body.is_rod() {
+    let has_two_axes = body.is_rod() && dimension == 3;
+    if has_two_axes {
         rows.retain(|(.., parameter, _)| !matches!(parameter, SecondMoment(_)));
+    }
+    if body.is_rod() {
         let modulus = material.shear_modulus.unwrap_or_default();
         rows.push((
             "shear_modulus",
@@ -84,7 +87,7 @@ fn add_cable(list: &mut List, cable: &Cable<'_>, dimension: usize) {
     }
     if body.section.area.is_none() {
         rows.retain(|(.., parameter, _)| !matches!(parameter, Area(_) | SecondMoment(_)));
-    } else if body.is_rod() {
+    } else if has_two_axes {
         add_numbers(list, cable);
     }
     if body.is_given() {

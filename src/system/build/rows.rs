@@ -88,14 +88,16 @@ fn rest<const D: usize>(parts: &Parts<D>, frame: &Frame, linear: &mut Vec<Linear
 }
 
 /// Of a carried frame its rotations alone are coordinates, one about the tangent of a rod, three of a beam; of a node inside an element the
-/// internal twist and leans.
+/// internal twist and leans. In the plane they are the direction of a section, and the angle of that inside.
 fn rest_of_rod<const D: usize>(parts: &Parts<D>, chain: &RodChain, linear: &mut Vec<Linear<D>>) {
     let mut nodes = parts.nodes.clone();
     unplaced_rod(chain, &mut nodes);
-    let turns: Vec<_> = (0..chain.turns()).map(|axis| (1, axis)).collect();
-    let inside: Vec<_> = chain.inside().collect();
-    let frames = chain.frames();
-    let held = frames.flat_map(|(node, _)| [(node, &turns[..]), (node + 1, &[])]);
+    let turns = if D == 2 { D } else { chain.turns() };
+    let turns: Vec<_> = (0..turns).map(|axis| (1, axis)).collect();
+    let inside: Vec<_> = chain.inside().map(|(_, place)| place).collect();
+    let frames = chain.frames().map(|(node, _)| (node, &turns[..]));
+    let second = (chain.axes_nodes()).filter(|_| D > 2);
+    let held = frames.chain(second.map(|node| (node, &[][..])));
     for (node, free) in held.chain(chain.inner().map(|node| (node, &inside[..]))) {
         for (part, axis) in (0..2).flat_map(|part| (0..D).map(move |axis| (part, axis))) {
             if !free.contains(&(part, axis)) {
@@ -107,11 +109,11 @@ fn rest_of_rod<const D: usize>(parts: &Parts<D>, chain: &RodChain, linear: &mut 
 
 /// Puts the nodes of a rod's frames and those inside its elements where nothing has turned and nothing is twisted.
 pub(super) fn unplaced_rod<const D: usize>(chain: &RodChain, nodes: &mut [Node<D>]) {
-    for (node, line) in chain.frames() {
+    for (node, line) in chain.frames().filter(|_| D > 2) {
         let at = unplaced(&nodes[line]);
         nodes[node..][..2].fill(at);
     }
-    for (j, node) in chain.inner().enumerate() {
+    for (j, node) in chain.inner().enumerate().filter(|_| D > 2) {
         let [line, ..] = chain.nodes(j);
         nodes[node] = [nodes[line][0], untwisted::<D>()[1]];
     }
@@ -158,12 +160,14 @@ fn release_rows<const D: usize>(
     }
 }
 
-/// What the elements of a rod couple.
-fn link_rod(chain: &RodChain, links: &mut Links) {
+/// What the elements of a rod couple. Planar sections have their inertia at nodes.
+fn link_rod<const D: usize>(chain: &RodChain, links: &mut Links) {
     for j in 0..chain.count() {
         let nodes = chain.nodes(j);
         let [_, a, _, b, inner] = nodes;
-        links.mass.extend([(a, inner), (a, b), (b, inner)]);
+        if D > 2 {
+            links.mass.extend([(a, inner), (a, b), (b, inner)]);
+        }
         for (i, row) in nodes.iter().enumerate() {
             (links.stiffness).extend(nodes[..i].iter().map(|column| (*row, *column)));
         }
@@ -188,12 +192,12 @@ pub(super) fn links<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>
         first[frame.node + 1] = [frame.node; 2];
     }
     for chain in &parts.rod_chains {
-        link_rod(chain, &mut links);
-        for (node, line) in chain.frames() {
+        link_rod::<D>(chain, &mut links);
+        for (node, line) in chain.frames().filter(|_| D > 2) {
             first[node..][..2].fill([line, node]);
         }
     }
-    let has_frames = !(parts.frames.is_empty() && parts.rod_chains.is_empty());
+    let has_frames = D > 2 && !(parts.frames.is_empty() && parts.rod_chains.is_empty());
     let owners = |nodes: Vec<usize>| {
         if !has_frames {
             return nodes;

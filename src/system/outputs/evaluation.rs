@@ -338,6 +338,9 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             chain.for_each_momentum(motion, &system.frames, |frame, momentum| {
                 angular += combined(&frame.axes(&self.x), &momentum.into());
             });
+            if D == 2 {
+                angular[2] += chain.planar_momentum(motion, &system.frames);
+            }
         }
         (linear, angular.into())
     }
@@ -374,7 +377,7 @@ impl<const D: usize> System<D> {
         let first = self.bodies[marker.body].start;
         let chain = self.chains.iter().find(|c| c.nodes(0)[0] == first)?;
         let (j, xi) = match self.sections(chain) {
-            Some(sections) if marker.is_framed() => sections.element_at(marker.nodes[0]),
+            Some(sections) if marker.element.is_none() => sections.element_at(marker.nodes[0]),
             _ => marker.element?,
         };
         Some((chain, j, xi))

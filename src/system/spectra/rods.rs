@@ -52,7 +52,7 @@ impl<const D: usize> System<D> {
         probe: &mut Probe<D>,
         made: &mut Linearization<'_, D>,
     ) {
-        if !self.is_turning() {
+        if !self.is_turning() || D == 2 {
             return;
         }
         let assembly = &self.elimination.assembly;

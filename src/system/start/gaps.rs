@@ -47,7 +47,11 @@ impl<const D: usize> System<D> {
             let p = match self.frames.kind(node) {
                 NodeKind::Point => about + way + rotated(p - about, turn),
                 NodeKind::Axes => rotated(p, turn),
-                NodeKind::Inner => continue,
+                NodeKind::Inner => {
+                    // In the plane the angle of a section.
+                    x[node][0][0] += if D == 2 { turn[2] } else { 0.0 };
+                    continue;
+                }
             };
             x[node] = [p.into(), rotated(d, turn).into()];
         }

@@ -106,14 +106,18 @@ impl<const D: usize> System<D> {
         }
     }
 
-    /// The rates of nodes in a steady motion. Second nodes of frames hold axes alone, and what is inside elements stands still.
+    /// The rates of nodes in a steady motion. Second nodes of frames hold axes alone; what is inside elements stands still in space.
     pub fn field(&self, steady: &Steady<D>, x: &[Node<D>]) -> Vec<Node<D>> {
         let mut rates = steady.rates(x);
         for (node, rate) in rates.iter_mut().enumerate() {
             match self.frames.kind(node) {
                 NodeKind::Point => {}
                 NodeKind::Axes => *rate = x[node].map(|axis| spun(steady.rate, axis.into()).into()),
-                NodeKind::Inner => *rate = no_node(),
+                NodeKind::Inner => {
+                    *rate = no_node();
+                    // In the plane the angle of a section.
+                    rate[0][0] = if D == 2 { steady.rate[2] } else { 0.0 };
+                }
             }
         }
         rates

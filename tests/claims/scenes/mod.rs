@@ -13,6 +13,7 @@ mod loads;
 mod meshes;
 mod methods;
 mod motions;
+mod planar_beams;
 mod ports;
 mod rigid;
 mod rods;
@@ -49,6 +50,7 @@ pub fn all() -> Vec<Specimen> {
         joints::all(),
         slides::all(),
         motions::all(),
+        planar_beams::all(),
         loads::all(),
         inputs::all(),
         ports::all(),
