@@ -51,7 +51,8 @@ fn of_spatial_beams(plane: &Plane, flat: &Value) -> Value {
     }
     for joint in there["joints"].as_array_mut().expect("joints") {
         if joint["kind"] == "revolute" {
-            joint["direction"] = json!(plane.normal());
+            // In axes of the section: the first across the line is the normal.
+            joint["direction"] = json!([0.0, 1.0, 0.0]);
         }
     }
     for load in there["loads"].as_array_mut().expect("loads") {

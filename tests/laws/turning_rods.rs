@@ -14,6 +14,8 @@ const TOLERANCE: f64 = 1e-9;
 const AT_END: f64 = 2e-6;
 const STEPS: usize = 5;
 const STEP: f64 = 0.01;
+/// Rate of steady motions, rad/s.
+const RATE: f64 = 6.0;
 
 /// A body with coupled sections on a ball at the origin, which spins; in space where the frame does not turn.
 fn scene(element: &str, rotation: Vector3<f64>, spin: Vector3<f64>, initial: &str) -> Value {
@@ -83,12 +85,11 @@ fn a_rod_or_beam_moves_alike_seen_from_a_frame_that_turns() {
 #[test]
 fn a_steady_motion_is_an_equilibrium_seen_from_its_frame() {
     for element in ["rod", "beam"] {
-        let spin = Vector3::new(0.0, 0.0, 6.0);
+        let spin = Vector3::new(0.0, 0.0, RATE);
         let mut space = scene(element, Vector3::zeros(), spin, "steady");
         space["joints"][0]["kind"] = json!("revolute");
         space["joints"][0]["direction"] = json!([0.0, 0.0, 1.0]);
-        space["motions"] =
-            json!([{"name": "drive", "joint": "ball", "kind": "angle", "value": "6*t"}]);
+        space["motions"] = json!([{"name": "drive", "joint": "ball", "kind": "angle", "value": format!("{RATE}*t")}]);
         let mut seen = scene(element, spin, spin, "static_equilibrium");
         seen["joints"][0]["kind"] = json!("weld");
         let (mut space, mut seen) = (simulation(&space), simulation(&seen));
@@ -106,5 +107,44 @@ fn a_steady_motion_is_an_equilibrium_seen_from_its_frame() {
         for (now, then) in values(&mut seen, "body.tip.position").iter().zip(&shape) {
             within("rest", (now - then).abs(), AT_END).expect("an equilibrium");
         }
+    }
+}
+
+/// A planar beam on a hub.
+fn on_hub(rotation: f64, initial: &str, angle: &str) -> Value {
+    json!({"name": "hub", "dimension": 2, "gravity": [0.0, 0.0], "rotation": rotation, "initial": initial,
+        "bodies": [{"name": "hub", "element": "rigid", "mass": 1.0, "inertia": 0.1, "position": [0.0, 0.0],
+                "markers": {"centre": [0.0, 0.0], "rim": [0.1, 0.0]}},
+            {"name": "beam", "element": "beam", "elements": 4,
+                "material": {"youngs_modulus": 2e6, "shear_modulus": 8e5, "density": 1100.0},
+                "section": {"shape": {"rectangle": {"width": 0.06, "height": 0.05}}},
+                "shape": {"line": {"from": [0.1, 0.0], "to": [0.7, 0.1]}}, "markers": {"root": 0.0, "tip": 1.0}}],
+        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "hub.centre"]},
+            {"name": "weld", "kind": "weld", "markers": ["hub.rim", "beam.root"]}],
+        "motions": [{"name": "drive", "joint": "pin", "kind": "angle", "value": angle}],
+        "outputs": [{"kind": "position", "marker": "beam.tip"}, {"kind": "bending_moment", "marker": "beam.root"}],
+        "accuracy": {"relative_tolerance": TOLERANCE}})
+}
+
+#[test]
+fn a_planar_beam_turns_steadily_as_it_rests_in_its_frame() {
+    let mut space = simulation(&on_hub(0.0, "steady", &format!("{RATE}*t")));
+    let mut seen = simulation(&on_hub(RATE, "static_equilibrium", "0"));
+    space.start().expect("a start");
+    seen.start().expect("a start");
+    for step in 0..=STEPS {
+        let time = STEP * step as f64;
+        if step > 0 {
+            space.step(time).expect("a step");
+            seen.step(time).expect("a step");
+        }
+        let [at, rest] = [&mut space, &mut seen].map(|of| values(of, "beam.tip.position"));
+        let (sin, cos) = (RATE * time).sin_cos();
+        let turned = [cos * rest[0] - sin * rest[1], sin * rest[0] + cos * rest[1]];
+        for (found, expected) in at.iter().zip(turned) {
+            within("tip", (found - expected).abs(), AT_END).expect("the same motion");
+        }
+        let [a, b] = [&mut space, &mut seen].map(|of| values(of, "beam.root.bending_moment")[0]);
+        within("moment", (a - b).abs(), AT_END).expect("the same moment");
     }
 }

@@ -124,15 +124,16 @@ impl<const D: usize> Motions<D> {
             }
             // Sections turn with the line that deforms: they begin without a rate of shear.
             for (line, second) in (nodes.start..).zip(axes) {
-                let frame = *second - 1;
                 let slope = components(&x[line][1].into()).into();
                 let turn = turn_of(
                     &slope,
                     &components(&self.deformation[line][1].into()).into(),
                 );
-                for (node, part) in [(frame, 1), (*second, 0), (*second, 1)] {
-                    let by_line = Vector::from(spun(turn, x[node][part].into()));
-                    for (rate, by_line) in rates[node][part].iter_mut().zip(&by_line) {
+                // In the plane a section is one direction.
+                let vectors = [(*second, 1), (*second, 0), (*second - 1, 1)];
+                for (node, part) in &vectors[..if D == 2 { 1 } else { 3 }] {
+                    let by_line = Vector::from(spun(turn, x[*node][*part].into()));
+                    for (rate, by_line) in rates[*node][*part].iter_mut().zip(&by_line) {
                         *rate += by_line;
                     }
                 }
