@@ -409,7 +409,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         self.operations += SOLVE;
         self.system.to_tangent(0, self.work, x);
         self.work.tangent.solve(&self.system.elimination, x);
-        self.system.from_tangent(0, self.work, x);
+        self.system.back_from_tangent(0, self.work, x);
     }
 
     fn set_stage(&mut self, stage: usize) {
@@ -425,7 +425,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         let tangent = &mut self.work.tangent;
         tangent.solve_stages(&system.elimination, [forward, back], stages);
         for (i, q) in stages.iter_mut().enumerate() {
-            system.from_tangent(1 + i, self.work, q);
+            system.back_from_tangent(1 + i, self.work, q);
         }
     }
 
@@ -436,7 +436,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     fn apply_damping(&mut self, x: &mut [f64]) {
         self.system.to_tangent(0, self.work, x);
         self.work.tangent.apply_damping(&self.system.elimination, x);
-        self.system.from_tangent(0, self.work, x);
+        self.system.back_from_tangent(0, self.work, x);
     }
 
     fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64 {

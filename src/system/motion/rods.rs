@@ -69,7 +69,12 @@ impl<const D: usize> System<D> {
     }
 
     /// The way back of [`System::to_tangent`].
-    pub(in crate::system) fn from_tangent(&self, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
+    pub(in crate::system) fn back_from_tangent(
+        &self,
+        stage: usize,
+        work: &mut Work<D>,
+        q: &mut [f64],
+    ) {
         if !self.frames.lean() {
             return;
         }
