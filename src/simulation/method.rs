@@ -25,6 +25,9 @@ const LOOSEST: f64 = 5e-3;
 /// What projecting the end of a step, and the acceleration there, cost beside an acceleration.
 const PROJECTION: f64 = 2.2;
 
+/// Rate of motion at the start, relative to what else there is, up to which it is rest: a motion that begins at rest may begin with roundoff.
+const REST: f64 = 1e-6;
+
 /// What a choice is made from.
 pub(super) struct Start<'a, const D: usize> {
     /// The system.
@@ -136,15 +139,15 @@ fn natural_rate<const D: usize>(resolved: &Resolved<'_>, system: &System<D>, kin
     let rate = by_motion
         .max(by_gravity)
         .max(norm(&resolved.scene.rotation.full()));
-    let slow = [
-        rate,
-        elastic_rate(resolved),
-        spring_rate(resolved, size, mass),
-    ];
-    let found = slow
+    let slow = [elastic_rate(resolved), spring_rate(resolved, size, mass)];
+    let mut slow = slow
         .into_iter()
-        .find(|rate| *rate > 0.0 && rate.is_finite());
-    found.unwrap_or(1.0)
+        .filter(|rate| *rate > 0.0 && rate.is_finite());
+    let otherwise = slow.next().unwrap_or(1.0);
+    match rate > REST * otherwise && rate.is_finite() {
+        true => rate,
+        false => otherwise,
+    }
 }
 
 /// Slowest bending (or stretching) of the first cable that bends, between supports; 0 without one.

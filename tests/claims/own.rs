@@ -355,3 +355,23 @@ fn moments_of_inertia_are_checked_when_all_are_set() {
         "{energy}"
     );
 }
+
+/// Where functions have a kink they are taken just after a time, and a motion that begins at rest begins with roundoff: that is no rate.
+#[test]
+fn a_motion_that_begins_at_rest_may_have_a_kink_later() {
+    let steps = |along: &str| {
+        let scene = json!({"name": "led", "dimension": 3, "gravity": [0.0, 0.0, 0.0],
+            "bodies": [{"element": "rigid", "name": "plate", "mass": 0.1, "inertia": [1e-4, 2e-4, 2e-4],
+                        "position": [0.3, 0.0, 0.0], "markers": {"hub": [0.0, 0.0, 0.0], "edge": [0.1, 0.0, 0.0]}}],
+            "motions": [{"name": "lead", "kind": "position", "marker": "plate.hub", "value": [along, "0", "0"]}],
+            "outputs": [{"kind": "position", "marker": "plate.edge"}],
+            "method": {"integrator": "radau"}, "accuracy": {"relative_tolerance": 1e-6}});
+        let mut simulation = started(&scene);
+        simulation.step(0.1).expect("a step");
+        let found = read(&mut simulation, "plate.edge.position[1]");
+        assert!((found - 0.4 - 0.05 * 0.01).abs() < 1e-12, "{found}");
+        simulation.report().steps
+    };
+    let [smooth, kinked] = ["0.3+0.05*t^2", "0.3+0.05*min(t,2)^2"].map(steps);
+    assert!(kinked <= smooth + 2, "{smooth} and {kinked}");
+}
