@@ -289,6 +289,12 @@ impl<'a, const D: usize> Model<'a, D> {
         self.work.tangent.inertia(elimination, weights)
     }
 
+    /// As [`Dynamics::solve`], over small rotations in place of changes of coordinates: equilibria are found in these.
+    pub fn solve_small(&mut self, x: &mut [f64]) {
+        self.operations += SOLVE;
+        self.work.tangent.solve(&self.system.elimination, x);
+    }
+
     /// `K x`, in place, inside the tangent plane of the constraints.
     pub fn apply_stiffness(&mut self, x: &mut [f64]) {
         self.system.project_on_tangent_plane(self.work, x);
@@ -406,9 +412,8 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn solve(&mut self, x: &mut [f64]) {
-        self.operations += SOLVE;
         self.system.to_tangent(0, self.work, x);
-        self.work.tangent.solve(&self.system.elimination, x);
+        self.solve_small(x);
         self.system.back_from_tangent(0, self.work, x);
     }
 

@@ -7,8 +7,8 @@
 use crate::body::{Node, map_node};
 use crate::math::jet::{Jet, moving, part};
 use crate::math::vector::{dot, norm};
+use crate::system::Model;
 use crate::system::instant::Instant;
-use crate::system::{Dynamics, Model};
 
 /// Most steps, and the residual at which the iteration ends, relative to that at its start.
 const STEPS: usize = 80;
@@ -111,7 +111,7 @@ fn substitute_back(columns: &[Vec<f64>], target: &mut [f64]) {
 fn preconditioned<const D: usize>(model: &mut Model<'_, D>, f: &[f64]) -> Vec<f64> {
     let mut x = f.to_vec();
     model.system.project_on_tangent_plane(model.work, &mut x);
-    model.solve(&mut x);
+    model.solve_small(&mut x);
     model.system.project_on_tangent_plane(model.work, &mut x);
     x
 }
