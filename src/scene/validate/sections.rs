@@ -423,11 +423,15 @@ impl Section {
                 format!("it at {center:?} m"),
             ));
         }
-        for axis in [4, 5] {
-            if inertia[(3, axis)].abs() > 1e-9 * inertia[(3, 3)] {
+        // Velocities of points across the line that turns of the section give, and products of inertia with its twist.
+        let apart = [(0, 3), (1, 3), (1, 4), (1, 5), (2, 3), (2, 4), (2, 5)].map(|at| (at, 1e-6));
+        let products = [(3, 4), (3, 5)].map(|at| (at, 1e-9));
+        for ((r, c), part) in apart.into_iter().chain(products) {
+            let size = (inertia[(r, r)] * inertia[(c, c)]).sqrt();
+            if inertia[(r, c)].abs() > part * size {
                 let wanted = "0 of a section that lies across the line";
-                let place = at(&format!("inertia[3][{axis}]"));
-                return Err(expected(&place, wanted, inertia[(3, axis)]));
+                let place = at(&format!("inertia[{r}][{c}]"));
+                return Err(expected(&place, wanted, inertia[(r, c)]));
             }
         }
         let plain = inertia - Matrix6::from_diagonal_element(mass);

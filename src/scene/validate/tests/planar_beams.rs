@@ -76,4 +76,16 @@ fn whole_matrices_keep_a_planar_beam_in_its_plane() {
         /name | "beam" | bodies[0].section.stiffness[4][3]: expected 0 about the line in the plane, which the body would leave, found 0.1
         "#,
     );
+    let slanted = || {
+        let mut scene = matrices();
+        let inertia = &mut scene["bodies"][0]["section"]["inertia"];
+        (inertia[2][4], inertia[4][2]) = (json!(0.01), json!(0.01));
+        scene
+    };
+    check(
+        slanted,
+        r#"
+        /name | "beam" | bodies[0].section.inertia[2][4]: expected 0 of a section that lies across the line, found 0.01
+        "#,
+    );
 }
