@@ -104,7 +104,7 @@ const REASONS: [(Edit, &str); 19] = [
             s["bodies"][0]["section"] = numbers();
             s["bodies"][0]["section"]["coupling"] = json!([0.1, 0, 0]);
         },
-        "rod: its twist and bending are coupled",
+        "rod: its twist, bending or stretching are coupled",
     ),
     (
         |s| {
@@ -245,15 +245,23 @@ fn every_reason_is_told_and_makes_its_element() {
 }
 
 #[test]
-fn the_plane_knows_cables_alone() {
-    let scene = edited(|s| {
-        s["dimension"] = json!(2);
-        s["bodies"] = json!([s["bodies"][0]]);
-        s["bodies"][0]["shape"] = json!({"line": {"from": [0, 0], "to": [1, 0]}});
-        s["bodies"][0]["section"] = json!({"shape": {"rectangle": {"width": 0.5, "height": 0.5}}});
-    });
-    let chosen = chosen(&scene).expect("a choice");
-    assert_eq!(chosen.in_words(), "cable: nothing twists in the plane");
+fn the_plane_knows_cables_and_beams() {
+    let of_thickness = |size: f64| {
+        let scene = edited(|s| {
+            s["dimension"] = json!(2);
+            s["bodies"] = json!([s["bodies"][0]]);
+            s["bodies"][0]["shape"] = json!({"line": {"from": [0, 0], "to": [1, 0]}});
+            s["bodies"][0]["section"] =
+                json!({"shape": {"rectangle": {"width": size, "height": size}}});
+        });
+        chosen(&scene).expect("a choice").in_words()
+    };
+    let (thin, thick) = (of_thickness(0.005), of_thickness(0.5));
+    assert!(
+        thin.starts_with("cable: nothing twists in the plane; shear adds 1.8e-5"),
+        "{thin}"
+    );
+    assert!(thick.starts_with("beam: shear adds 1.8e-1"), "{thick}");
 }
 
 /// Two lines that are welded to each other need sections both; one that hangs on a ball does not.

@@ -114,27 +114,7 @@ impl<const D: usize> Work<D> {
     /// For a system.
     pub fn new(system: &System<D>) -> Self {
         let nodes = vec![no_node(); system.reference.len()];
-        let mut elastic = vec![false; nodes.len()];
-        for chain in &system.chains {
-            let first = chain.nodes(0)[0];
-            elastic[first..first + chain.node_count()].fill(true);
-        }
-        let mut still = vec![false; nodes.len()];
-        let mut sections = Vec::new();
-        for chain in &system.rod_chains {
-            if chain.leans() {
-                // These turn with their sections; in the plane by directions, as cables do.
-                sections.extend(chain.frames().map(|(frame, line)| (line, frame)));
-                sections
-                    .iter()
-                    .for_each(|(line, _)| elastic[*line] &= D == 2);
-            }
-            let frames = chain.frames().map(|(node, _)| node);
-            frames
-                .chain(chain.axes_nodes())
-                .chain(chain.inner())
-                .for_each(|node| still[node] = true);
-        }
+        let ([elastic, still], sections) = moving(system);
         let jacobian = Jacobian::new(&system.elimination, &system.multipliers, |row| {
             system.constraints[row].is_linear()
         });
@@ -201,4 +181,30 @@ impl<const D: usize> Work<D> {
             *course = Trajectory::hold(state.time, [p, v, a]);
         }
     }
+}
+
+/// Which nodes turn with elastic lines and which of their own do not, and the nodes of lines with those of sections that they turn with.
+fn moving<const D: usize>(system: &System<D>) -> ([Vec<bool>; 2], Vec<(usize, usize)>) {
+    let mut elastic = vec![false; system.reference.len()];
+    for chain in &system.chains {
+        let first = chain.nodes(0)[0];
+        elastic[first..first + chain.node_count()].fill(true);
+    }
+    let mut still = vec![false; elastic.len()];
+    let mut sections = Vec::new();
+    for chain in &system.rod_chains {
+        if chain.leans() {
+            // These turn with their sections; in the plane by directions, as cables do.
+            sections.extend(chain.frames().map(|(frame, line)| (line, frame)));
+            sections
+                .iter()
+                .for_each(|(line, _)| elastic[*line] &= D == 2);
+        }
+        let frames = chain.frames().map(|(node, _)| node);
+        frames
+            .chain(chain.axes_nodes())
+            .chain(chain.inner())
+            .for_each(|node| still[node] = true);
+    }
+    ([elastic, still], sections)
 }

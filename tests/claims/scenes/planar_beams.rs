@@ -81,17 +81,39 @@ fn numbers(shape: &str, [a, b]: [f64; 2]) -> [f64; 3] {
     }
 }
 
+/// Shapes with the keys and values of their lengths, m.
+const SHAPES: [(&str, [&str; 2], [f64; 2]); 5] = [
+    ("rectangle", ["width", "height"], [0.10, 0.07]),
+    ("ellipse", ["width", "height"], [0.08, 0.12]),
+    ("circle", ["radius", ""], [0.05, 0.0]),
+    ("tube", ["radius", "inner_radius"], [0.06, 0.03]),
+    ("rectangle", ["width", "height"], [0.10, 0.07]),
+];
+/// Shear factor given beside the last of them; area, second moment and shear factor given in place of a shape.
+const OWN: f64 = 0.5;
+const SAID: [f64; 3] = [0.01, 9e-6, 0.7];
+
+/// One of these sections, or numbers after the last; lengths, factors and numbers so many times as large.
+fn sheared_section(k: usize, t: f64) -> Value {
+    let Some((shape, keys, lengths)) = SHAPES.get(k) else {
+        let [area, second, factor] = SAID.map(|number| number * t);
+        return json!({"area": area, "second_moment": second, "shear_factor": factor});
+    };
+    let mut of = json!({});
+    for (key, length) in keys.iter().zip(lengths).filter(|(key, _)| !key.is_empty()) {
+        of[key] = json!(length * t);
+    }
+    let mut section = json!({"shape": {}});
+    section["shape"][shape] = of;
+    if k == 4 {
+        section["shear_factor"] = json!(OWN * t);
+    }
+    section
+}
+
 /// Short cantilevers under a force at the end bend by `F (L - x) / (E I)` and shear by `F / (k G A)`: shapes with Cowper's factor and with
 /// a given one, and numbers; uniform, or along stations.
 fn sheared(is_tapered: bool) -> Specimen {
-    let shapes = [
-        ("rectangle", ["width", "height"], [0.10, 0.07]),
-        ("ellipse", ["width", "height"], [0.08, 0.12]),
-        ("circle", ["radius", ""], [0.05, 0.0]),
-        ("tube", ["radius", "inner_radius"], [0.06, 0.03]),
-        ("rectangle", ["width", "height"], [0.10, 0.07]),
-    ];
-    let (own, said) = (0.5, [0.01, 9e-6, 0.7]);
     // Lengths of shapes, factors and numbers, over those at the first end.
     let taper = |x: f64| {
         if is_tapered {
@@ -100,32 +122,16 @@ fn sheared(is_tapered: bool) -> Specimen {
             1.0
         }
     };
-    let section = |k: usize, t: f64| {
-        let Some((shape, keys, lengths)) = shapes.get(k) else {
-            let [area, second, factor] = said.map(|number| number * t);
-            return json!({"area": area, "second_moment": second, "shear_factor": factor});
-        };
-        let mut of = json!({});
-        for (key, length) in keys.iter().zip(lengths).filter(|(key, _)| !key.is_empty()) {
-            of[key] = json!(length * t);
-        }
-        let mut section = json!({"shape": {}});
-        section["shape"][shape] = of;
-        if k == 4 {
-            section["shear_factor"] = json!(own * t);
-        }
-        section
-    };
     let names = ["rectangle", "ellipse", "circle", "tube", "own", "numbers"];
     let place = |k: usize| {
         let mut made = body(names[k], k as f64);
         match is_tapered {
             true => {
                 let station =
-                    |at: f64| json!({"at": at, "section": section(k, taper(at * LENGTH))});
+                    |at: f64| json!({"at": at, "section": sheared_section(k, taper(at * LENGTH))});
                 made["stations"] = json!([station(0.0), station(1.0)]);
             }
-            false => made["section"] = section(k, 1.0),
+            false => made["section"] = sheared_section(k, 1.0),
         }
         made
     };
@@ -144,12 +150,12 @@ fn sheared(is_tapered: bool) -> Specimen {
     for (k, name) in names.iter().enumerate() {
         let at = |x: f64| {
             let t = taper(x);
-            match shapes.get(k) {
+            match SHAPES.get(k) {
                 Some((shape, _, lengths)) => {
                     let [area, second, factor] = numbers(shape, lengths.map(|l| l * t));
-                    [area, second, if k == 4 { own * t } else { factor }]
+                    [area, second, if k == 4 { OWN * t } else { factor }]
                 }
-                None => said.map(|number| number * t),
+                None => SAID.map(|number| number * t),
             }
         };
         let angle = integral(|x| FORCE * (LENGTH - x) / (YOUNG * at(x)[1]));

@@ -2,8 +2,8 @@
 //!
 //! Source: the equations of `planar/mod.rs`.
 
-use super::super::kernel::Shapes;
-use super::super::{At, Force, Rates};
+use crate::elements::beam::kernel::Shapes;
+use crate::elements::beam::{At, Force, Rates};
 use crate::elements::line::{Sample, combine, dot, times};
 use crate::elements::rod::geometry::{LOADED, MIDDLE, POINTS};
 use crate::elements::rod::vectors::{add, plus};

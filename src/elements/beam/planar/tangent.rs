@@ -8,9 +8,9 @@
 //! k'' = X'' / q - (k' q'^T + q' k'^T) / q - k q'' / q,   k = X / q,   q = u.u
 //! ```
 
-use super::super::{At, Tangent};
 use super::PLACES;
 use super::kernel::{Kernel, Local, Motion, Place, Two, left, parabola, product};
+use crate::elements::beam::{At, Tangent};
 use crate::elements::line::{Sample, times};
 use crate::elements::rod::geometry::{MIDDLE, POINTS};
 use crate::elements::rod::vectors::{add, plus};
