@@ -9,6 +9,7 @@ mod line;
 mod along;
 pub mod beam;
 pub mod cable;
+mod constitutive;
 pub mod rod;
 pub mod section;
 pub mod shape;

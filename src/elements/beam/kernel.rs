@@ -5,6 +5,7 @@
 use super::end::End;
 use super::lean::{Leaning, Local, Six};
 use super::{At, Force, Rates};
+use crate::elements::constitutive::Law;
 use crate::elements::line::{Sample, combine, dot, times};
 use crate::elements::rod;
 use crate::elements::rod::geometry::{Frame, Geometry, MIDDLE, Motion, POINTS, Section, Sum};
@@ -17,14 +18,7 @@ use crate::math::lanes::{Lanes, PACK, Real, Simd};
 #[derive(Clone, Debug)]
 pub(super) struct Kernel<N> {
     pub geometry: Geometry<N>,
-    /// Stress by strain at the points.
-    pub stiffness: [[Six<N>; 6]; 3],
-    /// Stress by rate of strain.
-    pub damping: [[Six<N>; 6]; 3],
-    /// What is added to the strains at the points before they are multiplied by the stiffness: less those of the
-    /// unstressed shape.
-    pub offset: [Six<N>; 3],
-    pub is_damped: bool,
+    pub law: Law<N, 6>,
 }
 
 /// An element with the frames of its tangents.
@@ -72,13 +66,9 @@ impl Kernel<f64> {
     /// The same parameters, as constants of the kind of another number.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Kernel<N> {
-        let six = |row: Six<f64>| row.map(|value| like.constant(value));
         Kernel {
             geometry: self.geometry.lift(like),
-            stiffness: self.stiffness.map(|square| square.map(six)),
-            damping: self.damping.map(|square| square.map(six)),
-            offset: self.offset.map(six),
-            is_damped: self.is_damped,
+            law: self.law.lift(like),
         }
     }
 }
@@ -87,27 +77,10 @@ impl Kernel<[f64; PACK]> {
     /// A group of the elements of a pack.
     #[inline(always)]
     pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
-        let geometry = self.geometry.group(simd, group);
-        let square = [[[geometry.length; 6]; 6]; 3];
-        let mut kernel = Kernel {
-            stiffness: square,
-            damping: square,
-            offset: [[geometry.length; 6]; 3],
-            is_damped: self.is_damped,
-            geometry,
-        };
-        for k in 0..3 {
-            for i in 0..6 {
-                for j in 0..6 {
-                    kernel.stiffness[k][i][j] = Lanes::read(simd, &self.stiffness[k][i][j], group);
-                    if self.is_damped {
-                        kernel.damping[k][i][j] = Lanes::read(simd, &self.damping[k][i][j], group);
-                    }
-                }
-                kernel.offset[k][i] = Lanes::read(simd, &self.offset[k][i], group);
-            }
+        Kernel {
+            geometry: self.geometry.group(simd, group),
+            law: self.law.group(simd, group),
         }
-        kernel
     }
 }
 
@@ -199,9 +172,9 @@ impl<N: Real> Kernel<N> {
         let mut sum = self.geometry.number(0.0);
         for (index, point) in POINTS.iter().enumerate() {
             let strains = self.section(point, &placed).1.strains();
-            let strains = add(&strains, &self.offset[index]);
+            let strains = add(&strains, &self.law.offset[index]);
             sum += self.geometry.number(0.5 * point.weight)
-                * dot(&strains, &product(&self.stiffness[index], &strains));
+                * dot(&strains, &product(&self.law.stiffness[index], &strains));
         }
         sum * self.geometry.length
     }
@@ -217,11 +190,11 @@ impl<N: Real> Kernel<N> {
         for (index, point) in POINTS.iter().enumerate() {
             let (section, leaning) = self.section(point, &placed);
             let (rows, shapes) = (leaning.rows(), Shapes::new(point.at));
-            let strains = add(&leaning.strains(), &self.offset[index]);
-            let mut stress = product(&self.stiffness[index], &strains);
+            let strains = add(&leaning.strains(), &self.law.offset[index]);
+            let mut stress = product(&self.law.stiffness[index], &strains);
             if let Some(moving) = &moving {
                 let rate = rows.rates(&self.local_rates(point, &section, &placed, moving));
-                let damped = product(&self.damping[index], &rate);
+                let damped = product(&self.law.damping[index], &rate);
                 power += geometry.number(point.weight) * dot(&damped, &rate);
                 stress = add(&stress, &damped);
             }

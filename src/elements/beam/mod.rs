@@ -41,10 +41,11 @@ mod tangent;
 #[cfg(test)]
 mod tests;
 
+use crate::elements::constitutive::Law;
 use crate::elements::line::{sample, times};
 use crate::elements::rod::geometry::{Geometry, POINTS};
+use crate::elements::rod::read;
 use crate::elements::rod::vectors::{Vector, plus};
-use crate::elements::rod::{ROUNDOFF, read};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::Point;
 use kernel::Kernel;
@@ -130,45 +131,30 @@ pub struct Pack {
 impl Beam {
     /// A beam whose unstressed shape is this one; its internal twist and leans do not count. Strains that are roundoff are none.
     pub fn new(parameters: Parameters, shape: &At<f64>) -> Self {
-        let (l, times) = (parameters.length, parameters.damping_times);
+        let l = parameters.length;
         let mut kernel = Kernel {
             geometry: Geometry {
                 length: l,
                 inverse_length: 1.0 / l,
                 is_round: false,
             },
-            stiffness: parameters.stiffness,
-            damping: parameters.stiffness,
-            offset: [[0.0; 6]; 3],
-            is_damped: times.iter().any(|time| *time > 0.0),
+            law: Law::new(parameters.stiffness, parameters.damping_times),
         };
-        for i in 0..6 {
-            for j in 0..6 {
-                for damping in &mut kernel.damping {
-                    damping[i][j] *= (times[i] * times[j]).sqrt();
-                }
-            }
-        }
         let shape = At {
             inner: [0.0; 3],
             ..*shape
         };
         let components = shape.e.as_flattened();
         let far = components.iter().fold(l, |far, x| far.max(x.abs()));
-        for (index, point) in POINTS.iter().enumerate() {
-            for (k, strain) in kernel.strains(&shape, point).into_iter().enumerate() {
-                let size = if k < 3 { l } else { l * l };
-                if strain.abs() * size > ROUNDOFF * far {
-                    kernel.offset[index][k] = -strain;
-                }
-            }
-        }
+        let strains = std::array::from_fn(|k| kernel.strains(&shape, &POINTS[k]));
+        let per = [l, l, l, l * l, l * l, l * l];
+        kernel.law.unstressed_at(strains, per, far);
         Self { kernel }
     }
 
     /// Whether the element dissipates.
     pub fn is_damped(&self) -> bool {
-        self.kernel.is_damped
+        self.kernel.law.is_damped
     }
 
     /// Strain energy, J.
@@ -220,19 +206,14 @@ impl Beam {
         let lanes = |of: &dyn Fn(&Kernel<f64>) -> f64| -> [f64; PACK] {
             std::array::from_fn(|lane| of(&elements[lane.min(last)].kernel))
         };
-        let square = |of: &dyn Fn(&Kernel<f64>) -> [[f64; 6]; 6]| {
-            std::array::from_fn(|i| std::array::from_fn(|j| lanes(&|kernel| of(kernel)[i][j])))
-        };
+        let laws: Vec<_> = elements.iter().map(|beam| &beam.kernel.law).collect();
         let kernel = Kernel {
             geometry: Geometry {
                 length: lanes(&|k| k.geometry.length),
                 inverse_length: lanes(&|k| k.geometry.inverse_length),
                 is_round: false,
             },
-            stiffness: std::array::from_fn(|i| square(&|k| k.stiffness[i])),
-            damping: std::array::from_fn(|i| square(&|k| k.damping[i])),
-            offset: std::array::from_fn(|i| std::array::from_fn(|j| lanes(&|k| k.offset[i][j]))),
-            is_damped: elements[0].is_damped(),
+            law: Law::pack(&laws),
         };
         Pack {
             kernel,

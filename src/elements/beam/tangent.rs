@@ -57,16 +57,16 @@ impl<N: Real> Kernel<N> {
             let (section, leaning) = self.section(point, &placed);
             let rows = leaning.rows();
             let (squares, turning) = match kind {
-                Tangent::Damping => (rows.squares(&self.damping[index]), None),
+                Tangent::Damping => (rows.squares(&self.law.damping[index]), None),
                 Tangent::Stiffness => {
-                    let strains = add(&leaning.strains(), &self.offset[index]);
-                    let mut stress = product(&self.stiffness[index], &strains);
+                    let strains = add(&leaning.strains(), &self.law.offset[index]);
+                    let mut stress = product(&self.law.stiffness[index], &strains);
                     if let Some(moving) = &moving {
                         let local = self.local_rates(point, &section, &placed, moving);
                         let rate = rows.rates(&local);
-                        stress = add(&stress, &product(&self.damping[index], &rate));
+                        stress = add(&stress, &product(&self.law.damping[index], &rate));
                     }
-                    let mut squares = rows.squares(&self.stiffness[index]);
+                    let mut squares = rows.squares(&self.law.stiffness[index]);
                     leaning.add_second(&stress, &mut squares);
                     let factors = rows.factors(&times(&stress, geometry.number(point.weight)));
                     let leans = (factors.lean, factors.change);

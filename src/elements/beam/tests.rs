@@ -180,10 +180,10 @@ fn stresses_that_damping_adds_stiffen_as_any() {
                 SVector::<f64, 6>::from(beam.strains(&moved(&at, &rates, time), point.at))
             };
             let [near, far] = [h, 2.0 * h].map(|time| strains(time) - strains(-time));
-            let stress = matrix(beam.kernel.damping[k]) * (8.0 * near - far) / (12.0 * h);
-            let stiffness = matrix(beam.kernel.stiffness[k]).cholesky();
+            let stress = matrix(beam.kernel.law.damping[k]) * (8.0 * near - far) / (12.0 * h);
+            let stiffness = matrix(beam.kernel.law.stiffness[k]).cholesky();
             let shift = stiffness.expect("positive").solve(&stress);
-            for (offset, shift) in other.kernel.offset[k].iter_mut().zip(shift.iter()) {
+            for (offset, shift) in other.kernel.law.offset[k].iter_mut().zip(shift.iter()) {
                 *offset += shift;
             }
         }
@@ -264,7 +264,7 @@ fn damping_takes_out_what_its_force_does() {
             // The rates of strain are those of the strains.
             let h = 1e-4;
             let mut expected = 0.0;
-            for (damping, point) in beam.kernel.damping.iter().zip(&POINTS) {
+            for (damping, point) in beam.kernel.law.damping.iter().zip(&POINTS) {
                 let strains = |time: f64| beam.strains(&moved(&at, &rates, time), point.at);
                 let [near, far] = [h, 2.0 * h].map(|time| {
                     let [a, b] = [strains(time), strains(-time)];

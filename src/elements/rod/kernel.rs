@@ -6,6 +6,7 @@ use super::geometry::{Geometry, POINTS, Sum};
 use super::stretch::{Axial, Coupled};
 use super::vectors::add;
 use super::{At, Force, Rates};
+use crate::elements::constitutive::Law;
 use crate::elements::line::{Sample, dot, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 
@@ -15,14 +16,8 @@ pub(in crate::elements) type Square<N> = [[N; 3]; 3];
 #[derive(Clone, Debug)]
 pub(super) struct Kernel<N> {
     pub geometry: Geometry<N>,
-    /// Stress by strain at the points: torque and moments by twist and curvatures.
-    pub stiffness: [Square<N>; 3],
-    /// Stress by rate of strain.
-    pub damping: [Square<N>; 3],
-    /// What is added to the strains at the points before they are multiplied by the stiffness: less those of the
-    /// unstressed shape.
-    pub offset: Square<N>,
-    pub is_damped: bool,
+    /// Torque and moments by twist and curvatures.
+    pub law: Law<N, 3>,
     /// Stretching, where twist or bending are coupled with it; else it is the line's own.
     pub axial: Option<Axial<N>>,
 }
@@ -31,13 +26,9 @@ impl Kernel<f64> {
     /// The same parameters, as constants of the kind of another number.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Kernel<N> {
-        let lifted = |square: &Square<f64>| square.map(|row| row.map(|value| like.constant(value)));
         Kernel {
             geometry: self.geometry.lift(like),
-            stiffness: self.stiffness.each_ref().map(lifted),
-            damping: self.damping.each_ref().map(lifted),
-            offset: lifted(&self.offset),
-            is_damped: self.is_damped,
+            law: self.law.lift(like),
             axial: of_rate!(&self.axial, axial => axial.lift(like)),
         }
     }
@@ -47,24 +38,9 @@ impl Kernel<[f64; PACK]> {
     /// A group of the elements of a pack.
     #[inline(always)]
     pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
-        let geometry = self.geometry.group(simd, group);
-        let mut squares = [[[geometry.length; 3]; 3]; 7];
-        let ([a, b, c], [d, e, f]) = (&self.stiffness, &self.damping);
-        let all = [a, b, c, d, e, f, &self.offset];
-        for (square, from) in all.iter().enumerate() {
-            for i in 0..3 {
-                for j in 0..3 {
-                    squares[square][i][j] = Lanes::read(simd, &from[i][j], group);
-                }
-            }
-        }
-        let [a, b, c, d, e, f, offset] = squares;
         Kernel {
-            geometry,
-            stiffness: [a, b, c],
-            damping: [d, e, f],
-            offset,
-            is_damped: self.is_damped,
+            geometry: self.geometry.group(simd, group),
+            law: self.law.group(simd, group),
             axial: of_rate!(&self.axial, axial => axial.group(simd, group)),
         }
     }
@@ -97,11 +73,11 @@ impl<N: Real> Kernel<N> {
         let mut sum = geometry.number(0.0);
         for (index, point) in POINTS.iter().enumerate() {
             let section = geometry.section(point, &v, &frame, at.bubble);
-            let strains = add(&section.strains, &self.offset[index]);
-            let mut twice = dot(&strains, &product(&self.stiffness[index], &strains));
+            let strains = add(&section.strains, &self.law.offset[index]);
+            let mut twice = dot(&strains, &product(&self.law.stiffness[index], &strains));
             if let Some(axial) = &self.axial {
-                let stretch = geometry.at_point(point.at, &geometry.lengths(&v, &frame));
-                let stretch = stretch + axial.offset[index];
+                let lengths = geometry.lengths(&v, &frame);
+                let stretch = axial.stretch(geometry, (index, point), &lengths);
                 let Coupled { own, with } = &axial.stiffness;
                 let coupled = dot(&with[index], &strains);
                 twice += stretch * (own[index] * stretch + coupled + coupled);
@@ -122,19 +98,19 @@ impl<N: Real> Kernel<N> {
         let (mut sum, mut by_lengths) = (Sum::nothing(power), [power; 3]);
         for (index, point) in POINTS.iter().enumerate() {
             let section = geometry.section(point, &v, &frame, at.bubble);
-            let strains = add(&section.strains, &self.offset[index]);
-            let mut stress = product(&self.stiffness[index], &strains);
+            let strains = add(&section.strains, &self.law.offset[index]);
+            let mut stress = product(&self.law.stiffness[index], &strains);
             let mut pull = power.constant(0.0);
             if let Some(axial) = &self.axial {
-                let stretch = geometry.at_point(point.at, &geometry.lengths(&v, &frame));
-                let stretch = stretch + axial.offset[index];
+                let lengths = geometry.lengths(&v, &frame);
+                let stretch = axial.stretch(geometry, (index, point), &lengths);
                 axial
                     .stiffness
                     .add(index, (stretch, &strains), (&mut pull, &mut stress));
             }
             if let Some(motion) = &motion {
                 let rate = geometry.strain_rates(point, &section, &frame, motion);
-                let mut damped = product(&self.damping[index], &rate);
+                let mut damped = product(&self.law.damping[index], &rate);
                 if let Some(axial) = &self.axial {
                     let stretching = geometry.length_rates(motion, &frame);
                     let stretching = geometry.at_point(point.at, &stretching);

@@ -45,6 +45,7 @@ pub(in crate::elements) mod tangent;
 pub(in crate::elements) mod tests;
 pub(in crate::elements) mod vectors;
 
+use crate::elements::constitutive::Law;
 use crate::elements::line::{dot, sample, times};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::Point;
@@ -156,34 +157,20 @@ impl Rod {
                 inverse_length: 1.0 / l,
                 is_round: false,
             },
-            stiffness: parameters.stiffness,
-            damping: parameters.stiffness,
-            offset: [[0.0; 3]; 3],
-            is_damped: times.iter().any(|time| *time > 0.0)
-                || parameters
-                    .axial
-                    .is_some_and(|axial| axial.damping_time > 0.0),
+            law: Law::new(parameters.stiffness, times),
             axial: parameters.axial.map(|axial| axial.damped_with(times)),
         };
-        for i in 0..3 {
-            for j in 0..3 {
-                for damping in &mut kernel.damping {
-                    damping[i][j] *= (times[i] * times[j]).sqrt();
-                }
-            }
-        }
+        let is_damped = |axial: Stretch| axial.damping_time > 0.0;
+        kernel.law.is_damped |= parameters.axial.is_some_and(is_damped);
         let shape = At {
             bubble: 0.0,
             ..*shape
         };
         let components = shape.e.as_flattened();
         let far = components.iter().fold(l, |far, x| far.max(x.abs()));
+        let strains = POINT.map(|k| kernel.strains(&shape, &POINTS[k]));
+        kernel.law.unstressed_at(strains, [l * l; 3], far);
         for (index, point) in POINTS.iter().enumerate() {
-            for (k, strain) in kernel.strains(&shape, point).into_iter().enumerate() {
-                if strain.abs() * l * l > ROUNDOFF * far {
-                    kernel.offset[index][k] = -strain;
-                }
-            }
             if let Some(axial) = &mut kernel.axial {
                 let stretch = kernel.geometry.stretch(&shape, point);
                 axial.offset[index] = -stretch;
@@ -198,7 +185,7 @@ impl Rod {
 
     /// Whether the element dissipates.
     pub fn is_damped(&self) -> bool {
-        self.kernel.is_damped
+        self.kernel.law.is_damped
     }
 
     /// Strain energy, J.
@@ -247,7 +234,7 @@ impl Rod {
 
     /// Whether this element and another can be in one pack.
     pub fn goes_with(&self, other: &Self) -> bool {
-        let kind = |k: &Kernel<f64>| (k.geometry.is_round, k.is_damped, k.axial.is_some());
+        let kind = |k: &Kernel<f64>| (k.geometry.is_round, k.law.is_damped, k.axial.is_some());
         kind(&self.kernel) == kind(&other.kernel)
     }
 
@@ -257,9 +244,7 @@ impl Rod {
         let lanes = |of: &dyn Fn(&Kernel<f64>) -> f64| -> [f64; PACK] {
             std::array::from_fn(|lane| of(&elements[lane.min(last)].kernel))
         };
-        let square = |of: &dyn Fn(&Kernel<f64>) -> [[f64; 3]; 3]| {
-            std::array::from_fn(|i| std::array::from_fn(|j| lanes(&|kernel| of(kernel)[i][j])))
-        };
+        let laws: Vec<_> = elements.iter().map(|rod| &rod.kernel.law).collect();
         let first = &elements[0].kernel;
         let kernel = Kernel {
             geometry: Geometry {
@@ -267,10 +252,7 @@ impl Rod {
                 inverse_length: lanes(&|k| k.geometry.inverse_length),
                 is_round: first.geometry.is_round,
             },
-            stiffness: POINT.map(|i| square(&|k| k.stiffness[i])),
-            damping: POINT.map(|i| square(&|k| k.damping[i])),
-            offset: square(&|k| k.offset),
-            is_damped: first.is_damped,
+            law: Law::pack(&laws),
             axial: Axial::pack(elements.iter().map(|rod| &rod.kernel.axial)),
         };
         Pack {
@@ -383,12 +365,16 @@ pub(in crate::elements) fn read<S: Simd, const K: usize>(
 
 /// Whether the stresses do not notice a turn of the sections about the tangent.
 fn is_round(kernel: &Kernel<f64>) -> bool {
-    let straight = kernel.offset.iter().all(|offset| offset[1..] == [0.0; 2]);
+    let straight = kernel
+        .law
+        .offset
+        .iter()
+        .all(|offset| offset[1..] == [0.0; 2]);
     let turns = |m: &[[f64; 3]; 3]| {
         let coupled = [m[0][1], m[0][2], m[1][2]];
         coupled == [0.0; 3] && m[1][1] == m[2][2]
     };
-    let mut all = kernel.stiffness.iter().chain(&kernel.damping);
+    let mut all = kernel.law.stiffness.iter().chain(&kernel.law.damping);
     let bends = |of: &Coupled<f64>| of.with.iter().any(|with| with[1..] != [0.0; 2]);
     let pulls = |axial: &Axial<f64>| bends(&axial.stiffness) || bends(&axial.damping);
     straight && all.all(turns) && !kernel.axial.as_ref().is_some_and(pulls)

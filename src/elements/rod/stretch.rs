@@ -152,6 +152,19 @@ impl Axial<[f64; PACK]> {
     }
 }
 
+impl<N: Real> Axial<N> {
+    /// Stretch at a point, with what lengths of the slope are at the first end, in the middle and at the last end.
+    #[inline(always)]
+    pub fn stretch(
+        &self,
+        geometry: &Geometry<N>,
+        (index, point): (usize, &Sample),
+        lengths: &[N; 3],
+    ) -> N {
+        geometry.at_point(point.at, lengths) + self.offset[index]
+    }
+}
+
 impl<N: Real> Geometry<N> {
     /// Lengths of the slope at the first end, in the middle and at the last end; of rates of the three vectors, their rates.
     #[inline(always)]

@@ -58,22 +58,22 @@ impl<N: Real> Kernel<N> {
         for (index, point) in POINTS.iter().enumerate() {
             let section = geometry.section(point, &v, &frame, at.bubble);
             let by = match kind {
-                Tangent::Stiffness => &self.stiffness[index],
-                Tangent::Damping => &self.damping[index],
+                Tangent::Stiffness => &self.law.stiffness[index],
+                Tangent::Damping => &self.law.damping[index],
             };
-            let strains = add(&section.strains, &self.offset[index]);
-            let mut stress = product(&self.stiffness[index], &strains);
+            let strains = add(&section.strains, &self.law.offset[index]);
+            let mut stress = product(&self.law.stiffness[index], &strains);
             let mut pull = zero;
             if let Some(axial) = &self.axial {
-                let stretch = geometry.at_point(point.at, &geometry.lengths(&v, &frame));
-                let stretch = stretch + axial.offset[index];
+                let lengths = geometry.lengths(&v, &frame);
+                let stretch = axial.stretch(geometry, (index, point), &lengths);
                 axial
                     .stiffness
                     .add(index, (stretch, &strains), (&mut pull, &mut stress));
             }
             if let Some(motion) = &motion {
                 let rate = geometry.strain_rates(point, &section, &frame, motion);
-                stress = add(&stress, &product(&self.damping[index], &rate));
+                stress = add(&stress, &product(&self.law.damping[index], &rate));
                 if let Some(axial) = &self.axial {
                     let lengths = geometry.length_rates(motion, &frame);
                     let stretch = geometry.at_point(point.at, &lengths);

@@ -209,11 +209,11 @@ fn stiffness_and_damping_are_derivatives_of_the_force() {
 fn whole(kernel: &Kernel<f64>, point: usize, is_damping: bool) -> Matrix4<f64> {
     let (square, axial) = match is_damping {
         false => (
-            &kernel.stiffness[point],
+            &kernel.law.stiffness[point],
             kernel.axial.as_ref().map(|axial| &axial.stiffness),
         ),
         true => (
-            &kernel.damping[point],
+            &kernel.law.damping[point],
             kernel.axial.as_ref().map(|axial| &axial.damping),
         ),
     };
@@ -250,7 +250,10 @@ fn stresses_that_damping_adds_stiffen_as_any() {
             if let Some(axial) = &mut other.kernel.axial {
                 axial.offset[k] += shift[0];
             }
-            for (offset, shift) in other.kernel.offset[k].iter_mut().zip(shift.iter().skip(1)) {
+            for (offset, shift) in other.kernel.law.offset[k]
+                .iter_mut()
+                .zip(shift.iter().skip(1))
+            {
                 *offset += shift;
             }
         }

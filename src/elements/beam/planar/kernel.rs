@@ -4,6 +4,7 @@
 
 use crate::elements::beam::kernel::Shapes;
 use crate::elements::beam::{At, Force, Rates};
+use crate::elements::constitutive::Law;
 use crate::elements::line::{Sample, combine, dot, times};
 use crate::elements::rod::geometry::{LOADED, MIDDLE, POINTS};
 use crate::elements::rod::vectors::{add, plus};
@@ -19,14 +20,7 @@ pub type Three<N> = [N; 3];
 pub(super) struct Kernel<N> {
     pub length: N,
     pub inverse_length: N,
-    /// Stress by strain at the points.
-    pub stiffness: [[Three<N>; 3]; 3],
-    /// Stress by rate of strain.
-    pub damping: [[Three<N>; 3]; 3],
-    /// What is added to the strains at the points before they are multiplied by the stiffness: less those of the
-    /// unstressed shape.
-    pub offset: [Three<N>; 3],
-    pub is_damped: bool,
+    pub law: Law<N, 3>,
 }
 
 /// Slope and section at one of the three places.
@@ -109,14 +103,10 @@ impl Kernel<f64> {
     /// The same parameters, as constants of the kind of another number.
     #[inline(always)]
     pub fn lift<N: Real>(&self, like: N) -> Kernel<N> {
-        let three = |row: Three<f64>| row.map(|value| like.constant(value));
         Kernel {
             length: like.constant(self.length),
             inverse_length: like.constant(self.inverse_length),
-            stiffness: self.stiffness.map(|square| square.map(three)),
-            damping: self.damping.map(|square| square.map(three)),
-            offset: self.offset.map(three),
-            is_damped: self.is_damped,
+            law: self.law.lift(like),
         }
     }
 }
@@ -286,9 +276,9 @@ impl<N: Real> Kernel<N> {
         let mut sum = self.number(0.0);
         for (index, point) in POINTS.iter().enumerate() {
             let strains = self.local(point, &v, &places).strains();
-            let strains = add(&strains, &self.offset[index]);
+            let strains = add(&strains, &self.law.offset[index]);
             sum += self.number(0.5 * point.weight)
-                * dot(&strains, &product(&self.stiffness[index], &strains));
+                * dot(&strains, &product(&self.law.stiffness[index], &strains));
         }
         sum * self.length
     }
@@ -354,11 +344,11 @@ impl<N: Real> Kernel<N> {
         let (mut power, mut sum) = (zero, Sum::nothing(zero));
         for (index, point) in POINTS.iter().enumerate() {
             let local = self.local(point, &v, &places);
-            let strains = add(&local.strains(), &self.offset[index]);
-            let mut stress = product(&self.stiffness[index], &strains);
+            let strains = add(&local.strains(), &self.law.offset[index]);
+            let mut stress = product(&self.law.stiffness[index], &strains);
             if let Some((dv, moving)) = &moving {
                 let rate = self.strain_rates(point, &local, (dv, moving));
-                let damped = product(&self.damping[index], &rate);
+                let damped = product(&self.law.damping[index], &rate);
                 power += self.number(point.weight) * dot(&damped, &rate);
                 stress = add(&stress, &damped);
             }

@@ -27,9 +27,9 @@ mod tangent;
 mod tests;
 
 use super::{At, Force, Matrix, Rates, Tangent, VELOCITIES, whole};
+use crate::elements::constitutive::Law;
 use crate::elements::line::sample;
-use crate::elements::rod::geometry::POINTS;
-use crate::elements::rod::{ROUNDOFF, geometry::LOADED};
+use crate::elements::rod::geometry::{LOADED, POINTS};
 use crate::math::lanes::{Lanes, PACK, Real, Simd};
 use crate::math::quadrature::Point;
 use kernel::{Kernel, Motion, Three};
@@ -65,36 +65,22 @@ pub(super) const PLACES: [usize; 11] = [0, 1, 3, 4, 7, 9, 10, 12, 13, 16, 19];
 impl Planar {
     /// A beam whose unstressed shape is this one. Strains that are roundoff are none.
     pub fn new(parameters: Parameters, shape: &At<f64>) -> Self {
-        let (l, times) = (parameters.length, parameters.damping_times);
+        let l = parameters.length;
         let mut kernel = Kernel {
             length: l,
             inverse_length: 1.0 / l,
-            stiffness: parameters.stiffness,
-            damping: parameters.stiffness,
-            offset: [[0.0; 3]; 3],
-            is_damped: times.iter().any(|time| *time > 0.0),
+            law: Law::new(parameters.stiffness, parameters.damping_times),
         };
-        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-            for damping in &mut kernel.damping {
-                damping[i][j] *= (times[i] * times[j]).sqrt();
-            }
-        }
         let components = shape.e.as_flattened();
         let far = components.iter().fold(l, |far, x| far.max(x.abs()));
-        for (index, point) in POINTS.iter().enumerate() {
-            for (k, strain) in kernel.strains(shape, point).into_iter().enumerate() {
-                let size = if k < 2 { l } else { l * l };
-                if strain.abs() * size > ROUNDOFF * far {
-                    kernel.offset[index][k] = -strain;
-                }
-            }
-        }
+        let strains = std::array::from_fn(|k| kernel.strains(shape, &POINTS[k]));
+        kernel.law.unstressed_at(strains, [l, l, l * l], far);
         Self { kernel }
     }
 
     /// Whether the element dissipates.
     pub fn is_damped(&self) -> bool {
-        self.kernel.is_damped
+        self.kernel.law.is_damped
     }
 
     /// Strain energy, J.
@@ -156,16 +142,11 @@ impl Planar {
         let lanes = |of: &dyn Fn(&Kernel<f64>) -> f64| -> [f64; PACK] {
             std::array::from_fn(|lane| of(&elements[lane.min(last)].kernel))
         };
-        let square = |of: &dyn Fn(&Kernel<f64>) -> [[f64; 3]; 3]| {
-            std::array::from_fn(|i| std::array::from_fn(|j| lanes(&|kernel| of(kernel)[i][j])))
-        };
+        let laws: Vec<_> = elements.iter().map(|beam| &beam.kernel.law).collect();
         let kernel = Kernel {
             length: lanes(&|k| k.length),
             inverse_length: lanes(&|k| k.inverse_length),
-            stiffness: std::array::from_fn(|i| square(&|k| k.stiffness[i])),
-            damping: std::array::from_fn(|i| square(&|k| k.damping[i])),
-            offset: std::array::from_fn(|i| std::array::from_fn(|j| lanes(&|k| k.offset[i][j]))),
-            is_damped: elements[0].is_damped(),
+            law: Law::pack(&laws),
         };
         Pack {
             kernel,
@@ -242,26 +223,10 @@ impl Kernel<[f64; PACK]> {
     /// A group of the elements of a pack.
     #[inline(always)]
     fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
-        let length = Lanes::read(simd, &self.length, group);
-        let mut kernel = Kernel {
-            length,
+        Kernel {
+            length: Lanes::read(simd, &self.length, group),
             inverse_length: Lanes::read(simd, &self.inverse_length, group),
-            stiffness: [[[length; 3]; 3]; 3],
-            damping: [[[length; 3]; 3]; 3],
-            offset: [[length; 3]; 3],
-            is_damped: self.is_damped,
-        };
-        for k in 0..3 {
-            for i in 0..3 {
-                for j in 0..3 {
-                    kernel.stiffness[k][i][j] = Lanes::read(simd, &self.stiffness[k][i][j], group);
-                    if self.is_damped {
-                        kernel.damping[k][i][j] = Lanes::read(simd, &self.damping[k][i][j], group);
-                    }
-                }
-                kernel.offset[k][i] = Lanes::read(simd, &self.offset[k][i], group);
-            }
+            law: self.law.group(simd, group),
         }
-        kernel
     }
 }

@@ -136,18 +136,18 @@ impl<N: Real> Kernel<N> {
             let weight = self.number(point.weight);
             let rows = self.rows(point, &local, (&places, &gradients));
             let by = match kind {
-                Tangent::Stiffness => &self.stiffness[index],
-                Tangent::Damping => &self.damping[index],
+                Tangent::Stiffness => &self.law.stiffness[index],
+                Tangent::Damping => &self.law.damping[index],
             };
             self.add_squares(&local, (&rows, by), weight, &mut sum);
             if kind == Tangent::Damping {
                 continue;
             }
-            let strains = add(&local.strains(), &self.offset[index]);
+            let strains = add(&local.strains(), &self.law.offset[index]);
             let mut stress = product(by, &strains);
             if let Some((dv, moving)) = &moving {
                 let rate = self.strain_rates(point, &local, (dv, moving));
-                stress = add(&stress, &product(&self.damping[index], &rate));
+                stress = add(&stress, &product(&self.law.damping[index], &rate));
             }
             let stress = times(&stress, weight);
             self.add_stressed(&local, &rows, &stress, &mut sum);
