@@ -28,6 +28,6 @@ pub use frame::{
 };
 pub use jacobian::{Jacobian, SparseRows};
 pub use marker::{Marker, Partial};
-pub use rod_chain::{RodChain, carried_nodes, middle, planar_axes, untwisted};
+pub use rod_chain::{RodChain, carried_nodes, middle, planar_axes, turn_inner, untwisted};
 pub use stages::STAGES;
 pub use tangent::Tangent;

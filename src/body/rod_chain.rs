@@ -22,7 +22,7 @@ use crate::elements::section::{Section, SpinInertia};
 use crate::math::jet::Number;
 use crate::math::space::{Vector, components};
 use lanes::{Packed, packs};
-pub use plane::{axes as planar_axes, middle};
+pub use plane::{axes as planar_axes, middle, turn_inner};
 pub use shaped::carried_nodes;
 
 /// Where the internal twist and a beam's two internal leans stand in a node inside an element: part and axis. The first axis stands one

@@ -34,13 +34,15 @@ pub struct Carried {
     pub places: [Option<(usize, f64)>; 3],
 }
 
-/// Which derivative of rotations.
+/// Which derivative of rotations, found from that of spins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivative {
     /// Rates, or small changes.
     First,
     /// Second derivatives in time.
     Second,
+    /// The way back of the first: spins, or small rotations about tangents or along the axes of sections that lean.
+    Back,
 }
 
 /// How a carried frame has turned from the one that the state holds.
@@ -430,6 +432,7 @@ impl Frames {
                 let changed = match order {
                     Derivative::First => carry.lean.change_of(&spin, &slope),
                     Derivative::Second => carry.lean.second_of(&spin, &slope),
+                    Derivative::Back => carry.lean.spin_of(&spin, &slope),
                 };
                 frame.write(&changed, y);
                 continue;
@@ -441,29 +444,8 @@ impl Frames {
                 * match order {
                     Derivative::First => carry.rate_of(0.0, &slope),
                     Derivative::Second => carry.second_of(0.0, &slope),
+                    Derivative::Back => -carry.rate_of(0.0, &slope),
                 };
-        }
-    }
-
-    /// The way back of [`Frames::turn_carried`] for first derivatives: what stands among free coordinates for changes of rotations becomes
-    /// small rotations about tangents, or along the axes of sections that lean.
-    pub fn spins_of_carried<const D: usize>(
-        &self,
-        carries: &[Carry],
-        dx: &[Node<D>],
-        y: &mut [f64],
-    ) {
-        for (frame, carry) in self.carried.iter().zip(carries) {
-            let slope = frame.slope(dx);
-            if frame.leans {
-                let spin = carry.lean.spin_of(&frame.read(y), &slope);
-                frame.write(&spin, y);
-                continue;
-            }
-            let Some((at, scale)) = frame.places[0] else {
-                continue;
-            };
-            y[at] -= scale * carry.rate_of(0.0, &slope);
         }
     }
 

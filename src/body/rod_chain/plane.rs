@@ -41,6 +41,14 @@ pub(super) fn inner<const D: usize, N: Number>(node: &Node<D, N>) -> [N; 3] {
     [cos, sin, N::of(0.0)]
 }
 
+/// Adds a turn, or a rate of it, to what a node inside an element holds: in the plane the angle of the section there, in space nothing that
+/// turns with a body.
+pub fn turn_inner<const D: usize>(node: &mut Node<D>, turn: f64) {
+    if D == 2 {
+        node[ANGLE.0][ANGLE.1] += turn;
+    }
+}
+
 /// The node inside an element whose section is across the line there, from those of the line at its ends.
 pub fn middle<const D: usize>([a, b]: [&Node<D>; 2], length: f64) -> Node<D> {
     let ([p, u], [q, v]) = ([0, 1].map(|k| part(a, k)), [0, 1].map(|k| part(b, k)));

@@ -41,13 +41,9 @@ impl RodChain {
             }
             false => along(ends[k], rotation, v),
         });
-        let none = [N::of(0.0); 3];
-        let of_spins = |spin| {
-            let (e, inner) = ([none; 4], none);
-            self.momenta_of(j, &Rates { e, spin, inner })
-        };
         let own = self.momenta_of(j, &rates);
-        let ([with, changing], minus) = ([carried, changes].map(of_spins), |p: N| -p);
+        let [with, changing] = [carried, changes].map(|spin| self.momenta_of_spins(j, spin));
+        let (none, minus) = ([N::of(0.0); 3], |p: N| -p);
         let mut force = Force {
             e: [none; 4],
             moment: [changing[0], changing[2]].map(|p| p.map(minus)),
@@ -69,6 +65,13 @@ impl RodChain {
             force.e[2 * k + 1] = (asked / stretch).into();
         }
         force
+    }
+
+    /// Momenta of spins at both ends alone.
+    fn momenta_of_spins<N: Number>(&self, j: usize, spin: [[N; 3]; 2]) -> [[N; 3]; 3] {
+        let none = [N::of(0.0); 3];
+        let (e, inner) = ([none; 4], none);
+        self.momenta_of(j, &Rates { e, spin, inner })
     }
 
     /// Adds the same of all elements to forces over the nodes.
@@ -99,10 +102,8 @@ impl RodChain {
     ) -> N {
         let mut sum = N::of(0.0);
         for j in (0..self.count()).filter(|_| D > 2) {
-            let none = [N::of(0.0); 3];
             let spin = [j, j + 1].map(|k| along(self.frame(k, frames), rotation, x));
-            let (e, inner) = ([none; 4], none);
-            let [first, _, last] = self.momenta_of(j, &Rates { e, spin, inner });
+            let [first, _, last] = self.momenta_of_spins(j, spin);
             let pairs = [first, last].into_iter().flatten();
             let terms = pairs.zip(spin.into_iter().flatten());
             sum = terms.fold(sum, |sum, (momentum, rate)| sum + momentum * rate);

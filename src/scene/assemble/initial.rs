@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::Vector3;
 
-use crate::body::{Node, add_node, no_node};
+use crate::body::{Node, add_node, no_node, turn_inner};
 use crate::math::expression::Expression;
 use crate::math::space::{Vector, components, spun, vector};
 use crate::scene::{Error, InitialMotion};
@@ -108,8 +108,8 @@ impl<const D: usize> Motions<D> {
                     origin[k] += arm[1] * second[k] + arm[2] * third[k];
                 }
             }
-            for node in (*still..nodes.end).filter(|_| D == 2) {
-                rates[node][0][0] = spin[2];
+            for node in *still..nodes.end {
+                turn_inner(&mut rates[node], spin[2]);
             }
             let moved = nodes.start..*still;
             let of_body = rates[moved.clone()].iter_mut().zip(&x[moved.clone()]);

@@ -60,12 +60,7 @@ impl<const D: usize> System<D> {
     /// or at a stage (from 1 on). Taken for each other, rotations of beams that have rolled by an angle would be off by half of it, times
     /// the stiffness of shear; of rods alone they differ by what is not stiff and are taken for each other.
     pub(in crate::system) fn to_tangent(&self, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
-        if !self.frames.lean() {
-            return;
-        }
-        self.change_carried(work, q, |work| {
-            (self.frames).spins_of_carried(&work.stages[stage], &work.other, &mut work.y);
-        });
+        self.change_at(Derivative::Back, stage, work, q);
     }
 
     /// The way back of [`System::to_tangent`].
@@ -75,13 +70,16 @@ impl<const D: usize> System<D> {
         work: &mut Work<D>,
         q: &mut [f64],
     ) {
-        if !self.frames.lean() {
-            return;
+        self.change_at(Derivative::First, stage, work, q);
+    }
+
+    fn change_at(&self, order: Derivative, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
+        if self.frames.lean() {
+            self.change_carried(work, q, |work| {
+                let carries = &work.stages[stage];
+                (self.frames).turn_carried(order, carries, &work.other, &mut work.y);
+            });
         }
-        self.change_carried(work, q, |work| {
-            let (carries, order) = (&work.stages[stage], Derivative::First);
-            (self.frames).turn_carried(order, carries, &work.other, &mut work.y);
-        });
     }
 
     /// Angular accelerations become second derivatives of rotations.

@@ -6,7 +6,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::placement::Gap;
-use crate::body::{Node, NodeKind, product};
+use crate::body::{Node, NodeKind, product, turn_inner};
 use crate::math::space::{Vector, moment, rotated, spins};
 use crate::system::joints::{Constraint, ConstraintKind, Linear, View};
 use crate::system::{System, Work};
@@ -48,8 +48,7 @@ impl<const D: usize> System<D> {
                 NodeKind::Point => about + way + rotated(p - about, turn),
                 NodeKind::Axes => rotated(p, turn),
                 NodeKind::Inner => {
-                    // In the plane the angle of a section.
-                    x[node][0][0] += if D == 2 { turn[2] } else { 0.0 };
+                    turn_inner(&mut x[node], turn[2]);
                     continue;
                 }
             };

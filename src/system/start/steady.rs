@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::equilibrium::Turning;
-use crate::body::{Node, NodeKind, add_node, carried_node, no_node, product};
+use crate::body::{Node, NodeKind, add_node, carried_node, no_node, product, turn_inner};
 use crate::math::least::Least;
 use crate::math::space::{Vector, spins, spun};
 use crate::system::{State, System, Work};
@@ -115,8 +115,7 @@ impl<const D: usize> System<D> {
                 NodeKind::Axes => *rate = x[node].map(|axis| spun(steady.rate, axis.into()).into()),
                 NodeKind::Inner => {
                     *rate = no_node();
-                    // In the plane the angle of a section.
-                    rate[0][0] = if D == 2 { steady.rate[2] } else { 0.0 };
+                    turn_inner(rate, steady.rate[2]);
                 }
             }
         }
