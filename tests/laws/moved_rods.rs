@@ -380,8 +380,8 @@ pub fn flat() -> Value {
         "outputs": outputs.concat(), "accuracy": {"relative_tolerance": 1e-11}})
 }
 
-/// The same of rods that bend as easily about the normal of the plane, and otherwise as they like.
-fn of_rods(plane: &Plane, flat: &Value) -> Value {
+/// A scene of the plane in one of space; `line` makes of its cables or beams what they are there.
+pub fn in_space(plane: &Plane, flat: &Value, line: impl Fn(&mut Value)) -> Value {
     let mut there = plane.moved("", flat);
     there["dimension"] = json!(3);
     let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| plane.axes[(i, j)]));
@@ -399,11 +399,8 @@ fn of_rods(plane: &Plane, flat: &Value) -> Value {
             }
             continue;
         }
-        body["element"] = json!("rod");
         body["axis"] = json!(plane.normal());
-        body["material"]["shear_modulus"] = json!(4e8);
-        body["section"] =
-            json!({"area": 1e-4, "second_moments": [1e-9, 4e-9], "torsion_constant": 3e-9});
+        line(body);
     }
     for joint in there["joints"].as_array_mut().expect("joints") {
         if joint["kind"] == "revolute" {
@@ -418,6 +415,16 @@ fn of_rods(plane: &Plane, flat: &Value) -> Value {
         }
     }
     there
+}
+
+/// The same of rods that bend as easily about the normal of the plane, and otherwise as they like.
+fn of_rods(plane: &Plane, flat: &Value) -> Value {
+    in_space(plane, flat, |body| {
+        body["element"] = json!("rod");
+        body["material"]["shear_modulus"] = json!(4e8);
+        body["section"] =
+            json!({"area": 1e-4, "second_moments": [1e-9, 4e-9], "torsion_constant": 3e-9});
+    })
 }
 
 fn bends_alike((axis, distance): ([f64; 3], f64)) -> Outcome {

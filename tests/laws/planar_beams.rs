@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use crate::laws::differences::{Outcome, check, within};
 use crate::laws::moved::{Plane, agree, simulation, values};
-use crate::laws::moved_rods::flat;
+use crate::laws::moved_rods::{flat, in_space};
 
 const CASES: u32 = 3;
 /// What roundoff makes of accelerations in equilibrium, m/s^2, by stiffness.
@@ -31,37 +31,10 @@ fn of_beams(initial: &str) -> Value {
 
 /// The same in a plane of space.
 fn of_spatial_beams(plane: &Plane, flat: &Value) -> Value {
-    let mut there = plane.moved("", flat);
-    there["dimension"] = json!(3);
-    let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| plane.axes[(i, j)]));
-    let flat = flat["bodies"].as_array().expect("bodies");
-    let bodies = there["bodies"].as_array_mut().expect("bodies");
-    for (body, flat) in bodies.iter_mut().zip(flat) {
-        if body["element"] == "rigid" {
-            body["orientation"] = json!({"matrix": rows});
-            body["inertia"] = json!([1e-4, 1.5e-4, flat["inertia"]]);
-            for (name, at) in flat["markers"].as_object().expect("markers") {
-                body["markers"][name] = json!([at[0], at[1], 0.0]);
-            }
-            continue;
-        }
-        body["axis"] = json!(plane.normal());
+    in_space(plane, flat, |body| {
         body["section"] = json!({"area": 1e-4, "second_moments": [1e-9, 4e-9], "torsion_constant": 3e-9,
                                  "shear_factors": [0.9, FACTOR]});
-    }
-    for joint in there["joints"].as_array_mut().expect("joints") {
-        if joint["kind"] == "revolute" {
-            // In axes of the section: the first across the line is the normal.
-            joint["direction"] = json!([0.0, 1.0, 0.0]);
-        }
-    }
-    for load in there["loads"].as_array_mut().expect("loads") {
-        if load["kind"] == "moment" {
-            let value = load["value"].as_str().expect("an expression").to_owned();
-            load["value"] = json!(plane.normal().map(|n| format!("{n:?}*({value})")));
-        }
-    }
-    there
+    })
 }
 
 /// In equilibrium they are the same to roundoff; moving, as far as the inertia of sections inside elements is.

@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::Vector3;
 use serde_json::{Value, json};
 
+use super::space_beams::moved_tip;
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
@@ -226,29 +227,12 @@ fn whole(is_at_stations: bool) -> Specimen {
         json!({"name": "turn", "kind": "moment", "marker": "beam.tip", "value": moment}),
     ];
     let scene = clamped(&["beam"], &[made], &loads);
-    let whole = Matrix6::from_fn(|r, c| WHOLE[r][c]);
-    let compliance = whole.try_inverse().expect("stiffness");
-    let (force, turning) = (
+    let loads = [
         Vector3::new(along, 0.0, -across),
         Vector3::new(0.0, moment, 0.0),
-    );
+    ];
     let point = Vector3::new(0.0, 0.0, ABOUT);
-    let (mut way, mut turn) = (Vector3::zeros(), Vector3::zeros());
-    let pieces = 1000;
-    for k in 0..pieces {
-        // Of degree 2 in x: the midpoint rule errs by 1e-7.
-        let x = LENGTH * (f64::from(k) + 0.5) / f64::from(pieces);
-        let arm = Vector3::new(LENGTH - x, 0.0, 0.0);
-        let about = turning + (arm - point).cross(&force);
-        let mut stress = Vector6::zeros();
-        stress.fixed_rows_mut::<3>(0).copy_from(&force);
-        stress.fixed_rows_mut::<3>(3).copy_from(&about);
-        let strain = compliance * stress * (LENGTH / f64::from(pieces));
-        let [stretch, bend] =
-            [0, 3].map(|row| -> Vector3<f64> { strain.fixed_rows::<3>(row).into() });
-        way += stretch + bend.cross(&(arm - point));
-        turn += bend;
-    }
+    let (way, turn) = moved_tip((&WHOLE, point), LENGTH, loads);
     let title = match is_at_stations {
         true => "planar whole matrices at stations",
         false => "planar whole matrices",

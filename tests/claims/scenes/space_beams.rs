@@ -260,6 +260,36 @@ fn place_matrices(is_at_stations: bool, made: &mut Value) {
     }
 }
 
+/// Displacement and rotation of the tip of a clamped beam of this length along x under a force and a moment there: integrals of strains,
+/// found with the stiffness about a point of the section.
+pub fn moved_tip(
+    (stiffness, point): (&[[f64; 6]; 6], Vector3<f64>),
+    length: f64,
+    [force, moment]: [Vector3<f64>; 2],
+) -> (Vector3<f64>, Vector3<f64>) {
+    let compliance = Matrix6::from_fn(|r, c| stiffness[r][c])
+        .try_inverse()
+        .expect("stiffness");
+    let (mut way, mut turn) = (Vector3::zeros(), Vector3::zeros());
+    let pieces = 1000;
+    for k in 0..pieces {
+        // Of degree 2 in x: the midpoint rule errs by 1e-7.
+        let x = length * (f64::from(k) + 0.5) / f64::from(pieces);
+        let arm = Vector3::new(length - x, 0.0, 0.0);
+        let about = moment + (arm - point).cross(&force);
+        let mut stress = Vector6::zeros();
+        stress.fixed_rows_mut::<3>(0).copy_from(&force);
+        stress.fixed_rows_mut::<3>(3).copy_from(&about);
+        let strain = compliance * stress * (length / f64::from(pieces));
+        let [stretch, bend] =
+            [0, 3].map(|row| -> Vector3<f64> { strain.fixed_rows::<3>(row).into() });
+        // Of the point; the tip is further by the arm.
+        way += stretch + bend.cross(&(arm - point));
+        turn += bend;
+    }
+    (way, turn)
+}
+
 /// Forces and a moment on the tip of a beam whose section is a whole matrix about another line: displacements and rotations are integrals of
 /// strains, found about that line.
 fn whole(is_at_stations: bool) -> Specimen {
@@ -275,27 +305,8 @@ fn whole(is_at_stations: bool) -> Specimen {
         ]
     };
     let scene = clamped(&["beam"], vec![made], load);
-    let compliance = Matrix6::from_fn(|r, c| WHOLE[r][c])
-        .try_inverse()
-        .expect("stiffness");
     let point = Vector3::new(0.0, ABOUT[0], ABOUT[1]);
-    let (mut way, mut turn) = (Vector3::zeros(), Vector3::zeros());
-    let pieces = 1000;
-    for k in 0..pieces {
-        // Of degree 2 in x: the midpoint rule errs by 1e-7.
-        let x = LENGTH * (f64::from(k) + 0.5) / f64::from(pieces);
-        let arm = Vector3::new(LENGTH - x, 0.0, 0.0);
-        let about = moment + (arm - point).cross(&force);
-        let mut stress = Vector6::zeros();
-        stress.fixed_rows_mut::<3>(0).copy_from(&force);
-        stress.fixed_rows_mut::<3>(3).copy_from(&about);
-        let strain = compliance * stress * (LENGTH / f64::from(pieces));
-        let [stretch, bend] =
-            [0, 3].map(|row| -> Vector3<f64> { strain.fixed_rows::<3>(row).into() });
-        // Of the point; the tip is further by the arm.
-        way += stretch + bend.cross(&(arm - point));
-        turn += bend;
-    }
+    let (way, turn) = moved_tip((&WHOLE, point), LENGTH, [force, moment]);
     let title = if is_at_stations {
         "whole matrices at stations"
     } else {
