@@ -1,4 +1,4 @@
-"""Makes rods.json and references/rod_*.csv for the chart `rods`: the converged answers of Exudyn's geometrically exact beam,
+"""Makes rods.json and references/*.csv for the chart `rods`: the converged answers of Exudyn's geometrically exact beam,
 extrapolated in mesh and step, the points of its settings that no other tried point beats, and how far the two
 programs are apart where shear and rotary inertia are divided away. `rods.py [CASE ...]`, some minutes each."""
 
@@ -30,8 +30,8 @@ EXPLICIT = ("rk4", "verlet")
 
 def options(name, case, **more):
     """Options of a run."""
-    keys = {key: case[key] for key in ("marker", "stop_time", "every")}
-    return {**keys, "scene": str(ROOT / case["scene"]), **more}
+    keys = {key: case[key] for key in ("marker", "stop_time", "every", "shares") if key in case}
+    return {**keys, "scene": str(ROOT / case["scene"]), **case.get("options", {}), **more}
 
 
 def path(name, case, **more):
@@ -92,6 +92,9 @@ def sweep(name, case):
             if choice["solver"] in EXPLICIT:
                 continue
             for key, value in ((key, value) for key, values in VARIED.items() for value in values):
+                # Newmark's method would need the rates of what is driven.
+                if key == "solver" and case.get("is_driven"):
+                    continue
                 if key != "linear" or choice["elements"] <= 16:
                     tried.run({**choice, key: value})
             for count in (round(choice["elements"] * factor) for factor in (0.85, 1.2)):

@@ -1,5 +1,6 @@
 //! Runs of the `flexbody` program and of the lab: what to simulate, its outputs, what it took.
 
+use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -22,7 +23,8 @@ pub const REPEATS: usize = 5;
 pub struct Bench<'a> {
     workspace: &'a Workspace,
     program: PathBuf,
-    lab: PathBuf,
+    /// Built where a chart asks for it: it takes as long as the product.
+    lab: OnceCell<PathBuf>,
 }
 
 /// One simulation.
@@ -151,13 +153,22 @@ impl Ran {
 }
 
 impl<'a> Bench<'a> {
-    /// Builds the programs.
+    /// Builds the product.
     pub fn new(workspace: &'a Workspace) -> Result<Self> {
         Ok(Self {
             program: workspace.program(PACKAGE)?,
-            lab: workspace.program("lab")?,
+            lab: OnceCell::new(),
             workspace,
         })
+    }
+
+    /// The lab.
+    fn lab_program(&self) -> Result<&PathBuf> {
+        if let Some(built) = self.lab.get() {
+            return Ok(built);
+        }
+        let built = self.workspace.program("lab")?;
+        Ok(self.lab.get_or_init(|| built))
     }
 
     /// The workspace.
@@ -259,13 +270,17 @@ impl<'a> Bench<'a> {
     /// Runs a measurement of the lab, its name followed by options, on a scene if it has none of its own, and returns its report.
     pub fn lab(&self, measurement: &[&str], scene: Option<&Value>) -> Result<Value> {
         let file = scene.map(|scene| self.write(scene)).transpose()?;
-        let report = stdout(Command::new(&self.lab).args(measurement).args(file))?;
+        let report = stdout(
+            Command::new(self.lab_program()?)
+                .args(measurement)
+                .args(file),
+        )?;
         serde_json::from_str(&report).context("the report of the lab is no JSON")
     }
 
     /// Runs a measurement of the lab that prints CSV, the file of the chart of the same name.
     pub fn lab_table(&self, chart: &str) -> Result<()> {
-        let table = stdout(Command::new(&self.lab).arg(chart))?;
+        let table = stdout(Command::new(self.lab_program()?).arg(chart))?;
         let path = prepared(&self.output(&format!("{chart}.csv")))?;
         std::fs::write(&path, table).with_context(|| format!("cannot write {}", shown(&path)))
     }
@@ -275,7 +290,7 @@ impl<'a> Bench<'a> {
         let (scene, outputs, report) = (self.write(&run.scene)?, file("run.csv"), file("run.json"));
         let (program, command, every) = match &run.by {
             By::Product => (&self.program, Some("simulate"), "--step"),
-            By::Lab => (&self.lab, Some("integrate"), "--every"),
+            By::Lab => (self.lab_program()?, Some("integrate"), "--every"),
             By::Other(program) => (program, None, "--every"),
         };
         let mut call = Command::new(program);

@@ -13,6 +13,8 @@ use super::numbers::{Path, number, path};
 
 /// Exudyn for scenes of the plane, and of rods in space.
 pub const EXUDYN: &str = "lab/exudyn/run.py";
+/// PyElastica for one clamped rod.
+pub const ELASTICA: &str = "lab/exudyn/elastica_rod.py";
 /// MuJoCo, Pinocchio and Exudyn for trees in space.
 pub const TREES: &str = "lab/trees/run.py";
 
