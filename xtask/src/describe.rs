@@ -37,7 +37,7 @@ pub fn describe(binary: &Path, scene: &Path, folder: &Path) -> Result<()> {
 /// Regenerates the committed files.
 pub fn regenerate(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
-    let stage = Stage::new(workspace)?;
+    let stage = Stage::new(workspace, "stage")?;
     describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0)?;
     // Only now: a scene that is refused leaves the committed files as they are.
     let committed = workspace.path(COMMITTED);
@@ -60,7 +60,7 @@ pub fn regenerate(workspace: &Workspace) -> Result<()> {
 /// Refuses committed files that differ from what would be generated now.
 pub fn check(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
-    let stage = Stage::new(workspace)?;
+    let stage = Stage::new(workspace, "stage")?;
     describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0)?;
     let committed = workspace.path(COMMITTED);
     let mut names = BTreeSet::new();

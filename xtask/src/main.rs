@@ -23,6 +23,7 @@ mod package;
 mod partners;
 mod platform;
 mod process;
+mod product;
 mod python;
 mod simulate;
 mod table;

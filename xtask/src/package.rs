@@ -8,7 +8,8 @@ use serde_json::Value;
 use crate::cargo::Workspace;
 use crate::platform::Platform;
 use crate::process::{announced, prepared, shown};
-use crate::{archive, describe, licenses};
+use crate::product::Product;
+use crate::{archive, describe};
 
 /// What says which variables make up a port; only FMUs of scenes with ports have it.
 const TERMINALS: &str = "terminalsAndIcons";
@@ -30,23 +31,15 @@ pub fn package(
         [] => vec![Platform::host()?],
         named => named.to_vec(),
     };
-    // Libraries first: what their tools lack is said before the program is compiled.
-    let mut libraries = Vec::new();
-    for &platform in &platforms {
-        libraries.push((platform, workspace.library(PACKAGE, platform)?));
-    }
-    let binary = workspace.binary()?;
-    let stage = Stage::new(workspace)?;
-    describe::describe(&binary, scene, &stage.0)?;
-    licenses::put(workspace, PACKAGE, &platforms, &stage.0)?;
+    let product = Product::new(workspace, &platforms)?;
+    let stage = Stage::new(workspace, "stage")?;
+    describe::describe(&product.program, scene, &stage.0)?;
     let folder = stage.0.join(TERMINALS);
     if !terminals && folder.exists() {
         std::fs::remove_dir_all(&folder)
             .with_context(|| format!("cannot remove {}", shown(&folder)))?;
     }
-    for (platform, library) in libraries {
-        put_library(&library, &stage.0, PACKAGE, platform)?;
-    }
+    product.put(&stage.0)?;
     let output = match output {
         Some(output) => output,
         None => prepared(&workspace.target(&format!("fmu/{}.fmu", scene_name(&stage.0)?)))?,
@@ -80,9 +73,9 @@ pub fn put_library(library: &Path, folder: &Path, package: &str, platform: Platf
 pub struct Stage(pub PathBuf);
 
 impl Stage {
-    /// An empty folder among the products, of this process alone.
-    pub fn new(workspace: &Workspace) -> Result<Self> {
-        let folder = workspace.target(&format!("fmu/stage-{}", std::process::id()));
+    /// An empty folder among the products, of this process and this purpose alone.
+    pub fn new(workspace: &Workspace, purpose: &str) -> Result<Self> {
+        let folder = workspace.target(&format!("fmu/{purpose}-{}", std::process::id()));
         // A crashed process with the same number may have left one behind.
         if folder.exists() {
             std::fs::remove_dir_all(&folder)

@@ -18,7 +18,7 @@ pub fn partners(workspace: &Workspace, output: Option<&Path>) -> Result<()> {
     let platform = Platform::host()?;
     let program = workspace.program(PARTNERS)?;
     let library = workspace.library(PARTNERS, platform)?;
-    let stage = Stage::new(workspace)?;
+    let stage = Stage::new(workspace, "stage")?;
     run_quietly(std::process::Command::new(program).arg(&stage.0))?;
     let output = match output {
         Some(output) => output.to_owned(),

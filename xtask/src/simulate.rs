@@ -139,7 +139,7 @@ fn draws_scene(workspace: &Workspace, arguments: &Arguments, shapes: &Path) -> R
     let Some(text) = archive::read(&arguments.file)?.remove(SCENE) else {
         return Ok(false);
     };
-    let stage = Stage::new(workspace)?;
+    let stage = Stage::new(workspace, "stage")?;
     let scene = &stage.0.join("scene.json");
     std::fs::write(scene, text).with_context(|| format!("cannot write {}", shown(scene)))?;
     let mut command = native(workspace, scene, Some(shapes))?;

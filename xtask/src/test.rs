@@ -8,7 +8,8 @@ use anyhow::{Context, Result};
 use crate::cargo::{Workspace, release};
 use crate::package::PACKAGE;
 use crate::platform::Platform;
-use crate::process::run;
+use crate::process::{run, shown};
+use crate::product::KEPT;
 use crate::python::Python;
 use crate::{assembly, describe, fuzz};
 
@@ -141,11 +142,17 @@ fn coupled(workspace: &Workspace) -> Result<()> {
 
 fn pytest(python: &Python, workspace: &Workspace, tests: &str) -> Result<Command> {
     let xtask = std::env::current_exe().context("cannot find this program itself")?;
+    let product = workspace.target("product");
+    if product.exists() {
+        std::fs::remove_dir_all(&product)
+            .with_context(|| format!("cannot clear {}", shown(&product)))?;
+    }
     let mut command = python.module("pytest");
     command
         .args(["-p", "no:cacheprovider", "--durations", "5", "-rs"])
         .arg(workspace.path(tests))
         // The tests package their FMUs with this very program.
-        .env("FLEXBODY_XTASK", xtask);
+        .env("FLEXBODY_XTASK", xtask)
+        .env(KEPT, product);
     Ok(command)
 }

@@ -1,0 +1,99 @@
+//! What is in every FMU, whatever its scene: libraries and licenses; and the program that describes scenes.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+use crate::archive::{entry_name, files};
+use crate::cargo::Workspace;
+use crate::licenses;
+use crate::package::{PACKAGE, Stage, put_library};
+use crate::platform::Platform;
+use crate::process::{prepared, shown, write_whole};
+
+/// Names a folder that products are kept in, and taken from without asking cargo again. Who sets it knows that nothing they are made of
+/// has changed since: tests, which package hundreds of scenes.
+pub const KEPT: &str = "FLEXBODY_PRODUCT";
+/// The part of a product that goes into an FMU, and the file that says where the program is.
+const PARTS: &str = "fmu";
+const PROGRAM: &str = "program.txt";
+
+/// What FMUs for some platforms are made of.
+pub struct Product {
+    /// The program that describes scenes.
+    pub program: PathBuf,
+    folder: Folder,
+}
+
+/// Where it is.
+enum Folder {
+    Own(Stage),
+    Kept(PathBuf),
+}
+
+impl Product {
+    /// Builds it, or takes one that was kept.
+    pub fn new(workspace: &Workspace, platforms: &[Platform]) -> Result<Self> {
+        let Some(kept) = std::env::var_os(KEPT) else {
+            return Self::built(workspace, platforms);
+        };
+        let names: Vec<&str> = platforms.iter().map(|platform| platform.folder()).collect();
+        let folder = Path::new(&kept).join(names.join("+"));
+        let file = folder.join(PROGRAM);
+        if !file.exists() {
+            let built = Self::built(workspace, platforms)?;
+            write_whole(
+                &built.path().join(PROGRAM),
+                built.program.display().to_string(),
+            )?;
+            // Where another process was quicker its own stays.
+            let moved = std::fs::rename(built.path(), prepared(&folder)?);
+            if !file.exists() {
+                moved.with_context(|| format!("cannot write {}", shown(&folder)))?;
+            }
+        }
+        let program = std::fs::read_to_string(&file);
+        let program = program.with_context(|| format!("cannot read {}", shown(&file)))?;
+        Ok(Self {
+            program: program.into(),
+            folder: Folder::Kept(folder),
+        })
+    }
+
+    fn built(workspace: &Workspace, platforms: &[Platform]) -> Result<Self> {
+        // Libraries first: what their tools lack is said before the program is compiled.
+        let mut libraries = Vec::new();
+        for &platform in platforms {
+            libraries.push((platform, workspace.library(PACKAGE, platform)?));
+        }
+        let program = workspace.binary()?;
+        let stage = Stage::new(workspace, "product")?;
+        let parts = stage.0.join(PARTS);
+        licenses::put(workspace, PACKAGE, platforms, &parts)?;
+        for (platform, library) in libraries {
+            put_library(&library, &parts, PACKAGE, platform)?;
+        }
+        Ok(Self {
+            program,
+            folder: Folder::Own(stage),
+        })
+    }
+
+    fn path(&self) -> &Path {
+        match &self.folder {
+            Folder::Own(stage) => &stage.0,
+            Folder::Kept(folder) => folder,
+        }
+    }
+
+    /// Puts libraries and licenses into the folder of an FMU.
+    pub fn put(&self, folder: &Path) -> Result<()> {
+        let parts = self.path().join(PARTS);
+        for file in files(&parts)? {
+            let copy = prepared(&folder.join(entry_name(&parts, &file)?))?;
+            std::fs::copy(&file, &copy)
+                .with_context(|| format!("cannot write {}", shown(&copy)))?;
+        }
+        Ok(())
+    }
+}
