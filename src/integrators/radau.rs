@@ -43,6 +43,8 @@ pub struct Radau {
     /// Stage increments of position and velocity.
     zq: Stages,
     zv: Stages,
+    /// The first of the step accepted last, for starting values.
+    before: Stages,
     /// Stage accelerations, then Newton corrections.
     f: Stages,
     stage_q: Vec<f64>,
@@ -82,6 +84,7 @@ impl Radau {
             a: zero.clone(),
             zq: stages(),
             zv: stages(),
+            before: stages(),
             f: stages(),
             stage_q: zero.clone(),
             stage_v: zero.clone(),
@@ -109,7 +112,7 @@ impl Radau {
             Some(last) => {
                 let weights = C.map(|c| dense::values(1.0 + c * h / last));
                 for i in 0..v.len() {
-                    let z = [self.zq[0][i], self.zq[1][i], self.zq[2][i]];
+                    let z = [self.before[0][i], self.before[1][i], self.before[2][i]];
                     for (stage, weights) in self.zq.iter_mut().zip(&weights) {
                         stage[i] = product(weights, &z) - z[2];
                     }
@@ -342,7 +345,7 @@ impl Method for Radau {
 
     fn recall(&mut self, before: &DenseStep) {
         let [_, _, stages @ ..] = before.parts();
-        for (z, stage) in self.zq.iter_mut().zip(stages) {
+        for (z, stage) in self.before.iter_mut().zip(stages) {
             z.copy_from_slice(stage);
         }
         self.last = Some(before.length);
@@ -385,8 +388,6 @@ impl Method for Radau {
         let (time, q, v) = state;
         self.attempted = h;
         let fail = |this: &mut Self, factor: f64| {
-            // The stages no longer hold the last step's polynomial.
-            this.last = None;
             this.rejected = true;
             Attempt::Failed(factor)
         };
@@ -418,7 +419,6 @@ impl Method for Radau {
             dynamics.acceleration(time + h, &self.stage_q, &self.stage_v, &mut self.a);
             self.powers[END] = dynamics.power();
         } else {
-            self.last = None;
             self.rejected = true;
         }
         Attempt::Done(error)
@@ -428,6 +428,9 @@ impl Method for Radau {
         for i in 0..q.len() {
             q[i] += self.zq[2][i];
             v[i] += self.zv[2][i];
+        }
+        for (before, z) in self.before.iter_mut().zip(&self.zq) {
+            before.copy_from_slice(z);
         }
         self.last = Some(self.attempted);
         self.tangent = self.rate < FAST;

@@ -43,8 +43,8 @@ pub struct Work<const D: usize = 2> {
     pub(super) turns: Vec<Turn>,
     /// The same of frames that rods carry.
     pub(super) carries: Vec<Carry>,
-    /// The same where the tangent was made, and at the stages of an implicit method.
-    pub(super) stages: [Vec<Carry>; 1 + STAGES],
+    /// Both where the tangent was made, and at the stages of an implicit method.
+    pub(super) stages: [(Vec<Turn>, Vec<Carry>); 1 + STAGES],
     /// Moments of rods on their sections, about the tangents, or of beams along the axes, N m.
     pub(super) torques: Vec<[f64; 3]>,
     /// The state accepted last, to go back to from a step that leaves a cable.
@@ -120,6 +120,8 @@ impl<const D: usize> Work<D> {
         });
         let lambda = vec![0.0; system.constraints.len()];
         let rank = RankWatch::new(lambda.len(), system.coordinates());
+        let turns = vec![Turn::default(); system.frames.list().len()];
+        let carries = vec![Carry::default(); system.frames.carried().len()];
         Self {
             x: nodes.clone(),
             v: nodes.clone(),
@@ -138,9 +140,9 @@ impl<const D: usize> Work<D> {
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
             frames: vec![NO_TURN; system.frames.count()],
-            turns: vec![Turn::default(); system.frames.list().len()],
-            carries: vec![Carry::default(); system.frames.carried().len()],
-            stages: std::array::from_fn(|_| vec![Carry::default(); system.frames.carried().len()]),
+            stages: std::array::from_fn(|_| (turns.clone(), carries.clone())),
+            turns,
+            carries,
             torques: vec![[0.0; 3]; system.frames.carried().len()],
             before: system.blank_state(0.0),
             right: lambda.clone(),

@@ -9,6 +9,7 @@ mod chain;
 mod chance;
 mod closed;
 mod closed_paths;
+mod crank;
 mod dense;
 mod differences;
 mod driven;

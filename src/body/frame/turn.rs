@@ -95,6 +95,14 @@ impl Frames {
         }
     }
 
+    /// The way back of [`Frames::to_rotations`].
+    pub fn to_spins(&self, turns: &[Turn], q: &mut [f64]) {
+        for (frame, turn) in self.list.iter().zip(turns) {
+            let spin = turn.spin_of(&frame.read(q));
+            frame.write(&spin, q);
+        }
+    }
+
     /// Angular accelerations become second derivatives of rotations.
     pub fn to_second(&self, turns: &[Turn], a: &mut [f64]) {
         for (frame, turn) in self.list.iter().zip(turns) {

@@ -435,7 +435,10 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn take_out_normal(&mut self, a: &mut [f64]) {
+        // Constraints see small rotations.
+        self.system.to_small(self.work, a);
         self.system.project_on_tangent_plane(self.work, a);
+        self.system.to_rotations(self.work, a);
     }
 
     fn apply_damping(&mut self, x: &mut [f64]) {

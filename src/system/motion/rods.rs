@@ -44,8 +44,8 @@ impl<const D: usize> System<D> {
     /// The configuration is that in which the tangent is made.
     pub(in crate::system) fn set_base(&self, work: &mut Work<D>) {
         work.tangent.stages.set_base(&work.x);
-        for stage in &mut work.stages {
-            stage.copy_from_slice(&work.carries);
+        for stage in 0..work.stages.len() {
+            Self::keep_turns(stage, work);
         }
     }
 
@@ -53,14 +53,25 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn set_stage(&self, stage: usize, work: &mut Work<D>) {
         let assembly = &self.elimination.assembly;
         work.tangent.stages.set(assembly, stage, &work.x);
-        work.stages[1 + stage].copy_from_slice(&work.carries);
+        Self::keep_turns(1 + stage, work);
     }
 
-    /// Changes of rotations of carried frames in `q` become small rotations, in which tangents are made, where the tangent was made (0)
-    /// or at a stage (from 1 on). Taken for each other, rotations of beams that have rolled by an angle would be off by half of it, times
-    /// the stiffness of shear; of rods alone they differ by what is not stiff and are taken for each other.
+    /// What is turned where the tangent was made (0) or at a stage (from 1 on).
+    fn keep_turns(stage: usize, work: &mut Work<D>) {
+        let (turns, carries) = &mut work.stages[stage];
+        turns.copy_from_slice(&work.turns);
+        carries.copy_from_slice(&work.carries);
+    }
+
+    /// Changes of rotations in `q` become small rotations, in which tangents are made, where the tangent was made (0) or at a stage
+    /// (from 1 on). Taken for each other, changes by Newton's iteration would leave constraints and stiff directions by as
+    /// much as bodies and sections of beams have turned from the frames that the state holds; rotations of rods alone differ by what
+    /// is not stiff and are taken for each other.
     pub(in crate::system) fn to_tangent(&self, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
-        self.change_at(Derivative::Back, stage, work, q);
+        if !self.has_no_frames() {
+            self.frames.to_spins(&work.stages[stage].0, q);
+            self.change_at(Derivative::Back, stage, work, q);
+        }
     }
 
     /// The way back of [`System::to_tangent`].
@@ -70,15 +81,24 @@ impl<const D: usize> System<D> {
         work: &mut Work<D>,
         q: &mut [f64],
     ) {
-        self.change_at(Derivative::First, stage, work, q);
+        if !self.has_no_frames() {
+            self.frames.to_rotations(&work.stages[stage].0, q);
+            self.change_at(Derivative::First, stage, work, q);
+        }
     }
 
     fn change_at(&self, order: Derivative, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
-        if self.frames.lean() {
-            self.change_carried(work, q, |work| {
-                let carries = &work.stages[stage];
-                (self.frames).turn_carried(order, carries, &work.other, &mut work.y);
-            });
+        self.change_carried(work, q, |work| {
+            let carries = &work.stages[stage].1;
+            (self.frames).turn_carried(order, carries, &work.other, &mut work.y);
+        });
+    }
+
+    /// Changes of rotations in `q` become small rotations where the last acceleration was.
+    pub(in crate::system) fn to_small(&self, work: &mut Work<D>, q: &mut [f64]) {
+        if !self.has_no_frames() {
+            self.frames.to_spins(&work.turns, q);
+            self.turn_carried(Derivative::Back, work, q);
         }
     }
 
@@ -144,12 +164,10 @@ impl<const D: usize> System<D> {
         }
         self.frames.renew(&mut state.frames, q, v);
         work.frames.copy_from_slice(&state.frames);
-        if self.frames.lean() {
-            // A tangent that is kept is one of the new coordinates from now on.
-            let (time, q) = (state.time, &state.coordinates);
-            self.forward_kinematics(time, q, Some(&state.rates), work);
-            work.stages[0].copy_from_slice(&work.carries);
-        }
+        // A tangent that is kept is one of the new coordinates from now on.
+        let (time, q) = (state.time, &state.coordinates);
+        self.forward_kinematics(time, q, Some(&state.rates), work);
+        Self::keep_turns(0, work);
         true
     }
 }
