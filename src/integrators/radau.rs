@@ -9,6 +9,7 @@
 //! (method, transformation, stopping, error estimate Eqs. 8.19-8.20).
 
 mod rest;
+mod start;
 
 use nalgebra::Complex;
 
@@ -60,6 +61,8 @@ pub struct Radau {
     attempted: f64,
     rate: f64,
     rejected: bool,
+    /// Whether the stage equations of the last attempt were not solved.
+    failed: bool,
     iterations: u64,
     /// Power at the stages, W.
     powers: [[f64; 2]; 3],
@@ -96,6 +99,7 @@ impl Radau {
             attempted: 0.0,
             rate: 1.0,
             rejected: false,
+            failed: false,
             iterations: 0,
             powers: [[0.0; 2]; 3],
             kept: Kept {
@@ -104,30 +108,6 @@ impl Radau {
                 v: zero,
             },
         }
-    }
-
-    /// Starting values of the stages: the last step's polynomial, or constant acceleration.
-    fn start(&mut self, v: &[f64], h: f64) {
-        match self.last {
-            Some(last) => {
-                let weights = C.map(|c| dense::values(1.0 + c * h / last));
-                for i in 0..v.len() {
-                    let z = [self.before[0][i], self.before[1][i], self.before[2][i]];
-                    for (stage, weights) in self.zq.iter_mut().zip(&weights) {
-                        stage[i] = product(weights, &z) - z[2];
-                    }
-                }
-            }
-            None => {
-                for (stage, c) in self.zq.iter_mut().zip(C) {
-                    let t = c * h;
-                    for i in 0..v.len() {
-                        stage[i] = t * (v[i] + 0.5 * t * self.a[i]);
-                    }
-                }
-            }
-        }
-        self.velocities(v, h);
     }
 
     /// Velocity increments of the stages from the position increments: `A^-1 z_q / h = v + z_v`.
@@ -375,6 +355,7 @@ impl Method for Radau {
         self.tangent = false;
         self.factored = 0.0;
         self.rejected = false;
+        self.failed = false;
         self.iterations = 0;
     }
 
@@ -389,12 +370,13 @@ impl Method for Radau {
         self.attempted = h;
         let fail = |this: &mut Self, factor: f64| {
             this.rejected = true;
+            this.failed = true;
             Attempt::Failed(factor)
         };
         if !self.factor(dynamics, state, h) {
             return fail(self, 0.5);
         }
-        self.start(v, h);
+        self.start(dynamics, v, h);
         if let Err(factor) = self.newton(dynamics, state, h, tolerance) {
             self.tangent = false;
             return fail(self, factor);
@@ -435,6 +417,7 @@ impl Method for Radau {
         self.last = Some(self.attempted);
         self.tangent = self.rate < FAST;
         self.rejected = false;
+        self.failed = false;
     }
 
     fn acceleration(&self) -> &[f64] {
