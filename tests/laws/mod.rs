@@ -44,6 +44,7 @@ mod spectra_in_space;
 mod spinning;
 mod sprung;
 mod spun_beams;
+mod spun_rods;
 mod tangents;
 mod turning_rods;
 mod whirl;
