@@ -152,13 +152,17 @@ impl<const D: usize> Engine<D> {
             _ => system.initial_state(time, inputs, described, &mut self.work),
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
+        if let Some(which) = system.overbent(&system.nodes_of(&state, &mut self.work)) {
+            return Err(Error::Overbent(self.overbent(which, " at the start")));
+        }
         let steady = match self.initial {
             InitialState::Steady => Some(system.steady(&state, rates, &mut self.work)?),
             _ => None,
         };
         if self.initial != InitialState::AsShaped {
             let turning = steady.and_then(|steady| steady.turning());
-            let found = equilibrium::find(system, inputs, &mut self.work, &mut state, turning)?;
+            let found = equilibrium::find(system, inputs, &mut self.work, &mut state, turning);
+            let found = found.map_err(|error| self.unsettled(error))?;
             self.remarks.is_unstable = !found.is_stable;
             if steady.is_some() || !motions.is_none() {
                 let x = system.nodes_of(&state, &mut self.work);
@@ -182,6 +186,18 @@ impl<const D: usize> Engine<D> {
         state.work[0] -= self.set_energy(&state, inputs);
         self.forget();
         Ok((state, spectra))
+    }
+
+    /// Why there is no equilibrium.
+    fn unsettled(&self, error: equilibrium::NotFound) -> Error {
+        let Some(which) = error.why.overbent else {
+            return Error::Equilibrium(error);
+        };
+        let place = format!(
+            " on the way to equilibrium beyond {:.4} of the load",
+            error.reached
+        );
+        Error::Overbent(self.overbent(which, &place))
     }
 
     fn spectra(&mut self, inputs: &[f64], state: &State) -> Result<Spectra, Error> {

@@ -46,6 +46,7 @@ mod spinning;
 mod sprung;
 mod spun_beams;
 mod stiff_starts;
+mod spun_rods;
 mod tangents;
 mod turning_rods;
 mod whirl;

@@ -6,7 +6,7 @@ use crate::system::{State, System, Work};
 
 impl<const D: usize> System<D> {
     /// The first rod, among the bodies, with an element that is bent or twisted beyond what its frames hold, and which that is.
-    pub(in crate::system) fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
+    pub fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
         let mut found = self.rod_chains().iter().filter_map(|chain| {
             let element = chain.overbent(x)?;
             let body = (self.bodies.iter()).position(|nodes| nodes.start == chain.line())?;

@@ -37,14 +37,25 @@ const BENT: f64 = 1e-4;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "no static equilibrium found beyond {:.4} of the load: the last Newton correction is \
-     {correction:.1e} of the system's size; expected bodies that are held against their loads",
-    reached
+     {:.1e} of the system's size; expected bodies that are held against their loads",
+    reached,
+    why.correction
 )]
 pub struct NotFound {
     /// Fraction of the way that was reached.
     pub reached: f64,
-    /// Last Newton correction relative to the size of the system.
+    /// Why it ended there.
+    pub why: Failed,
+}
+
+/// Where Newton's method ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Failed {
+    /// Its last correction, relative to the size of the system.
     pub correction: f64,
+    /// The last rod, among the bodies, with an element that a correction bent or twisted beyond what its frames hold, and which
+    /// that is.
+    pub overbent: Option<(usize, usize)>,
 }
 
 /// What is known of an equilibrium that was found.
@@ -167,7 +178,11 @@ impl Path<'_> {
         work: &mut Work<D>,
         state: &mut State,
     ) -> Result<Found, NotFound> {
-        let (mut reached, mut step, mut correction) = (0.0, self.first, f64::INFINITY);
+        let (mut reached, mut step) = (0.0, self.first);
+        let mut why = Failed {
+            correction: f64::INFINITY,
+            overbent: None,
+        };
         let (mut from, mut before) = (state.clone(), way(0.0, work));
         let mut found = Found { is_stable: true };
         let mut leaps = 0;
@@ -181,7 +196,7 @@ impl Path<'_> {
                 true => [Guard::Turns, Guard::Potential],
                 false => [Guard::Turns, Guard::Transient],
             };
-            let mut outcome = Err(correction);
+            let mut outcome = Err(why);
             for guard in guards {
                 if outcome.is_err() {
                     state.copy_from(&from);
@@ -196,7 +211,7 @@ impl Path<'_> {
             let turn = model.turn_between([&from, state]);
             let leaps_on = turn > BRANCH;
             if leaps_on && (step > SMALLEST.sqrt() || leaps == LEAPS) {
-                outcome = Err(correction);
+                outcome = Err(why);
             }
             match outcome {
                 Ok(now) => {
@@ -208,7 +223,7 @@ impl Path<'_> {
                 }
                 Err(left) => {
                     state.copy_from(&from);
-                    correction = left;
+                    why = left;
                     step /= 2.0;
                     if step < SMALLEST {
                         break;
@@ -216,10 +231,7 @@ impl Path<'_> {
                 }
             }
         }
-        Err(NotFound {
-            reached,
-            correction,
-        })
+        Err(NotFound { reached, why })
     }
 
     /// Newton's method, and again from beside every equilibrium that is not stable.
@@ -229,7 +241,7 @@ impl Path<'_> {
         work: &mut Work<D>,
         state: &mut State,
         guard: Guard,
-    ) -> Result<Found, f64> {
+    ) -> Result<Found, Failed> {
         let least = smallest_shift(system, self.inputs, work, state);
         let mut model = Model::new(system, self.inputs, work, state);
         Newton::new(&mut model, least, self.kept).settle(state, guard)

@@ -1,8 +1,8 @@
 //! Newton's method for an equilibrium, with a tangent that is shifted by a multiple of the mass
 //! (Levenberg-Marquardt in the mass norm), so that it looks for a minimum of the potential.
 
-use super::Found;
 use super::unsymmetric;
+use super::{Failed, Found};
 use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
 use crate::system::{Accepted, Dynamics, Model, State, System};
@@ -59,6 +59,8 @@ pub(super) struct Newton<'a, 'b, const D: usize> {
     trial: Vec<f64>,
     /// The lowest mode.
     mode: Vec<f64>,
+    /// What of the rods could not go where a correction led.
+    overbent: Option<(usize, usize)>,
 }
 
 impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
@@ -74,11 +76,21 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
             mode: rest.clone(),
             rest,
             model,
+            overbent: None,
         }
     }
 
-    /// An equilibrium, stable where that can be had; on failure the last correction.
-    pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, f64> {
+    /// An equilibrium, stable where that can be had.
+    pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, Failed> {
+        let settled = self.stable(state, guard);
+        settled.map_err(|correction| Failed {
+            correction,
+            overbent: self.overbent,
+        })
+    }
+
+    /// The same; on failure the last correction.
+    fn stable(&mut self, state: &mut State, guard: Guard) -> Result<Found, f64> {
         for _ in 0..ESCAPES {
             self.relax(state, guard)?;
             // What turns freely is held by its turn as well, which the potential does not see.
@@ -95,7 +107,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         let (time, size) = (state.time, self.model.system.scale());
         let is_transient = guard == Guard::Transient;
         let (mut shift, mut before, mut correction) = (self.kept, f64::INFINITY, f64::INFINITY);
-        let (mut strength, mut is_nudged) = (0.0, false);
+        let (mut strength, mut is_nudged, mut is_refused) = (0.0, false, false);
         for iteration in 0..if is_transient { TRANSIENT } else { ITERATIONS } {
             self.model.renew_beyond(state, 0.0);
             (self.model).acceleration(time, &state.coordinates, &self.rest, &mut self.force);
@@ -144,9 +156,12 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
             }
             before = f64::INFINITY;
             if correction < EXACT {
-                return Ok(());
+                // A shift that grows where no way is open makes any correction small.
+                return if is_refused { Err(correction) } else { Ok(()) };
             }
-            let accepted = self.is_better(state, guard) && self.accept(state);
+            let is_better = self.is_better(state, guard);
+            let accepted = is_better && self.accept(state);
+            is_refused = is_better && !accepted;
             shift = match (accepted, is_transient) {
                 (true, true) if correction < CLOSE => 0.0,
                 (true, true) => shift,
@@ -200,6 +215,9 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         state.coordinates.copy_from_slice(&self.trial);
         let accepted = self.model.accepted(state);
         state.rates.fill(0.0);
+        if let Accepted::Overbent(body, element) = accepted {
+            self.overbent = Some((body, element));
+        }
         let holds = matches!(accepted, Accepted::AsIs | Accepted::Moved);
         if !holds {
             state.copy_from(&before);
