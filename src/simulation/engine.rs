@@ -10,9 +10,10 @@ use crate::body::Node;
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
 use crate::scene::{Assembled, Holder, InitialState, Resolved, Timed};
+use crate::system::equilibrium::{self, Failure, NotFound};
 use crate::system::{
     Derivatives, Dynamics, Evaluation, Gap, Model, NotAssembled, SpectrumError, State, System,
-    Work, eigenvalues, equilibrium, natural_frequencies,
+    Work, eigenvalues, natural_frequencies,
 };
 
 /// What the derivatives at hand are by.
@@ -189,15 +190,20 @@ impl<const D: usize> Engine<D> {
     }
 
     /// Why there is no equilibrium.
-    fn unsettled(&self, error: equilibrium::NotFound) -> Error {
-        let Some(which) = error.why.overbent else {
-            return Error::Equilibrium(error);
-        };
-        let place = format!(
-            " on the way to equilibrium beyond {:.4} of the load",
-            error.reached
-        );
-        Error::Overbent(self.overbent(which, &place))
+    fn unsettled(&self, error: NotFound) -> Error {
+        match error.why {
+            Failure::Overbent(body, element) => {
+                let place = format!(
+                    " on the way to equilibrium beyond {:.4} of the load",
+                    error.reached
+                );
+                Error::Overbent(self.overbent((body, element), &place))
+            }
+            Failure::Rest(rest) => {
+                Error::Equilibrium(format!("{error}, on `{}`", self.bodies[rest.body]))
+            }
+            Failure::Correction(_) => Error::Equilibrium(error.to_string()),
+        }
     }
 
     fn spectra(&mut self, inputs: &[f64], state: &State) -> Result<Spectra, Error> {

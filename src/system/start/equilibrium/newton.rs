@@ -2,7 +2,7 @@
 //! (Levenberg-Marquardt in the mass norm), so that it looks for a minimum of the potential.
 
 use super::unsymmetric;
-use super::{Failed, Found};
+use super::{Failure, Found};
 use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
 use crate::system::{Accepted, Dynamics, Model, State, System};
@@ -47,14 +47,14 @@ pub(super) enum Guard {
 
 /// An iteration on one system.
 pub(super) struct Newton<'a, 'b, const D: usize> {
-    model: &'a mut Model<'b, D>,
+    pub(super) model: &'a mut Model<'b, D>,
     /// Smallest shift.
     least: f64,
     /// Shift that is kept to the end, where a direction in which nothing acts is free; else 0.
     kept: f64,
     is_conservative: bool,
-    rest: Vec<f64>,
-    force: Vec<f64>,
+    pub(super) rest: Vec<f64>,
+    pub(super) force: Vec<f64>,
     x: Vec<f64>,
     trial: Vec<f64>,
     /// The lowest mode.
@@ -80,26 +80,32 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         }
     }
 
-    /// An equilibrium, stable where that can be had.
-    pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, Failed> {
-        let settled = self.stable(state, guard);
-        settled.map_err(|correction| Failed {
-            correction,
-            overbent: self.overbent,
-        })
-    }
-
-    /// The same; on failure the last correction.
-    fn stable(&mut self, state: &mut State, guard: Guard) -> Result<Found, f64> {
+    /// An equilibrium where forces balance, stable where that can be had.
+    pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, Failure> {
+        let failure = |this: &Self, correction: f64| match this.overbent {
+            Some((body, element)) => Failure::Overbent(body, element),
+            None => Failure::Correction(correction),
+        };
+        let mut is_stable = false;
         for _ in 0..ESCAPES {
-            self.relax(state, guard)?;
+            if let Err(correction) = self.relax(state, guard) {
+                return Err(failure(self, correction));
+            }
             // What turns freely is held by its turn as well, which the potential does not see.
-            if !self.is_conservative || self.kept > 0.0 || !self.leave(state) {
-                return Ok(Found { is_stable: true });
+            is_stable = !self.is_conservative || self.kept > 0.0 || !self.leave(state);
+            if is_stable {
+                break;
             }
         }
-        self.relax(state, guard)?;
-        Ok(Found { is_stable: false })
+        if !is_stable {
+            if let Err(correction) = self.relax(state, guard) {
+                return Err(failure(self, correction));
+            }
+        }
+        match self.rest(state) {
+            Some(rest) => Err(Failure::Rest(rest)),
+            None => Ok(Found { is_stable }),
+        }
     }
 
     /// An equilibrium; on failure the last correction.
@@ -375,7 +381,7 @@ pub(super) fn stiffest<const D: usize>(model: &mut Model<'_, D>, state: &State) 
 }
 
 /// A vector with a part along every mode: always the same numbers.
-fn seed(n: usize) -> Vec<f64> {
+pub(super) fn seed(n: usize) -> Vec<f64> {
     let mut seed = 1_u64;
     let mut random = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
