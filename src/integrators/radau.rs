@@ -44,8 +44,6 @@ pub struct Radau {
     /// Stage increments of position and velocity.
     zq: Stages,
     zv: Stages,
-    /// The first of the step accepted last, for starting values.
-    before: Stages,
     /// Stage accelerations, then Newton corrections.
     f: Stages,
     stage_q: Vec<f64>,
@@ -61,8 +59,8 @@ pub struct Radau {
     attempted: f64,
     rate: f64,
     rejected: bool,
-    /// Whether the stage equations of the last attempt were not solved.
-    failed: bool,
+    /// Whether stage equations were not solved from a start by the acceleration: the next one leaves out stiff directions.
+    is_slow: bool,
     iterations: u64,
     /// Power at the stages, W.
     powers: [[f64; 2]; 3],
@@ -87,7 +85,6 @@ impl Radau {
             a: zero.clone(),
             zq: stages(),
             zv: stages(),
-            before: stages(),
             f: stages(),
             stage_q: zero.clone(),
             stage_v: zero.clone(),
@@ -99,7 +96,7 @@ impl Radau {
             attempted: 0.0,
             rate: 1.0,
             rejected: false,
-            failed: false,
+            is_slow: false,
             iterations: 0,
             powers: [[0.0; 2]; 3],
             kept: Kept {
@@ -325,7 +322,7 @@ impl Method for Radau {
 
     fn recall(&mut self, before: &DenseStep) {
         let [_, _, stages @ ..] = before.parts();
-        for (z, stage) in self.before.iter_mut().zip(stages) {
+        for (z, stage) in self.zq.iter_mut().zip(stages) {
             z.copy_from_slice(stage);
         }
         self.last = Some(before.length);
@@ -355,7 +352,7 @@ impl Method for Radau {
         self.tangent = false;
         self.factored = 0.0;
         self.rejected = false;
-        self.failed = false;
+        self.is_slow = false;
         self.iterations = 0;
     }
 
@@ -369,8 +366,9 @@ impl Method for Radau {
         let (time, q, v) = state;
         self.attempted = h;
         let fail = |this: &mut Self, factor: f64| {
+            // The stages no longer hold the last step's polynomial.
+            this.is_slow = this.last.take().is_none();
             this.rejected = true;
-            this.failed = true;
             Attempt::Failed(factor)
         };
         if !self.factor(dynamics, state, h) {
@@ -401,6 +399,7 @@ impl Method for Radau {
             dynamics.acceleration(time + h, &self.stage_q, &self.stage_v, &mut self.a);
             self.powers[END] = dynamics.power();
         } else {
+            self.last = None;
             self.rejected = true;
         }
         Attempt::Done(error)
@@ -411,13 +410,10 @@ impl Method for Radau {
             q[i] += self.zq[2][i];
             v[i] += self.zv[2][i];
         }
-        for (before, z) in self.before.iter_mut().zip(&self.zq) {
-            before.copy_from_slice(z);
-        }
         self.last = Some(self.attempted);
         self.tangent = self.rate < FAST;
         self.rejected = false;
-        self.failed = false;
+        self.is_slow = false;
     }
 
     fn acceleration(&self) -> &[f64] {

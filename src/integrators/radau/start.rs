@@ -3,18 +3,18 @@
 //! A state may hold a rate or an acceleration of a stiff direction that the method damps, or that Newton's iteration or the way
 //! back to the constraints left there. Followed over a step of many periods of it they lead far out of the region in
 //! which the iteration converges: a twist of `1e-11` rad in a shaft whose torsional waves take `1e-6` s becomes whole turns
-//! over `0.05` s. Where an iteration has failed, the next one starts without them. With `s` the real eigenvalue of the
+//! over `0.05` s. Where an iteration that started by the acceleration has failed, the next one starts without them. With `s` the real eigenvalue of the
 //! method over the step, `s^2 (s^2 I + s R + K)^-1` leaves slow directions as they are and takes stiff ones out.
 
 use super::{C, GAMMA, Radau, dense, product};
 use crate::system::Dynamics;
 
 impl Radau {
-    /// Starting values of the stages: the last step's polynomial, or constant acceleration; after an iteration that failed, in
+    /// Starting values of the stages: the last step's polynomial, or constant acceleration; after iterations that failed, in
     /// the directions that are slow over the step alone.
     pub(super) fn start(&mut self, dynamics: &mut dyn Dynamics, v: &[f64], h: f64) {
         match self.last {
-            _ if self.failed => {
+            None if self.is_slow => {
                 self.error_q.copy_from_slice(&self.a);
                 self.error_v.copy_from_slice(v);
                 let s = GAMMA / h;
@@ -40,7 +40,7 @@ impl Radau {
     fn go_on(&mut self, h: f64, last: f64) {
         let weights = C.map(|c| dense::values(1.0 + c * h / last));
         for i in 0..self.a.len() {
-            let z = [self.before[0][i], self.before[1][i], self.before[2][i]];
+            let z = [self.zq[0][i], self.zq[1][i], self.zq[2][i]];
             for (stage, weights) in self.zq.iter_mut().zip(&weights) {
                 stage[i] = product(weights, &z) - z[2];
             }
