@@ -15,6 +15,7 @@ mod laws;
 mod outputs;
 mod overhead;
 mod rivals;
+mod rods;
 mod scene;
 mod space;
 mod swing;

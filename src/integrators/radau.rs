@@ -9,6 +9,7 @@
 //! (method, transformation, stopping, error estimate Eqs. 8.19-8.20).
 
 mod rest;
+mod start;
 
 use nalgebra::Complex;
 
@@ -43,8 +44,6 @@ pub struct Radau {
     /// Stage increments of position and velocity.
     zq: Stages,
     zv: Stages,
-    /// The first of the step accepted last, for starting values.
-    before: Stages,
     /// Stage accelerations, then Newton corrections.
     f: Stages,
     stage_q: Vec<f64>,
@@ -60,6 +59,8 @@ pub struct Radau {
     attempted: f64,
     rate: f64,
     rejected: bool,
+    /// Whether stage equations were not solved from a start by the acceleration: the next one leaves out stiff directions.
+    is_slow: bool,
     iterations: u64,
     /// Power at the stages, W.
     powers: [[f64; 2]; 3],
@@ -84,7 +85,6 @@ impl Radau {
             a: zero.clone(),
             zq: stages(),
             zv: stages(),
-            before: stages(),
             f: stages(),
             stage_q: zero.clone(),
             stage_v: zero.clone(),
@@ -96,6 +96,7 @@ impl Radau {
             attempted: 0.0,
             rate: 1.0,
             rejected: false,
+            is_slow: false,
             iterations: 0,
             powers: [[0.0; 2]; 3],
             kept: Kept {
@@ -104,30 +105,6 @@ impl Radau {
                 v: zero,
             },
         }
-    }
-
-    /// Starting values of the stages: the last step's polynomial, or constant acceleration.
-    fn start(&mut self, v: &[f64], h: f64) {
-        match self.last {
-            Some(last) => {
-                let weights = C.map(|c| dense::values(1.0 + c * h / last));
-                for i in 0..v.len() {
-                    let z = [self.before[0][i], self.before[1][i], self.before[2][i]];
-                    for (stage, weights) in self.zq.iter_mut().zip(&weights) {
-                        stage[i] = product(weights, &z) - z[2];
-                    }
-                }
-            }
-            None => {
-                for (stage, c) in self.zq.iter_mut().zip(C) {
-                    let t = c * h;
-                    for i in 0..v.len() {
-                        stage[i] = t * (v[i] + 0.5 * t * self.a[i]);
-                    }
-                }
-            }
-        }
-        self.velocities(v, h);
     }
 
     /// Velocity increments of the stages from the position increments: `A^-1 z_q / h = v + z_v`.
@@ -345,7 +322,7 @@ impl Method for Radau {
 
     fn recall(&mut self, before: &DenseStep) {
         let [_, _, stages @ ..] = before.parts();
-        for (z, stage) in self.before.iter_mut().zip(stages) {
+        for (z, stage) in self.zq.iter_mut().zip(stages) {
             z.copy_from_slice(stage);
         }
         self.last = Some(before.length);
@@ -375,6 +352,7 @@ impl Method for Radau {
         self.tangent = false;
         self.factored = 0.0;
         self.rejected = false;
+        self.is_slow = false;
         self.iterations = 0;
     }
 
@@ -388,13 +366,15 @@ impl Method for Radau {
         let (time, q, v) = state;
         self.attempted = h;
         let fail = |this: &mut Self, factor: f64| {
+            // The stages no longer hold the last step's polynomial.
+            this.is_slow = this.last.take().is_none();
             this.rejected = true;
             Attempt::Failed(factor)
         };
         if !self.factor(dynamics, state, h) {
             return fail(self, 0.5);
         }
-        self.start(v, h);
+        self.start(dynamics, v, h);
         if let Err(factor) = self.newton(dynamics, state, h, tolerance) {
             self.tangent = false;
             return fail(self, factor);
@@ -419,6 +399,7 @@ impl Method for Radau {
             dynamics.acceleration(time + h, &self.stage_q, &self.stage_v, &mut self.a);
             self.powers[END] = dynamics.power();
         } else {
+            self.last = None;
             self.rejected = true;
         }
         Attempt::Done(error)
@@ -429,12 +410,10 @@ impl Method for Radau {
             q[i] += self.zq[2][i];
             v[i] += self.zv[2][i];
         }
-        for (before, z) in self.before.iter_mut().zip(&self.zq) {
-            before.copy_from_slice(z);
-        }
         self.last = Some(self.attempted);
         self.tangent = self.rate < FAST;
         self.rejected = false;
+        self.is_slow = false;
     }
 
     fn acceleration(&self) -> &[f64] {

@@ -10,9 +10,10 @@ use crate::body::Node;
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
 use crate::scene::{Assembled, Holder, InitialState, Resolved, Timed};
+use crate::system::equilibrium::{self, Failure, NotFound};
 use crate::system::{
     Derivatives, Dynamics, Evaluation, Gap, Model, NotAssembled, SpectrumError, State, System,
-    Work, eigenvalues, equilibrium, natural_frequencies,
+    Work, eigenvalues, natural_frequencies,
 };
 
 /// What the derivatives at hand are by.
@@ -152,13 +153,17 @@ impl<const D: usize> Engine<D> {
             _ => system.initial_state(time, inputs, described, &mut self.work),
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
+        if let Some(which) = system.overbent(&system.nodes_of(&state, &mut self.work)) {
+            return Err(Error::Overbent(self.overbent(which, " at the start")));
+        }
         let steady = match self.initial {
             InitialState::Steady => Some(system.steady(&state, rates, &mut self.work)?),
             _ => None,
         };
         if self.initial != InitialState::AsShaped {
             let turning = steady.and_then(|steady| steady.turning());
-            let found = equilibrium::find(system, inputs, &mut self.work, &mut state, turning)?;
+            let found = equilibrium::find(system, inputs, &mut self.work, &mut state, turning);
+            let found = found.map_err(|error| self.unsettled(error))?;
             self.remarks.is_unstable = !found.is_stable;
             if steady.is_some() || !motions.is_none() {
                 let x = system.nodes_of(&state, &mut self.work);
@@ -182,6 +187,23 @@ impl<const D: usize> Engine<D> {
         state.work[0] -= self.set_energy(&state, inputs);
         self.forget();
         Ok((state, spectra))
+    }
+
+    /// Why there is no equilibrium.
+    fn unsettled(&self, error: NotFound) -> Error {
+        match error.why {
+            Failure::Overbent(body, element) => {
+                let place = format!(
+                    " on the way to equilibrium beyond {:.4} of the load",
+                    error.reached
+                );
+                Error::Overbent(self.overbent((body, element), &place))
+            }
+            Failure::Rest(rest) => {
+                Error::Equilibrium(format!("{error}, on `{}`", self.bodies[rest.body]))
+            }
+            Failure::Correction(_) => Error::Equilibrium(error.to_string()),
+        }
     }
 
     fn spectra(&mut self, inputs: &[f64], state: &State) -> Result<Spectra, Error> {

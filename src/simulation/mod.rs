@@ -47,7 +47,10 @@ pub enum Error {
     NotAssembled(String),
     /// No static equilibrium.
     #[error("initial: {0}")]
-    Equilibrium(#[from] crate::system::equilibrium::NotFound),
+    Equilibrium(String),
+    /// A rod or beam with elements that cannot hold how it is bent or twisted.
+    #[error("initial: {0}")]
+    Overbent(String),
     /// No steady motion.
     #[error("initial: {0}")]
     Steady(#[from] crate::system::NotSteady),

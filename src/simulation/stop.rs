@@ -9,6 +9,16 @@ use crate::system::State;
 const CRAWL: f64 = 1e-5;
 
 impl<const D: usize> Engine<D> {
+    /// What is said of a rod or beam with an element that is bent or twisted too far, and `place`, of where that is seen.
+    pub(super) fn overbent(&self, (body, element): (usize, usize), place: &str) -> String {
+        format!(
+            "expected elements of `{}` that bend by less than a right angle from the middle to an end and twist by less \
+             than half a turn, found more in element {}{place}: take more elements",
+            self.bodies[body],
+            element + 1
+        )
+    }
+
     /// What ended the way from `start` to `until` at a state.
     pub(super) fn explain(
         &mut self,
@@ -49,12 +59,7 @@ impl<const D: usize> Engine<D> {
             Stop::NotFinite => {
                 format!("{method}: velocities or accelerations are no longer finite")
             }
-            Stop::Overbent(body, element) => format!(
-                "expected elements of `{}` that bend by less than a right angle from the middle to an end and twist by less \
-                 than half a turn, found more in element {}: take more elements",
-                self.bodies[body],
-                element + 1
-            ),
+            Stop::Overbent(body, element) => self.overbent((body, element), ""),
             Stop::RanOff(joint) => format!("slider `{}` has left its cable", self.name(joint)),
             Stop::Broken => format!(
                 "{method}: constraints cannot be kept: expected joints and motions that can hold together from \

@@ -43,8 +43,9 @@ pub struct Work<const D: usize = 2> {
     pub(super) turns: Vec<Turn>,
     /// The same of frames that rods carry.
     pub(super) carries: Vec<Carry>,
-    /// Both where the tangent was made, and at the stages of an implicit method.
-    pub(super) stages: [(Vec<Turn>, Vec<Carry>); 1 + STAGES],
+    /// Both where the tangent was made, and of frames that lean at the stages of an implicit method too.
+    pub(super) base_turns: Vec<Turn>,
+    pub(super) stages: [Vec<Carry>; 1 + STAGES],
     /// Moments of rods on their sections, about the tangents, or of beams along the axes, N m.
     pub(super) torques: Vec<[f64; 3]>,
     /// The state accepted last, to go back to from a step that leaves a cable.
@@ -140,8 +141,9 @@ impl<const D: usize> Work<D> {
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
             frames: vec![NO_TURN; system.frames.count()],
-            stages: std::array::from_fn(|_| (turns.clone(), carries.clone())),
+            base_turns: turns.clone(),
             turns,
+            stages: std::array::from_fn(|_| carries.clone()),
             carries,
             torques: vec![[0.0; 3]; system.frames.carried().len()],
             before: system.blank_state(0.0),

@@ -45,6 +45,8 @@ mod spectra_in_space;
 mod spinning;
 mod sprung;
 mod spun_beams;
+mod spun_rods;
+mod stiff_starts;
 mod tangents;
 mod turning_rods;
 mod whirl;

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde_json::json;
 
-use crate::laws::moved::simulation;
+use crate::laws::moved::{simulation, values};
 use crate::laws::moved_rods::{line, outputs};
 
 /// Positions of the tip of a clamped cable, rod or beam that falls and is pulled aside, `slender` times less thick in inertia of
@@ -69,4 +69,78 @@ fn a_rod_without_torque_moves_as_a_cable_does() {
 #[test]
 fn a_slender_beam_moves_as_a_rod_does() {
     come_together(["beam", "rod"], &[1.0, 4.0], (0.06, 1e-7));
+}
+
+/// EA L^2/EI of lines that are rolled up and let go.
+const SLENDERNESS: [f64; 3] = [1e2, 1e5, 1e8];
+
+/// A line of unit length and bending stiffness along x, clamped.
+fn unit_line(element: &str, elements: usize, slenderness: f64) -> serde_json::Value {
+    let mut section = json!({"area": 1e-6 * slenderness, "second_moments": [1e-6, 1e-6], "torsion_constant": 1.875e-6});
+    if element == "beam" {
+        section["shear_factors"] = json!([1.0, 1.0]);
+    }
+    json!({"name": "rod", "element": element, "elements": elements, "axis": [0.0, 1.0, 0.0],
+        "material": {"youngs_modulus": 1e6, "shear_modulus": 4e5, "density": 1e6 / slenderness}, "section": section,
+        "shape": line([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]), "markers": {"root": 0.0, "tip": 1.0}})
+}
+
+fn held(body: serde_json::Value) -> serde_json::Value {
+    json!({"name": "slender", "dimension": 3, "gravity": [0.0, 0.0, 0.0], "bodies": [body],
+        "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.root"]}],
+        "outputs": [{"kind": "position", "marker": "rod.tip"}], "accuracy": {"relative_tolerance": 1e-6}})
+}
+
+/// A dead moment `M` at the tip turns the tangent about itself at the rate `M / EI`, however stiff the line is against stretching and
+/// shear: it bears no force. Source: closed form of the helix (case `rod_statics`).
+#[test]
+fn slender_rods_and_beams_do_not_lock() {
+    let moment = Vector3::<f64>::new(1.5, 2.0, 4.0);
+    let (axis, rate) = (moment.normalize(), moment.norm());
+    let along = axis * axis.x;
+    let exact = along
+        + (Vector3::x() - along) * (rate.sin() / rate)
+        + axis.cross(&Vector3::x()) * ((1.0 - rate.cos()) / rate);
+    for element in ["rod", "beam"] {
+        let found = SLENDERNESS.map(|slenderness| {
+            [8, 16].map(|elements| {
+                let mut scene = held(unit_line(element, elements, slenderness));
+                scene["initial"] = json!("static_equilibrium");
+                scene["loads"] = json!([{"name": "end", "kind": "moment", "marker": "rod.tip", "value": moment.as_slice()}]);
+                let tip = values(&mut simulation(&scene), "rod.tip.position");
+                (Vector3::from_vec(tip) - exact).norm()
+            })
+        });
+        for [coarse, fine] in found {
+            assert!(
+                fine < 4.5e-5 && coarse / fine > 12.0,
+                "{element}: {found:?}"
+            );
+        }
+    }
+}
+
+/// Iterations of Newton's method that a step of the implicit method tries.
+fn iterations(element: &str, elements: usize, slenderness: f64) -> f64 {
+    let mut scene = held(unit_line(element, elements, slenderness));
+    scene["method"] = json!({"integrator": "radau"});
+    scene["loads"] = json!([{"name": "pull", "kind": "force", "marker": "rod.tip", "value": [0.0, "2*min(t,1)", "3*min(t,1)^2"]}]);
+    let mut simulation = simulation(&scene);
+    simulation.step(1.0).expect("a step");
+    let report = simulation.report();
+    report.newton_iterations as f64 / (report.steps + report.rejected) as f64
+}
+
+/// In equilibrium they are the same at all meshes (`src/elements/rod/statics.rs`, `src/elements/beam/statics.rs`).
+#[test]
+fn newton_iterations_stay_few_whatever_mesh_and_stiffness() {
+    for element in ["rod", "beam"] {
+        for slenderness in SLENDERNESS {
+            let found = [4, 16].map(|elements| iterations(element, elements, slenderness));
+            assert!(
+                found.iter().all(|count| *count < 6.5),
+                "{element}, {slenderness:e}: {found:?}"
+            );
+        }
+    }
 }

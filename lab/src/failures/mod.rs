@@ -8,6 +8,7 @@ mod elimination;
 mod locking;
 mod ratios;
 mod rivals;
+mod rods;
 mod snap;
 mod steps;
 pub mod support;
@@ -36,6 +37,12 @@ const ROWS: &[Measure] = &[
     ("large_bending_by_modes", rivals::large_bending_by_modes),
     ("softening", rivals::softening),
     ("increments", rivals::increments),
+    ("own_twist", rods::own_twist),
+    ("internal_twist", rods::internal_twist),
+    ("spin", rods::spin),
+    ("directors", rods::directors),
+    ("half_a_turn", rods::half_a_turn),
+    ("right_angle", rods::right_angle),
     ("roll_up", snap::roll_up),
     ("slack", snap::slack),
     ("buckling", snap::buckling),

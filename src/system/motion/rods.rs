@@ -6,7 +6,7 @@ use crate::system::{State, System, Work};
 
 impl<const D: usize> System<D> {
     /// The first rod, among the bodies, with an element that is bent or twisted beyond what its frames hold, and which that is.
-    pub(in crate::system) fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
+    pub fn overbent(&self, x: &[Node<D>]) -> Option<(usize, usize)> {
         let mut found = self.rod_chains().iter().filter_map(|chain| {
             let element = chain.overbent(x)?;
             let body = (self.bodies.iter()).position(|nodes| nodes.start == chain.line())?;
@@ -44,8 +44,9 @@ impl<const D: usize> System<D> {
     /// The configuration is that in which the tangent is made.
     pub(in crate::system) fn set_base(&self, work: &mut Work<D>) {
         work.tangent.stages.set_base(&work.x);
-        for stage in 0..work.stages.len() {
-            Self::keep_turns(stage, work);
+        work.base_turns.copy_from_slice(&work.turns);
+        for stage in &mut work.stages {
+            stage.copy_from_slice(&work.carries);
         }
     }
 
@@ -53,23 +54,21 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn set_stage(&self, stage: usize, work: &mut Work<D>) {
         let assembly = &self.elimination.assembly;
         work.tangent.stages.set(assembly, stage, &work.x);
-        Self::keep_turns(1 + stage, work);
-    }
-
-    /// What is turned where the tangent was made (0) or at a stage (from 1 on).
-    fn keep_turns(stage: usize, work: &mut Work<D>) {
-        let (turns, carries) = &mut work.stages[stage];
-        turns.copy_from_slice(&work.turns);
-        carries.copy_from_slice(&work.carries);
+        let kept = work.stages[1 + stage].iter_mut().zip(&work.carries);
+        for ((kept, carry), frame) in kept.zip(self.frames.carried()) {
+            if frame.leans {
+                *kept = *carry;
+            }
+        }
     }
 
     /// Changes of rotations in `q` become small rotations, in which tangents are made, where the tangent was made (0) or at a stage
-    /// (from 1 on). Taken for each other, changes by Newton's iteration would leave constraints and stiff directions by as
-    /// much as bodies and sections of beams have turned from the frames that the state holds; rotations of rods alone differ by what
-    /// is not stiff and are taken for each other.
+    /// (from 1 on). Taken for each other, corrections would leave constraints and stiff directions by as much as bodies and sections
+    /// have turned from the frames that the state holds. Between stages inertia is linear in `q`: all of them change as where the tangent
+    /// was made, but for sections of beams, whose shear is stiffer than they are inert.
     pub(in crate::system) fn to_tangent(&self, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
         if !self.has_no_frames() {
-            self.frames.to_spins(&work.stages[stage].0, q);
+            self.frames.to_spins(&work.base_turns, q);
             self.change_at(Derivative::Back, stage, work, q);
         }
     }
@@ -82,14 +81,14 @@ impl<const D: usize> System<D> {
         q: &mut [f64],
     ) {
         if !self.has_no_frames() {
-            self.frames.to_rotations(&work.stages[stage].0, q);
+            self.frames.to_rotations(&work.base_turns, q);
             self.change_at(Derivative::First, stage, work, q);
         }
     }
 
     fn change_at(&self, order: Derivative, stage: usize, work: &mut Work<D>, q: &mut [f64]) {
         self.change_carried(work, q, |work| {
-            let carries = &work.stages[stage].1;
+            let carries = &work.stages[stage];
             (self.frames).turn_carried(order, carries, &work.other, &mut work.y);
         });
     }
@@ -167,7 +166,8 @@ impl<const D: usize> System<D> {
         // A tangent that is kept is one of the new coordinates from now on.
         let (time, q) = (state.time, &state.coordinates);
         self.forward_kinematics(time, q, Some(&state.rates), work);
-        Self::keep_turns(0, work);
+        work.base_turns.copy_from_slice(&work.turns);
+        work.stages[0].copy_from_slice(&work.carries);
         true
     }
 }

@@ -1,8 +1,8 @@
 //! Newton's method for an equilibrium, with a tangent that is shifted by a multiple of the mass
 //! (Levenberg-Marquardt in the mass norm), so that it looks for a minimum of the potential.
 
-use super::Found;
 use super::unsymmetric;
+use super::{Failure, Found};
 use crate::math::space::Vector;
 use crate::math::vector::{dot, norm};
 use crate::system::{Accepted, Dynamics, Model, State, System};
@@ -47,18 +47,20 @@ pub(super) enum Guard {
 
 /// An iteration on one system.
 pub(super) struct Newton<'a, 'b, const D: usize> {
-    model: &'a mut Model<'b, D>,
+    pub(super) model: &'a mut Model<'b, D>,
     /// Smallest shift.
     least: f64,
     /// Shift that is kept to the end, where a direction in which nothing acts is free; else 0.
     kept: f64,
     is_conservative: bool,
-    rest: Vec<f64>,
-    force: Vec<f64>,
+    pub(super) rest: Vec<f64>,
+    pub(super) force: Vec<f64>,
     x: Vec<f64>,
     trial: Vec<f64>,
     /// The lowest mode.
     mode: Vec<f64>,
+    /// What of the rods could not go where a correction led.
+    overbent: Option<(usize, usize)>,
 }
 
 impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
@@ -74,20 +76,36 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
             mode: rest.clone(),
             rest,
             model,
+            overbent: None,
         }
     }
 
-    /// An equilibrium, stable where that can be had; on failure the last correction.
-    pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, f64> {
+    /// An equilibrium where forces balance, stable where that can be had.
+    pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, Failure> {
+        let failure = |this: &Self, correction: f64| match this.overbent {
+            Some((body, element)) => Failure::Overbent(body, element),
+            None => Failure::Correction(correction),
+        };
+        let mut is_stable = false;
         for _ in 0..ESCAPES {
-            self.relax(state, guard)?;
+            if let Err(correction) = self.relax(state, guard) {
+                return Err(failure(self, correction));
+            }
             // What turns freely is held by its turn as well, which the potential does not see.
-            if !self.is_conservative || self.kept > 0.0 || !self.leave(state) {
-                return Ok(Found { is_stable: true });
+            is_stable = !self.is_conservative || self.kept > 0.0 || !self.leave(state);
+            if is_stable {
+                break;
             }
         }
-        self.relax(state, guard)?;
-        Ok(Found { is_stable: false })
+        if !is_stable {
+            if let Err(correction) = self.relax(state, guard) {
+                return Err(failure(self, correction));
+            }
+        }
+        match self.rest(state) {
+            Some(rest) => Err(Failure::Rest(rest)),
+            None => Ok(Found { is_stable }),
+        }
     }
 
     /// An equilibrium; on failure the last correction.
@@ -95,7 +113,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         let (time, size) = (state.time, self.model.system.scale());
         let is_transient = guard == Guard::Transient;
         let (mut shift, mut before, mut correction) = (self.kept, f64::INFINITY, f64::INFINITY);
-        let (mut strength, mut is_nudged) = (0.0, false);
+        let (mut strength, mut is_nudged, mut is_refused) = (0.0, false, false);
         for iteration in 0..if is_transient { TRANSIENT } else { ITERATIONS } {
             self.model.renew_beyond(state, 0.0);
             (self.model).acceleration(time, &state.coordinates, &self.rest, &mut self.force);
@@ -144,9 +162,12 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
             }
             before = f64::INFINITY;
             if correction < EXACT {
-                return Ok(());
+                // A shift that grows where no way is open makes any correction small.
+                return if is_refused { Err(correction) } else { Ok(()) };
             }
-            let accepted = self.is_better(state, guard) && self.accept(state);
+            let is_better = self.is_better(state, guard);
+            let accepted = is_better && self.accept(state);
+            is_refused = is_better && !accepted;
             shift = match (accepted, is_transient) {
                 (true, true) if correction < CLOSE => 0.0,
                 (true, true) => shift,
@@ -200,6 +221,9 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         state.coordinates.copy_from_slice(&self.trial);
         let accepted = self.model.accepted(state);
         state.rates.fill(0.0);
+        if let Accepted::Overbent(body, element) = accepted {
+            self.overbent = Some((body, element));
+        }
         let holds = matches!(accepted, Accepted::AsIs | Accepted::Moved);
         if !holds {
             state.copy_from(&before);
@@ -357,7 +381,7 @@ pub(super) fn stiffest<const D: usize>(model: &mut Model<'_, D>, state: &State) 
 }
 
 /// A vector with a part along every mode: always the same numbers.
-fn seed(n: usize) -> Vec<f64> {
+pub(super) fn seed(n: usize) -> Vec<f64> {
     let mut seed = 1_u64;
     let mut random = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
