@@ -1,4 +1,4 @@
-//! Floor 10. What a run of the headless program writes: outputs, and what pictures are drawn from.
+//! Floor 11. What a run of the headless program writes: outputs, and what pictures are drawn from.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

@@ -12,9 +12,10 @@
 //! | 4 | [`integrators`] | time stepping with error control |
 //! | 5 | [`scene`] | JSON to a validated scene to a system |
 //! | 6 | [`simulation`] | a scene with parameters and inputs, stepped in time |
-//! | 7 | [`page`] | drawing of a scene, and the page that comes with a unit |
-//! | 8 | [`fmi`] | what all versions of FMI share: instance, lifecycle, states, logger |
-//! | 9 | [`fmi2`] | model description and C interface of FMI 2.0 |
+//! | 7 | [`view`] | a run as a picture that moves |
+//! | 8 | [`page`] | drawing of a scene, and the page that comes with a unit |
+//! | 9 | [`fmi`] | what all versions of FMI share: instance, lifecycle, states, logger |
+//! | 10 | [`fmi2`] | model description and C interface of FMI 2.0 |
 
 pub mod body;
 pub mod elements;
@@ -26,6 +27,7 @@ pub mod page;
 pub mod scene;
 pub mod simulation;
 pub mod system;
+pub mod view;
 
 // Laws use generic code throughout, which every test of its own would compile anew.
 #[cfg(test)]

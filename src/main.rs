@@ -1,4 +1,4 @@
-//! Floor 10. The headless runner: describes a scene for packaging, simulates it without FMI, and
+//! Floor 11. The headless runner: describes a scene for packaging, simulates it without FMI, and
 //! prints the schema of scenes.
 
 use std::fs;
@@ -21,9 +21,13 @@ use stopwatch::Stopwatch;
 mod files;
 mod planning;
 mod stopwatch;
+mod viewing;
 
 #[derive(Parser)]
-#[command(version, about = "Flexible bodies: describe, simulate, schema")]
+#[command(
+    version,
+    about = "Flexible bodies: describe, plan, simulate, view, schema"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -38,11 +42,16 @@ enum Command {
         /// Directory to write into; made if it does not exist.
         #[arg(long)]
         output: PathBuf,
+        /// Leaves the default experiment in motion out of the documentation.
+        #[arg(long)]
+        no_animation: bool,
     },
     /// Finds elements, their numbers and a tolerance for the error that a scene asks for, and says why.
     Plan(Planning),
     /// Simulates a scene and writes its outputs at every communication point as CSV.
     Simulate(Simulate),
+    /// Shows a scene, the scene in an FMU or a table of outputs in motion: writes a page of HTML and opens it.
+    View(viewing::View),
     /// Prints the JSON Schema of a scene.
     Schema,
 }
@@ -170,9 +179,14 @@ type Outcome<T> = Result<T, String>;
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
-        Command::Describe { scene, output } => describe(&scene, &output),
+        Command::Describe {
+            scene,
+            output,
+            no_animation,
+        } => describe(&scene, &output, !no_animation),
         Command::Plan(arguments) => plan(&arguments),
         Command::Simulate(arguments) => simulate(&arguments),
+        Command::View(arguments) => viewing::view(&arguments),
         Command::Schema => print_schema(),
     };
     match outcome {
@@ -198,11 +212,15 @@ fn print_schema() -> Outcome<()> {
     outcome.map_err(|error| format!("standard output: {error}"))
 }
 
-fn describe(scene: &Path, output: &Path) -> Outcome<()> {
+fn describe(scene: &Path, output: &Path, is_moving: bool) -> Outcome<()> {
     let (place, (scene, planned)) = (scene, planned(scene)?);
     // What contradicts itself is told here, not by the first master that runs it.
     check(&scene).map_err(|error| at(place, error))?;
-    for (name, text) in fmi2::describe(&scene, &planned) {
+    let motion = match is_moving {
+        true => viewing::motion(place, &scene)?,
+        false => String::new(),
+    };
+    for (name, text) in fmi2::describe(&scene, &planned, &motion) {
         let path = output.join(name);
         if let Some(directory) = path.parent() {
             fs::create_dir_all(directory).map_err(|error| at(directory, error))?;

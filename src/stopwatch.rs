@@ -1,4 +1,4 @@
-//! Floor 10. CPU time of many short calls.
+//! Floor 11. CPU time of many short calls.
 
 use std::time::Duration;
 

@@ -229,7 +229,7 @@ fn every_reason_is_told_and_makes_its_element() {
             Scene::from_json(&packaged.to_json()).as_ref(),
             Ok(&packaged)
         );
-        let page = fmi2::describe(&packaged, &planned);
+        let page = fmi2::describe(&packaged, &planned, "");
         let page = page.iter().find(|(name, _)| name.ends_with("index.html"));
         let text = &page.expect("a page").1;
         assert!(

@@ -31,7 +31,7 @@ fuzz_target!(|data: &[u8]| {
     };
     // Ports add terminals.
     let files = 4 + usize::from(!scene.ports.is_empty());
-    assert_eq!(describe(&scene, &planned).len(), files);
+    assert_eq!(describe(&scene, &planned, "").len(), files);
     let mut simulation = Simulation::new(scene);
     if simulation.initialize(0.0).is_err() || simulation.start().is_err() {
         return;

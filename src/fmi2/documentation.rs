@@ -36,8 +36,9 @@ const FAILURES: [[&str; 3]; 4] = [
     ],
 ];
 
-/// The documentation of a scene, and of how it was planned, as one HTML page. The same scene gives the same bytes.
-pub fn documentation(scene: &Scene, planned: &Planned) -> String {
+/// The documentation of a scene, of how it was planned, and of it in motion (nothing where it stands still), as one HTML page. The same
+/// gives the same bytes.
+pub fn documentation(scene: &Scene, planned: &Planned, motion: &str) -> String {
     let of = |category: Category| {
         let name = category.name().to_str().unwrap_or_default();
         [name, category.description()]
@@ -49,5 +50,5 @@ pub fn documentation(scene: &Scene, planned: &Planned) -> String {
         failures: &FAILURES,
         categories: &Category::ALL.map(of),
     };
-    page::documentation(scene, planned, &interface)
+    page::documentation(scene, planned, motion, &interface)
 }

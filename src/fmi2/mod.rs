@@ -1,4 +1,4 @@
-//! Floor 9. FMI 2.0 for co-simulation: the model description and the C interface that a master calls. Everything in the
+//! Floor 10. FMI 2.0 for co-simulation: the model description and the C interface that a master calls. Everything in the
 //! package derives from the scene and its variables.
 
 pub mod abi;
@@ -17,13 +17,16 @@ use crate::page::icon;
 use crate::scene::Scene;
 use crate::simulation::Planned;
 
-/// The generated text files of a unit: path inside the package, content. The same scene, and plan where it was
-/// planned, gives the same bytes.
-pub fn describe(scene: &Scene, planned: &Planned) -> Vec<(&'static str, String)> {
+/// The generated text files of a unit: path inside the package, content. The same scene, plan where it was planned, and section of it in
+/// motion ([`crate::page::motion`]; nothing where its page stands still) gives the same bytes.
+pub fn describe(scene: &Scene, planned: &Planned, motion: &str) -> Vec<(&'static str, String)> {
     let mut files = vec![
         ("modelDescription.xml", model_description(scene)),
         ("resources/scene.json", scene.to_json()),
-        ("documentation/index.html", documentation(scene, planned)),
+        (
+            "documentation/index.html",
+            documentation(scene, planned, motion),
+        ),
         ("documentation/scene.svg", icon(scene)),
     ];
     let terminals = terminals(scene);

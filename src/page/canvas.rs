@@ -9,6 +9,13 @@ pub type Point = [f64; 2];
 /// From one line of text to the next, pixels.
 pub const LINE: f64 = 16.0;
 
+/// Height of a letter, and its mean width in the fonts that pages are read with, pixels.
+const LETTER: [f64; 2] = [13.0, 7.6];
+
+/// What keeps texts legible on lines.
+const HALO: &str =
+    "stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
+
 /// How a shape is drawn.
 #[derive(Clone, Copy)]
 pub struct Style {
@@ -35,6 +42,11 @@ impl Canvas {
             height,
             body: String::new(),
         }
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> f64 {
+        self.height
     }
 
     /// Width in pixels.
@@ -97,25 +109,15 @@ impl Canvas {
 
     /// Lines of text with their colours, beside the point `at` and away from it towards `side`.
     pub fn texts(&mut self, at: Point, side: Point, lines: &[(&str, &str)]) {
-        let anchor = match side[0] {
-            x if x > 0.5 => "start",
-            x if x < -0.5 => "end",
-            _ => "middle",
-        };
-        // The block ends, begins or is centred at the point, as it lies above, below or beside.
+        let (anchor, above) = anchor(side);
         let last = lines.len() as f64 - 1.0;
-        let above = match anchor {
-            "middle" if side[1] < 0.0 => 1.0,
-            "middle" => 0.0,
-            _ => 0.5,
-        };
         for (number, (text, colour)) in lines.iter().enumerate() {
             // A third of its size lower, a letter is centred on the line.
             let y = at[1] + LINE * (number as f64 - above * last) + 4.5;
             let (x, y, text) = (pixels(at[0]), pixels(y), escape(text));
             let line = format_args!(
                 "  <text x=\"{x}\" y=\"{y}\" font-family=\"sans-serif\" font-size=\"13\" \
-                 text-anchor=\"{anchor}\" fill=\"{colour}\">{text}</text>\n"
+                 text-anchor=\"{anchor}\" fill=\"{colour}\" {HALO}>{text}</text>\n"
             );
             write(&mut self.body, line);
         }
@@ -137,6 +139,32 @@ impl Canvas {
             format_args!("  <{shape} {line} fill=\"{fill}\"/>\n"),
         );
     }
+}
+
+/// Which end of the lines of a text is at its point, and how much of their height is above it: the block ends, begins or is centred there, as
+/// it lies above, below or beside.
+fn anchor(side: Point) -> (&'static str, f64) {
+    match side {
+        [x, _] if x > 0.5 => ("start", 0.5),
+        [x, _] if x < -0.5 => ("end", 0.5),
+        [_, y] if y < 0.0 => ("middle", 1.0),
+        _ => ("middle", 0.0),
+    }
+}
+
+/// Edges of what [`Canvas::texts`] writes, about: left, upper, right, lower, pixels.
+pub fn text_box(at: Point, side: Point, lines: &[(&str, &str)]) -> [f64; 4] {
+    let (anchor, above) = anchor(side);
+    let letters = lines.iter().map(|(text, _)| text.chars().count()).max();
+    let width = LETTER[1] * letters.unwrap_or(0) as f64;
+    let left = match anchor {
+        "start" => at[0],
+        "end" => at[0] - width,
+        _ => at[0] - 0.5 * width,
+    };
+    let height = LINE * lines.len().saturating_sub(1) as f64;
+    let upper = at[1] - above * height - 0.5 * LETTER[0];
+    [left, upper, left + width, upper + height + LETTER[0]]
 }
 
 /// `point` moved by `distance` along `direction`.

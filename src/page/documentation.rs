@@ -25,12 +25,19 @@ pub struct Interface<'a> {
     pub categories: &'a [[&'a str; 2]],
 }
 
-/// The documentation of a scene, and of how it was planned, as one HTML page. The same scene gives the same bytes.
-pub fn documentation(scene: &Scene, planned: &Planned, interface: &Interface<'_>) -> String {
+/// The documentation of a scene, of how it was planned, and of it in motion ([`super::motion`]; nothing where it stands still), as one HTML
+/// page. The same gives the same bytes.
+pub fn documentation(
+    scene: &Scene,
+    planned: &Planned,
+    motion: &str,
+    interface: &Interface<'_>,
+) -> String {
     let variables = variables(scene);
     let sections = [
         summary(scene, interface.standard),
         format!("<figure>\n{}</figure>\n", drawing(scene)),
+        motion.into(),
         model(scene),
         plan(planned),
         parts(scene),
@@ -363,7 +370,7 @@ mod tests {
     #[test]
     fn the_page_names_every_variable_and_shows_the_scene() {
         let scene = example();
-        let page = documentation(&scene, &Planned::default(), &INTERFACE);
+        let page = documentation(&scene, &Planned::default(), "", &INTERFACE);
         for variable in variables(&scene)
             .iter()
             .filter(|variable| variable.name != "time")
@@ -371,7 +378,10 @@ mod tests {
             assert!(page.contains(&code(&variable.name)), "{}", variable.name);
         }
         assert!(page.contains("<svg") && page.contains("&quot;name&quot;: &quot;example&quot;"));
-        assert_eq!(page, documentation(&scene, &Planned::default(), &INTERFACE));
+        assert_eq!(
+            page,
+            documentation(&scene, &Planned::default(), "", &INTERFACE)
+        );
         assert!(!page.contains("Rigid cables"));
     }
 
@@ -385,7 +395,7 @@ mod tests {
             "markers": { "middle": 0.5 } } ],
           "outputs": [ { "kind": "bending_moment", "marker": "rod.middle" } ] }"#;
         let scene = Scene::from_json(text).expect("a valid scene");
-        let page = documentation(&scene, &Planned::default(), &INTERFACE);
+        let page = documentation(&scene, &Planned::default(), "", &INTERFACE);
         for told in [
             "the rigid rod <em>rod</em>, 1.2 m long",
             "Rigid cables",

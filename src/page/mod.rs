@@ -1,9 +1,10 @@
-//! Floor 7. What a scene looks like on paper: its drawing, and the page that comes with a unit. The words of
+//! Floor 8. What a scene looks like on paper: its drawing, and the page that comes with a unit. The words of
 //! a standard are given to the page ([`Interface`]); nothing else of FMI is known here.
 
 mod canvas;
 mod documentation;
 mod drawing;
+mod moving;
 mod number;
 mod parts;
 mod plan;
@@ -12,4 +13,5 @@ mod table;
 
 pub use documentation::{Interface, documentation};
 pub use drawing::{drawing, icon};
+pub use moving::{motion, moving, moving_table};
 pub use number::number;

@@ -60,6 +60,13 @@ pub struct CableId {
     pub(super) form: Form,
 }
 
+impl CableId {
+    /// Its place among all bodies.
+    pub fn body_index(self) -> usize {
+        self.body
+    }
+}
+
 /// What a cable is in the system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {

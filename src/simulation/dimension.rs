@@ -3,7 +3,7 @@
 use super::engine::{Engine, Remarks};
 use super::inputs::Inputs;
 use super::{
-    Error, Quantity, Redundant, Report, Singular, Spectra, StepFailure, Unresolved, Variable,
+    Error, Pose, Quantity, Redundant, Report, Singular, Spectra, StepFailure, Unresolved, Variable,
 };
 use crate::scene::{Error as SceneError, Resolved, Scene};
 use crate::system::State;
@@ -53,6 +53,7 @@ handed_on! {
     fn change([&mut] self, quantity: Quantity, state: &State) -> f64;
     fn markers([&mut] self, state: &State, inputs: &[f64]) -> Vec<[f64; 3]>;
     fn outlines([&mut] self, state: &State, inputs: &[f64], parts: &dyn Fn(usize) -> u32) -> Outlines;
+    fn poses([&mut] self, state: &State, inputs: &[f64]) -> Vec<Pose>;
 }
 
 impl AnyEngine {

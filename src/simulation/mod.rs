@@ -25,6 +25,7 @@ pub use plan::{
     Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, Settled, Settles, courses, plan,
 };
 pub use quantities::Quantity;
+pub use shapes::Pose;
 pub use signals::{SignalError, Signals};
 pub use singular::{NEARLY, Redundant, Singular};
 pub use snapshot::{Snapshot, Spectra};

@@ -1,10 +1,24 @@
 //! Where bodies are, for pictures.
 
+use nalgebra::Vector3;
+
 use super::engine::Engine;
-use super::{Error, Simulation};
-use crate::body::{Marker, Node};
+use super::{Error, Quantity, Simulation};
+use crate::body::{Marker, Node, axes_at, combined};
 use crate::math::space::{Vector, components};
-use crate::system::{State, System};
+use crate::scene::{Along, Assembled, HolderId};
+use crate::system::{CableChain, State, System};
+
+/// Where a body is: what a line or surface of it is drawn from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Position (m) and slope of every node along a cable, rod or beam, between which its line is the cubic of Hermite; of a rigid body
+    /// its origin and the first axis of its frame. Third components are zero in the plane.
+    pub nodes: Vec<[[f64; 3]; 2]>,
+    /// Axes of the sections of a rod or beam at its nodes, the normal first; of a rigid body that turns in space the axes of its frame;
+    /// else none. In global components.
+    pub axes: Vec<[[f64; 3]; 3]>,
+}
 
 impl Simulation {
     /// Where all markers are now, m: body by body, in the order of their names; the third component is zero in the
@@ -31,6 +45,39 @@ impl Simulation {
         let outlines = engine.map(|engine| engine.outlines(&self.state, inputs, &parts));
         Ok(outlines.unwrap_or_default())
     }
+
+    /// How all bodies stand now.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn poses(&mut self) -> Result<Vec<Pose>, Error> {
+        self.refresh()?;
+        let engine = self.engine.as_mut();
+        let poses = engine.map(|engine| engine.poses(&self.state, &self.inputs.values));
+        Ok(poses.unwrap_or_default())
+    }
+
+    /// The force (N) of a joint or motion on its second end now, in global components, whether it is an output or not; the third is zero
+    /// in the plane.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn reaction(&mut self, holder: HolderId) -> Result<[f64; 3], Error> {
+        self.refresh()?;
+        let mut force = [0.0; 3];
+        if let Some(engine) = &mut self.engine {
+            for (axis, part) in force.iter_mut().enumerate().take(self.scene.dimension) {
+                let quantity = Quantity::Reaction(holder, axis, Along::Global);
+                *part = engine.output(quantity, &self.state, &self.inputs.values);
+            }
+        }
+        Ok(force)
+    }
+
+    /// Numbers that the master sets, in the order of [`crate::scene::Resolved::numbers`].
+    pub fn inputs(&self) -> &[f64] {
+        &self.inputs.values
+    }
 }
 
 impl<const D: usize> Engine<D> {
@@ -52,6 +99,71 @@ impl<const D: usize> Engine<D> {
     ) -> Vec<Vec<[f64; 3]>> {
         let (assembled, x) = self.nodes(state, inputs);
         outlines(&assembled.system, x, parts)
+    }
+
+    /// How all bodies stand.
+    pub(super) fn poses(&mut self, state: &State, inputs: &[f64]) -> Vec<Pose> {
+        let (assembled, x) = self.nodes(state, inputs);
+        let bodies = assembled.system.bodies().iter().enumerate();
+        bodies
+            .map(|(body, nodes)| pose(assembled, body, nodes.start, x))
+            .collect()
+    }
+}
+
+/// How a body stands whose nodes begin at one.
+fn pose<const D: usize>(
+    assembled: &Assembled<D>,
+    body: usize,
+    first: usize,
+    x: &[Node<D>],
+) -> Pose {
+    let system = &assembled.system;
+    let chain = system.chains().iter().find(|c| c.nodes(0)[0] == first);
+    if let Some(chain) = chain {
+        return chain_pose(system, chain, x);
+    }
+    let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
+    let [position, slope] = [vector(first, 0), vector(first, 1)];
+    if let Some(rod) = system.rods().iter().find(|rod| rod.node == first) {
+        let way = Vector3::from(slope) * (0.5 * rod.length);
+        let ends = [-way, way].map(|way| (Vector3::from(position) + way).into());
+        return Pose {
+            nodes: ends.map(|end| [end, slope]).into(),
+            axes: Vec::new(),
+        };
+    }
+    if !system.frames().list().iter().any(|f| f.node == first) {
+        return Pose {
+            nodes: vec![[position, slope]],
+            axes: Vec::new(),
+        };
+    }
+    let (principal, within) = (axes_at(first, x), assembled.frame(body));
+    let axes: [Vector3<f64>; 3] =
+        std::array::from_fn(|k| combined(&principal, &within.row(k).transpose()));
+    let origin = Vector3::from(position) - combined(&axes, assembled.center(body));
+    Pose {
+        nodes: vec![[origin.into(), axes[0].into()]],
+        axes: vec![axes.map(Into::into)],
+    }
+}
+
+fn chain_pose<const D: usize>(system: &System<D>, chain: &CableChain<D>, x: &[Node<D>]) -> Pose {
+    let first = chain.nodes(0)[0];
+    let vector = |node: usize, part: usize| components(&Vector::from(x[node][part]));
+    let nodes = (first..first + chain.node_count()).map(|node| [0, 1].map(|k| vector(node, k)));
+    let mut axes = Vec::new();
+    if let Some(sections) = system.sections(chain) {
+        for element in 0..sections.count() {
+            let ends = sections.at(element, x).axes;
+            // Every element tells of both its ends; its first is the last of the one before.
+            axes.extend_from_slice(&ends[usize::from(element > 0)..]);
+        }
+    }
+    Pose {
+        nodes: nodes.collect(),
+        axes,
     }
 }
 

@@ -17,7 +17,7 @@ def xtask(*arguments):
         raise AssertionError(f"{' '.join(command)}:\n{result.stdout}{result.stderr}")
 
 
-def package(scene, output, *options):
-    """Packages a scene."""
-    xtask("package", scene, "--output", output, *options)
+def package(scene, output, *options, animation=False):
+    """Packages a scene; its page stands still unless that is what is tested, so that nothing is simulated."""
+    xtask("package", scene, "--output", output, *options, *([] if animation else ["--no-animation"]))
     return output

@@ -6,6 +6,8 @@ use std::path::Path;
 use flexbody::fmi2;
 use flexbody::scene::Scene;
 use flexbody::simulation::plan;
+use flexbody::view;
+use sha2::{Digest, Sha256};
 
 use crate::source::{files, name, no_complaints, root};
 
@@ -19,7 +21,7 @@ fn the_committed_description_is_that_of_the_default_scene() {
     let scene = scene(&root().join("scenes/pendulum.json")).expect("the default scene");
     let (scene, planned) = plan(&scene, &mut |_, _, _| ()).expect("a plan");
     let mut complaints = Vec::new();
-    let described = fmi2::describe(&scene, &planned);
+    let described = fmi2::describe(&scene, &planned, "");
     for (path, text) in &described {
         let committed = fs::read_to_string(root().join("modelDescription").join(path));
         if committed.ok().as_ref() != Some(text) {
@@ -50,6 +52,34 @@ fn the_committed_schema_is_that_of_scenes() {
         committed == Scene::json_schema(),
         "not fresh: run cargo xtask describe"
     );
+}
+
+/// Without npm: the bundle says what it was made from.
+#[test]
+fn the_program_of_pages_is_that_of_its_sources() {
+    let folder = fs::read_dir(root().join(view::SOURCES)).expect("sources");
+    let mut sources: Vec<_> = folder.map(|file| file.expect("a file").path()).collect();
+    sources.retain(|path| {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        path.is_file() && matches!(extension, Some("js" | "mjs" | "json"))
+    });
+    sources.sort();
+    assert!(sources.len() > 5, "{sources:?}");
+    let mut hash = Sha256::new();
+    for path in &sources {
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        hash.update(format!("{file}\n"));
+        hash.update(fs::read(path).expect("a readable source"));
+    }
+    let found: String = hash
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    let (made_from, program) = view::bundle();
+    assert_eq!(found, made_from, "not fresh: run cargo xtask view-bundle");
+    // What pages in the plane have left for everything else is little.
+    assert!(program.len() < 216_000, "{} bytes", program.len());
 }
 
 #[test]

@@ -22,7 +22,7 @@ pub fn demo(workspace: &Workspace) -> Result<()> {
     let picture = workspace.target("demo/pendulum.png");
     let reference = workspace.path(REFERENCE);
     let scene = workspace.path(describe::DEFAULT_SCENE);
-    package::package(workspace, &scene, Some(&fmu), &[], true)?;
+    package::package(workspace, &scene, Some(&fmu), &[], package::Parts::ALL)?;
     let python = Python::prepare(workspace)?;
     run(simulate::fmpy(workspace, &python, &fmu)
         .arg("--output")

@@ -20,13 +20,16 @@ const COMMITTED: &str = "modelDescription";
 /// The committed JSON Schema of scenes.
 const SCHEMA: &str = "scenes/scene.schema.json";
 
-/// Writes everything an FMU of the scene holds besides the library.
-pub fn describe(binary: &Path, scene: &Path, folder: &Path) -> Result<()> {
+/// Writes everything an FMU of the scene holds besides the library; its default experiment in motion where that is wanted, which
+/// may differ in the last digits from machine to machine.
+pub fn describe(binary: &Path, scene: &Path, folder: &Path, animation: bool) -> Result<()> {
+    let still = (!animation).then_some("--no-animation");
     run(Command::new(binary)
         .arg("describe")
         .arg(scene)
         .arg("--output")
-        .arg(folder))
+        .arg(folder)
+        .args(still))
     .with_context(|| format!("{} does not describe an FMU", scene.display()))?;
     icon::render(
         &folder.join("documentation").join("scene.svg"),
@@ -38,7 +41,7 @@ pub fn describe(binary: &Path, scene: &Path, folder: &Path) -> Result<()> {
 pub fn regenerate(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
     let stage = Stage::new(workspace, "stage")?;
-    describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0)?;
+    describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0, false)?;
     // Only now: a scene that is refused leaves the committed files as they are.
     let committed = workspace.path(COMMITTED);
     if committed.exists() {
@@ -61,7 +64,7 @@ pub fn regenerate(workspace: &Workspace) -> Result<()> {
 pub fn check(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
     let stage = Stage::new(workspace, "stage")?;
-    describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0)?;
+    describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0, false)?;
     let committed = workspace.path(COMMITTED);
     let mut names = BTreeSet::new();
     for folder in [&stage.0, &committed] {

@@ -28,6 +28,7 @@ mod python;
 mod simulate;
 mod table;
 mod test;
+mod view_bundle;
 
 #[derive(Parser)]
 #[command(
@@ -57,6 +58,9 @@ enum Command {
         /// Leave out terminalsAndIcons.xml, which FMI Library warns of in every FMU
         #[arg(long)]
         no_terminals: bool,
+        /// Leave the default experiment in motion out of the documentation
+        #[arg(long)]
+        no_animation: bool,
     },
     /// Joins two FMUs of one scene that were built for different platforms
     Merge {
@@ -81,10 +85,23 @@ enum Command {
     },
     /// Simulates a scene (natively) or an FMU (with fmpy) to a CSV file
     Simulate(simulate::Arguments),
+    /// Shows a scene (.json), an FMU or outputs (.csv) in motion: writes a page of HTML and opens it
+    View {
+        /// What `flexbody view` takes: a file, then options
+        #[arg(
+            value_name = "ARGUMENT",
+            required = true,
+            trailing_var_arg = true,
+            allow_hyphen_values = true
+        )]
+        arguments: Vec<std::ffi::OsString>,
+    },
     /// Packages the pendulum, simulates it with fmpy, compares and draws it
     Demo,
     /// Regenerates the committed modelDescription/ and scenes/scene.schema.json
     Describe,
+    /// Regenerates src/view/bundle.txt, the program of pages that move, from src/view/script
+    ViewBundle,
     /// Regenerates docs/charts: CSV files, pictures of them and the page that explains them
     Chart {
         /// Which charts [default: all]
@@ -112,12 +129,16 @@ fn main() -> ExitCode {
             output,
             platform,
             no_terminals,
+            no_animation,
         } => package::package(
             &workspace,
             &scene,
             output.as_deref(),
             &platform,
-            !no_terminals,
+            package::Parts {
+                terminals: !no_terminals,
+                animation: !no_animation,
+            },
         )
         .map(drop),
         Command::Merge {
@@ -127,8 +148,10 @@ fn main() -> ExitCode {
         } => merge::merge(&workspace, [&first, &second], output.as_deref()),
         Command::Plan { scene, output } => simulate::plan(&workspace, &scene, output.as_deref()),
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
+        Command::View { arguments } => simulate::view(&workspace, &arguments),
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),
+        Command::ViewBundle => view_bundle::regenerate(&workspace),
         Command::Chart { charts, draw } => chart::chart(&workspace, &charts, !draw),
         Command::Partners { output } => partners::partners(&workspace, output.as_deref()),
         Command::Test => test::test(&workspace),

@@ -15,6 +15,10 @@ use crate::process::{announced, prepared, shown};
 
 const DESCRIPTION: &str = "modelDescription.xml";
 const BINARIES: &str = "binaries/";
+/// The page, and what its section of the default experiment in motion stands between: it is that of the machine which packaged it, and may
+/// differ in the last digits from that of another.
+const PAGE: &str = "documentation/index.html";
+const MOTION: [&str; 2] = ["<!-- motion begins -->", "<!-- motion ends -->"];
 /// How many differences an error names.
 const NAMED: usize = 5;
 
@@ -61,7 +65,14 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
         is_shared(file) && (!file.starts_with(licenses::FOLDER) || in_both(&first, &second, file))
     };
     let all: BTreeSet<&String> = first.keys().chain(second.keys()).collect();
-    let differ = |file: &&String| first.get(*file) != second.get(*file);
+    let compared = |content: &Content, file: &String| {
+        let bytes = content.get(file)?;
+        Some(match file == PAGE {
+            true => still(bytes),
+            false => bytes.clone(),
+        })
+    };
+    let differ = |file: &&String| compared(&first, file) != compared(&second, file);
     let mut different: Vec<String> = all
         .into_iter()
         .filter(is_shared)
@@ -89,8 +100,20 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
             names[1]
         );
     }
+    let page = first.remove(PAGE);
     first.extend(second);
+    first.extend(page.map(|page| (PAGE.to_owned(), page)));
     Ok(first)
+}
+
+/// A page without its section of what moves.
+fn still(page: &[u8]) -> Vec<u8> {
+    let text = String::from_utf8_lossy(page);
+    let cut = text.split_once(MOTION[0]).and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(MOTION[1])?;
+        Some(format!("{before}{after}"))
+    });
+    cut.map_or_else(|| page.to_vec(), String::into_bytes)
 }
 
 fn in_both(first: &Content, second: &Content, file: &str) -> bool {
@@ -184,6 +207,25 @@ mod tests {
             );
             assert!(found.contains("a.fmu and b.fmu"), "{found}");
         }
+    }
+
+    #[test]
+    fn what_moves_on_a_page_may_differ() -> Result<()> {
+        let page = |before: &str, moves: &str| {
+            format!("{before}{}\n{moves}\n{}\nafter", MOTION[0], MOTION[1])
+        };
+        let [one, other, changed] = [("a", "1"), ("a", "2"), ("b", "1")].map(|(a, b)| page(a, b));
+        let join_pages = |second: &str| {
+            let [linux, windows] = [("linux64", &one[..]), ("win64", second)]
+                .map(|(platform, text)| fmu(platform, &[(PAGE, text)]));
+            join(linux, windows, ["a.fmu", "b.fmu"])
+        };
+        assert_eq!(
+            join_pages(&other)?.get(PAGE),
+            Some(&one.clone().into_bytes())
+        );
+        assert!(join_pages(&changed).is_err());
+        Ok(())
     }
 
     #[test]

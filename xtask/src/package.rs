@@ -16,14 +16,31 @@ const TERMINALS: &str = "terminalsAndIcons";
 /// The package that is every scene's library, and thereby its `modelIdentifier`.
 pub const PACKAGE: &str = "flexbody";
 
-/// Makes an FMU of a scene for some platforms, or for the host where none is named, with terminals
-/// or without, says where, and returns its path.
+/// What an FMU may be without.
+#[derive(Clone, Copy)]
+pub struct Parts {
+    /// Terminals.
+    pub terminals: bool,
+    /// The default experiment in motion.
+    pub animation: bool,
+}
+
+impl Parts {
+    /// Everything.
+    pub const ALL: Self = Self {
+        terminals: true,
+        animation: true,
+    };
+}
+
+/// Makes an FMU of a scene for some platforms, or for the host where none is named, with these parts,
+/// says where, and returns its path.
 pub fn package(
     workspace: &Workspace,
     scene: &Path,
     output: Option<&Path>,
     platforms: &[Platform],
-    terminals: bool,
+    parts: Parts,
 ) -> Result<PathBuf> {
     check_readable(scene)?;
     let output = output.map(checked_output).transpose()?;
@@ -33,9 +50,9 @@ pub fn package(
     };
     let product = Product::new(workspace, &platforms)?;
     let stage = Stage::new(workspace, "stage")?;
-    describe::describe(&product.program, scene, &stage.0)?;
+    describe::describe(&product.program, scene, &stage.0, parts.animation)?;
     let folder = stage.0.join(TERMINALS);
-    if !terminals && folder.exists() {
+    if !parts.terminals && folder.exists() {
         std::fs::remove_dir_all(&folder)
             .with_context(|| format!("cannot remove {}", shown(&folder)))?;
     }

@@ -20,6 +20,10 @@ const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters
 const LINKER: (&str, &str) = ("xtask/linker.txt", "python-linker");
 /// The checker of dependencies, built.
 const DENY: (&str, &str) = ("xtask/deny.txt", "python-deny");
+/// What drives a browser in tests; apart, since not every machine has a browser.
+const BROWSER: (&str, &str) = ("tests/view/requirements.txt", "python-browser");
+/// What makes the program of pages that move; apart, since that is committed.
+const NODE: (&str, &str) = ("xtask/node.txt", "python-node");
 /// The file in an environment that says what it was made from; the last one written.
 const STAMP: &str = "installed.txt";
 /// Oldest Python that the pinned packages run on.
@@ -67,6 +71,16 @@ impl Python {
     /// The environment of the checker of dependencies.
     pub fn prepare_deny(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, DENY)
+    }
+
+    /// The environment of tests in a browser.
+    pub fn prepare_browser(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, BROWSER)
+    }
+
+    /// The environment with node.
+    pub fn prepare_node(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, NODE)
     }
 
     fn prepare_one(workspace: &Workspace, (requirements, folder): (&str, &str)) -> Result<Self> {

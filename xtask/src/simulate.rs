@@ -113,6 +113,12 @@ pub fn plan(workspace: &Workspace, scene: &Path, output: Option<&Path>) -> Resul
     Ok(())
 }
 
+/// Shows a scene, an FMU or a table in motion: what the program does, built if need be.
+pub fn view(workspace: &Workspace, arguments: &[std::ffi::OsString]) -> Result<()> {
+    let mut command = Command::new(workspace.binary()?);
+    run(command.arg("view").args(arguments))
+}
+
 impl Arguments {
     /// Passes on what both ways of simulating understand.
     fn settings<'a>(&self, command: &'a mut Command) -> &'a mut Command {

@@ -16,7 +16,7 @@ use crate::{assembly, describe, fuzz};
 type Step = (&'static str, fn(&Workspace) -> Result<()>);
 
 /// The checks in order.
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 10] = [
     ("formatting", formatting),
     ("clippy", clippy),
     ("dependencies", dependencies),
@@ -24,6 +24,7 @@ const STEPS: [Step; 9] = [
     ("Rust tests", rust_tests),
     ("generated files", describe::check),
     ("FMUs under fmpy", fmpy_tests),
+    ("pages in a browser", browser_tests),
     ("coupled FMUs under other masters", master_tests),
     ("fuzzing", fuzz::test),
 ];
@@ -115,6 +116,15 @@ fn rust_tests(workspace: &Workspace) -> Result<()> {
 fn fmpy_tests(workspace: &Workspace) -> Result<()> {
     let mut tests = pytest(&Python::prepare(workspace)?, workspace, "tests/fmpy")?;
     run(tests.args(["-n", "auto", "--maxprocesses", "8", "--dist", "loadgroup"]))
+}
+
+fn browser_tests(workspace: &Workspace) -> Result<()> {
+    let mut tests = pytest(
+        &Python::prepare_browser(workspace)?,
+        workspace,
+        "tests/view",
+    )?;
+    run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "load"]))
 }
 
 /// One system after the other: what is fuzzed is compiled meanwhile.

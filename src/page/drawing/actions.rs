@@ -139,8 +139,7 @@ impl<'a> Picture<'a> {
     fn name_force(&mut self, tail: Point, along: Point, label: &str) {
         if self.names {
             let back = along.map(|part| -part);
-            let at = moved(tail, back, 0.8 * self.unit);
-            self.canvas.texts(at, back, &[(label, symbols::LOAD)]);
+            self.write(tail, back, 0.8 * self.unit, &[(label, symbols::LOAD)]);
         }
     }
 }

@@ -3,6 +3,7 @@
 mod actions;
 mod bodies;
 mod joints;
+mod labels;
 mod names;
 mod picture;
 
@@ -117,6 +118,65 @@ mod tests {
             assert!(picture.contains(&format!(">{name}</text>")), "{name}");
         }
         assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    }
+
+    /// Edges of the texts of a drawing, from what stands in it: letters of 13 pixels are some 7.2 wide.
+    fn texts(drawing: &str) -> Vec<(String, [f64; 4])> {
+        let document = roxmltree::Document::parse(drawing).expect("a valid drawing");
+        let texts = document
+            .descendants()
+            .filter(|node| node.has_tag_name("text"));
+        let boxes = texts.map(|node| {
+            let number = |name: &str| -> f64 {
+                node.attribute(name)
+                    .and_then(|text| text.parse().ok())
+                    .expect("a number")
+            };
+            let text = node.text().unwrap_or_default().to_owned();
+            let (x, y, width) = (number("x"), number("y"), 7.2 * text.len() as f64);
+            let left = match node.attribute("text-anchor") {
+                Some("start") => x,
+                Some("end") => x - width,
+                _ => x - 0.5 * width,
+            };
+            (text, [left, y - 10.0, left + width, y + 2.5])
+        });
+        boxes.collect()
+    }
+
+    #[test]
+    fn names_of_ready_scenes_cover_no_others() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+        let files = std::fs::read_dir(folder).expect("ready scenes");
+        let mut drawings = vec![("example".to_owned(), drawing(&example()))];
+        for file in files.map(|file| file.expect("a readable folder").path()) {
+            let name = file
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            if !name.ends_with(".schema.json") {
+                let text = std::fs::read_to_string(&file).expect("a readable scene");
+                let scene = Scene::from_json(&text).expect("a valid scene");
+                drawings.push((name, drawing(&scene)));
+            }
+        }
+        assert!(drawings.len() > 20);
+        let mut covered = Vec::new();
+        for (scene, drawing) in &drawings {
+            let texts = texts(drawing);
+            for (k, (a, first)) in texts.iter().enumerate() {
+                for (b, second) in &texts[..k] {
+                    let is_apart = (0..2).any(|axis| {
+                        first[axis + 2] <= second[axis] || second[axis + 2] <= first[axis]
+                    });
+                    if !is_apart {
+                        covered.push(format!("{scene}: {a} and {b}"));
+                    }
+                }
+            }
+        }
+        assert!(covered.is_empty(), "{covered:#?}");
     }
 
     #[test]

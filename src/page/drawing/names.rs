@@ -3,7 +3,7 @@
 use super::actions::actions;
 use super::bodies::rigid_outline;
 use super::picture::{BODY, FAINT, INK, Picture, seen};
-use crate::page::canvas::{LINE, Point, direction, moved};
+use crate::page::canvas::{LINE, Point, direction};
 use crate::page::symbols;
 use crate::scene::{BodyReference, CableBody, Ends, Place as On, PortKind, RigidBody, Symbol};
 
@@ -34,8 +34,7 @@ impl<'a> Picture<'a> {
         }
         for label in self.labels() {
             let distance = if label.is_far { 2.8 } else { 1.5 };
-            let at = moved(label.at, label.side, distance * self.unit);
-            self.canvas.texts(at, label.side, &label.lines);
+            self.write(label.at, label.side, distance * self.unit, &label.lines);
         }
         self.name_bodies();
         self.name_links();
@@ -153,8 +152,7 @@ impl<'a> Picture<'a> {
                     (self.at(rigid.position.full()), side, 1.8)
                 }
             };
-            let at = moved(at, side, distance * self.unit);
-            self.canvas.texts(at, side, &[(body.name(), BODY)]);
+            self.write(at, side, distance * self.unit, &[(body.name(), BODY)]);
         }
     }
 
@@ -190,8 +188,7 @@ impl<'a> Picture<'a> {
         let [a, b] = self.ends(ends);
         let side = upper(direction([a[1] - b[1], b[0] - a[0]]));
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-        let at = moved(middle, side, 1.4 * self.unit);
-        self.canvas.texts(at, side, &[(name, colour)]);
+        self.write(middle, side, 1.4 * self.unit, &[(name, colour)]);
     }
 }
 

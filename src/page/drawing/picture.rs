@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_6;
 
+use super::labels::Box;
 use crate::page::canvas::{Canvas, Point, Style, direction, moved};
 use crate::scene::{Ends, Marker, Place as On, Resolved, Scene};
 
@@ -39,6 +40,8 @@ pub(super) struct Picture<'a> {
     pub(super) unit: f64,
     /// Whether names are written.
     pub(super) names: bool,
+    /// Where something is written.
+    pub(super) written: Vec<Box>,
 }
 
 impl<'a> Picture<'a> {
@@ -63,6 +66,8 @@ impl<'a> Picture<'a> {
             centre: [0.5 * size[0], 0.5 * size[1]],
             unit,
             names,
+            // Of gravity, whose arrow is in the upper right corner.
+            written: vec![[size[0] - 5.0 * unit, 0.0, size[0], 5.2 * unit]],
         }
     }
 

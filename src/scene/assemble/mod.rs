@@ -13,7 +13,7 @@ mod stress;
 
 pub use initial::Motions;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
     self, CouplingId, Ends, First, Hold, MarkerId, Place, PointId, Resolved, Turning,
@@ -47,7 +47,9 @@ pub struct Assembled<const D: usize = 2> {
     markers: Vec<Marker>,
     /// For every body, its principal axes in its frame, as columns.
     frames: Vec<Matrix3<f64>>,
-    /// Quaternions back from these.
+    /// For every body, where the centre of all its mass is in its frame, m.
+    centers: Vec<Vector3<f64>>,
+    /// Quaternions back from these axes.
     stances: Vec<Quaternion>,
     /// For every coupling, its place among the loads of the system.
     couplings: Vec<usize>,
@@ -69,6 +71,11 @@ impl<const D: usize> Assembled<D> {
     /// Principal axes of a rigid body of space in its frame, as columns.
     pub fn frame(&self, body: usize) -> &Matrix3<f64> {
         &self.frames[body]
+    }
+
+    /// Where the centre of all mass of a rigid body of space is in its frame, m.
+    pub fn center(&self, body: usize) -> &Vector3<f64> {
+        &self.centers[body]
     }
 
     /// Quaternion of the frame of a rigid body of space, from that of its principal axes.
@@ -142,8 +149,8 @@ impl Resolved<'_> {
         builder.ports();
         let points = builder.section_points();
         let nodes = builder.parts.nodes.clone();
-        let frames = self.bodies.iter().map(|body| self.principal(body));
-        let frames: Vec<Matrix3<f64>> = frames.collect();
+        let principal = self.bodies.iter().map(|body| self.principal(body));
+        let (frames, centers): (Vec<Matrix3<f64>>, Vec<_>) = principal.unzip();
         let system = System::new(builder.parts).map_err(|error| self.explain(&error))?;
         Ok(Assembled {
             system,
@@ -155,6 +162,7 @@ impl Resolved<'_> {
             markers: builder.markers,
             stances: frames.iter().map(back).collect(),
             frames,
+            centers,
             couplings: builder.couplings,
         })
     }
@@ -195,11 +203,14 @@ impl Resolved<'_> {
         })
     }
 
-    /// Principal axes of a body in its frame.
-    fn principal(&self, body: &resolved::BodyReference<'_>) -> Matrix3<f64> {
+    /// Principal axes of a body in its frame, and the centre of all its mass, m.
+    fn principal(&self, body: &resolved::BodyReference<'_>) -> (Matrix3<f64>, Vector3<f64>) {
         match body {
-            resolved::BodyReference::Rigid(rigid) => self.solid(*rigid).axes,
-            resolved::BodyReference::Cable(_) => Matrix3::identity(),
+            resolved::BodyReference::Rigid(rigid) => {
+                let solid = self.solid(*rigid);
+                (solid.axes, solid.center)
+            }
+            resolved::BodyReference::Cable(_) => (Matrix3::identity(), Vector3::zeros()),
         }
     }
 

@@ -384,7 +384,7 @@ impl<const D: usize> System<D> {
     }
 
     /// Bending and torsion of a rod whose line is this chain.
-    pub(in crate::system) fn sections(&self, chain: &CableChain<D>) -> Option<&RodChain> {
+    pub fn sections(&self, chain: &CableChain<D>) -> Option<&RodChain> {
         let first = chain.nodes(0)[0];
         self.rod_chains().iter().find(|rod| rod.line() == first)
     }

@@ -1,0 +1,287 @@
+//! What of a picture does not change in time, as JSON, and the numbers that do.
+
+use super::actions::{Action, Where, actions};
+use super::numbers::{Numbers, list, quoted};
+use super::recording::Recording;
+use super::sections::{has_corners, sections};
+use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
+use crate::scene::{
+    BodyReference, Cable, CableBody, Ends, First, Hold, Joint, Marker, Place, PortKind, Resolved,
+    Rigid, Solid, Symbol,
+};
+use crate::simulation::Pose;
+
+/// Header and numbers of a page.
+pub(super) fn header(recording: &Recording) -> (String, String) {
+    let scene = &recording.scene;
+    let resolved = scene.resolved();
+    let mut numbers = Numbers::default();
+    let column = |times: &[f64]| times.iter().map(|time| vec![*time]).collect::<Vec<_>>();
+    let times = numbers.exact(&column(&recording.times));
+    let row_times = numbers.exact(&column(&recording.row_times));
+    let table = numbers.exact(&recording.rows);
+    let bodies = resolved.bodies.iter().enumerate();
+    let bodies: Vec<String> = bodies
+        .map(|(place, body)| of_body(recording, &resolved, place, *body, &mut numbers))
+        .collect();
+    let acting = actions(&resolved);
+    let acting: Vec<String> = acting
+        .iter()
+        .enumerate()
+        .map(|(place, action)| of_action(recording, place, action, &mut numbers))
+        .collect();
+    let markers = list(&resolved.markers, |marker| of_marker(&resolved, marker));
+    let motions = resolved.motions.iter();
+    let motions = motions.map(|motion| (motion.name, motion.kind.marker()));
+    let ports = resolved.ports.iter();
+    let ports = ports.filter(|port| !matches!(port.kind, PortKind::Force { .. }));
+    let ports = ports.map(|port| (port.name, port.marker));
+    let motions = motions.chain(ports).map(|(name, marker)| {
+        let marker = marker.id.index();
+        format!(
+            "{{\"name\":{},\"kind\":\"motion\",\"symbol\":\"motion\",\"is_motion\":true,\"ends\":[{{\"marker\":{marker}}},{{\"marker\":{marker}}}]}}",
+            quoted(name)
+        )
+    });
+    let joints = resolved
+        .joints
+        .iter()
+        .map(|joint| of_joint(recording, joint));
+    let springs = resolved.loads.iter().filter_map(|load| {
+        let ends = of_ends(recording, &load.kind.between()?);
+        Some(format!(
+            "{{\"name\":{},\"ends\":{ends}}}",
+            quoted(load.name)
+        ))
+    });
+    let outputs = list(&recording.outputs, |(name, unit)| {
+        format!("{{\"name\":{},\"unit\":{}}}", quoted(name), quoted(unit))
+    });
+    let (tracks, encoded) = numbers.finish();
+    let header = format!(
+        "{{\"name\":{},\"dimension\":{},\"gravity\":{:?},\"times\":{times},\"row_times\":{row_times},\"table\":{table},\
+         \"bodies\":[{}],\"markers\":{markers},\"joints\":{},\"springs\":{},\"actions\":[{}],\"outputs\":{outputs},\
+         \"tracks\":[{tracks}]}}",
+        quoted(&scene.name),
+        scene.dimension,
+        &scene.gravity.full()[..scene.dimension],
+        bodies.join(","),
+        list(joints.chain(motions), |text| text),
+        list(springs, |text| text),
+        acting.join(","),
+    );
+    (header, encoded)
+}
+
+fn of_body(
+    recording: &Recording,
+    resolved: &Resolved<'_>,
+    place: usize,
+    body: BodyReference<'_>,
+    numbers: &mut Numbers,
+) -> String {
+    let first = &recording.poses[0][place];
+    let (nodes, turns) = (first.nodes.len(), !first.axes.is_empty());
+    let is_chain = matches!(body, BodyReference::Cable(_));
+    let mut held = vec![NO_TURN; first.axes.len()];
+    let rows: Vec<Vec<f64>> = (recording.poses.iter())
+        .map(|poses| {
+            row(
+                &poses[place],
+                (recording.scene.dimension, is_chain),
+                &mut held,
+            )
+        })
+        .collect();
+    let track = numbers.stepped(&rows);
+    let shape = match body {
+        BodyReference::Cable(cable) => of_cable(resolved, cable),
+        BodyReference::Rigid(rigid) => of_rigid(rigid),
+    };
+    format!(
+        "{{\"name\":{},\"nodes\":{nodes},\"turns\":{turns},\"track\":{track},{shape}}}",
+        quoted(body.name())
+    )
+}
+
+/// Numbers of a body in one frame, node by node: position, slope but of rigid bodies in space, how sections or frames stand.
+fn row(pose: &Pose, (dimension, is_chain): (usize, bool), held: &mut [Quaternion]) -> Vec<f64> {
+    let mut row = Vec::new();
+    for (node, [position, slope]) in pose.nodes.iter().enumerate() {
+        row.extend(&position[..dimension]);
+        if is_chain || dimension == 2 {
+            row.extend(&slope[..dimension]);
+        }
+        let Some(axes) = pose.axes.get(node) else {
+            continue;
+        };
+        if dimension == 2 {
+            row.extend(&axes[0][..2]);
+            continue;
+        }
+        let turn = quaternion_near(&axes.map(Into::into), &held[node]);
+        held[node] = turn;
+        row.extend(turn);
+    }
+    row
+}
+
+/// Material coordinates of nodes.
+pub(super) fn mesh(resolved: &Resolved<'_>, cable: Cable<'_>) -> Vec<f64> {
+    match cable.is_rigid() {
+        true => vec![0.0, 1.0],
+        false => resolved.nodes(cable).unwrap_or_else(|_| vec![0.0, 1.0]),
+    }
+}
+
+fn lengths(body: &CableBody, mesh: &[f64]) -> Vec<f64> {
+    let whole = body.shape.length();
+    mesh.windows(2)
+        .map(|ends| (ends[1] - ends[0]) * whole)
+        .collect()
+}
+
+fn of_cable(resolved: &Resolved<'_>, cable: Cable<'_>) -> String {
+    let (body, mesh) = (cable.body, mesh(resolved, cable));
+    let mut sections = sections(body, &mesh);
+    if sections.windows(2).all(|pair| pair[0] == pair[1]) {
+        sections.truncate(1);
+    }
+    format!(
+        "\"lengths\":{:?},\"sections\":{:?},\"corners\":{}",
+        lengths(body, &mesh),
+        sections,
+        has_corners(body)
+    )
+}
+
+fn of_rigid(rigid: Rigid<'_>) -> String {
+    let body = rigid.body;
+    let mut points = vec![[0.0; 3]];
+    for point in body.markers.values() {
+        let point = point.full();
+        if !points.contains(&point) {
+            points.push(point);
+        }
+    }
+    let solid = match body.shape {
+        None => "null".into(),
+        Some(Solid::Box { size }) => format!("{{\"box\":{size:?}}}"),
+        Some(Solid::Sphere { radius }) => format!("{{\"sphere\":{radius:?}}}"),
+        Some(Solid::Cylinder {
+            radius,
+            length,
+            axis,
+        }) => {
+            format!(
+                "{{\"cylinder\":{{\"radius\":{radius:?},\"length\":{length:?},\"axis\":{axis:?}}}}}"
+            )
+        }
+        Some(Solid::Tube {
+            radius,
+            inner_radius,
+            length,
+            axis,
+        }) => format!(
+            "{{\"tube\":{{\"radius\":{radius:?},\"inner_radius\":{inner_radius:?},\"length\":{length:?},\"axis\":{axis:?}}}}}"
+        ),
+    };
+    let corners = body.shape.map(|shape| shape.points()).unwrap_or_default();
+    let far = |[x, y, z]: [f64; 3]| x.hypot(y).hypot(z);
+    let radius = corners.into_iter().map(far).fold(0.0, f64::max);
+    format!("\"points\":{points:?},\"solid\":{solid},\"radius\":{radius:?}")
+}
+
+fn of_marker(resolved: &Resolved<'_>, marker: &Marker<'_>) -> String {
+    let body = marker.place.body();
+    let place = resolved
+        .bodies
+        .iter()
+        .position(|other| other.name() == body.name());
+    let at = match marker.place {
+        Place::Point(_, point) => format!("\"point\":{point:?}"),
+        Place::Along(cable, s) => {
+            let mesh = mesh(resolved, cable);
+            let last = mesh.len() - 2;
+            let element = mesh[1..=last].iter().take_while(|end| **end <= s).count();
+            let xi = (s - mesh[element]) / (mesh[element + 1] - mesh[element]);
+            format!("\"element\":{element},\"xi\":{xi:?}")
+        }
+    };
+    format!(
+        "{{\"name\":\"{}.{}\",\"label\":\"{}\",\"body\":{},{at}}}",
+        body.name(),
+        marker.name,
+        marker.name,
+        place.unwrap_or_default()
+    )
+}
+
+fn of_ends(recording: &Recording, ends: &Ends<'_>) -> String {
+    let second = ends.second.id.index();
+    let first = match ends.first {
+        First::Ground(point) => {
+            let point = point.unwrap_or(recording.markers[second]);
+            format!("{{\"point\":{point:?}}}")
+        }
+        First::Marker(marker) => format!("{{\"marker\":{}}}", marker.id.index()),
+        First::Cable(_) => format!("{{\"marker\":{second}}}"),
+    };
+    format!("[{first},{{\"marker\":{second}}}]")
+}
+
+fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {
+    let declared = joint.declaration();
+    let symbol = match declared.symbol {
+        Symbol::Pin => "pin",
+        Symbol::Spiral => "spiral",
+        Symbol::Weld => "weld",
+        Symbol::Slider => "slider",
+        Symbol::Prismatic => "prismatic",
+        Symbol::Orientation => "orientation",
+        Symbol::Link => "link",
+        Symbol::Ring => "ring",
+    };
+    let direction = joint.holds.iter().find_map(|hold| match hold {
+        Hold::Line(along) | Hold::Axis(along) | Hold::Plane(along) | Hold::Across(along, _) => {
+            Some(*along)
+        }
+        _ => None,
+    });
+    let direction = direction
+        .filter(|_| recording.scene.dimension == 3 || matches!(symbol, "slider" | "prismatic"));
+    let direction = direction.map_or("null".into(), |direction| format!("{direction:?}"));
+    format!(
+        "{{\"name\":{},\"kind\":\"{}\",\"symbol\":\"{symbol}\",\"ends\":{},\"direction\":{direction},\"is_local\":{}}}",
+        quoted(joint.name),
+        declared.name,
+        of_ends(recording, &joint.ends),
+        recording.scene.dimension == 2
+    )
+}
+
+fn of_action(
+    recording: &Recording,
+    place: usize,
+    action: &Action<'_>,
+    numbers: &mut Numbers,
+) -> String {
+    let rows: Vec<Vec<f64>> = (recording.acting.iter())
+        .map(|acting| acting[place].clone())
+        .collect();
+    let track = numbers.stepped(&rows);
+    let on = match action.on {
+        Where::Marker(marker) => format!("\"marker\":{}", marker.index()),
+        Where::Joint(marker, joint) => format!("\"marker\":{},\"joint\":{joint}", marker.index()),
+        Where::Body(body) => format!("\"body\":{body}"),
+    };
+    format!(
+        "{{\"name\":{},\"unit\":\"{}\",\"is_moment\":{},\"is_reaction\":{},\"follower\":{},\"components\":{},\"track\":{track},{on}}}",
+        quoted(action.name),
+        action.unit,
+        action.is_moment,
+        action.is_reaction(),
+        action.follower,
+        action.components
+    )
+}

@@ -1,0 +1,22 @@
+//! Floor 7. A scene that moves: what a run looked like ([`Recording`]), and the picture of it for a page of HTML
+//! ([`picture`]), which needs nothing from elsewhere. Its sources are in `script/`, what pages hold of them is `bundle.txt`
+//! (`cargo xtask view-bundle` makes it).
+
+mod actions;
+mod bundle;
+mod gltf;
+mod header;
+mod numbers;
+mod picture;
+mod recording;
+mod sections;
+mod surface;
+mod table;
+mod vtk;
+
+pub use bundle::{LICENSE, SOURCES, bundle};
+pub use gltf::gltf;
+pub use picture::{document, picture, picture_of_table};
+pub use recording::{Limits, Recording};
+pub use table::Table;
+pub use vtk::vtk;

@@ -1,0 +1,192 @@
+// Bodies as surfaces: of chains rings of vertices along their lines, of rigid bodies their shape.
+
+import {
+  BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, DoubleSide, EdgesGeometry, Group, LatheGeometry, LineBasicMaterial,
+  LineSegments, Mesh, MeshLambertMaterial, Quaternion, SphereGeometry, Vector2, Vector3,
+} from 'three';
+import { ConvexGeometry } from 'three/examples/jsm/geometries/ConvexGeometry.js';
+
+const COLOURS = ['#4a78b5', '#c47a3d', '#5a9a6e', '#a4648c', '#8c8048', '#4795a3', '#b35b52', '#7569b0'];
+/** Points around a section, and least number of sections along a chain. */
+const AROUND = 16;
+const ALONG = 72;
+/** Half the width of what is thinner, pixels. */
+const THIN = 1.6;
+
+function material(number) {
+  const colour = COLOURS[number % COLOURS.length];
+  return new MeshLambertMaterial({ color: colour, side: DoubleSide });
+}
+
+/** Points of the boundary of a section of half widths, on a rectangle's edges or around an ellipse. */
+function rim(corners) {
+  if (corners) return [[1, 1], [-1, 1], [-1, 1], [-1, -1], [-1, -1], [1, -1], [1, -1], [1, 1]];
+  return Array.from({ length: AROUND + 1 }, (_, k) => {
+    const angle = (2 * Math.PI * k) / AROUND;
+    return [Math.cos(angle), Math.sin(angle)];
+  });
+}
+
+/** A cable, rod or beam. */
+class Chain {
+  constructor(body) {
+    this.body = body;
+    this.parts = Math.max(2, Math.ceil(ALONG / body.lengths.length));
+    this.rim = rim(body.corners);
+    const [rings, width] = [body.lengths.length * this.parts + 1, this.rim.length];
+    this.rings = rings;
+    const index = [];
+    for (let ring = 0; ring + 1 < rings; ring += 1) {
+      for (let k = 0; k + 1 < width; k += body.corners ? 2 : 1) {
+        const [a, b] = [ring * width + k, (ring + 1) * width + k];
+        index.push(a, a + 1, b, a + 1, b + 1, b);
+      }
+    }
+    // Lids of both ends, with vertices of their own.
+    const lid = rings * width;
+    for (let k = 1; k + 1 < width; k += 1) {
+      index.push(lid, lid + k + 1, lid + k);
+      index.push(lid + width, lid + width + k, lid + width + k + 1);
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(3 * (rings + 2) * width), 3));
+    geometry.setAttribute('normal', new BufferAttribute(new Float32Array(3 * (rings + 2) * width), 3));
+    geometry.setIndex(index);
+    this.object = new Mesh(geometry, material(body.number));
+    this.object.frustumCulled = false;
+  }
+
+  /** Half widths of the section at a place of an element. */
+  halves(element, xi, least) {
+    const sizes = this.body.sections;
+    const [a, b] = sizes[Math.min(element, sizes.length - 1)];
+    return [0, 1].map((k) => Math.max(a[k] + (b[k] - a[k]) * xi, least));
+  }
+
+  update(pixel) {
+    const { position, normal } = this.object.geometry.attributes;
+    const width = this.rim.length;
+    const [point, out] = [new Vector3(), new Vector3()];
+    let before;
+    const put = (at, section, halves, [y, z], direction) => {
+      point.set(0, y * halves[0], z * halves[1]).applyQuaternion(section.stance).add(section.point);
+      position.setXYZ(at, point.x, point.y, point.z);
+      out.copy(direction).applyQuaternion(section.stance);
+      normal.setXYZ(at, out.x, out.y, out.z);
+    };
+    for (let ring = 0; ring < this.rings; ring += 1) {
+      const element = Math.min(Math.floor(ring / this.parts), this.body.lengths.length - 1);
+      const xi = ring / this.parts - element;
+      const section = this.body.section(element, xi, before);
+      const halves = this.halves(element, xi, THIN * pixel);
+      before = section.stance;
+      this.rim.forEach(([y, z], k) => put(ring * width + k, section, halves, [y, z], this.outward(k, halves)));
+      if (ring === 0 || ring === this.rings - 1) {
+        const lid = (this.rings + (ring === 0 ? 0 : 1)) * width;
+        const ahead = new Vector3(ring === 0 ? -1 : 1, 0, 0);
+        this.rim.forEach(([y, z], k) => put(lid + k, section, halves, [y, z], ahead));
+      }
+    }
+    position.needsUpdate = true;
+    normal.needsUpdate = true;
+  }
+
+  outward(k, halves) {
+    if (this.body.corners) {
+      const side = [[0, 0, 1], [0, -1, 0], [0, 0, -1], [0, 1, 0]][k >> 1];
+      return new Vector3(...side);
+    }
+    const [y, z] = this.rim[k];
+    return new Vector3(0, y / halves[0], z / halves[1]).normalize();
+  }
+}
+
+/** Shape of a rigid body. */
+function shape(body, least) {
+  const turned = (geometry, axis) => {
+    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(...axis).normalize());
+    return geometry.applyQuaternion(turn);
+  };
+  const { solid } = body;
+  if (solid?.box) return new BoxGeometry(...solid.box);
+  if (solid?.sphere) return new SphereGeometry(solid.sphere, 48, 24);
+  if (solid?.cylinder) {
+    const { radius, length, axis } = solid.cylinder;
+    return turned(new CylinderGeometry(radius, radius, length, 48), axis);
+  }
+  if (solid?.tube) {
+    const { radius, inner_radius: inner, length, axis } = solid.tube;
+    const [low, high] = [-length / 2, length / 2];
+    const corners = [[inner, low], [radius, low], [radius, low], [radius, high], [radius, high], [inner, high], [inner, high], [inner, low]];
+    return turned(new LatheGeometry(corners.map((corner) => new Vector2(...corner)), 48), axis);
+  }
+  if (body.points.length < 2) return new SphereGeometry(1.6 * least, 32, 16);
+  // What its markers and its centre of mass span, as thick as can be seen.
+  const directions = new SphereGeometry(least, 8, 6).attributes.position;
+  const around = [];
+  for (const place of body.points) {
+    for (let k = 0; k < directions.count; k += 1) {
+      around.push(new Vector3().fromBufferAttribute(directions, k).add(new Vector3(...place)));
+    }
+  }
+  return new ConvexGeometry(around);
+}
+
+/** A rigid body. */
+class Rigid {
+  constructor(body, size) {
+    this.body = body;
+    const geometry = shape(body, 0.011 * size);
+    this.object = new Group();
+    const surface = new Mesh(geometry, material(body.number));
+    if (!body.solid) {
+      surface.material.flatShading = body.points.length < 2 ? false : true;
+      surface.material.transparent = body.points.length > 2;
+      surface.material.opacity = body.points.length > 2 ? 0.82 : 1;
+    }
+    this.object.add(surface);
+    if (body.solid && !body.solid.sphere) {
+      const edges = new EdgesGeometry(geometry, 40);
+      this.object.add(new LineSegments(edges, new LineBasicMaterial({ color: '#24292f', transparent: true, opacity: 0.55 })));
+    }
+    if (body.solid?.cylinder || body.solid?.sphere || body.solid?.tube) this.addSpokes(body.solid);
+  }
+
+  /** A line on what is round, so that one sees it turn. */
+  addSpokes(solid) {
+    const { radius, length, axis } = solid.cylinder ?? solid.tube ?? { radius: solid.sphere, length: 0, axis: [0, 0, 1] };
+    const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(...axis).normalize());
+    const points = [];
+    if (solid.sphere) {
+      for (let k = 0; k < 64; k += 1) {
+        for (const step of [k, k + 1]) {
+          const angle = (Math.PI * step) / 32;
+          points.push(new Vector3(0, radius * 1.002 * Math.cos(angle), radius * 1.002 * Math.sin(angle)));
+        }
+      }
+    } else {
+      const inner = solid.tube?.inner_radius ?? 0;
+      for (const end of [-0.501, 0.501]) {
+        for (const side of [1, -1]) points.push(new Vector3(side * inner, end * length, 0), new Vector3(side * radius, end * length, 0));
+      }
+      points.push(new Vector3(1.001 * radius, -0.5 * length, 0), new Vector3(1.001 * radius, 0.5 * length, 0));
+    }
+    const geometry = new BufferGeometry().setFromPoints(points.map((point) => point.applyQuaternion(turn)));
+    this.object.add(new LineSegments(geometry, new LineBasicMaterial({ color: '#24292f', transparent: true, opacity: 0.7 })));
+  }
+
+  update() {
+    this.object.position.copy(this.body.vector(0, 0));
+    this.object.quaternion.copy(this.body.stance(0));
+  }
+}
+
+/** The surfaces of all bodies. */
+export function surfaces(motion, size) {
+  return motion.bodies.map((body) => (body.lengths ? new Chain(body) : new Rigid(body, size)));
+}
+
+/** The colour of a body's name. */
+export function colourOf(number) {
+  return COLOURS[number % COLOURS.length];
+}

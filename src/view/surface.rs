@@ -1,0 +1,350 @@
+//! Surfaces of bodies for other programs: of cables, rods and beams rings of points along their lines, of rigid bodies their shape.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::header::mesh;
+use super::recording::Recording;
+use super::sections::{has_corners, sections};
+use crate::elements::shape;
+use crate::math::rotation::{self, Quaternion};
+use crate::scene::{BodyReference, RigidBody, Solid};
+use crate::simulation::Pose;
+
+/// Points around what is round, and fewest sections along a body.
+const AROUND: u32 = 16;
+const ALONG: usize = 48;
+/// Half of what stands for a body without a shape, in sizes of the scene.
+const BAR: f64 = 0.006;
+
+/// A point with axes: the first along a line or that of a frame.
+#[derive(Clone, Copy)]
+pub(super) struct Placed {
+    pub point: Vector3<f64>,
+    pub axes: [Vector3<f64>; 3],
+}
+
+impl Placed {
+    /// A point given along the axes.
+    pub fn at(&self, local: &[f64; 3]) -> Vector3<f64> {
+        let [a, b, c] = &self.axes;
+        self.point + a * local[0] + b * local[1] + c * local[2]
+    }
+
+    /// The axes as a quaternion, scalar first, of both the one that is nearer to another.
+    pub fn quaternion(&self, near: &Quaternion) -> Quaternion {
+        rotation::quaternion_near(&self.axes, near)
+    }
+}
+
+/// The surface of a body: points, each along the axes of one of the places that move, and polygons between points.
+pub(super) struct Surface {
+    pub name: String,
+    /// Of every point the place that it belongs to, and its coordinates there, m.
+    pub points: Vec<(usize, [f64; 3])>,
+    pub faces: Vec<Vec<usize>>,
+    /// Element and part of it of every place; none of a rigid body, which has one place.
+    stations: Vec<(usize, f64)>,
+    lengths: Vec<f64>,
+    body: usize,
+}
+
+impl Surface {
+    /// Where its places are in a frame.
+    pub fn places(&self, recording: &Recording, frame: usize) -> Vec<Placed> {
+        let pose = &recording.poses[frame][self.body];
+        if self.stations.is_empty() {
+            return vec![rigid_place(pose, recording.scene.dimension)];
+        }
+        let mut places: Vec<Placed> = Vec::new();
+        for (element, xi) in &self.stations {
+            let before = places.last().map(|place| place.axes[1]);
+            places.push(self.section(pose, (*element, *xi), recording.scene.dimension, before));
+        }
+        places
+    }
+
+    fn section(
+        &self,
+        pose: &Pose,
+        (element, xi): (usize, f64),
+        dimension: usize,
+        before: Option<Vector3<f64>>,
+    ) -> Placed {
+        let length = self.lengths[element];
+        let weighted = |weights: [f64; 4]| {
+            let ends = [element, element + 1].map(|node| pose.nodes[node].map(Vector3::from));
+            let [[p, u], [q, v]] = ends;
+            p * weights[0] + u * weights[1] + q * weights[2] + v * weights[3]
+        };
+        let point = weighted(shape::values(xi, length).into());
+        let mut along = weighted(shape::slopes(xi, length).into()).normalize();
+        let axes_of = |node: usize| pose.axes.get(node).map(|axes| axes.map(Vector3::from));
+        let second = match (axes_of(element), axes_of(element + 1)) {
+            (Some(a), Some(b)) if dimension == 2 => {
+                along = a[0].lerp(&b[0], xi).normalize();
+                Vector3::z()
+            }
+            (Some(a), Some(b)) => {
+                let turn = |axes: &[Vector3<f64>; 3]| {
+                    let [w, x, y, z] = rotation::quaternion(axes);
+                    UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z))
+                };
+                turn(&a).nlerp(&turn(&b), xi) * Vector3::y()
+            }
+            _ if dimension == 2 => Vector3::z(),
+            _ => before.unwrap_or_else(|| Vector3::ith(along.iamin(), 1.0)),
+        };
+        let second = (second - along * along.dot(&second)).normalize();
+        Placed {
+            point,
+            axes: [along, second, along.cross(&second)],
+        }
+    }
+}
+
+fn rigid_place(pose: &Pose, dimension: usize) -> Placed {
+    let [point, first] = pose.nodes[0].map(Vector3::from);
+    let axes = match pose.axes.first() {
+        Some(axes) => axes.map(Vector3::from),
+        None if dimension == 2 => {
+            let first = first.normalize();
+            [first, Vector3::z().cross(&first), Vector3::z()]
+        }
+        None => [Vector3::x(), Vector3::y(), Vector3::z()],
+    };
+    Placed { point, axes }
+}
+
+/// Surfaces of all bodies.
+pub(super) fn surfaces(recording: &Recording) -> Vec<Surface> {
+    let resolved = recording.scene.resolved();
+    let size = extent(recording);
+    let bodies = resolved.bodies.iter().enumerate();
+    bodies
+        .map(|(body, reference)| match reference {
+            BodyReference::Cable(cable) => {
+                let mesh = mesh(&resolved, *cable);
+                let whole = cable.body.shape.length();
+                let lengths = mesh.windows(2).map(|ends| (ends[1] - ends[0]) * whole);
+                let sections = sections(cable.body, &mesh);
+                let name = &cable.body.name;
+                chain(
+                    name,
+                    body,
+                    lengths.collect(),
+                    &sections,
+                    has_corners(cable.body),
+                )
+            }
+            BodyReference::Rigid(rigid) => solid(rigid.body, body, size),
+        })
+        .collect()
+}
+
+/// Largest distance of two nodes along an axis in the first frame, m.
+fn extent(recording: &Recording) -> f64 {
+    let nodes = || recording.poses[0].iter().flat_map(|pose| &pose.nodes);
+    let ends = |axis: usize| {
+        let values = nodes().map(move |node| node[0][axis]);
+        let (low, high) = (
+            values.clone().fold(f64::INFINITY, f64::min),
+            values.fold(f64::NEG_INFINITY, f64::max),
+        );
+        high - low
+    };
+    let largest = (0..3).map(ends).fold(0.0, f64::max);
+    if largest > 0.0 { largest } else { 1.0 }
+}
+
+fn chain(
+    name: &str,
+    body: usize,
+    lengths: Vec<f64>,
+    sections: &[[[f64; 2]; 2]],
+    corners: bool,
+) -> Surface {
+    let parts = ALONG.div_ceil(lengths.len());
+    let count = parts * lengths.len();
+    let stations: Vec<(usize, f64)> = (0..=count)
+        .map(|ring| {
+            let element = (ring / parts).min(lengths.len() - 1);
+            (element, (ring - element * parts) as f64 / parts as f64)
+        })
+        .collect();
+    let rim: Vec<[f64; 2]> = match corners {
+        true => vec![[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]],
+        false => circle(1.0),
+    };
+    let width = rim.len();
+    let mut points = Vec::new();
+    for (ring, (element, xi)) in stations.iter().enumerate() {
+        let [a, b] = sections[*element];
+        let half = |k: usize| a[k] + (b[k] - a[k]) * xi;
+        points.extend(
+            rim.iter()
+                .map(|[y, z]| (ring, [0.0, y * half(0), z * half(1)])),
+        );
+    }
+    let mut faces = vec![
+        (0..width).rev().collect(),
+        (count * width..(count + 1) * width).collect(),
+    ];
+    for ring in 0..count {
+        for k in 0..width {
+            let next = (k + 1) % width;
+            let at = |ring: usize, k: usize| ring * width + k;
+            faces.push(vec![
+                at(ring, k),
+                at(ring, next),
+                at(ring + 1, next),
+                at(ring + 1, k),
+            ]);
+        }
+    }
+    Surface {
+        name: name.into(),
+        points,
+        faces,
+        stations,
+        lengths,
+        body,
+    }
+}
+
+fn circle(radius: f64) -> Vec<[f64; 2]> {
+    let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(AROUND);
+    (0..AROUND)
+        .map(|k| [radius * angle(k).cos(), radius * angle(k).sin()])
+        .collect()
+}
+
+/// Points and polygons so far.
+#[derive(Default)]
+struct Built {
+    points: Vec<[f64; 3]>,
+    faces: Vec<Vec<usize>>,
+}
+
+impl Built {
+    /// A surface around an axis through rings of half width and place along it; closed where it comes back to the first.
+    fn around(&mut self, axis: [f64; 3], rings: &[[f64; 2]], is_closed: bool) {
+        let axis = Vector3::from(axis).normalize();
+        let across = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
+        let beside = axis.cross(&across);
+        let (width, mut starts) = (AROUND as usize, Vec::new());
+        for [radius, along] in rings {
+            starts.push(self.points.len());
+            // All of a ring without width is one point.
+            let points = if *radius > 0.0 { width } else { 1 };
+            let ring = circle(*radius).into_iter().take(points);
+            self.points.extend(
+                ring.map(|[y, z]| <[f64; 3]>::from(axis * *along + across * y + beside * z)),
+            );
+        }
+        let at = |ring: usize, k: usize| match rings[ring][0] > 0.0 {
+            true => starts[ring] + k % width,
+            false => starts[ring],
+        };
+        let count = if is_closed {
+            rings.len()
+        } else {
+            rings.len() - 1
+        };
+        for ring in 0..count {
+            let next = (ring + 1) % rings.len();
+            for k in 0..width {
+                let mut face = vec![at(ring, k), at(ring, k + 1), at(next, k + 1), at(next, k)];
+                face.dedup();
+                self.faces.push(face);
+            }
+        }
+    }
+
+    fn brick(&mut self, centre: Vector3<f64>, halves: [Vector3<f64>; 3]) {
+        let first = self.points.len();
+        for corner in 0..8_usize {
+            let side = |k: usize| if corner >> k & 1 == 1 { 1.0 } else { -1.0 };
+            let way = (0..3).map(|k| halves[k] * side(k)).sum::<Vector3<f64>>();
+            self.points.push((centre + way).into());
+        }
+        let sides = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        self.faces
+            .extend(sides.map(|side| side.map(|corner| first + corner).to_vec()));
+    }
+}
+
+fn solid(rigid: &RigidBody, body: usize, size: f64) -> Surface {
+    let mut built = Built::default();
+    match rigid.shape {
+        Some(Solid::Box { size }) => {
+            let half = |k: usize| Vector3::ith(k, 0.5 * size[k]);
+            built.brick(Vector3::zeros(), [half(0), half(1), half(2)]);
+        }
+        Some(Solid::Sphere { radius }) => {
+            let angle = |k: u32| std::f64::consts::PI * f64::from(k) / f64::from(AROUND / 2);
+            let rings =
+                (0..=AROUND / 2).map(|k| [radius * angle(k).sin(), -radius * angle(k).cos()]);
+            built.around([0.0, 0.0, 1.0], &Vec::from_iter(rings), false);
+        }
+        Some(Solid::Cylinder {
+            radius,
+            length,
+            axis,
+        }) => {
+            let [low, high] = [-0.5 * length, 0.5 * length];
+            built.around(
+                axis,
+                &[[0.0, low], [radius, low], [radius, high], [0.0, high]],
+                false,
+            );
+        }
+        Some(Solid::Tube {
+            radius,
+            inner_radius,
+            length,
+            axis,
+        }) => {
+            let [low, high] = [-0.5 * length, 0.5 * length];
+            let rings = [
+                [inner_radius, low],
+                [radius, low],
+                [radius, high],
+                [inner_radius, high],
+            ];
+            built.around(axis, &rings, true);
+        }
+        None => {
+            let half = BAR * size;
+            built.brick(
+                Vector3::zeros(),
+                [0, 1, 2].map(|k| Vector3::ith(k, 1.5 * half)),
+            );
+            for marker in rigid.markers.values() {
+                let end = Vector3::from(marker.full());
+                if end.norm() > half {
+                    let along = end.normalize();
+                    let across = along.cross(&Vector3::ith(along.iamin(), 1.0)).normalize();
+                    built.brick(
+                        0.5 * end,
+                        [0.5 * end, across * half, along.cross(&across) * half],
+                    );
+                }
+            }
+        }
+    }
+    Surface {
+        name: rigid.name.clone(),
+        points: built.points.into_iter().map(|point| (0, point)).collect(),
+        faces: built.faces,
+        stations: Vec::new(),
+        lengths: Vec::new(),
+        body,
+    }
+}

@@ -1,0 +1,42 @@
+//! `cargo xtask view-bundle`: the committed program of pages that move, made from its sources and pinned packages of npm.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+
+use crate::cargo::Workspace;
+use crate::process::{announced, prepared, run, run_quietly, shown};
+use crate::python::Python;
+
+/// Sources, with the pinned packages.
+const SOURCES: &str = "src/view/script";
+/// What is made of them.
+const BUNDLE: &str = "src/view/bundle.txt";
+/// Runs node and npm.
+const NODE: &str = "xtask/node.py";
+
+/// Makes the program anew. Packages are installed among the products, beside a copy of the sources.
+pub fn regenerate(workspace: &Workspace) -> Result<()> {
+    let python = Python::prepare_node(workspace)?;
+    let folder = workspace.target("view-bundle");
+    for entry in std::fs::read_dir(workspace.path(SOURCES))? {
+        let from = entry?.path();
+        if from.is_file() {
+            let to = prepared(&folder.join(from.file_name().unwrap_or_default()))?;
+            std::fs::copy(&from, &to).with_context(|| format!("cannot copy {}", shown(&from)))?;
+        }
+    }
+    let program = |name: &str, arguments: &[&Path]| {
+        let mut command = python.script(&workspace.path(NODE));
+        command.arg(name).args(arguments).current_dir(&folder);
+        command
+    };
+    announced("installing packages", "installed packages", || {
+        let install = ["ci", "--no-audit", "--no-fund"].map(Path::new);
+        run_quietly(&mut program("npm", &install))
+    })?;
+    run(&mut program(
+        "node",
+        &[Path::new("build.mjs"), &workspace.path(BUNDLE)],
+    ))
+}
