@@ -365,9 +365,11 @@ impl Method for Radau {
     ) -> Attempt {
         let (time, q, v) = state;
         self.attempted = h;
+        // Of rotations a whole turn more is a solution too.
+        let has_rotations = dynamics.has_rotations();
         let fail = |this: &mut Self, factor: f64| {
             // The stages no longer hold the last step's polynomial.
-            this.is_slow = this.last.take().is_none();
+            this.is_slow = this.last.take().is_none() && has_rotations;
             this.rejected = true;
             Attempt::Failed(factor)
         };

@@ -3,11 +3,16 @@
 //! A state may hold a rate or an acceleration of a stiff direction that the method damps, or that Newton's iteration or the way
 //! back to the constraints left there. Followed over a step of many periods of it they lead far out of the region in
 //! which the iteration converges: a twist of `1e-11` rad in a shaft whose torsional waves take `1e-6` s becomes whole turns
-//! over `0.05` s. Where an iteration that started by the acceleration has failed, the next one starts without them. With `s` the real eigenvalue of the
+//! over `0.05` s. Where an iteration that started by the acceleration has failed, the next one starts without them, if they
+//! hold most of the acceleration. With `s` the real eigenvalue of the
 //! method over the step, `s^2 (s^2 I + s R + K)^-1` leaves slow directions as they are and takes stiff ones out.
 
-use super::{C, GAMMA, Radau, dense, product};
+use super::{C, GAMMA, Radau, dense, product, size};
 use crate::system::Dynamics;
+
+/// Acceleration, over that of slow directions, from which on stiff directions hold most of it. Below, they hold what is balanced
+/// there, as the centripetal part of what turns.
+const DOMINANT: f64 = 2.0;
 
 impl Radau {
     /// Starting values of the stages: the last step's polynomial, or constant acceleration; after iterations that failed, in
@@ -22,8 +27,12 @@ impl Radau {
                     dynamics.solve(slow);
                     slow.iter_mut().for_each(|slow| *slow *= s * s);
                 }
+                let from = match size(&self.a) > DOMINANT * size(&self.error_q) {
+                    true => [&self.error_v[..], &self.error_q],
+                    false => [v, &self.a],
+                };
                 for (stage, c) in self.zq.iter_mut().zip(C) {
-                    follow(c * h, [&self.error_v, &self.error_q], stage);
+                    follow(c * h, from, stage);
                 }
             }
             Some(last) => self.go_on(h, last),

@@ -36,6 +36,10 @@ pub trait Dynamics {
     fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool;
     /// Solves in place with the real factors.
     fn solve(&mut self, x: &mut [f64]);
+    /// Whether rotations are among the coordinates.
+    fn has_rotations(&self) -> bool {
+        false
+    }
     /// Remembers the configuration of the last acceleration as that of a stage, at most [`STAGES`](crate::body::STAGES).
     fn set_stage(&mut self, stage: usize);
     /// Solves for the first stages in place, as many as there are vectors. `forward`, a square matrix by rows, takes
@@ -415,6 +419,10 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         self.system.to_tangent(0, self.work, x);
         self.solve_small(x);
         self.system.back_from_tangent(0, self.work, x);
+    }
+
+    fn has_rotations(&self) -> bool {
+        !self.system.has_no_frames()
     }
 
     fn set_stage(&mut self, stage: usize) {

@@ -67,7 +67,7 @@ fn worst(squares: &Squares) -> Option<Rest> {
         size: left.sqrt(),
         roundoff: roundoff.sqrt(),
     });
-    let rests = rests.filter(|rest| !(rest.size <= ROUNDINGS * rest.roundoff));
+    let rests = rests.filter(|rest| rest.size > ROUNDINGS * rest.roundoff || rest.size.is_nan());
     rests.max_by(|a, b| f64::total_cmp(&a.relative(), &b.relative()))
 }
 

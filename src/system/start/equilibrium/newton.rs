@@ -97,10 +97,8 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
                 break;
             }
         }
-        if !is_stable {
-            if let Err(correction) = self.relax(state, guard) {
-                return Err(failure(self, correction));
-            }
+        if !is_stable && let Err(correction) = self.relax(state, guard) {
+            return Err(failure(self, correction));
         }
         match self.rest(state) {
             Some(rest) => Err(Failure::Rest(rest)),
