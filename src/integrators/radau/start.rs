@@ -6,6 +6,8 @@
 //! over `0.05` s. Where an iteration that started by the acceleration has failed, the next one starts without them, if they
 //! hold most of the acceleration. With `s` the real eigenvalue of the
 //! method over the step, `s^2 (s^2 I + s R + K)^-1` leaves slow directions as they are and takes stiff ones out.
+//!
+//! Source: as for the method; starting values are section IV.8 of Hairer and Wanner.
 
 use super::{C, GAMMA, Radau, dense, product, size};
 use crate::system::Dynamics;

@@ -405,14 +405,12 @@ impl<const D: usize> Dynamics for Model<'_, D> {
 
     fn factor(&mut self, weights: [f64; 2]) -> bool {
         self.operations += FACTOR;
-        let elimination = &self.system.elimination;
-        self.work.tangent.factor(elimination, weights)
+        (self.work.tangent).factor(&self.system.elimination, weights)
     }
 
     fn factor_complex(&mut self, weights: [Complex<f64>; 2]) -> bool {
         self.operations += FACTOR_COMPLEX;
-        let elimination = &self.system.elimination;
-        self.work.tangent.factor_complex(elimination, weights)
+        (self.work.tangent).factor_complex(&self.system.elimination, weights)
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -443,10 +441,7 @@ impl<const D: usize> Dynamics for Model<'_, D> {
     }
 
     fn take_out_normal(&mut self, a: &mut [f64]) {
-        // Constraints see small rotations.
-        self.system.to_small(self.work, a);
-        self.system.project_on_tangent_plane(self.work, a);
-        self.system.to_rotations(self.work, a);
+        self.system.take_out_normal(self.work, a);
     }
 
     fn apply_damping(&mut self, x: &mut [f64]) {

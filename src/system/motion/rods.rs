@@ -93,12 +93,15 @@ impl<const D: usize> System<D> {
         });
     }
 
-    /// Changes of rotations in `q` become small rotations where the last acceleration was.
-    pub(in crate::system) fn to_small(&self, work: &mut Work<D>, q: &mut [f64]) {
+    /// Takes the part out of second derivatives of `q` that constraints, which see small rotations, do not allow where the last acceleration
+    /// was.
+    pub(in crate::system) fn take_out_normal(&self, work: &mut Work<D>, q: &mut [f64]) {
         if !self.has_no_frames() {
             self.frames.to_spins(&work.turns, q);
             self.turn_carried(Derivative::Back, work, q);
         }
+        self.project_on_tangent_plane(work, q);
+        self.to_rotations(work, q);
     }
 
     /// Angular accelerations become second derivatives of rotations.
