@@ -8,7 +8,15 @@ const FILE: usize = 500;
 const FUNCTION: usize = 70;
 
 fn all() -> Vec<Source> {
-    sources(&["src", "tests", "xtask/src", "lab/src", "partners/src"])
+    sources(&[
+        "src",
+        "tests",
+        "packing/src",
+        "program",
+        "xtask/src",
+        "lab/src",
+        "partners/src",
+    ])
 }
 
 /// Name, first line and number of lines of every function with a body.

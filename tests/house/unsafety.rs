@@ -12,7 +12,14 @@ const MASTER: &str = "lab/src/overhead/master.rs";
 /// The interface of the units that tests couple the product with: it must not share the product's faults.
 const PARTNERS: &str = "partners/src/abi.rs";
 /// Everything but the tests.
-const FOLDERS: [&str; 4] = ["src", "xtask/src", "lab/src", "partners/src"];
+const FOLDERS: [&str; 6] = [
+    "src",
+    "packing/src",
+    "program/src",
+    "xtask/src",
+    "lab/src",
+    "partners/src",
+];
 
 #[test]
 fn unsafe_code_is_in_the_interface_only() {

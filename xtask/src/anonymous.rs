@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use packing::shown;
 
 use crate::cargo::rustc;
-use crate::process::{shown, stdout};
+use crate::process::stdout;
 
 /// The flags for a project in one folder whose products go to another.
 pub fn flags(root: &Path, target: &Path) -> Result<Vec<String>> {

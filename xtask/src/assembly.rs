@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
+use packing::shown;
 
 use crate::package::PACKAGE;
-use crate::process::shown;
 
 /// Makes the compiler write down what the library consists of, beside what it is linked from.
 pub const EMIT: &str = "--emit=link,asm";

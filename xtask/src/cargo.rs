@@ -4,14 +4,17 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
+use packing::Platform;
 use serde_json::Value;
 
 use crate::anonymous;
 use crate::assembly;
 use crate::linker::Linker;
 use crate::package::PACKAGE;
-use crate::platform::Platform;
 use crate::process;
+
+/// The package of the program `flexbody`.
+const PROGRAM: &str = "flexbody-program";
 
 /// Where the project lies and where its products go.
 pub struct Workspace {
@@ -106,7 +109,7 @@ impl Workspace {
     pub fn binary(&self) -> Result<PathBuf> {
         let mut command = self.cargo("build");
         command
-            .args(["--package", PACKAGE, "--bin", PACKAGE])
+            .args(["--package", PROGRAM, "--bin", PACKAGE])
             .args(["--message-format", "json-render-diagnostics"]);
         product(&mut command, PACKAGE, |artifact| {
             artifact["executable"].as_str()
@@ -114,10 +117,11 @@ impl Workspace {
         .context("building the flexbody program")
     }
 
-    /// Builds the program of a package, named like it, for release and returns where it is.
-    pub fn program(&self, package: &str) -> Result<PathBuf> {
+    /// Builds a program for release and returns where it is; its package is named like it, but for that of the product.
+    pub fn program(&self, name: &str) -> Result<PathBuf> {
         let mut command = self.cargo("build");
-        self.executable(command.args(["--bin", package]), package)
+        let package = if name == PACKAGE { PROGRAM } else { name };
+        self.executable(command.args(["--bin", name]), (package, name))
     }
 
     /// Builds the program of a package outside the workspace and returns where it is.
@@ -126,18 +130,18 @@ impl Workspace {
         command.arg("--manifest-path");
         command.arg(self.path(folder).join("Cargo.toml"));
         command.arg("--target-dir").arg(self.target(package));
-        self.executable(&mut command, package)
+        self.executable(&mut command, (package, package))
     }
 
     fn flags(&self) -> Result<Vec<String>> {
         anonymous::flags(&self.root, &self.target)
     }
 
-    fn executable(&self, command: &mut Command, package: &str) -> Result<PathBuf> {
+    fn executable(&self, command: &mut Command, (package, name): (&str, &str)) -> Result<PathBuf> {
         // With the flags of libraries, so that the two share what they depend on.
         let command = released(command, package, &self.flags()?);
-        product(command, package, |artifact| artifact["executable"].as_str())
-            .with_context(|| format!("building the {package} program"))
+        product(command, name, |artifact| artifact["executable"].as_str())
+            .with_context(|| format!("building the {name} program"))
     }
 }
 

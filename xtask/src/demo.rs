@@ -3,9 +3,10 @@
 use std::process::Stdio;
 
 use anyhow::{Result, bail};
+use packing::{prepared, shown};
 
 use crate::cargo::Workspace;
-use crate::process::{prepared, run, shown};
+use crate::process::run;
 use crate::python::Python;
 use crate::table::Table;
 use crate::{describe, package, simulate};
@@ -22,7 +23,7 @@ pub fn demo(workspace: &Workspace) -> Result<()> {
     let picture = workspace.target("demo/pendulum.png");
     let reference = workspace.path(REFERENCE);
     let scene = workspace.path(describe::DEFAULT_SCENE);
-    package::package(workspace, &scene, Some(&fmu), &[], package::Parts::ALL)?;
+    package::package(workspace, &scene, Some(&fmu), &[], &[])?;
     let python = Python::prepare(workspace)?;
     run(simulate::fmpy(workspace, &python, &fmu)
         .arg("--output")

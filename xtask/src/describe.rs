@@ -6,12 +6,11 @@ use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
+use packing::{copy_all, entry_name, files, shown};
 
-use crate::archive::{entry_name, files};
 use crate::cargo::Workspace;
-use crate::icon;
 use crate::package::Stage;
-use crate::process::{prepared, run, shown, stdout};
+use crate::process::{run, stdout};
 
 /// The scene that stands for all in the repository.
 pub const DEFAULT_SCENE: &str = "scenes/pendulum.json";
@@ -20,38 +19,29 @@ const COMMITTED: &str = "modelDescription";
 /// The committed JSON Schema of scenes.
 const SCHEMA: &str = "scenes/scene.schema.json";
 
-/// Writes everything an FMU of the scene holds besides the library; its default experiment in motion where that is wanted, which
-/// may differ in the last digits from machine to machine.
-pub fn describe(binary: &Path, scene: &Path, folder: &Path, animation: bool) -> Result<()> {
-    let still = (!animation).then_some("--no-animation");
+/// Writes what the FMU of the default scene holds besides the library, without its default experiment in motion, which may differ in the
+/// last digits from machine to machine.
+fn describe(workspace: &Workspace, binary: &Path, folder: &Path) -> Result<()> {
     run(Command::new(binary)
         .arg("describe")
-        .arg(scene)
+        .arg(workspace.path(DEFAULT_SCENE))
         .arg("--output")
         .arg(folder)
-        .args(still))
-    .with_context(|| format!("{} does not describe an FMU", scene.display()))?;
-    icon::render(
-        &folder.join("documentation").join("scene.svg"),
-        &folder.join("model.png"),
-    )
+        .arg("--no-animation"))
 }
 
 /// Regenerates the committed files.
 pub fn regenerate(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
     let stage = Stage::new(workspace, "stage")?;
-    describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0, false)?;
+    describe(workspace, &binary, &stage.0)?;
     // Only now: a scene that is refused leaves the committed files as they are.
     let committed = workspace.path(COMMITTED);
     if committed.exists() {
         std::fs::remove_dir_all(&committed)
             .with_context(|| format!("cannot clear {}", shown(&committed)))?;
     }
-    for file in files(&stage.0)? {
-        let copy = prepared(&committed.join(entry_name(&stage.0, &file)?))?;
-        std::fs::copy(&file, &copy).with_context(|| format!("cannot write {}", shown(&copy)))?;
-    }
+    copy_all(&stage.0, &committed)?;
     println!("wrote {}", shown(&committed));
     let schema = workspace.path(SCHEMA);
     std::fs::write(&schema, schema_text(&binary)?)
@@ -64,7 +54,7 @@ pub fn regenerate(workspace: &Workspace) -> Result<()> {
 pub fn check(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
     let stage = Stage::new(workspace, "stage")?;
-    describe(&binary, &workspace.path(DEFAULT_SCENE), &stage.0, false)?;
+    describe(workspace, &binary, &stage.0)?;
     let committed = workspace.path(COMMITTED);
     let mut names = BTreeSet::new();
     for folder in [&stage.0, &committed] {

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 use anyhow::{Context, Result, bail};
+use packing::{prepared, shown};
 use serde_json::Value;
 
 use crate::cargo::{Workspace, executables};
-use crate::process::{self, prepared, shown};
+use crate::process;
 
 /// Fuzz targets, the program that only AddressSanitizer watches, and the one that writes what `state` starts from: saved
 /// states of another format than today's are refused before much is read of them.

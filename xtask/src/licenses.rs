@@ -6,16 +6,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
+use packing::{Content, LICENSES, Platform, prepared, shown, write_whole};
 use serde_json::Value;
 
-use crate::archive::Content;
 use crate::cargo::{Workspace, release, rustc};
 use crate::linker::c_library_notices;
-use crate::platform::Platform;
-use crate::process::{prepared, shown, stdout, write_whole};
+use crate::process::stdout;
 
-/// Where they are in an FMU.
-pub const FOLDER: &str = "documentation/licenses/";
 /// What to read first.
 const FIRST: &str = include_str!("../license.txt");
 /// Our licenses, at the root of the project: short names of the terms, files.
@@ -57,7 +54,7 @@ fn content(workspace: &Workspace, package: &str, platforms: &[Platform]) -> Resu
     let read =
         |path: &Path| std::fs::read(path).with_context(|| format!("cannot read {}", shown(path)));
     let mut content = Content::new();
-    let mut add = |name: &str, bytes: Vec<u8>| content.insert(format!("{FOLDER}{name}"), bytes);
+    let mut add = |name: &str, bytes: Vec<u8>| content.insert(format!("{LICENSES}{name}"), bytes);
     add("license.txt", FIRST.into());
     for (_, file) in OURS {
         add(file, read(&workspace.path(file))?);

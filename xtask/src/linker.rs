@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
+use packing::{Platform, prepared, shown, write_whole};
 
 use crate::cargo::{Workspace, rustc};
 use crate::exports;
-use crate::platform::Platform;
-use crate::process::{prepared, shown, stdout, write_whole};
+use crate::process::stdout;
 use crate::python::Python;
 
 /// Where scripts and what Zig builds once are kept, among the products.

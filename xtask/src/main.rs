@@ -1,13 +1,13 @@
 //! Commands of the project: `cargo xtask help` lists them.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use platform::Platform;
+use packing::Platform;
 
 mod anonymous;
-mod archive;
 mod assembly;
 mod cargo;
 mod chart;
@@ -15,13 +15,10 @@ mod demo;
 mod describe;
 mod exports;
 mod fuzz;
-mod icon;
 mod licenses;
 mod linker;
-mod merge;
 mod package;
 mod partners;
-mod platform;
 mod process;
 mod product;
 mod python;
@@ -64,37 +61,38 @@ enum Command {
     },
     /// Joins two FMUs of one scene that were built for different platforms
     Merge {
-        /// An FMU
-        #[arg(value_name = "A.fmu")]
-        first: PathBuf,
-        /// The same for other platforms
-        #[arg(value_name = "B.fmu")]
-        second: PathBuf,
-        /// Where to write [default: target/fmu/merged/<name of A>.fmu]
-        #[arg(long, value_name = "C.fmu")]
-        output: Option<PathBuf>,
-    },
-    /// Finds numbers of elements and a tolerance for the error that a scene asks for, and says why
-    Plan {
-        /// The scene
-        #[arg(value_name = "SCENE.json")]
-        scene: PathBuf,
-        /// Writes the scene with these numbers
-        #[arg(long, value_name = "FILE.json")]
-        output: Option<PathBuf>,
-    },
-    /// Simulates a scene (natively) or an FMU (with fmpy) to a CSV file
-    Simulate(simulate::Arguments),
-    /// Shows a scene (.json), an FMU or outputs (.csv) in motion: writes a page of HTML and opens it
-    View {
-        /// What `flexbody view` takes: a file, then options
+        /// What the program `flexbody` takes: files, then options
         #[arg(
             value_name = "ARGUMENT",
             required = true,
             trailing_var_arg = true,
             allow_hyphen_values = true
         )]
-        arguments: Vec<std::ffi::OsString>,
+        arguments: Vec<OsString>,
+    },
+    /// Finds numbers of elements and a tolerance for the error that a scene asks for, and says why
+    Plan {
+        /// What the program `flexbody` takes: files, then options
+        #[arg(
+            value_name = "ARGUMENT",
+            required = true,
+            trailing_var_arg = true,
+            allow_hyphen_values = true
+        )]
+        arguments: Vec<OsString>,
+    },
+    /// Simulates a scene (natively) or an FMU (with fmpy) to a CSV file
+    Simulate(simulate::Arguments),
+    /// Shows a scene (.json), an FMU or outputs (.csv) in motion: writes a page of HTML and opens it
+    View {
+        /// What the program `flexbody` takes: files, then options
+        #[arg(
+            value_name = "ARGUMENT",
+            required = true,
+            trailing_var_arg = true,
+            allow_hyphen_values = true
+        )]
+        arguments: Vec<OsString>,
     },
     /// Packages the pendulum, simulates it with fmpy, compares and draws it
     Demo,
@@ -130,25 +128,18 @@ fn main() -> ExitCode {
             platform,
             no_terminals,
             no_animation,
-        } => package::package(
-            &workspace,
-            &scene,
-            output.as_deref(),
-            &platform,
-            package::Parts {
-                terminals: !no_terminals,
-                animation: !no_animation,
-            },
-        )
-        .map(drop),
-        Command::Merge {
-            first,
-            second,
-            output,
-        } => merge::merge(&workspace, [&first, &second], output.as_deref()),
-        Command::Plan { scene, output } => simulate::plan(&workspace, &scene, output.as_deref()),
+        } => {
+            let options = [
+                no_terminals.then_some("--no-terminals"),
+                no_animation.then_some("--no-animation"),
+            ];
+            let options: Vec<&str> = options.into_iter().flatten().collect();
+            package::package(&workspace, &scene, output.as_deref(), &platform, &options)
+        }
+        Command::Merge { arguments } => simulate::pass_on(&workspace, "merge", &arguments),
+        Command::Plan { arguments } => simulate::pass_on(&workspace, "plan", &arguments),
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
-        Command::View { arguments } => simulate::view(&workspace, &arguments),
+        Command::View { arguments } => simulate::pass_on(&workspace, "view", &arguments),
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),
         Command::ViewBundle => view_bundle::regenerate(&workspace),

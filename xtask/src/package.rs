@@ -1,80 +1,38 @@
-//! `cargo xtask package`: an FMU is the description of a scene beside the one compiled library.
+//! `cargo xtask package`: builds what FMUs are made of, then the program packages.
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
-use serde_json::Value;
+use anyhow::{Context, Result};
+use packing::{Platform, prepared, shown};
 
 use crate::cargo::Workspace;
-use crate::platform::Platform;
-use crate::process::{announced, prepared, shown};
+use crate::process::run;
 use crate::product::Product;
-use crate::{archive, describe};
 
-/// What says which variables make up a port; only FMUs of scenes with ports have it.
-const TERMINALS: &str = "terminalsAndIcons";
 /// The package that is every scene's library, and thereby its `modelIdentifier`.
 pub const PACKAGE: &str = "flexbody";
 
-/// What an FMU may be without.
-#[derive(Clone, Copy)]
-pub struct Parts {
-    /// Terminals.
-    pub terminals: bool,
-    /// The default experiment in motion.
-    pub animation: bool,
-}
-
-impl Parts {
-    /// Everything.
-    pub const ALL: Self = Self {
-        terminals: true,
-        animation: true,
-    };
-}
-
-/// Makes an FMU of a scene for some platforms, or for the host where none is named, with these parts,
-/// says where, and returns its path.
+/// Makes an FMU of a scene for some platforms, or for the host where none is named, with further arguments of the program.
 pub fn package(
     workspace: &Workspace,
     scene: &Path,
     output: Option<&Path>,
     platforms: &[Platform],
-    parts: Parts,
-) -> Result<PathBuf> {
+    options: &[&str],
+) -> Result<()> {
     check_readable(scene)?;
-    let output = output.map(checked_output).transpose()?;
     let platforms = match platforms {
         [] => vec![Platform::host()?],
         named => named.to_vec(),
     };
     let product = Product::new(workspace, &platforms)?;
-    let stage = Stage::new(workspace, "stage")?;
-    describe::describe(&product.program, scene, &stage.0, parts.animation)?;
-    let folder = stage.0.join(TERMINALS);
-    if !parts.terminals && folder.exists() {
-        std::fs::remove_dir_all(&folder)
-            .with_context(|| format!("cannot remove {}", shown(&folder)))?;
-    }
-    product.put(&stage.0)?;
     let output = match output {
-        Some(output) => output,
-        None => prepared(&workspace.target(&format!("fmu/{}.fmu", scene_name(&stage.0)?)))?,
+        Some(output) => output.to_owned(),
+        None => prepared(&workspace.target("fmu").join("."))?,
     };
-    let done = format!("packaged {}", shown(&output));
-    announced("packaging", &done, || archive::pack(&stage.0, &output))?;
-    Ok(output)
-}
-
-/// The file to write an FMU to, absolute, unless its name does not say that it is one.
-pub fn checked_output(file: &Path) -> Result<PathBuf> {
-    if file.extension() != Some("fmu".as_ref()) {
-        bail!(
-            "--output: expected a file name ending in .fmu, found {}",
-            file.display()
-        );
-    }
-    prepared(file)
+    let mut command = product.packager();
+    command.arg(scene).arg("--output").arg(output).args(options);
+    run(&mut command)
 }
 
 /// Puts the library of a package among the binaries of an FMU, named like the package.
@@ -116,16 +74,4 @@ pub fn check_readable(path: &Path) -> Result<()> {
     std::fs::File::open(path)
         .map(drop)
         .with_context(|| format!("cannot read {}", path.display()))
-}
-
-/// The name in the validated scene that `flexbody describe` wrote.
-fn scene_name(described: &Path) -> Result<String> {
-    let file = described.join("resources").join("scene.json");
-    let text =
-        std::fs::read_to_string(&file).with_context(|| format!("cannot read {}", shown(&file)))?;
-    let scene: Value =
-        serde_json::from_str(&text).with_context(|| format!("{} is no JSON", shown(&file)))?;
-    let name = scene["name"].as_str();
-    name.map(str::to_owned)
-        .with_context(|| format!("{}: expected a name, found {}", shown(&file), scene["name"]))
 }

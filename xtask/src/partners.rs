@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use packing::{Platform, announced, pack, prepared, shown};
 
 use crate::cargo::Workspace;
+use crate::licenses;
 use crate::package::{Stage, put_library};
-use crate::platform::Platform;
-use crate::process::{announced, prepared, run_quietly, shown};
-use crate::{archive, licenses};
+use crate::process::run_quietly;
 
 /// The package, its library in an FMU, its program, and its folder among the FMUs.
 const PARTNERS: &str = "partners";
@@ -33,7 +33,7 @@ pub fn partners(workspace: &Workspace, output: Option<&Path>) -> Result<()> {
         put_library(&library, &folder, PARTNERS, platform)?;
         let output = prepared(&output.join(format!("{name}.fmu")))?;
         let done = format!("packaged {}", shown(&output));
-        announced("packaging", &done, || archive::pack(&folder, &output))?;
+        announced("packaging", &done, || pack(&folder, &output))?;
     }
     Ok(())
 }

@@ -1,15 +1,14 @@
 //! What is in every FMU, whatever its scene: libraries and licenses; and the program that describes scenes.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use anyhow::{Context, Result};
+use packing::{Platform, prepared, shown, write_whole};
 
-use crate::archive::{entry_name, files};
 use crate::cargo::Workspace;
 use crate::licenses;
 use crate::package::{PACKAGE, Stage, put_library};
-use crate::platform::Platform;
-use crate::process::{prepared, shown, write_whole};
 
 /// Names a folder that products are kept in, and taken from without asking cargo again. Who sets it knows that nothing they are made of
 /// has changed since: tests, which package hundreds of scenes.
@@ -86,14 +85,11 @@ impl Product {
         }
     }
 
-    /// Puts libraries and licenses into the folder of an FMU.
-    pub fn put(&self, folder: &Path) -> Result<()> {
-        let parts = self.path().join(PARTS);
-        for file in files(&parts)? {
-            let copy = prepared(&folder.join(entry_name(&parts, &file)?))?;
-            std::fs::copy(&file, &copy)
-                .with_context(|| format!("cannot write {}", shown(&copy)))?;
-        }
-        Ok(())
+    /// The program, about to package what follows.
+    pub fn packager(&self) -> Command {
+        let mut command = Command::new(&self.program);
+        command.arg("package").arg("--parts");
+        command.arg(self.path().join(PARTS));
+        command
     }
 }

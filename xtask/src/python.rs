@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
+use packing::{announced, shown};
 
 use crate::cargo::Workspace;
-use crate::process::{announced, run_quietly, shown};
+use crate::process::run_quietly;
 
 /// The pinned packages of tests and pictures, and their folder among the products.
 const PROJECT: (&str, &str) = ("tests/fmpy/requirements.txt", "python");

@@ -1,14 +1,15 @@
 //! `cargo xtask simulate`: one command for scenes and FMUs, one CSV format, one picture.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
+use packing::{prepared, shown};
 
-use crate::archive;
 use crate::cargo::Workspace;
-use crate::package::{Stage, check_readable};
-use crate::process::{prepared, run, shown};
+use crate::package::check_readable;
+use crate::process::run;
 use crate::python::Python;
 
 /// What to simulate and where to write.
@@ -97,26 +98,10 @@ pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {
     Ok(())
 }
 
-/// Plans a scene, and writes it with the numbers found where that is wanted.
-pub fn plan(workspace: &Workspace, scene: &Path, output: Option<&Path>) -> Result<()> {
-    check_readable(scene)?;
-    let mut command = Command::new(workspace.binary()?);
-    command.arg("plan").arg(scene);
-    let output = output.map(prepared).transpose()?;
-    if let Some(output) = &output {
-        command.arg("--output").arg(output);
-    }
-    run(&mut command).with_context(|| format!("{} was not planned", scene.display()))?;
-    if let Some(output) = output {
-        println!("wrote {}", shown(&output));
-    }
-    Ok(())
-}
-
-/// Shows a scene, an FMU or a table in motion: what the program does, built if need be.
-pub fn view(workspace: &Workspace, arguments: &[std::ffi::OsString]) -> Result<()> {
-    let mut command = Command::new(workspace.binary()?);
-    run(command.arg("view").args(arguments))
+/// What the program does with these arguments, built if need be.
+pub fn pass_on(workspace: &Workspace, command: &str, arguments: &[OsString]) -> Result<()> {
+    let mut program = Command::new(workspace.binary()?);
+    run(program.arg(command).args(arguments))
 }
 
 impl Arguments {
@@ -142,21 +127,17 @@ fn simulated(command: &mut Command, file: &Path) -> Result<()> {
 /// Finds the shapes of bodies for the picture of an FMU's run, which outputs alone do not tell: by the same run of the
 /// scene that it holds. False where it holds none.
 fn draws_scene(workspace: &Workspace, arguments: &Arguments, shapes: &Path) -> Result<bool> {
-    let Some(text) = archive::read(&arguments.file)?.remove(SCENE) else {
+    let fmu = &arguments.file;
+    if !packing::read(fmu)?.contains_key(SCENE) {
         return Ok(false);
-    };
-    let stage = Stage::new(workspace, "stage")?;
-    let scene = &stage.0.join("scene.json");
-    std::fs::write(scene, text).with_context(|| format!("cannot write {}", shown(scene)))?;
-    let mut command = native(workspace, scene, Some(shapes))?;
-    simulated(
-        arguments.settings(&mut command).stdout(Stdio::null()),
-        scene,
-    )?;
+    }
+    let mut command = native(workspace, fmu, Some(shapes))?;
+    let command = arguments.settings(&mut command).stdout(Stdio::null());
+    simulated(command, fmu)?;
     Ok(true)
 }
 
-/// A command that simulates a scene natively, and writes shapes for a picture where that is wanted.
+/// A command that simulates a scene, or that in an FMU, natively, and writes shapes for a picture where that is wanted.
 pub fn native(
     workspace: &Workspace,
     scene: &Path,

@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
-
-use crate::process::shown;
+use packing::shown;
 
 /// A table of numbers with named columns.
 pub struct Table {

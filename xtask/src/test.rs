@@ -4,11 +4,11 @@ use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
+use packing::{Platform, shown};
 
 use crate::cargo::{Workspace, release};
 use crate::package::PACKAGE;
-use crate::platform::Platform;
-use crate::process::{run, shown};
+use crate::process::run;
 use crate::product::KEPT;
 use crate::python::Python;
 use crate::{assembly, describe, fuzz};

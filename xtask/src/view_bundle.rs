@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use packing::{announced, prepared, shown};
 
 use crate::cargo::Workspace;
-use crate::process::{announced, prepared, run, run_quietly, shown};
+use crate::process::{run, run_quietly};
 use crate::python::Python;
 
 /// Sources, with the pinned packages.

@@ -7,11 +7,12 @@ use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
+use packing::{prepared, shown};
 use serde_json::{Value, json};
 
 use crate::cargo::Workspace;
 use crate::package::PACKAGE;
-use crate::process::{output_within, prepared, run_quietly, shown, stdout};
+use crate::process::{output_within, run_quietly, stdout};
 use crate::table::Table;
 
 use super::numbers::median;

@@ -4,8 +4,7 @@ use std::fmt::Display;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-
-use crate::process::{prepared, shown};
+use packing::{prepared, shown};
 
 use super::bench::Bench;
 

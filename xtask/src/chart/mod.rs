@@ -87,7 +87,7 @@ pub fn chart(workspace: &Workspace, names: &[String], is_measured: bool) -> Resu
     .context("the charts were not drawn")?;
     println!(
         "wrote {}",
-        crate::process::shown(&workspace.path("docs/charts/README.md"))
+        packing::shown(&workspace.path("docs/charts/README.md"))
     );
     Ok(())
 }

@@ -1,16 +1,17 @@
-//! Floor 11. `flexbody view`: a scene, the scene in an FMU or a table of outputs as a page that moves.
+//! `flexbody view`: a scene, the scene in an FMU or a table of outputs as a page that moves.
 
 use std::fs;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use anyhow::{Result, bail};
 use flexbody::page;
 use flexbody::scene::Scene;
 use flexbody::simulation::courses;
 use flexbody::view::{Limits, Recording, Table, gltf, vtk};
 
 use crate::planning::planned;
-use crate::{Outcome, at, progress_bar, read};
+use crate::reading::{at, is_fmu, read};
+use crate::simulating::progress_bar;
 
 /// What to show, and where to write.
 #[derive(clap::Args)]
@@ -35,19 +36,14 @@ pub struct View {
     gltf: Option<PathBuf>,
 }
 
-/// The scene in an FMU.
-const INSIDE: &str = "resources/scene.json";
-/// Most bytes of a scene in an FMU.
-const MOST: u64 = 64 << 20;
-
 /// Writes what is asked for, says where it is, and opens the page.
-pub fn view(arguments: &View) -> Outcome<()> {
+pub fn view(arguments: &View) -> Result<()> {
     let file = &arguments.file;
     let extension = file.extension().and_then(|extension| extension.to_str());
     let text = match extension {
         Some("csv") => page_of_table(arguments)?,
         Some("json" | "fmu") => {
-            let (scene, recording) = recorded(arguments, extension == Some("fmu"))?;
+            let (scene, recording) = recorded(arguments)?;
             export(arguments, &recording)?;
             page::moving(&scene, &recording)
         }
@@ -67,14 +63,14 @@ pub fn view(arguments: &View) -> Outcome<()> {
     opened.map_err(|error| at(&output, format!("no browser opened it: {error}")))
 }
 
-fn write(path: &Path, content: &[u8]) -> Outcome<()> {
+fn write(path: &Path, content: &[u8]) -> Result<()> {
     fs::write(path, content).map_err(|error| at(path, error))?;
     println!("wrote {}", path.display());
     Ok(())
 }
 
 /// Files for other programs.
-fn export(arguments: &View, recording: &Recording) -> Outcome<()> {
+fn export(arguments: &View, recording: &Recording) -> Result<()> {
     if let Some(folder) = &arguments.vtk {
         fs::create_dir_all(folder).map_err(|error| at(folder, error))?;
         for (name, text) in vtk(recording) {
@@ -89,14 +85,14 @@ fn export(arguments: &View, recording: &Recording) -> Outcome<()> {
     }
 }
 
-fn page_of_table(arguments: &View) -> Outcome<String> {
+fn page_of_table(arguments: &View) -> Result<String> {
     let given = [
         arguments.input.is_some(),
         arguments.vtk.is_some(),
         arguments.gltf.is_some(),
     ];
     if given.contains(&true) {
-        return Err("--input, --vtk, --gltf: expected a scene or an FMU, found a table".into());
+        bail!("--input, --vtk, --gltf: expected a scene or an FMU, found a table");
     }
     let file = &arguments.file;
     let text = fs::read_to_string(file).map_err(|error| at(file, error))?;
@@ -106,10 +102,10 @@ fn page_of_table(arguments: &View) -> Outcome<String> {
 }
 
 /// The scene, and its default experiment simulated.
-fn recorded(arguments: &View, is_fmu: bool) -> Outcome<(Scene, Recording)> {
+fn recorded(arguments: &View) -> Result<(Scene, Recording)> {
     let file = &arguments.file;
-    let (scene, given) = match is_fmu {
-        true => (inside(file)?, None),
+    let (scene, given) = match is_fmu(file) {
+        true => (read(file)?, None),
         false => {
             let given = courses(&read(file)?).map_err(|error| at(file, error))?;
             (planned(file)?.0, given)
@@ -136,21 +132,8 @@ fn recorded(arguments: &View, is_fmu: bool) -> Outcome<(Scene, Recording)> {
     Ok((scene, recording))
 }
 
-/// The scene in an FMU.
-fn inside(file: &Path) -> Outcome<Scene> {
-    let wrong = |error: &dyn std::fmt::Display| at(file, error);
-    let opened = fs::File::open(file).map_err(|error| wrong(&error))?;
-    let mut archive = zip::ZipArchive::new(opened).map_err(|error| wrong(&error))?;
-    let wrong = |error: &dyn std::fmt::Display| at(file, format!("{INSIDE}: {error}"));
-    let found = archive.by_name(INSIDE).map_err(|error| wrong(&error))?;
-    let mut text = String::new();
-    let read = found.take(MOST).read_to_string(&mut text);
-    read.map_err(|error| wrong(&error))?;
-    Scene::from_json(&text).map_err(|error| wrong(&error))
-}
-
 /// The section of a unit's page where its default experiment moves; the file says what inputs do.
-pub fn motion(file: &Path, scene: &Scene) -> Outcome<String> {
+pub fn motion(file: &Path, scene: &Scene) -> Result<String> {
     let inputs = courses(&read(file)?).map_err(|error| at(file, error))?;
     let bar = progress_bar(scene.experiment.steps() as u64);
     let section = page::motion(scene, inputs.as_deref(), &mut |number, _| {

@@ -1,17 +1,35 @@
-//! What the headless runner does with scenes that leave numbers to the planner.
+//! `flexbody plan`, and what is done with scenes that leave numbers to the planner.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use anyhow::Result;
 use flexbody::scene::{Chosen, Scene};
 use flexbody::simulation::{self, Plan, Planned, Settles};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::{Outcome, Planning, at, read};
+use crate::reading::{at, read};
+
+/// Which scene, and where to write.
+#[derive(clap::Args)]
+pub struct Planning {
+    /// Scene file.
+    scene: PathBuf,
+    /// Writes the scene with these numbers to a file.
+    #[arg(long)]
+    output: Option<PathBuf>,
+    /// JSON file for the plan: elements and fewest elements of bodies, tolerance, errors of outputs, runs.
+    #[arg(long)]
+    report: Option<PathBuf>,
+    /// CSV file for what inputs do meanwhile (`accuracy.for`), which `simulate --input` reads; not written where
+    /// none moves.
+    #[arg(long)]
+    inputs: Option<PathBuf>,
+}
 
 /// Reads a scene, and plans it where it leaves elements or numbers to the planner.
-pub fn planned(path: &Path) -> Outcome<(Scene, Planned)> {
+pub fn planned(path: &Path) -> Result<(Scene, Planned)> {
     let scene = read(path)?;
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("planning {spinner} {msg}") {
@@ -28,7 +46,7 @@ pub fn planned(path: &Path) -> Outcome<(Scene, Planned)> {
 }
 
 /// Plans a scene and prints the plan.
-pub fn plan(arguments: &Planning) -> Outcome<()> {
+pub fn plan(arguments: &Planning) -> Result<()> {
     let path = &arguments.scene;
     let (scene, planned) = planned(path)?;
     let Planned { elements, numbers } = &planned;

@@ -3,13 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{Cursor, Read, Seek, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
-use crate::process::{shown, write_whole};
+use crate::files::{entry_name, files, shown, write_whole};
 
 /// Names of files in an archive, with forward slashes, and what is in them.
 pub type Content = BTreeMap<String, Vec<u8>>;
@@ -123,35 +123,6 @@ fn check_name(name: &str, longest: usize) -> Result<()> {
     Ok(())
 }
 
-/// Every file below a folder, in no order.
-pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        let listing = std::fs::read_dir(&folder)
-            .with_context(|| format!("cannot read the folder {}", shown(&folder)))?;
-        for entry in listing {
-            let path = entry?.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                found.push(path);
-            }
-        }
-    }
-    Ok(found)
-}
-
-/// The name of a file relative to a folder, with forward slashes.
-pub fn entry_name(folder: &Path, path: &Path) -> Result<String> {
-    let relative = path.strip_prefix(folder)?;
-    let parts = relative.iter().map(|part| {
-        part.to_str()
-            .ok_or_else(|| anyhow!("the file name {} is not UTF-8", relative.display()))
-    });
-    Ok(parts.collect::<Result<Vec<_>>>()?.join("/"))
-}
-
 /// The bytes of an archive: in memory, because a writer of archives cannot give up a full disk quietly.
 fn zipped(content: &Content) -> Result<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
@@ -181,7 +152,7 @@ mod tests {
         std::fs::create_dir_all(&content)?;
         std::fs::write(content.join("a.txt"), "a".repeat(100_000))?;
         let archive = folder.join("a.fmu");
-        let partial = crate::process::partial(&archive);
+        let partial = crate::files::partial(&archive);
         std::fs::write(&archive, "the one before")?;
         std::os::unix::fs::symlink("/dev/full", &partial)?;
         let error = pack(&content, &archive).expect_err("there is no room");

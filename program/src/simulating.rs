@@ -1,79 +1,23 @@
-//! Floor 11. The headless runner: describes a scene for packaging, simulates it without FMI, and
-//! prints the schema of scenes.
+//! `flexbody simulate`: a scene, or that in an FMU, without FMI.
 
 use std::fs;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::path::PathBuf;
 
-use clap::{Parser, Subcommand};
-use flexbody::fmi2;
-use flexbody::scene::{Experiment, Scene};
+use anyhow::{Result, anyhow, bail};
+use flexbody::scene::Experiment;
 use flexbody::simulation::{
-    Causality, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular, check,
+    Causality, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 
-use files::{Shapes, Sink, Table};
-use planning::{plan, planned};
-use stopwatch::Stopwatch;
-
-mod files;
-mod planning;
-mod stopwatch;
-mod viewing;
-
-#[derive(Parser)]
-#[command(
-    version,
-    about = "Flexible bodies: describe, plan, simulate, view, schema"
-)]
-struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Subcommand)]
-enum Command {
-    /// Writes what a package holds besides the library: model description, scene, documentation.
-    Describe {
-        /// Scene file.
-        scene: PathBuf,
-        /// Directory to write into; made if it does not exist.
-        #[arg(long)]
-        output: PathBuf,
-        /// Leaves the default experiment in motion out of the documentation.
-        #[arg(long)]
-        no_animation: bool,
-    },
-    /// Finds elements, their numbers and a tolerance for the error that a scene asks for, and says why.
-    Plan(Planning),
-    /// Simulates a scene and writes its outputs at every communication point as CSV.
-    Simulate(Simulate),
-    /// Shows a scene, the scene in an FMU or a table of outputs in motion: writes a page of HTML and opens it.
-    View(viewing::View),
-    /// Prints the JSON Schema of a scene.
-    Schema,
-}
+use crate::files::{Shapes, Sink, Table};
+use crate::planning::planned;
+use crate::reading::at;
+use crate::settings::{assign, names, nearest};
+use crate::stopwatch::Stopwatch;
 
 #[derive(clap::Args)]
-struct Planning {
-    /// Scene file.
-    scene: PathBuf,
-    /// Writes the scene with these numbers to a file.
-    #[arg(long)]
-    output: Option<PathBuf>,
-    /// JSON file for the plan: elements and fewest elements of bodies, tolerance, errors of outputs, runs.
-    #[arg(long)]
-    report: Option<PathBuf>,
-    /// CSV file for what inputs do meanwhile (`accuracy.for`), which `simulate --input` reads; not written where
-    /// none moves.
-    #[arg(long)]
-    inputs: Option<PathBuf>,
-}
-
-#[derive(clap::Args)]
-struct Simulate {
+pub struct Simulate {
     /// Scene file.
     scene: PathBuf,
     /// Time at which the simulation ends, s; that of the scene's experiment if it is not given.
@@ -103,10 +47,6 @@ struct Simulate {
     shapes: Option<PathBuf>,
 }
 
-/// Names that are offered in place of one that is not there.
-const OFFERED: usize = 3;
-/// How alike (Jaro-Winkler, 0 to 1) an offered name is at least.
-const ALIKE: f64 = 0.75;
 /// Communication points, about, that bodies are drawn at.
 const SNAPSHOTS: u64 = 11;
 
@@ -175,62 +115,8 @@ impl Cost {
     }
 }
 
-type Outcome<T> = Result<T, String>;
-
-fn main() -> ExitCode {
-    let outcome = match Arguments::parse().command {
-        Command::Describe {
-            scene,
-            output,
-            no_animation,
-        } => describe(&scene, &output, !no_animation),
-        Command::Plan(arguments) => plan(&arguments),
-        Command::Simulate(arguments) => simulate(&arguments),
-        Command::View(arguments) => viewing::view(&arguments),
-        Command::Schema => print_schema(),
-    };
-    match outcome {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("flexbody: {message}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn read(path: &Path) -> Outcome<Scene> {
-    let text = fs::read_to_string(path).map_err(|error| at(path, error))?;
-    Scene::from_json(&text).map_err(|error| at(path, error))
-}
-
-fn at(path: &Path, error: impl std::fmt::Display) -> String {
-    format!("{}: {error}", path.display())
-}
-
-fn print_schema() -> Outcome<()> {
-    let outcome = io::stdout().write_all(Scene::json_schema().as_bytes());
-    outcome.map_err(|error| format!("standard output: {error}"))
-}
-
-fn describe(scene: &Path, output: &Path, is_moving: bool) -> Outcome<()> {
-    let (place, (scene, planned)) = (scene, planned(scene)?);
-    // What contradicts itself is told here, not by the first master that runs it.
-    check(&scene).map_err(|error| at(place, error))?;
-    let motion = match is_moving {
-        true => viewing::motion(place, &scene)?,
-        false => String::new(),
-    };
-    for (name, text) in fmi2::describe(&scene, &planned, &motion) {
-        let path = output.join(name);
-        if let Some(directory) = path.parent() {
-            fs::create_dir_all(directory).map_err(|error| at(directory, error))?;
-        }
-        fs::write(&path, text).map_err(|error| at(&path, error))?;
-    }
-    Ok(())
-}
-
-fn simulate(arguments: &Simulate) -> Outcome<()> {
+/// Simulates to a table.
+pub fn simulate(arguments: &Simulate) -> Result<()> {
     let (scene, _) = planned(&arguments.scene)?;
     let stop_time = arguments.stop_time.unwrap_or(scene.experiment.stop_time);
     let step = arguments.step.unwrap_or(scene.experiment.step);
@@ -275,7 +161,7 @@ fn signals(
     simulation: &mut Simulation,
     arguments: &Simulate,
     stop_time: f64,
-) -> Outcome<Option<Signals>> {
+) -> Result<Option<Signals>> {
     let Some(path) = &arguments.input else {
         return Ok(None);
     };
@@ -295,10 +181,7 @@ fn signals(
         let name = assignment.split('=').next().unwrap_or_default().trim();
         let index = simulation.variables().iter().position(|v| v.name == name);
         if index.is_some_and(|index| signals.holds(index)) {
-            return Err(format!(
-                "--set {assignment}: {} sets it already",
-                path.display()
-            ));
+            bail!("--set {assignment}: {} sets it already", path.display());
         }
     }
     let set = simulation.set_inputs(&signals);
@@ -306,35 +189,12 @@ fn signals(
     Ok(Some(signals))
 }
 
-/// Names of the variables of some kinds.
-fn names(simulation: &Simulation, is_wanted: impl Fn(Causality) -> bool) -> Vec<&str> {
-    let variables = simulation.variables().iter();
-    let wanted = variables.filter(|variable| is_wanted(Causality::of(variable)));
-    wanted.map(|variable| variable.name.as_str()).collect()
-}
-
-/// The names that are most like one that is not there, as the end of a message.
-fn nearest(name: &str, names: &[&str]) -> String {
-    let mut alike: Vec<(f64, &str)> = names
-        .iter()
-        .map(|known| (strsim::jaro_winkler(name, known), *known))
-        .filter(|(likeness, _)| *likeness >= ALIKE)
-        .collect();
-    alike.sort_by(|a, b| b.0.total_cmp(&a.0));
-    alike.truncate(OFFERED);
-    if alike.is_empty() {
-        return String::new();
-    }
-    let alike: Vec<String> = alike.iter().map(|(_, name)| format!("`{name}`")).collect();
-    format!("; did you mean {}?", alike.join(" or "))
-}
-
 /// Calculated parameters and their values.
-fn calculated(simulation: &mut Simulation) -> Outcome<Vec<(String, f64)>> {
+fn calculated(simulation: &mut Simulation) -> Result<Vec<(String, f64)>> {
     let mut found = Vec::new();
     for index in 0..simulation.variables().len() {
         if Causality::of(&simulation.variables()[index]) == Causality::CalculatedParameter {
-            let value = simulation.real(index).map_err(|error| error.to_string())?;
+            let value = simulation.real(index).map_err(|error| anyhow!("{error}"))?;
             found.push((simulation.variables()[index].name.clone(), value));
         }
     }
@@ -342,42 +202,17 @@ fn calculated(simulation: &mut Simulation) -> Outcome<Vec<(String, f64)>> {
 }
 
 /// The number of communication steps up to the stop time.
-fn communication_points(stop_time: f64, step: f64) -> Outcome<u64> {
+pub fn communication_points(stop_time: f64, step: f64) -> Result<u64> {
     for (name, value) in [("--stop-time", stop_time), ("--step", step)] {
         if !(value.is_finite() && value > 0.0) {
-            return Err(format!("{name}: expected a positive number, found {value}"));
+            bail!("{name}: expected a positive number, found {value}");
         }
     }
     let count = Experiment { stop_time, step }.steps();
     if count > 1e9 {
-        return Err(format!("--step: expected at most 1e9 steps, found {count}"));
+        bail!("--step: expected at most 1e9 steps, found {count}");
     }
     Ok(count as u64)
-}
-
-fn assign(simulation: &mut Simulation, assignment: &str) -> Outcome<()> {
-    let wrong = |found: &str| format!("--set {assignment}: {found}");
-    let (name, value) = assignment
-        .split_once('=')
-        .ok_or_else(|| wrong("expected NAME=VALUE"))?;
-    let (name, value) = (name.trim(), value.trim());
-    let index = simulation
-        .variables()
-        .iter()
-        .position(|variable| variable.name == name);
-    let index = index.ok_or_else(|| {
-        let settable = |kind| matches!(kind, Causality::Parameter | Causality::Input);
-        let alike = nearest(name, &names(simulation, settable));
-        wrong(&format!("no variable of this name{alike}"))
-    })?;
-    let outcome = if simulation.variables()[index].is_integer() {
-        let value = value.parse().map_err(|_| wrong("expected an integer"))?;
-        simulation.set_integer(index, value)
-    } else {
-        let value = value.parse().map_err(|_| wrong("expected a number"))?;
-        simulation.set_real(index, value)
-    };
-    outcome.map_err(|error| wrong(&error.to_string()))
 }
 
 /// A simulation from communication point to communication point.
@@ -391,7 +226,7 @@ struct Run {
 }
 
 impl Run {
-    fn all(&mut self, simulation: &mut Simulation) -> Outcome<()> {
+    fn all(&mut self, simulation: &mut Simulation) -> Result<()> {
         let (steps, step, stop_time) = self.steps;
         self.csv.header(simulation)?;
         if let Some(shapes) = &mut self.shapes {
@@ -432,14 +267,18 @@ impl Run {
     }
 
     /// One communication step, in as many parts as inputs have rows in it.
-    fn step(&mut self, simulation: &mut Simulation, until: f64) -> Outcome<()> {
+    fn step(&mut self, simulation: &mut Simulation, until: f64) -> Result<()> {
         while simulation.time() < until {
             let signals = self.signals.as_ref();
             self.cost.stopwatch.time(|| match signals {
-                Some(signals) => simulation.step_along(signals, until),
-                None => simulation
-                    .step(until)
-                    .map_err(|failure| failure.to_string()),
+                Some(signals) => {
+                    let stepped = simulation.step_along(signals, until);
+                    stepped.map_err(|failure| anyhow!("{failure}"))
+                }
+                None => {
+                    let stepped = simulation.step(until);
+                    stepped.map_err(|failure| anyhow!("{failure}"))
+                }
             })?;
             self.cost.add(simulation.report());
             while let Some(name) = simulation.next_doubtful() {
@@ -455,7 +294,7 @@ impl Run {
 }
 
 /// A progress bar on standard error; invisible where that is no terminal.
-fn progress_bar(steps: u64) -> ProgressBar {
+pub fn progress_bar(steps: u64) -> ProgressBar {
     let template = "simulating {bar:40} {percent:>3} %  {eta} left";
     let style = ProgressStyle::with_template(template);
     ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))

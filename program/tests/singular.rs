@@ -1,7 +1,7 @@
 //! What is told of constraints that do not count: those that others give exactly, those that they nearly give, and singular
 //! positions along the way.
 
-#[path = "abi/parallelogram.rs"]
+#[path = "../../tests/abi/parallelogram.rs"]
 mod parallelogram;
 
 use std::process::Command;
@@ -28,7 +28,7 @@ fn told(simulation: &mut Simulation, until: f64) -> Vec<Singular> {
 
 fn shipped(place: &str) -> Simulation {
     let path = format!(
-        "{}/tests/cases/{place}/scene.json",
+        "{}/../tests/cases/{place}/scene.json",
         env!("CARGO_MANIFEST_DIR")
     );
     let text = std::fs::read_to_string(path).expect("a scene");

@@ -4,10 +4,11 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+use anyhow::{Context, Result, anyhow};
 use flexbody::scene::{Body, Scene};
 use flexbody::simulation::{Causality, Simulation};
 
-use crate::{Outcome, at};
+use crate::reading::at;
 
 /// Parts of a cable that a picture shows: as many an element, at least, at most.
 const PARTS: (u32, u32, u32) = (6, 48, 480);
@@ -20,7 +21,7 @@ pub struct Sink {
 
 impl Sink {
     /// Opens the file at `path`, or standard output where there is none.
-    pub fn new(path: Option<&Path>) -> Outcome<Self> {
+    pub fn new(path: Option<&Path>) -> Result<Self> {
         Ok(match path {
             Some(path) => {
                 let file = File::create(path).map_err(|error| at(path, error))?;
@@ -37,15 +38,15 @@ impl Sink {
     }
 
     /// Writes a line.
-    pub fn line(&mut self, text: &str) -> Outcome<()> {
+    pub fn line(&mut self, text: &str) -> Result<()> {
         let written = writeln!(self.writer, "{text}");
-        written.map_err(|error| format!("{}: {error}", self.name))
+        written.with_context(|| self.name.clone())
     }
 
     /// Writes what is still held back.
-    pub fn finish(&mut self) -> Outcome<()> {
+    pub fn finish(&mut self) -> Result<()> {
         let flushed = self.writer.flush();
-        flushed.map_err(|error| format!("{}: {error}", self.name))
+        flushed.with_context(|| self.name.clone())
     }
 }
 
@@ -68,7 +69,7 @@ impl Table {
     }
 
     /// Writes the names.
-    pub fn header(&mut self, simulation: &Simulation) -> Outcome<()> {
+    pub fn header(&mut self, simulation: &Simulation) -> Result<()> {
         let names = self.outputs.iter();
         let names = names.map(|index| simulation.variables()[*index].name.as_str());
         let names: Vec<&str> = std::iter::once("time").chain(names).collect();
@@ -76,10 +77,12 @@ impl Table {
     }
 
     /// Writes the values now.
-    pub fn row(&mut self, simulation: &mut Simulation) -> Outcome<()> {
+    pub fn row(&mut self, simulation: &mut Simulation) -> Result<()> {
         let mut fields = vec![format!("{:?}", simulation.time())];
         for index in &self.outputs {
-            let value = simulation.real(*index).map_err(|error| error.to_string())?;
+            let value = simulation
+                .real(*index)
+                .map_err(|error| anyhow!("{error}"))?;
             fields.push(format!("{value:?}"));
         }
         self.sink.line(&fields.join(","))
@@ -127,14 +130,14 @@ impl Shapes {
     }
 
     /// Writes a line; with points along bodies where it is `whole`: a cable's, or a rigid body's centre of mass and markers.
-    pub fn row(&mut self, simulation: &mut Simulation, is_whole: bool) -> Outcome<()> {
+    pub fn row(&mut self, simulation: &mut Simulation, is_whole: bool) -> Result<()> {
         let dimension = simulation.scene().dimension;
         let list = |points: &[[f64; 3]]| {
             let points = points.iter().map(|point| &point[..dimension]);
             let points: Vec<String> = points.map(|point| format!("{point:?}")).collect();
             format!("[{}]", points.join(", "))
         };
-        let markers = simulation.markers().map_err(|error| error.to_string())?;
+        let markers = simulation.markers().map_err(|error| anyhow!("{error}"))?;
         let mut text = format!("\"markers\": {}", list(&markers));
         if is_whole {
             let (each, least, most) = PARTS;
@@ -143,7 +146,7 @@ impl Shapes {
                 elements.saturating_mul(each).clamp(least, most)
             };
             let found = simulation.outlines(parts);
-            let mut outlines = found.map_err(|error| error.to_string())?;
+            let mut outlines = found.map_err(|error| anyhow!("{error}"))?;
             let mut rest = &markers[..];
             for (body, outline) in outlines.iter_mut().enumerate() {
                 let (own, others) = rest.split_at(self.markers[body]);

@@ -1,20 +1,29 @@
-//! `cargo xtask merge`: one FMU of two that were built for different platforms.
+//! `flexbody merge`: one FMU of two that were built for different platforms.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::PathBuf;
 
 use anyhow::{Result, bail};
 use clap::ValueEnum;
+use packing::{BINARIES, Content, LICENSES, Platform, announced, prepared, read, shown, write};
 
-use crate::archive::{Content, read, write};
-use crate::cargo::Workspace;
-use crate::licenses;
-use crate::package::checked_output;
-use crate::platform::Platform;
-use crate::process::{announced, prepared, shown};
+use crate::packaging::checked_output;
+
+/// Two FMUs, and where to write.
+#[derive(clap::Args)]
+pub struct Merge {
+    /// An FMU.
+    #[arg(value_name = "A.fmu")]
+    first: PathBuf,
+    /// The same for other platforms.
+    #[arg(value_name = "B.fmu")]
+    second: PathBuf,
+    /// Where to write [default: merged/<name of A>.fmu].
+    #[arg(long, value_name = "C.fmu")]
+    output: Option<PathBuf>,
+}
 
 const DESCRIPTION: &str = "modelDescription.xml";
-const BINARIES: &str = "binaries/";
 /// The page, and what its section of the default experiment in motion stands between: it is that of the machine which packaged it, and may
 /// differ in the last digits from that of another.
 const PAGE: &str = "documentation/index.html";
@@ -23,14 +32,15 @@ const MOTION: [&str; 2] = ["<!-- motion begins -->", "<!-- motion ends -->"];
 const NAMED: usize = 5;
 
 /// Joins the platforms of two FMUs that agree in everything else, and says where the result is.
-pub fn merge(workspace: &Workspace, files: [&Path; 2], output: Option<&Path>) -> Result<()> {
+pub fn merge(arguments: &Merge) -> Result<()> {
+    let files = [&arguments.first, &arguments.second];
     let name = files[0].file_name().unwrap_or_default();
-    let output = match output {
+    let output = match &arguments.output {
         Some(output) => checked_output(output)?,
-        None => prepared(&workspace.target("fmu/merged").join(name))?,
+        None => prepared(&PathBuf::from("merged").join(name))?,
     };
-    let [first, second] = files.map(read);
-    let names = files.map(shown);
+    let [first, second] = files.map(|file| read(file));
+    let names = files.map(|file| shown(file));
     let joined = join(first?, second?, [&names[0], &names[1]])?;
     let done = format!("merged {}", shown(&output));
     announced("packaging", &done, || write(&joined, &output))
@@ -62,7 +72,7 @@ fn join(mut first: Content, second: Content, names: [&str; 2]) -> Result<Content
     let is_shared = |file: &&String| platform(file).is_none_or(|found| both.contains(found));
     // Notices of two compilers go side by side.
     let is_shared = |file: &&String| {
-        is_shared(file) && (!file.starts_with(licenses::FOLDER) || in_both(&first, &second, file))
+        is_shared(file) && (!file.starts_with(LICENSES) || in_both(&first, &second, file))
     };
     let all: BTreeSet<&String> = first.keys().chain(second.keys()).collect();
     let compared = |content: &Content, file: &String| {
@@ -178,7 +188,7 @@ mod tests {
     #[test]
     fn notices_of_two_compilers_go_side_by_side() -> Result<()> {
         let [first, second] =
-            ["rust-1.html", "rust-2.html"].map(|name| format!("{}{name}", licenses::FOLDER));
+            ["rust-1.html", "rust-2.html"].map(|name| format!("{}{name}", LICENSES));
         let joined = join(
             fmu("linux64", &[(&first, "one")]),
             fmu("win64", &[(&second, "two")]),

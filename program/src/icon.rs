@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
-use crate::process::shown;
+use packing::shown;
 
 /// Width and height of an icon in pixels.
 const SIZE: u32 = 256;

@@ -1,0 +1,69 @@
+//! Variables by name: those that are set, and those that were meant.
+
+use anyhow::{Result, anyhow};
+use flexbody::simulation::{Causality, Simulation};
+
+/// Names that are offered in place of one that is not there.
+const OFFERED: usize = 3;
+/// How alike (Jaro-Winkler, 0 to 1) an offered name is at least.
+const ALIKE: f64 = 0.75;
+/// Sets what an option says.
+pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<()> {
+    let wrong = |found: &str| anyhow!("--set {assignment}: {found}");
+    let (name, value) = assignment
+        .split_once('=')
+        .ok_or_else(|| wrong("expected NAME=VALUE"))?;
+    let index = settable(simulation, name.trim()).map_err(|found| wrong(&found))?;
+    let value = value.trim().parse();
+    let value = value.map_err(|_| wrong("expected a number"))?;
+    set(simulation, index, value).map_err(|found| wrong(&found))
+}
+
+/// The parameter or input of a name; without one, what to say.
+pub fn settable(simulation: &Simulation, name: &str) -> Result<usize, String> {
+    let mut variables = simulation.variables().iter();
+    variables
+        .position(|variable| variable.name == name)
+        .ok_or_else(|| {
+            let kinds = |kind| matches!(kind, Causality::Parameter | Causality::Input);
+            let alike = nearest(name, &names(simulation, kinds));
+            format!("no variable of this name{alike}")
+        })
+}
+
+/// Sets a variable, or says what is wrong.
+pub fn set(simulation: &mut Simulation, index: usize, value: f64) -> Result<(), String> {
+    let outcome = if simulation.variables()[index].is_integer() {
+        let whole = value as i32;
+        if f64::from(whole) != value {
+            return Err("expected an integer".into());
+        }
+        simulation.set_integer(index, whole)
+    } else {
+        simulation.set_real(index, value)
+    };
+    outcome.map_err(|error| error.to_string())
+}
+
+/// Names of the variables of some kinds.
+pub fn names(simulation: &Simulation, is_wanted: impl Fn(Causality) -> bool) -> Vec<&str> {
+    let variables = simulation.variables().iter();
+    let wanted = variables.filter(|variable| is_wanted(Causality::of(variable)));
+    wanted.map(|variable| variable.name.as_str()).collect()
+}
+
+/// The names that are most like one that is not there, as the end of a message.
+pub fn nearest(name: &str, names: &[&str]) -> String {
+    let mut alike: Vec<(f64, &str)> = names
+        .iter()
+        .map(|known| (strsim::jaro_winkler(name, known), *known))
+        .filter(|(likeness, _)| *likeness >= ALIKE)
+        .collect();
+    alike.sort_by(|a, b| b.0.total_cmp(&a.0));
+    alike.truncate(OFFERED);
+    if alike.is_empty() {
+        return String::new();
+    }
+    let alike: Vec<String> = alike.iter().map(|(_, name)| format!("`{name}`")).collect();
+    format!("; did you mean {}?", alike.join(" or "))
+}
