@@ -61,11 +61,13 @@ class Part(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _unwrap(cls, data: Any) -> Any:
-        """Takes an object from under its key."""
+        """Takes an object from under its key; arrays (numpy) become lists."""
+        if not isinstance(data, dict):
+            return data
         key = cls._extra("x-key")
-        if key and isinstance(data, dict) and set(data) == {key} and isinstance(data[key], dict):
-            return data[key]
-        return data
+        if key and set(data) == {key} and isinstance(data[key], dict):
+            data = data[key]
+        return {key: value.tolist() if hasattr(value, "tolist") else value for key, value in data.items()}
 
     @model_validator(mode="after")
     def _is_one_of_its_kinds(self) -> "Part":
