@@ -5,6 +5,7 @@ import math
 import shutil
 import tempfile
 import threading
+import time
 from ctypes import byref
 from io import BytesIO
 from pathlib import Path
@@ -172,9 +173,15 @@ def result(number, outcome):
     return json.dumps({"run": number, **outcome}, allow_nan=False)
 
 
-def work(name, run):
-    """One run at a worker, from its line to that of its result."""
+def work(name, runs):
+    """Some runs at a worker: the lines of their results, and how long they took, s."""
     plugin = get_worker().plugins[name]
+    started = time.perf_counter()
+    lines = [_line(plugin, run) for run in runs]
+    return lines, time.perf_counter() - started
+
+
+def _line(plugin, run):
     try:
         times, rows = plugin.unit.run(plugin.plan, run["values"])
         return result(run["run"], {"times": times, "values": rows})

@@ -15,10 +15,19 @@ import threading
 import uuid
 from pathlib import Path
 
-from flexbody._errors import Error
+import dask
+from distributed import Client, LocalCluster
+from fmpy import read_model_description
 
-# Runs that wait at a worker, so that it is never idle, nor the memory full of plans.
-AHEAD = 4
+from flexbody._errors import Error
+from flexbody._unit import UnitPlugin, result, work
+
+# Tasks for every thread of a worker: one at work, one that waits.
+AHEAD = 2
+# How long a task takes, about, s: many short runs are one task, since a task costs some ms whatever it does.
+TASK = 0.5
+# Most runs of a task, and most lines that are read ahead.
+MOST = 100
 # How long the first worker may take to come, s.
 PATIENCE = 60
 # How often a run is tried whose workers die.
@@ -37,9 +46,6 @@ def parsed(arguments):
 
 def connected(scheduler, workers):
     """A client, and the cluster that it made."""
-    import dask
-    from distributed import Client, LocalCluster
-
     dask.config.set({"distributed.scheduler.allowed-failures": TRIES})
     if scheduler != "local":
         return Client(scheduler, timeout=PATIENCE), None
@@ -55,8 +61,6 @@ def connected(scheduler, workers):
 
 def checked(plan, fmu):
     """The plan of all runs, once it is sure that the unit has its variables."""
-    from fmpy import read_model_description
-
     known = {variable.name for variable in read_model_description(str(fmu)).modelVariables}
     for name in [*plan["inputs"], *plan["outputs"], *plan["fixed"]]:
         if name not in known:
@@ -64,63 +68,96 @@ def checked(plan, fmu):
     return plan
 
 
-class Feeder(threading.Thread):
-    """Hands runs to the cluster, never more at a time than it has room for."""
+class Reader(threading.Thread):
+    """Reads ahead, but not far."""
 
-    def __init__(self, client, name, lines, room):
+    def __init__(self, lines):
         super().__init__(daemon=True)
-        self.client = client
-        self.name_of_sweep = name
         self.lines = lines
-        self.room = threading.Semaphore(room)
-        self.finished = queue.SimpleQueue()
-        self.number = 0
+        self.read = queue.Queue(MOST)
 
     def run(self):
-        from flexbody._unit import work
-
         try:
             for line in self.lines:
                 if line.strip():
-                    run = json.loads(line)
-                    self.room.acquire()
-                    key = f"{self.name_of_sweep}-{run['run']}"
-                    future = self.client.submit(work, self.name_of_sweep, run, key=key)
-                    self.number += 1
-                    future.add_done_callback(lambda future, run=run: self.finished.put((run["run"], future)))
+                    self.read.put(json.loads(line))
+            self.read.put(END)
         except Exception as error:
-            self.finished.put(error)
-        self.finished.put(END)
+            self.read.put(error)
+
+    def some(self, count):
+        """Runs that are there, at most so many; waits for the first. What ends them comes alone."""
+        found = [self.read.get()]
+        while is_run(found[-1]) and len(found) < count and not self.read.empty():
+            found.append(self.read.get())
+        last = None if is_run(found[-1]) else found.pop()
+        return found, last
+
+
+def is_run(item):
+    return isinstance(item, dict)
+
+
+class Feeder(threading.Thread):
+    """Hands runs to the cluster, never more at a time than it has room for."""
+
+    def __init__(self, client, sweep, lines, room):
+        super().__init__(daemon=True)
+        self.client = client
+        self.sweep = sweep
+        self.reader = Reader(lines)
+        self.room = threading.Semaphore(room)
+        self.finished = queue.SimpleQueue()
+        self.tasks = 0
+        # Runs of a task; as many as go into the time of one, once it is known how long a run takes.
+        self.size = 1
+
+    def run(self):
+        self.reader.start()
+        last = None
+        while last is None:
+            self.room.acquire()
+            runs, last = self.reader.some(self.size)
+            if runs:
+                self._submit(runs)
+        self.finished.put(last)
+
+    def _submit(self, runs):
+        future = self.client.submit(work, self.sweep, runs, key=f"{self.sweep}-{runs[0]['run']}")
+        self.tasks += 1
+        future.add_done_callback(lambda future: self.finished.put((runs, future)))
 
     def results(self):
-        """A line for every run, in the order in which they end."""
-        from flexbody._unit import result
-
-        left = None
+        """A line for every run, in the order in which tasks end."""
+        last = None
         done = 0
-        while left is None or done < left:
+        while last is None or done < self.tasks:
             item = self.finished.get()
-            if item is END:
-                left = self.number
-                continue
-            if isinstance(item, Exception):
-                raise item
-            number, future = item
-            done += 1
-            if future.cancelled():
-                raise Error("the scheduler is gone")
-            error = future.exception()
-            yield result(number, {"error": str(error)}) if error else future.result()
-            future.release()
-            self.room.release()
+            if isinstance(item, tuple):
+                done += 1
+                yield from self._lines(*item)
+                self.room.release()
+            elif item is END:
+                last = item
+            else:
+                raise Error(f"standard input: {item}")
+
+    def _lines(self, runs, future):
+        if future.cancelled():
+            raise Error("the scheduler is gone")
+        error = future.exception()
+        if error:
+            return [result(run["run"], {"error": str(error)}) for run in runs]
+        lines, seconds = future.result()
+        self.size = max(1, min(MOST, int(TASK * len(runs) / max(seconds, 1e-9))))
+        future.release()
+        return lines
 
 
 def sweep(arguments, lines, output):
     plan = checked(json.loads(next(lines)), arguments.fmu)
     client, cluster = connected(arguments.scheduler, arguments.workers)
     try:
-        from flexbody._unit import UnitPlugin
-
         client.wait_for_workers(1, timeout=PATIENCE)
         # Others may sweep on the same cluster.
         name = f"flexbody-{uuid.uuid4().hex}"
