@@ -17,6 +17,8 @@ const PROJECT: (&str, &str) = ("tests/fmpy/requirements.txt", "python");
 const PEERS: (&str, &str) = ("lab/exudyn/requirements.txt", "python-peers");
 /// The same of the masters that tests couple FMUs in; apart, so that a picture needs none of them.
 const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
+/// What the Python package needs, and what makes its models; apart, so that no picture needs a cluster.
+const OWN: (&str, &str) = ("tests/python/requirements.txt", "python-own");
 /// The linker of libraries; apart, so that what needs no library does not need it.
 const LINKER: (&str, &str) = ("xtask/linker.txt", "python-linker");
 /// The checker of dependencies, built.
@@ -62,6 +64,11 @@ impl Python {
     /// The environment of the masters.
     pub fn prepare_masters(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, MASTERS)
+    }
+
+    /// The environment of the Python package.
+    pub fn prepare_own(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, OWN)
     }
 
     /// The environment of the linker.

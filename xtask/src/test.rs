@@ -16,7 +16,7 @@ use crate::{assembly, describe, fuzz};
 type Step = (&'static str, fn(&Workspace) -> Result<()>);
 
 /// The checks in order.
-const STEPS: [Step; 10] = [
+const STEPS: [Step; 11] = [
     ("formatting", formatting),
     ("clippy", clippy),
     ("dependencies", dependencies),
@@ -24,6 +24,7 @@ const STEPS: [Step; 10] = [
     ("Rust tests", rust_tests),
     ("generated files", describe::check),
     ("FMUs under fmpy", fmpy_tests),
+    ("Python package", package_tests),
     ("pages in a browser", browser_tests),
     ("coupled FMUs under other masters", master_tests),
     ("fuzzing", fuzz::test),
@@ -116,6 +117,13 @@ fn rust_tests(workspace: &Workspace) -> Result<()> {
 fn fmpy_tests(workspace: &Workspace) -> Result<()> {
     let mut tests = pytest(&Python::prepare(workspace)?, workspace, "tests/fmpy")?;
     run(tests.args(["-n", "auto", "--maxprocesses", "8", "--dist", "loadgroup"]))
+}
+
+/// One after the other: the clusters of its tests keep all cores busy.
+fn package_tests(workspace: &Workspace) -> Result<()> {
+    let python = Python::prepare_own(workspace)?;
+    let mut tests = pytest(&python, workspace, "tests/python")?;
+    run(tests.env("FLEXBODY_PROGRAM", workspace.binary()?))
 }
 
 fn browser_tests(workspace: &Workspace) -> Result<()> {

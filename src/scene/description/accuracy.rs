@@ -63,8 +63,9 @@ pub enum Course {
 pub(super) mod elements {
     use super::*;
 
-    /// What stands in JSON.
+    /// A number of elements, or the word that leaves it to the planner.
     #[derive(Serialize, JsonSchema)]
+    #[schemars(rename = "Elements")]
     #[serde(untagged)]
     pub enum InJson {
         /// As many as the accuracy asks for: found while packaging.
@@ -75,6 +76,7 @@ pub(super) mod elements {
 
     /// The word for a number that is left to the planner.
     #[derive(Serialize, JsonSchema)]
+    #[schemars(rename = "Auto")]
     #[serde(rename_all = "snake_case")]
     pub enum Word {
         /// As many as the accuracy asks for.

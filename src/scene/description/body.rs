@@ -16,17 +16,22 @@ use super::{Inertia, Orientation, Section, SectionNumbers, Solid, Spin, Station,
 pub enum Body {
     /// Flexible, of ANCF cables: two nodes with position and slope; stretches and bends, does not
     /// shear. Where `model` says so, a rigid rod.
+    #[schemars(title = "Cable")]
     Cable(CableBody),
     /// The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
     /// shear. In space.
+    #[schemars(title = "Rod")]
     Rod(CableBody),
     /// The same with sections that lean against the line: shears too, with the rotary inertia of its sections.
+    #[schemars(title = "Beam")]
     Beam(CableBody),
     /// A cable, a rod or a beam, as needed: a cable where nothing asks for its sections; else in space a rod; a beam
     /// where shear moves an output by more than the error wanted, or whole matrices are given. Takes the keys of all three; those
     /// that the element chosen has no use for are not used. Found while packaging; the page of the unit says why.
+    #[schemars(title = "AutoBody")]
     Auto(CableBody),
     /// Rigid.
+    #[schemars(title = "RigidBody")]
     Rigid(RigidBody),
 }
 
@@ -207,6 +212,7 @@ pub enum Axial {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Shape {
     /// Straight line.
+    #[schemars(title = "Line")]
     Line {
         /// First end, m.
         from: Vector,
@@ -216,6 +222,7 @@ pub enum Shape {
     /// Circular arc that bulges to the right of the way from `from` to `to`: drawn from left to
     /// right it sags. In space it sags towards -z in the upright plane through both ends, and the cable has no
     /// bending stiffness.
+    #[schemars(title = "Arc")]
     Arc {
         /// First end, m.
         from: Vector,
@@ -225,6 +232,7 @@ pub enum Shape {
         length: f64,
     },
     /// Circular helix in space: of rods, and of cables without bending stiffness.
+    #[schemars(title = "Helix")]
     Helix {
         /// Where its axis begins, m.
         from: Vector,

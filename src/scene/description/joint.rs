@@ -245,6 +245,7 @@ impl JointKind {
 
 impl Kind for JointKind {
     const PART: &'static str = "Joint";
+    const SPEAKS: bool = true;
 
     fn keys(&self) -> &'static [Keys] {
         self.declaration().keys

@@ -16,6 +16,9 @@ pub trait Kind: DeserializeOwned {
     /// The part, as the schema names it.
     const PART: &'static str;
 
+    /// Whether the name of a kind alone says what it is: a revolute is a joint, but a force may be a load or an input.
+    const SPEAKS: bool = false;
+
     /// Its keys; where there are several, one or the other.
     fn keys(&self) -> &'static [Keys];
 }
@@ -35,21 +38,30 @@ fn tell<K: Kind>(schema: &mut Schema) {
     let kinds = schema.pointer(&pointer(&format!("{}Kind", K::PART)));
     let kinds = kinds.and_then(|kinds| kinds["oneOf"].as_array().cloned());
     let kinds = kinds.unwrap_or_default().into_iter();
+    // Unlike anything else in the schema: models made of it are named so.
+    let title = |kind: &Value| {
+        let name = camel_case(kind["const"].as_str().unwrap_or_default());
+        match K::SPEAKS && schema.pointer(&pointer(&name)).is_none() {
+            true => name,
+            false => name + K::PART,
+        }
+    };
     // Names, what they mean and which keys they take.
-    let kinds: Vec<(Value, &[Keys])> = kinds
+    let kinds: Vec<(Value, String, &[Keys])> = kinds
         .filter_map(|kind| {
             let parsed: K = serde_json::from_value(kind["const"].clone()).ok()?;
-            Some((kind, parsed.keys()))
+            let title = title(&kind);
+            Some((kind, title, parsed.keys()))
         })
         .collect();
     let Some(part) = schema.pointer_mut(&pointer(K::PART)) else {
         return;
     };
-    let all = kinds.iter().flat_map(|(_, keys)| keys.iter());
+    let all = kinds.iter().flat_map(|(_, _, keys)| keys.iter());
     let own: Vec<&str> = all.flat_map(|(must, may)| [*must, *may].concat()).collect();
     let properties = part["properties"].as_object().cloned().unwrap_or_default();
     let required = part["required"].as_array().cloned().unwrap_or_default();
-    let variants = kinds.iter().flat_map(|(kind, keys)| {
+    let variants = kinds.iter().flat_map(|(kind, title, keys)| {
         keys.iter().map(|(must, may)| {
             let takes =
                 |key: &str| !own.contains(&key) || must.contains(&key) || may.contains(&key);
@@ -64,7 +76,7 @@ fn tell<K: Kind>(schema: &mut Schema) {
             let demanded = required.iter().cloned();
             let demanded = demanded.chain(must.iter().map(|key| json!(key)));
             json!({
-                "title": kind["const"],
+                "title": title.as_str(),
                 "description": kind["description"],
                 "type": "object",
                 "properties": taken,
@@ -78,4 +90,13 @@ fn tell<K: Kind>(schema: &mut Schema) {
     if let Some(definitions) = schema.pointer_mut("/$defs").and_then(Value::as_object_mut) {
         definitions.remove(&format!("{}Kind", K::PART));
     }
+}
+
+/// A name in snake case as that of a type.
+fn camel_case(name: &str) -> String {
+    let words = name.split('_').map(|word| {
+        let (first, rest) = word.split_at(1.min(word.len()));
+        first.to_uppercase() + rest
+    });
+    words.collect()
 }

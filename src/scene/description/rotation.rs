@@ -103,15 +103,20 @@ const ROUNDOFF: f64 = 1e-12;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Orientation {
     /// Turned from the global axes about an axis, in global components, by its length as angle, rad.
+    #[schemars(title = "RotationVector")]
     RotationVector([f64; 3]),
     /// Turned about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
+    #[schemars(title = "Cardan")]
     Cardan([f64; 3]),
     /// Turned about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
     /// nutation, spin), rad.
+    #[schemars(title = "Euler")]
     Euler([f64; 3]),
     /// Matrix by rows; its columns are the axes of the frame in global components, orthonormal to 1e-6.
+    #[schemars(title = "Matrix")]
     Matrix([[f64; 3]; 3]),
     /// Quaternion `[w, x, y, z]`, the real part first, of any length but zero.
+    #[schemars(title = "Quaternion")]
     Quaternion([f64; 4]),
 }
 

@@ -66,6 +66,7 @@ pub struct Section {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Profile {
     /// Rectangle.
+    #[schemars(title = "Rectangle")]
     Rectangle {
         /// Edge along the first axis, m.
         width: f64,
@@ -73,6 +74,7 @@ pub enum Profile {
         height: f64,
     },
     /// Ellipse.
+    #[schemars(title = "Ellipse")]
     Ellipse {
         /// Diameter along the first axis, m.
         width: f64,
@@ -80,11 +82,13 @@ pub enum Profile {
         height: f64,
     },
     /// Circle.
+    #[schemars(title = "Circle")]
     Circle {
         /// Radius, m.
         radius: f64,
     },
     /// Circle with a round hole in its middle.
+    #[schemars(title = "Tube")]
     Tube {
         /// Outer radius, m.
         radius: f64,

@@ -12,11 +12,13 @@ use super::Inertia;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Solid {
     /// Box with edges along the axes of the frame.
+    #[schemars(title = "Box")]
     Box {
         /// Lengths of the edges along x, y and z, m.
         size: [f64; 3],
     },
     /// Cylinder.
+    #[schemars(title = "Cylinder")]
     Cylinder {
         /// Radius, m.
         radius: f64,
@@ -27,11 +29,13 @@ pub enum Solid {
         axis: [f64; 3],
     },
     /// Sphere.
+    #[schemars(title = "Sphere")]
     Sphere {
         /// Radius, m.
         radius: f64,
     },
     /// Cylinder with a round hole all along its axis.
+    #[schemars(title = "TubeSolid")]
     Tube {
         /// Outer radius, m.
         radius: f64,

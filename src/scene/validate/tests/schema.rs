@@ -29,9 +29,11 @@ fn the_schema_tells_bodies_apart_by_their_element() {
 #[test]
 fn the_schema_has_a_variant_for_every_kind() {
     let schema: Value = serde_json::from_str(&Scene::json_schema()).expect("JSON");
-    let variant = |part: &str, title: &str| {
+    let variant = |part: &str, kind: &str| {
         let variants = schema["$defs"][part]["oneOf"].as_array().expect("variants");
-        let found = variants.iter().find(|variant| variant["title"] == title);
+        let found = variants
+            .iter()
+            .find(|variant| variant["properties"]["kind"]["const"] == kind);
         found.expect("a variant").clone()
     };
     let revolute = variant("Joint", "revolute");

@@ -1,0 +1,5 @@
+"""What goes wrong."""
+
+
+class Error(Exception):
+    """What the program says is wrong."""

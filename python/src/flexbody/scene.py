@@ -1,0 +1,2864 @@
+"""Scenes as Python objects: what scenes/scene.schema.json says, with the same names.
+
+Made by generate_models.py; changes here would be lost. Keys that are words of Python end in `_` (`from_`, `for_`).
+What a scene must obey beyond this is checked by the program.
+"""
+
+from __future__ import annotations
+
+from pydantic import ConfigDict, Field, StrictBool, StrictFloat, StrictInt, StrictStr
+from flexbody._part import Part, under_one_of
+from typing import Annotated, Literal
+from typing_extensions import TypeAliasType
+
+
+class About(Part):
+    """
+    Whose model this is and under which terms it may be used, as the model description says it to every importer. The
+    library that runs it is licensed apart (`documentation/licenses` of the FMU). At most 1000 characters each.
+    """
+
+    author: StrictStr | None = None
+    """
+    Name and organization of who made it.
+    """
+    copyright: StrictStr | None = None
+    """
+    Its copyright, such as `(c) 2026 The firm`.
+    """
+    description: StrictStr | None = None
+    """
+    What the model is of.
+    """
+    license: StrictStr | None = None
+    """
+    The terms under which it may be used.
+    """
+    version: StrictStr | None = None
+    """
+    Its version.
+    """
+
+
+Along = TypeAliasType("Along", Literal["global", "body"])
+"""
+Axes along which components of an output are.
+
+- `global`: Those of the scene.
+- `body`: Those of the frame of the rigid body; of a joint, of the first body that it joins. Names of such variables end in
+`_body`, so that both can be read.
+"""
+
+
+Auto = TypeAliasType("Auto", Literal["auto"])
+"""
+The word for a number that is left to the planner.
+
+- `auto`: As many as the accuracy asks for.
+"""
+
+
+Axial = TypeAliasType("Axial", Literal["waves", "settled"])
+"""
+What becomes of waves of stretching that run along a cable.
+
+- `waves`: They ring as the material says: for ever where it has no damping.
+- `settled`: They settle: Kelvin-Voigt damping of the rate of axial strain alone, with the time `2 / omega_1`
+(`damping_time` where that is longer), so that the first axial mode is damped critically. `omega_1` is `pi c / L`,
+or `pi c / (2 L)` where joints or motions hold one end only; `c` the speed of sound. Bending is not touched, nor
+slow stretching; what is lost is counted in `energy.dissipated`. For forces that ring from loads or speeds that
+begin at once, where no one asked for the ringing.
+"""
+
+
+CoordinateKind = TypeAliasType("CoordinateKind", Literal["displacement", "angle"])
+"""
+A coordinate of a joint by name.
+
+- `displacement`: The way along its line from the first marker or its point, m.
+- `angle`: The angle about its axis, rad.
+"""
+
+
+Course = TypeAliasType("Course", Literal["ramp", "step", "sine"])
+"""
+Ways from a value to another.
+
+- `ramp`: A smooth ramp over the first tenth of the experiment, and one back over a tenth after its half.
+- `step`: A jump after a tenth of the experiment, and one back after its half.
+- `sine`: To and fro as a cosine, three times.
+"""
+
+
+ElementsCount = TypeAliasType("ElementsCount", Annotated[StrictInt, Field(ge=0, title="ElementsCount")])
+"""
+This many.
+"""
+
+
+Elements = TypeAliasType("Elements", Auto | ElementsCount)
+"""
+A number of elements, or the word that leaves it to the planner.
+"""
+
+
+class Experiment(Part):
+    """
+    Default experiment of the FMU.
+    """
+
+    stop_time: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Stop time, s.
+    """
+    step: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Communication step, s.
+    """
+
+
+Freedom = TypeAliasType("Freedom", Literal["x", "y", "z", "rotation_x", "rotation_y", "rotation_z"])
+"""
+A translation or a rotation that a joint lets go.
+
+- `x`: Along the first axis.
+- `y`: Along the second axis.
+- `z`: Along the third axis.
+- `rotation_x`: About the first axis.
+- `rotation_y`: About the second axis.
+- `rotation_z`: About the third axis.
+"""
+
+
+class Gear(Part):
+    """
+    A gear between two joints: `c2 = ratio c1`, of their coordinates from the start on.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    joints: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    The joints: the angle of those with an axis, else the displacement.
+    """
+    ratio: StrictFloat
+    """
+    How much the coordinate of the second changes with that of the first: 1, m/rad, rad/m; negative where they turn opposite ways.
+    """
+
+
+InertiaNumber = TypeAliasType("InertiaNumber", Annotated[StrictFloat, Field(ge=0.0, title="InertiaNumber")])
+"""
+In the plane; 0 is a particle, in space too.
+"""
+
+
+InertiaComponents = TypeAliasType(
+    "InertiaComponents",
+    Annotated[list[StrictFloat], Field(max_length=3, min_length=3, title="InertiaComponents")],
+)
+"""
+Moments about the axes of the body's frame.
+"""
+
+
+InertiaRow = TypeAliasType("InertiaRow", Annotated[list[StrictFloat], Field(max_length=3, min_length=3)])
+
+
+InertiaRows = TypeAliasType(
+    "InertiaRows",
+    Annotated[list[InertiaRow], Field(max_length=3, min_length=3, title="InertiaRows")],
+)
+"""
+Tensor in the body's frame, by rows; products of inertia are minus the integrals of `x y` and so on.
+"""
+
+
+Inertia = TypeAliasType("Inertia", InertiaNumber | InertiaComponents | InertiaRows)
+"""
+Inertia about the centre of mass, kg m^2.
+"""
+
+
+InitialState = TypeAliasType("InitialState", Literal["as_shaped", "static_equilibrium", "steady"])
+"""
+States by name.
+
+- `as_shaped`: The unstressed shapes.
+- `static_equilibrium`: The equilibrium under gravity, loads and the start values of the inputs, motions held where they start. It is
+stable where loads have a potential: an unstable one, as that of a straight column above its buckling load, is
+left to where gravity pulls, else up or to the right. Follower forces have none; there it is where all forces balance.
+- `steady`: The same in the motion that all bodies start with, by motions, joints and their own `motion`: a steady turn about
+one point, in space one axis, with centrifugal forces, or a translation. What turns starts stretched and does not ring.
+"""
+
+
+class ForceInput(Part):
+    """
+    Force at a marker, N.
+    """
+
+    kind: Literal["force"] = "force"
+    marker: StrictStr
+    """
+    `force`, `moment`: where it acts, `body.marker`.
+    """
+    follower: StrictBool | None = None
+    """
+    `force`, in space `moment` and `distributed_moment` too: as of a load.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force, one of others; zero by default,
+    for a rest length that of the spring-damper.
+    """
+
+
+class MomentInput(Part):
+    """
+    Moment at a marker, counter-clockwise, N m.
+    """
+
+    kind: Literal["moment"] = "moment"
+    marker: StrictStr
+    """
+    `force`, `moment`: where it acts, `body.marker`.
+    """
+    follower: StrictBool | None = None
+    """
+    `force`, in space `moment` and `distributed_moment` too: as of a load.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force, one of others; zero by default,
+    for a rest length that of the spring-damper.
+    """
+
+
+class TorqueInput(Part):
+    """
+    Moment on the second marker of a joint, opposite on its first, N m.
+    """
+
+    kind: Literal["torque"] = "torque"
+    joint: StrictStr
+    """
+    `torque`: name of the revolute joint or hinge that it acts in.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force, one of others; zero by default,
+    for a rest length that of the spring-damper.
+    """
+
+
+class DistributedInput(Part):
+    """
+    Force in global axes per reference length of a cable, rod or beam, N/m.
+    """
+
+    kind: Literal["distributed"] = "distributed"
+    body: StrictStr
+    """
+    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force, one of others; zero by default,
+    for a rest length that of the spring-damper.
+    """
+
+
+class DistributedMomentInput(Part):
+    """
+    Moment per reference length of a rod or beam, N m/m.
+    """
+
+    kind: Literal["distributed_moment"] = "distributed_moment"
+    body: StrictStr
+    """
+    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    """
+    follower: StrictBool | None = None
+    """
+    `force`, in space `moment` and `distributed_moment` too: as of a load.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force, one of others; zero by default,
+    for a rest length that of the spring-damper.
+    """
+
+
+class RestLengthInput(Part):
+    """
+    Length at rest of a spring-damper, m.
+    """
+
+    kind: Literal["rest_length"] = "rest_length"
+    load: StrictStr
+    """
+    `rest_length`: name of the spring-damper.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force, one of others; zero by default,
+    for a rest length that of the spring-damper.
+    """
+
+
+Input = TypeAliasType(
+    "Input",
+    Annotated[
+        ForceInput | MomentInput | TorqueInput | DistributedInput | DistributedMomentInput | RestLengthInput,
+        Field(discriminator="kind"),
+    ],
+)
+"""
+A load that the master sets.
+"""
+
+
+class InputCourse(Part):
+    """
+    What an input does in the experiment that is planned for.
+    """
+
+    input: StrictStr
+    """
+    Name of the input, with its index where it is a component.
+    """
+    from_: StrictFloat
+    """
+    Value that it starts from.
+    """
+    to: StrictFloat
+    """
+    Value that it goes to.
+    """
+    course: Course = "ramp"
+    """
+    How it goes there.
+    """
+
+
+Integrator = TypeAliasType(
+    "Integrator",
+    Literal["auto", "radau", "rk4", "dopri853", "verlet", "rkn43", "rkn64"],
+)
+"""
+Integrators by name.
+
+- `auto`: An explicit method or the implicit one, whichever gets further with the same work while it runs.
+- `radau`: Radau IIA of order 5, implicit: for stiff scenes.
+- `rk4`: Runge-Kutta of order 4 with an embedded order 3, explicit: for soft scenes with damping or
+constraints.
+- `dopri853`: Runge-Kutta of Dormand and Prince of order 8 with embedded orders 5 and 3, explicit: for soft scenes with damping or
+constraints at tight tolerances.
+- `verlet`: Velocity Verlet of order 2, explicit: for soft scenes at loose tolerances.
+- `rkn43`: Runge-Kutta-Nystrom of order 4 with an embedded order 3, explicit: for soft scenes.
+- `rkn64`: Runge-Kutta-Nystrom of order 6 with an embedded order 4, explicit: for soft scenes at tight tolerances.
+"""
+
+
+Interpolation = TypeAliasType("Interpolation", Literal["linear", "spline"])
+"""
+Ways from point to point of a table.
+
+- `linear`: Straight from point to point, the end values held outside. The velocity of a motion jumps at every
+point: the drive strikes the bodies there.
+- `spline`: A smooth cubic spline.
+"""
+
+
+class OrientationJoint(Part):
+    """
+    Holds the direction, in space how bodies stand to each other.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["orientation"] = "orientation"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    angle: StrictFloat | None = None
+    """
+    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
+    rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
+    """
+
+
+class AlongJoint(Part):
+    """
+    Holds the marker on the line of a cable.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["along"] = "along"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+
+
+class JointSpringLoad(Part):
+    """
+    Spring and damper side by side on a coordinate of a joint.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["joint_spring"] = "joint_spring"
+    joint: StrictStr
+    """
+    `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
+    """
+    coordinate: CoordinateKind | None = None
+    """
+    `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
+    """
+    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
+    that is passed by `d`, s/m or s/rad; 0 by default.
+    """
+    rest: StrictFloat | None = None
+    """
+    `joint_spring`: coordinate at rest, m or rad; that at the start by default.
+    """
+    stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    """
+
+
+class BushingLoad(Part):
+    """
+    Springs and dampers between two bodies in space, three along and three about the axes of the first one's body (of ground: the
+    global ones), from how they stand at the start: the rotation is measured by its vector, angle along axis.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["bushing"] = "bushing"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
+    """
+    rotational_damping: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
+    """
+    `bushing`: damping about the three axes, N m s/rad; zeros by default.
+    """
+    rotational_stiffness: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
+    """
+    `bushing`: stiffness about the three axes, N m/rad; zeros by default.
+    """
+    translational_damping: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
+    """
+    `bushing`: damping along the three axes, N s/m; zeros by default.
+    """
+    translational_stiffness: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
+    """
+    `bushing`: stiffness along the three axes, N/m; zeros by default.
+    """
+
+
+class StopLoad(Part):
+    """
+    One-sided springs and dampers on a coordinate of a joint, beyond a lower limit, an upper one or both, without friction; the
+    force is continuous in time (Hunt and Crossley 1975).
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["stop"] = "stop"
+    joint: StrictStr
+    """
+    `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
+    """
+    stiffness: Annotated[StrictFloat, Field(ge=0.0)]
+    """
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    """
+    coordinate: CoordinateKind | None = None
+    """
+    `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
+    """
+    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
+    that is passed by `d`, s/m or s/rad; 0 by default.
+    """
+    lower: StrictFloat | None = None
+    """
+    `stop`: the least coordinate without force, m or rad; no stop there by default.
+    """
+    upper: StrictFloat | None = None
+    """
+    `stop`: the largest coordinate without force, m or rad; no stop there by default.
+    """
+
+
+class Mass(Part):
+    """
+    A mass lumped at a marker.
+    """
+
+    marker: StrictStr
+    """
+    Where it sits: `body.marker`.
+    """
+    mass: Annotated[StrictFloat, Field(ge=0.0)]
+    """
+    Mass, kg.
+    """
+    inertia: Annotated[StrictFloat, Field(ge=0.0)] = 0.0
+    """
+    Moment of inertia that turns with the slope, kg m^2; markers of cables only.
+    """
+
+
+class MasterInput(Part):
+    """
+    A motion that the master sets.
+    """
+
+    input: Annotated[StrictInt, Field(ge=0, le=2)]
+    """
+    What the master sets besides the value: 0 nothing, 1 its rate, 2 its rate and acceleration.
+    """
+
+
+class Material(Part):
+    """
+    Material of a cable.
+    """
+
+    damping_time: Annotated[StrictFloat, Field(ge=0.0)] = 0.0
+    """
+    Kelvin-Voigt damping: ratio of viscosity to stiffness, s.
+    """
+    density: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Density, kg/m^3.
+    """
+    shear_modulus: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Of rods and beams: shear modulus, Pa.
+    """
+    youngs_modulus: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Young's modulus, Pa.
+    """
+
+
+class Method(Part):
+    """
+    Integrator.
+    """
+
+    integrator: Integrator = "auto"
+    """
+    Integrator.
+    """
+    work_limit: StrictFloat = 1000000000.0
+    """
+    Most work of one communication step: evaluations (of accelerations and tangents, factorizations and
+    solves) times parts (elements, masses and constraints, and four). A step that takes more ends where it
+    is. A billion takes about a minute.
+    """
+
+
+Model = TypeAliasType("Model", Literal["auto", "flexible", "rigid"])
+"""
+Whether a cable bends and stretches.
+
+- `auto`: It does, unless its number of elements is left to the planner, which finds that this changes no output by more than
+the error wanted: then it says `rigid` here.
+- `flexible`: It does.
+- `rigid`: It does not: a rigid rod, uniform along its length. In the plane, straight, and not deforming at the start. Axial
+force and bending moment follow from its balance with inertia; strain and curvature are refused, as is what slides
+along it. Elements, Young's modulus, second moment and damping have no effect and are no parameters of its unit.
+"""
+
+
+class RotationVector(Part):
+    """
+    Turned from the global axes about an axis, in global components, by its length as angle, rad.
+    """
+
+    rotation_vector: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
+    """
+    Turned from the global axes about an axis, in global components, by its length as angle, rad.
+    """
+
+
+class Cardan(Part):
+    """
+    Turned about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
+    """
+
+    cardan: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
+    """
+    Turned about x, then about the y axis as it is then, then about the z axis as it is then (Cardan angles), rad.
+    """
+
+
+class Euler(Part):
+    """
+    Turned about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
+    nutation, spin), rad.
+    """
+
+    euler: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
+    """
+    Turned about z, then about the x axis as it is then, then about the z axis as it is then (Euler's angles: precession,
+    nutation, spin), rad.
+    """
+
+
+MatrixItem = TypeAliasType("MatrixItem", Annotated[list[StrictFloat], Field(max_length=3, min_length=3)])
+
+
+class Matrix(Part):
+    """
+    Matrix by rows; its columns are the axes of the frame in global components, orthonormal to 1e-6.
+    """
+
+    matrix: Annotated[list[MatrixItem], Field(max_length=3, min_length=3)]
+    """
+    Matrix by rows; its columns are the axes of the frame in global components, orthonormal to 1e-6.
+    """
+
+
+class Quaternion(Part):
+    """
+    Quaternion `[w, x, y, z]`, the real part first, of any length but zero.
+    """
+
+    quaternion: Annotated[list[StrictFloat], Field(max_length=4, min_length=4)]
+    """
+    Quaternion `[w, x, y, z]`, the real part first, of any length but zero.
+    """
+
+
+Orientation = TypeAliasType(
+    "Orientation",
+    Annotated[
+        RotationVector | Cardan | Euler | Matrix | Quaternion,
+        under_one_of("rotation_vector", "cardan", "euler", "matrix", "quaternion"),
+    ],
+)
+"""
+How the frame of a body stands.
+"""
+
+
+class PositionOutput(Part):
+    """
+    Position of a marker, m.
+    """
+
+    kind: Literal["position"] = "position"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class VelocityOutput(Part):
+    """
+    Velocity of a marker; rate of the displacement of a joint, m/s.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "x-either": [
+                {"must": ["joint"], "may": []},
+                {"must": ["marker"], "may": []},
+            ]
+        },
+    )
+    kind: Literal["velocity"] = "velocity"
+    joint: StrictStr | None = None
+    """
+    Name of a joint, for quantities of a joint.
+    """
+    marker: StrictStr | None = None
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class AccelerationOutput(Part):
+    """
+    Acceleration of a marker; rate of the velocity of a joint, m/s^2.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "x-either": [
+                {"must": ["joint"], "may": []},
+                {"must": ["marker"], "may": []},
+            ]
+        },
+    )
+    kind: Literal["acceleration"] = "acceleration"
+    joint: StrictStr | None = None
+    """
+    Name of a joint, for quantities of a joint.
+    """
+    marker: StrictStr | None = None
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class DisplacementOutput(Part):
+    """
+    Way of the second marker of a joint along its line from the first marker or the point, m; not where that line belongs to a
+    cable.
+    """
+
+    kind: Literal["displacement"] = "displacement"
+    joint: StrictStr
+    """
+    Name of a joint, for quantities of a joint.
+    """
+
+
+class DirectionOutput(Part):
+    """
+    Direction at a marker: the unit vector along the cable, or along the first axis of a rigid body, which must have
+    inertia.
+    """
+
+    kind: Literal["direction"] = "direction"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class AngleOutput(Part):
+    """
+    Direction at a marker, or direction of the second marker of a revolute joint or hinge less
+    that of its first, rad, counted on over full turns.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "x-either": [
+                {"must": ["joint"], "may": []},
+                {"must": ["marker"], "may": []},
+            ]
+        },
+    )
+    kind: Literal["angle"] = "angle"
+    joint: StrictStr | None = None
+    """
+    Name of a joint, for quantities of a joint.
+    """
+    marker: StrictStr | None = None
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class OrientationOutput(Part):
+    """
+    How a rigid body or the section of a rod in space stands: the matrix whose columns are the axes of its frame in global components, by rows.
+    """
+
+    kind: Literal["orientation"] = "orientation"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class QuaternionOutput(Part):
+    """
+    The same as a unit quaternion, scalar first: `w >= 0` at the start, and from there on without jumps, so that it changes
+    its sign with every full turn.
+    """
+
+    kind: Literal["quaternion"] = "quaternion"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class RotationVectorOutput(Part):
+    """
+    The same as a rotation vector: the angle along the axis, rad. The angle is at most pi; where a body turns on beyond,
+    the vector jumps to its opposite.
+    """
+
+    kind: Literal["rotation_vector"] = "rotation_vector"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class AngularVelocityOutput(Part):
+    """
+    Rate of the angle, rad/s; in space the angular velocity of a rigid body or of the section of a rod (`axes`).
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "x-either": [
+                {"must": ["joint"], "may": []},
+                {"must": ["marker"], "may": ["axes"]},
+            ]
+        },
+    )
+    kind: Literal["angular_velocity"] = "angular_velocity"
+    joint: StrictStr | None = None
+    """
+    Name of a joint, for quantities of a joint.
+    """
+    axes: Along | None = None
+    """
+    In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
+    joint: along which axes components are.
+    """
+    marker: StrictStr | None = None
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class AngularAccelerationOutput(Part):
+    """
+    Rate of the angular velocity, rad/s^2.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "x-either": [
+                {"must": ["joint"], "may": []},
+                {"must": ["marker"], "may": ["axes"]},
+            ]
+        },
+    )
+    kind: Literal["angular_acceleration"] = "angular_acceleration"
+    joint: StrictStr | None = None
+    """
+    Name of a joint, for quantities of a joint.
+    """
+    axes: Along | None = None
+    """
+    In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
+    joint: along which axes components are.
+    """
+    marker: StrictStr | None = None
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class StrainOutput(Part):
+    """
+    Axial strain at a marker of a cable that bends, in the strain measure of the body. Where a load or joint acts, that after it.
+    """
+
+    kind: Literal["strain"] = "strain"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class CurvatureOutput(Part):
+    """
+    Curvature at a marker of a cable that bends, in the strain measure of the body, 1/m; in space its size.
+    """
+
+    kind: Literal["curvature"] = "curvature"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class AxialForceOutput(Part):
+    """
+    Axial force at a marker of a cable, N: the part of the section force along the tangent, tension
+    positive, from the balance of forces with inertia. Where a load or joint acts, that after it.
+    """
+
+    kind: Literal["axial_force"] = "axial_force"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class BendingMomentOutput(Part):
+    """
+    Bending moment at a marker of a cable, N m: of the part after on the part before, positive where
+    curvature is, from the balance of moments with inertia; of a rod the whole moment, with the torque. Where a load or joint acts,
+    that after it.
+    """
+
+    kind: Literal["bending_moment"] = "bending_moment"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class TorqueOutput(Part):
+    """
+    Torque about the tangent at a marker of a rod, N m: of the part after on the part before, positive where the twist is, from the
+    balance of moments with inertia. Where a load or joint acts, that after it.
+    """
+
+    kind: Literal["torque"] = "torque"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+Point = TypeAliasType("Point", Annotated[list[StrictFloat], Field(max_length=2, min_length=1)])
+
+
+class StressOutput(Part):
+    """
+    Normal stress at `points` of the section at a marker of a rod or beam, or of a cable in the plane, Pa, tension positive:
+    `N / A + M1 z / I1 - M2 y / I2` of the force across the section and of the moments about its axes, from the balance of forces
+    with inertia, so with what damps. Per area without stress, and without what a curved shape without stress makes of it (a part of
+    about height over radius). Not of sections that are given as `stiffness` or have a `coupling`, where moments alone do not say it.
+    Where a load or joint acts, that after it.
+    """
+
+    kind: Literal["stress"] = "stress"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+    points: Annotated[list[Point], Field(max_length=100, min_length=1)]
+    """
+    `stress` and `torsion_stress` only: points of the section, m. Of a rod or beam `[y, z]` along the first and the second axis of the
+    section from the line of the body; of a cable in the plane `[y]`, the way from its line to the left of its direction. One variable
+    a point, in this order.
+    """
+
+
+class TorsionStressOutput(Part):
+    """
+    Shear stress by torsion at `points` of the section at a marker of a rod or beam, Pa, with the sign of the torque: that of
+    Saint-Venant in the shape of the section (`T r / J` in a circle or tube). Shear by transverse forces and what a clamp that
+    prevents warping adds are not in it. Of sections with a shape.
+    """
+
+    kind: Literal["torsion_stress"] = "torsion_stress"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+    points: Annotated[list[Point], Field(max_length=100, min_length=1)]
+    """
+    `stress` and `torsion_stress` only: points of the section, m. Of a rod or beam `[y, z]` along the first and the second axis of the
+    section from the line of the body; of a cable in the plane `[y]`, the way from its line to the left of its direction. One variable
+    a point, in this order.
+    """
+
+
+class ConnectivityForceOutput(Part):
+    """
+    Force that the part of a cable before a marker exerts on the part after it, global axes, N.
+    """
+
+    kind: Literal["connectivity_force"] = "connectivity_force"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+
+
+class TravelOutput(Part):
+    """
+    Where along the cable a joint of kind `along` stands: length from the first end, m.
+    """
+
+    kind: Literal["travel"] = "travel"
+    joint: StrictStr
+    """
+    Name of a joint, for quantities of a joint.
+    """
+
+
+class ReactionOutput(Part):
+    """
+    Force of a joint on its second marker, or of a motion, N (`axes`).
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "x-either": [
+                {"must": ["motion"], "may": []},
+                {"must": ["joint"], "may": ["axes"]},
+            ]
+        },
+    )
+    kind: Literal["reaction"] = "reaction"
+    motion: StrictStr | None = None
+    """
+    Name of a motion, for what drives it.
+    """
+    axes: Along | None = None
+    """
+    In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
+    joint: along which axes components are.
+    """
+    joint: StrictStr | None = None
+    """
+    Name of a joint, for quantities of a joint.
+    """
+
+
+class ReactionMomentOutput(Part):
+    """
+    Moment of a joint on its second marker, or of a motion, N m (`axes`).
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "x-either": [
+                {"must": ["motion"], "may": []},
+                {"must": ["joint"], "may": ["axes"]},
+            ]
+        },
+    )
+    kind: Literal["reaction_moment"] = "reaction_moment"
+    motion: StrictStr | None = None
+    """
+    Name of a motion, for what drives it.
+    """
+    axes: Along | None = None
+    """
+    In space, of `angular_velocity` and `angular_acceleration` of a rigid body, and of `reaction` and `reaction_moment` of a
+    joint: along which axes components are.
+    """
+    joint: StrictStr | None = None
+    """
+    Name of a joint, for quantities of a joint.
+    """
+
+
+class GearForceOutput(Part):
+    """
+    Force of a gear on the displacement of its second joint, N; on the coordinate of the first acts minus the ratio times that.
+    """
+
+    kind: Literal["gear_force"] = "gear_force"
+    gear: StrictStr
+    """
+    Name of a gear.
+    """
+
+
+class GearTorqueOutput(Part):
+    """
+    Torque of a gear on the angle of its second joint, N m; on the coordinate of the first acts minus the ratio times that.
+    """
+
+    kind: Literal["gear_torque"] = "gear_torque"
+    gear: StrictStr
+    """
+    Name of a gear.
+    """
+
+
+class EnergyOutput(Part):
+    """
+    Kinetic, strain and gravitational energy, and that of springs where there are any, J.
+    """
+
+    kind: Literal["energy"] = "energy"
+
+
+class WorkOutput(Part):
+    """
+    Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
+    """
+
+    kind: Literal["work"] = "work"
+
+
+class MomentumOutput(Part):
+    """
+    Linear momentum, N s, and angular momentum about the origin, N m s.
+    """
+
+    kind: Literal["momentum"] = "momentum"
+
+
+class CenterOfMassOutput(Part):
+    """
+    Centre of mass of the scene, m.
+    """
+
+    kind: Literal["center_of_mass"] = "center_of_mass"
+
+
+class ResolutionOutput(Part):
+    """
+    How well meshes carry the shapes that cables have: the error in position that they make now, estimated from jumps of
+    curvature at nodes, over the error wanted (`accuracy.error`, or ten times the tolerance). Above 1 more elements are
+    needed, which is said once in the log. Within a factor of five on most scenes; what a mesh did before, errors of time,
+    and a cable of one element that is clamped at both ends do not count.
+    """
+
+    kind: Literal["resolution"] = "resolution"
+
+
+class ResidualOutput(Part):
+    """
+    Largest residual of the constraints, relative: of positions and of velocities.
+    """
+
+    kind: Literal["residual"] = "residual"
+
+
+class NaturalFrequencyOutput(Part):
+    """
+    Natural frequencies of the scene at rest in the initial configuration, rad/s, without dampers; an unstable
+    mode is a negative number. In a turning frame the imaginary parts of the eigenvalues without dampers. Refused
+    where a force follows its marker and where cables turn initially: see `eigenvalue`.
+    """
+
+    kind: Literal["natural_frequency"] = "natural_frequency"
+    body: StrictStr | None = None
+    """
+    `natural_frequency` and `eigenvalue` of a scene with one body only: its name, which then begins those of the
+    variables.
+    """
+    count: Annotated[StrictInt | None, Field(ge=0)] = None
+    """
+    `natural_frequency` and `eigenvalue` only: how many, lowest frequency or slowest eigenvalue first; no more than
+    the scene has.
+    """
+
+
+class EigenvalueOutput(Part):
+    """
+    Eigenvalues `s = -decay_rate + i frequency` of small motions `c e^(s t)` about the initial state, as
+    `decay_rate` in 1/s, negative where the motion grows, and `frequency` in rad/s, slowest (least size of `s`) first;
+    conjugate pairs once, real ones (`frequency` 0) each by itself. With dampers, gyroscopic forces and forces that
+    follow, inputs held. Of a state in motion or out of equilibrium they are those of the equations of motion at
+    that instant, as seen from the frame of the scene; cables that turn initially are refused: describe them in a frame
+    that turns with them (`rotation`); so are thin rods of space that turn initially.
+    """
+
+    kind: Literal["eigenvalue"] = "eigenvalue"
+    body: StrictStr | None = None
+    """
+    `natural_frequency` and `eigenvalue` of a scene with one body only: its name, which then begins those of the
+    variables.
+    """
+    count: Annotated[StrictInt | None, Field(ge=0)] = None
+    """
+    `natural_frequency` and `eigenvalue` only: how many, lowest frequency or slowest eigenvalue first; no more than
+    the scene has.
+    """
+
+
+Output = TypeAliasType(
+    "Output",
+    Annotated[
+        PositionOutput
+        | VelocityOutput
+        | AccelerationOutput
+        | DisplacementOutput
+        | DirectionOutput
+        | AngleOutput
+        | OrientationOutput
+        | QuaternionOutput
+        | RotationVectorOutput
+        | AngularVelocityOutput
+        | AngularAccelerationOutput
+        | StrainOutput
+        | CurvatureOutput
+        | AxialForceOutput
+        | BendingMomentOutput
+        | TorqueOutput
+        | StressOutput
+        | TorsionStressOutput
+        | ConnectivityForceOutput
+        | TravelOutput
+        | ReactionOutput
+        | ReactionMomentOutput
+        | GearForceOutput
+        | GearTorqueOutput
+        | EnergyOutput
+        | WorkOutput
+        | MomentumOutput
+        | CenterOfMassOutput
+        | ResolutionOutput
+        | ResidualOutput
+        | NaturalFrequencyOutput
+        | EigenvalueOutput,
+        Field(discriminator="kind"),
+    ],
+)
+"""
+A quantity that the master reads.
+"""
+
+
+class ForcePort(Part):
+    """
+    A force comes in, the motion of the marker goes out.
+    """
+
+    name: StrictStr
+    """
+    Name, with which those of its variables begin: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    marker: StrictStr
+    """
+    Where it is, `body.marker`.
+    """
+    kind: Literal["force"] = "force"
+    rotation: StrictBool | None = None
+    """
+    Angle and moment too; a rotational spring or damper says so by itself.
+    """
+
+
+class MotionPort(Part):
+    """
+    A motion comes in, the force that the scene exerts on the outside goes out.
+    """
+
+    name: StrictStr
+    """
+    Name, with which those of its variables begin: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    marker: StrictStr
+    """
+    Where it is, `body.marker`.
+    """
+    kind: Literal["motion"] = "motion"
+    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `motion` only: damping of a damper beside the spring, N s/m.
+    """
+    rotation: StrictBool | None = None
+    """
+    Angle and moment too; a rotational spring or damper says so by itself.
+    """
+    rotational_damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    With a stiffness or damping only: damping between the directions, N m s/rad.
+    """
+    rotational_stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    With a stiffness or damping only: stiffness between the directions, N m/rad.
+    """
+    stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `motion` only: stiffness of a spring between the marker and the point that comes in, N/m; the
+    marker then stays free.
+    """
+
+
+Port = TypeAliasType("Port", Annotated[ForcePort | MotionPort, Field(discriminator="kind")])
+"""
+A marker that a master couples to another unit: one set of inputs and outputs, one terminal.
+"""
+
+
+class Rectangle(Part):
+    """
+    Rectangle.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "rectangle"},
+    )
+    width: StrictFloat
+    """
+    Edge along the first axis, m.
+    """
+    height: StrictFloat
+    """
+    Edge along the second axis, m.
+    """
+
+
+class Ellipse(Part):
+    """
+    Ellipse.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "ellipse"},
+    )
+    width: StrictFloat
+    """
+    Diameter along the first axis, m.
+    """
+    height: StrictFloat
+    """
+    Diameter along the second axis, m.
+    """
+
+
+class Circle(Part):
+    """
+    Circle.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "circle"},
+    )
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+
+
+class Tube(Part):
+    """
+    Circle with a round hole in its middle.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "tube"},
+    )
+    radius: StrictFloat
+    """
+    Outer radius, m.
+    """
+    inner_radius: StrictFloat
+    """
+    Radius of the hole, m.
+    """
+
+
+Profile = TypeAliasType(
+    "Profile", Annotated[Rectangle | Ellipse | Circle | Tube, under_one_of("rectangle", "ellipse", "circle", "tube")]
+)
+"""
+Shape of a massive cross section, its centre on the line of the body. Axes are those of the section of a rod; a cable in
+the plane has the first across the plane, so that its height lies in it.
+"""
+
+
+InertiaItem = TypeAliasType("InertiaItem", Annotated[list[StrictFloat], Field(max_length=6, min_length=6)])
+
+
+StiffnessItem = TypeAliasType("StiffnessItem", Annotated[list[StrictFloat], Field(max_length=6, min_length=6)])
+
+
+class Section(Part):
+    """
+    Cross section of a cable or a rod: its shape, or its numbers.
+    """
+
+    about: Annotated[list[StrictFloat] | None, Field(max_length=2, min_length=2)] = None
+    """
+    Where both are given about: coordinates along the first and the second axis from the line of the body, m.
+    """
+    area: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Area, m^2.
+    """
+    axial_coupling: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
+    """
+    Of rods: stiffness that couples stretching with twist, with bending about the first axis and with bending about the second, N m; none
+    where nothing is said. The axial force is the first times the twist, and so on: ropes of wires untwist when they are pulled. An
+    elastic centre at `[y, z]` is `[0, E A z, -E A y]`, with second moments about the line and `coupling` `-E A y z` of both bendings.
+    """
+    coupling: Annotated[list[StrictFloat] | None, Field(max_length=3, min_length=3)] = None
+    """
+    Of rods of layered or otherwise anisotropic material: stiffness that couples twist with bending about the first axis, twist
+    with bending about the second, and both bendings, N m^2; none where nothing is said. Torque is the first times the curvature
+    about the first axis, and so on.
+    """
+    inertia: Annotated[list[InertiaItem] | None, Field(max_length=6, min_length=6)] = None
+    """
+    Of beams with `stiffness`: mass and inertia per length in the same order: kg/m, kg, kg m. The centre of mass is on the line, and
+    the section lies across it.
+    """
+    second_moment: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    Of cables, and of beams in the plane: second moment of area, m^4; 0 is a cable without bending stiffness.
+    """
+    second_moments: Annotated[list[StrictFloat] | None, Field(max_length=2, min_length=2)] = None
+    """
+    Of rods: second moments of area for bending about the first and about the second axis of the section, m^4.
+    """
+    shape: Profile | None = None
+    """
+    Its shape, from which all numbers follow; or the numbers.
+    """
+    shear_factor: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Of beams in the plane: the same ratio for shear in the plane.
+    """
+    shear_factors: Annotated[list[StrictFloat] | None, Field(max_length=2, min_length=2)] = None
+    """
+    Of beams in space: ratios of the areas that carry shear along the first and along the second axis to the area. Of a shape, where
+    nothing is said, those of Cowper, which take the material's ratio of Poisson.
+    """
+    stiffness: Annotated[list[StiffnessItem] | None, Field(max_length=6, min_length=6)] = None
+    """
+    Of beams: the whole stiffness of the section, instead of a shape or numbers and of the moduli of the material. Symmetric, in the
+    order axial force, shear along the first axis, along the second, torque, moment about the first axis, about the second; N, N m, N m^2.
+    In the plane, which the first axis is across, axial force, shear along the second and moment about the first count.
+    """
+    torsion_constant: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Of rods: torsion constant of the section (of Saint-Venant), m^4; of a circle its polar second moment.
+    """
+
+
+class Box(Part):
+    """
+    Box with edges along the axes of the frame.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "box"},
+    )
+    size: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)]
+    """
+    Lengths of the edges along x, y and z, m.
+    """
+
+
+class Cylinder(Part):
+    """
+    Cylinder.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "cylinder"},
+    )
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+    length: StrictFloat
+    """
+    Length along the axis, m.
+    """
+    axis: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)] = [
+        0.0,
+        0.0,
+        1.0,
+    ]
+    """
+    Direction of its axis in the frame, of any length but zero.
+    """
+
+
+class Sphere(Part):
+    """
+    Sphere.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "sphere"},
+    )
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+
+
+class TubeSolid(Part):
+    """
+    Cylinder with a round hole all along its axis.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "tube"},
+    )
+    radius: StrictFloat
+    """
+    Outer radius, m.
+    """
+    inner_radius: StrictFloat
+    """
+    Radius of the hole, m.
+    """
+    length: StrictFloat
+    """
+    Length along the axis, m.
+    """
+    axis: Annotated[list[StrictFloat], Field(max_length=3, min_length=3)] = [
+        0.0,
+        0.0,
+        1.0,
+    ]
+    """
+    Direction of its axis in the frame, of any length but zero.
+    """
+
+
+Solid = TypeAliasType(
+    "Solid", Annotated[Box | Cylinder | Sphere | TubeSolid, under_one_of("box", "cylinder", "sphere", "tube")]
+)
+"""
+Shape of a rigid body of uniform density, its centre at the origin of the body's frame. Lists have three components, in the
+plane too.
+"""
+
+
+SpinNumber = TypeAliasType("SpinNumber", Annotated[StrictFloat, Field(title="SpinNumber")])
+"""
+In the plane.
+"""
+
+
+SpinComponents = TypeAliasType(
+    "SpinComponents",
+    Annotated[list[StrictFloat], Field(max_length=3, min_length=3, title="SpinComponents")],
+)
+"""
+In space.
+"""
+
+
+Spin = TypeAliasType("Spin", SpinNumber | SpinComponents)
+"""
+An angular velocity: a number in the plane, counter-clockwise, three components in space, rad/s.
+"""
+
+
+class Station(Part):
+    """
+    The cross section at a place along a body. Between two stations shapes of one kind change their sizes linearly, numbers
+    change linearly themselves; two stations at one place are a step.
+    """
+
+    at: Annotated[StrictFloat, Field(ge=0.0, le=1.0)]
+    """
+    Material coordinate: 0 is the first end, 1 the last.
+    """
+    section: Section
+    """
+    Cross section there.
+    """
+    twist: StrictFloat = 0.0
+    """
+    Of rods: angle about the tangent by which the section's axes are turned there, without stress, from where they would be
+    untwisted, rad.
+    """
+
+
+Strain = TypeAliasType(
+    "Strain",
+    Literal["thetaPrime", "GreenLagrange_FrenetKappa", "engStrain_FrenetKappa"],
+)
+"""
+Strain measures by name; they agree only for small strains.
+
+- `thetaPrime`: Stretch `|r'| - 1` and rotation per reference length: geometrically exact beam theory.
+- `GreenLagrange_FrenetKappa`: Green-Lagrange axial strain and the curvature of the deformed line.
+- `engStrain_FrenetKappa`: Stretch `|r'| - 1` and the curvature of the deformed line.
+"""
+
+
+TableItem = TypeAliasType("TableItem", Annotated[list[StrictFloat], Field(max_length=2, min_length=2)])
+
+
+class Table(Part):
+    """
+    A table over time.
+    """
+
+    table: list[TableItem]
+    """
+    Times (s, increasing) and values.
+    """
+    interpolation: Interpolation | None = None
+    """
+    What happens between the points; of a motion `spline`, of all else `linear` where nothing is said.
+    """
+    slopes: Annotated[list[StrictFloat] | None, Field(max_length=2, min_length=2)] = None
+    """
+    Rates of a spline at its first and last point, with which it goes on outside, 1/s; 0 where nothing is
+    said: at rest before and after.
+    """
+
+
+ValueNumber = TypeAliasType("ValueNumber", Annotated[StrictFloat, Field(title="ValueNumber")])
+"""
+Constant.
+"""
+
+
+ValueExpression = TypeAliasType("ValueExpression", Annotated[StrictStr, Field(title="ValueExpression")])
+"""
+Expression in `t`, e.g. `0.1*sin(2*PI*t)`: numbers, `PI`, `E`, `+ - * / ^`, `< <= > >=` (1 or 0), `sin`, `cos`,
+`tan`, `asin`, `acos`, `atan`, `atan2(y, x)`, `sinh`, `cosh`, `tanh`, `exp`, `ln`, `log2`, `log10`, `sqrt`, `abs`,
+`sign`, `step` (1 from zero on), `min`, `max`, `if(c, a, b)` (`a` where `c` is positive). No step leads
+across a kink or a jump. A motion must not jump; where its velocity does, the drive strikes the bodies. Of loads
+that are distributed along a body also in its material coordinate `s`, 0 at the first end and 1 at the last.
+"""
+
+
+Value = TypeAliasType("Value", ValueNumber | ValueExpression | Table)
+"""
+A number, an expression in the time `t` (s), or a table over time.
+"""
+
+
+Vector = TypeAliasType("Vector", Annotated[list[StrictFloat], Field(max_length=3, min_length=2)])
+"""
+Components of a vector or a point: `[x, y]` in the plane, `[x, y, z]` in space.
+"""
+
+
+class Accuracy(Part):
+    """
+    What accuracy is asked for: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
+    """
+
+    error: StrictFloat | None = None
+    """
+    Error wanted of every output over the default experiment: of positions relative to the size of the scene, of
+    angles and directions in rad, of all else relative to the largest value of its vector. By default 1e-3 where
+    numbers of elements are left to the planner. Where nothing is left to it, what the output `resolution` is measured
+    by: ten times the tolerance where nothing is said.
+    """
+    for_: Annotated[list[InputCourse], Field(validate_default=True)] = []
+    """
+    What inputs do in the experiment that is planned for; those that are not named keep their start values.
+    """
+    of: list[StrictStr] = []
+    """
+    Names of the outputs that count, without indices; by default all but energies, work and residuals.
+    """
+    relative_tolerance: StrictFloat | None = None
+    """
+    Error in time that a step may make, relative to the length of the body (root mean square
+    over its mass). By default 1e-4; 1e-7 in a scene without cables, which then keeps its energy to
+    0.1 % over a thousand swings or turns. Beside `error`, from which it follows, only where numbers of elements are
+    given.
+    """
+
+
+class InitialMotion(Part):
+    """
+    Rigid motion of a body at the start.
+    """
+
+    deformation: Annotated[list[StrictStr] | None, Field(max_length=3, min_length=2)] = None
+    """
+    Velocity of deformation, m/s, beside both: its components as expressions in the material coordinate `s`,
+    0 at the first end and 1 at the last, e.g. `["0", "sin(PI*s)"]`; cables only.
+    Sections of rods and beams turn with the line.
+    """
+    spin: Spin = 0.0
+    """
+    Angular velocity, counter-clockwise in the plane, in global axes in space, rad/s.
+    """
+    velocity: Vector | None = None
+    """
+    Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s; zero by default.
+    """
+
+
+class Revolute(Part):
+    """
+    Holds the position; in space also an axis, which bodies turn about.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["revolute"] = "revolute"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    direction: Vector | None = None
+    """
+    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    its section there). `slider`, `cylindrical`, `screw`: direction
+    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
+    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Spherical(Part):
+    """
+    Holds the position, in space: a ball in its socket.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["spherical"] = "spherical"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Universal(Part):
+    """
+    Holds the position and a right angle between an axis of each body, in space: a cross between two forks.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["universal"] = "universal"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    direction: Vector
+    """
+    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    its section there). `slider`, `cylindrical`, `screw`: direction
+    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
+    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    """
+    second_direction: Vector
+    """
+    `universal` only: the axis that is fixed in the second body, across `direction` and in the same axes as that.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Weld(Part):
+    """
+    Holds the position and the direction, in space how bodies stand to each other.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["weld"] = "weld"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    angle: StrictFloat | None = None
+    """
+    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
+    rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Slider(Part):
+    """
+    Holds the marker on a line of the first one, which may move, and lets it turn.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["slider"] = "slider"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    direction: Vector
+    """
+    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    its section there). `slider`, `cylindrical`, `screw`: direction
+    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
+    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Cylindrical(Part):
+    """
+    Holds the marker on a line of the first one, in space, and lets it turn about that line only.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["cylindrical"] = "cylindrical"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    direction: Vector
+    """
+    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    its section there). `slider`, `cylindrical`, `screw`: direction
+    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
+    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Screw(Part):
+    """
+    Holds the marker on a line of the first one, in space, along which it goes as it turns about it.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["screw"] = "screw"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    direction: Vector
+    """
+    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    its section there). `slider`, `cylindrical`, `screw`: direction
+    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
+    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    """
+    pitch: StrictFloat
+    """
+    `screw` only: way along the axis a full turn, m; negative of a left-handed thread.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Prismatic(Part):
+    """
+    Holds the marker on a line of the first one, and the direction, in space how bodies stand to each other.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["prismatic"] = "prismatic"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    angle: StrictFloat | None = None
+    """
+    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
+    rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
+    """
+    direction: Vector | None = None
+    """
+    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    its section there). `slider`, `cylindrical`, `screw`: direction
+    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
+    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Planar(Part):
+    """
+    Holds the marker in a plane of the first one, in space, and lets it turn in that plane only.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["planar"] = "planar"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    direction: Vector
+    """
+    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    its section there). `slider`, `cylindrical`, `screw`: direction
+    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
+    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Distance(Part):
+    """
+    Holds the distance.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["distance"] = "distance"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    length: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    `distance` only: length of the link, m; the distance at the start by default.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+class Hinge(Part):
+    """
+    Holds the position; a spring and a damper act against rotation.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["hinge"] = "hinge"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    angle: StrictFloat | None = None
+    """
+    `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
+    rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
+    """
+    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `hinge` only: damping of rotation, N m s/rad.
+    """
+    direction: Vector | None = None
+    """
+    In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
+    its section there). `slider`, `cylindrical`, `screw`: direction
+    of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
+    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `hinge` only: stiffness against rotation, N m/rad.
+    """
+
+
+class Generic(Part):
+    """
+    Holds, in space, what `free` does not name.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["generic"] = "generic"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
+    then `body.marker`.
+    """
+    free: list[Freedom]
+    """
+    `generic` only: what is let go along and about the axes of the body of the first marker (of ground: the global
+    ones); everything else is held. Of two rotations the first turns about the axis of the first body.
+    """
+    point: Vector | None = None
+    """
+    With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+
+
+Joint = TypeAliasType(
+    "Joint",
+    Annotated[
+        Revolute
+        | Spherical
+        | Universal
+        | Weld
+        | Slider
+        | Cylindrical
+        | Screw
+        | Prismatic
+        | Planar
+        | OrientationJoint
+        | Distance
+        | Hinge
+        | AlongJoint
+        | Generic,
+        Field(discriminator="kind"),
+    ],
+)
+"""
+A joint between two markers.
+"""
+
+
+class SpringDamperLoad(Part):
+    """
+    Spring and damper side by side between two points.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["spring_damper"] = "spring_damper"
+    markers: Annotated[list[StrictStr], Field(max_length=2, min_length=2)]
+    """
+    `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
+    """
+    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
+    that is passed by `d`, s/m or s/rad; 0 by default.
+    """
+    length: Value | None = None
+    """
+    `spring_damper`: length at rest, m; the distance at the start by default.
+    """
+    point: Vector | None = None
+    """
+    `spring_damper` from `ground` only: where on the ground, m; where the second marker is at the
+    start by default.
+    """
+    stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    """
+
+
+LoadValueComponents = TypeAliasType(
+    "LoadValueComponents",
+    Annotated[list[Value], Field(max_length=3, min_length=2, title="LoadValueComponents")],
+)
+"""
+The components of a vector.
+"""
+
+
+LoadValue = TypeAliasType("LoadValue", Value | LoadValueComponents)
+"""
+Values of a load: one of a moment, as many as dimensions of a force.
+"""
+
+
+MotionValueComponents = TypeAliasType(
+    "MotionValueComponents",
+    Annotated[list[Value], Field(max_length=4, min_length=2, title="MotionValueComponents")],
+)
+"""
+The components of a position, or the parts of a quaternion.
+"""
+
+
+MotionValue = TypeAliasType("MotionValue", Value | MotionValueComponents | MasterInput)
+"""
+Course of a driven motion.
+"""
+
+
+class Line(Part):
+    """
+    Straight line.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "line"},
+    )
+    from_: Vector
+    """
+    First end, m.
+    """
+    to: Vector
+    """
+    Last end, m.
+    """
+
+
+class Arc(Part):
+    """
+    Circular arc that bulges to the right of the way from `from` to `to`: drawn from left to
+    right it sags. In space it sags towards -z in the upright plane through both ends, and the cable has no
+    bending stiffness.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "arc"},
+    )
+    from_: Vector
+    """
+    First end, m.
+    """
+    to: Vector
+    """
+    Last end, m.
+    """
+    length: StrictFloat
+    """
+    Length along the arc, m; more than the distance between the ends.
+    """
+
+
+class Helix(Part):
+    """
+    Circular helix in space: of rods, and of cables without bending stiffness.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "helix"},
+    )
+    from_: Vector
+    """
+    Where its axis begins, m.
+    """
+    to: Vector
+    """
+    Where its axis ends, m.
+    """
+    radius: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    Distance of the line from the axis, m.
+    """
+    turns: StrictFloat
+    """
+    Number of turns; positive of a right-handed helix, negative of a left-handed one.
+    """
+    start: Vector
+    """
+    Direction from the axis to the first end, of any length; what of it is along the axis does not count.
+    """
+
+
+Shape = TypeAliasType("Shape", Annotated[Line | Arc | Helix, under_one_of("line", "arc", "helix")])
+"""
+Unstressed shape of a cable.
+"""
+
+
+class Cable(Part):
+    """
+    Flexible, of ANCF cables: two nodes with position and slope; stretches and bends, does not
+    shear. Where `model` says so, a rigid rod.
+    """
+
+    element: Literal["cable"] = "cable"
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    material: Material
+    """
+    Material.
+    """
+    shape: Shape
+    """
+    Unstressed shape, and the configuration at the start.
+    """
+    axial: Axial = "waves"
+    """
+    What becomes of waves of stretching.
+    """
+    axis: Vector | None = None
+    """
+    Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    """
+    elements: Elements = "auto"
+    """
+    Number of elements; `"auto"`, or nothing said, is as many as the accuracy asks for, found while packaging.
+    """
+    markers: dict[str, StrictFloat] = {}
+    """
+    Named material coordinates: 0 is the first end, 1 the last.
+    """
+    model: Model = "auto"
+    """
+    Whether it bends and stretches.
+    """
+    motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
+    """
+    Rigid motion at the start; velocity of the first end.
+    """
+    section: Section | None = None
+    """
+    Cross section, where it is the same all along.
+    """
+    stations: Annotated[list[Station], Field(validate_default=True)] = []
+    """
+    Cross sections that change along the body, from its first end to its last; instead of `section`.
+    """
+    strain: Strain = "thetaPrime"
+    """
+    Strain measure.
+    """
+
+
+class Rod(Part):
+    """
+    The same line with sections that turn about it: bends about two axes with their own stiffness, and twists; does not
+    shear. In space.
+    """
+
+    element: Literal["rod"] = "rod"
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    material: Material
+    """
+    Material.
+    """
+    shape: Shape
+    """
+    Unstressed shape, and the configuration at the start.
+    """
+    axial: Axial = "waves"
+    """
+    What becomes of waves of stretching.
+    """
+    axis: Vector | None = None
+    """
+    Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    """
+    elements: Elements = "auto"
+    """
+    Number of elements; `"auto"`, or nothing said, is as many as the accuracy asks for, found while packaging.
+    """
+    markers: dict[str, StrictFloat] = {}
+    """
+    Named material coordinates: 0 is the first end, 1 the last.
+    """
+    model: Model = "auto"
+    """
+    Whether it bends and stretches.
+    """
+    motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
+    """
+    Rigid motion at the start; velocity of the first end.
+    """
+    section: Section | None = None
+    """
+    Cross section, where it is the same all along.
+    """
+    stations: Annotated[list[Station], Field(validate_default=True)] = []
+    """
+    Cross sections that change along the body, from its first end to its last; instead of `section`.
+    """
+    strain: Strain = "thetaPrime"
+    """
+    Strain measure.
+    """
+
+
+class Beam(Part):
+    """
+    The same with sections that lean against the line: shears too, with the rotary inertia of its sections.
+    """
+
+    element: Literal["beam"] = "beam"
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    material: Material
+    """
+    Material.
+    """
+    shape: Shape
+    """
+    Unstressed shape, and the configuration at the start.
+    """
+    axial: Axial = "waves"
+    """
+    What becomes of waves of stretching.
+    """
+    axis: Vector | None = None
+    """
+    Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    """
+    elements: Elements = "auto"
+    """
+    Number of elements; `"auto"`, or nothing said, is as many as the accuracy asks for, found while packaging.
+    """
+    markers: dict[str, StrictFloat] = {}
+    """
+    Named material coordinates: 0 is the first end, 1 the last.
+    """
+    model: Model = "auto"
+    """
+    Whether it bends and stretches.
+    """
+    motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
+    """
+    Rigid motion at the start; velocity of the first end.
+    """
+    section: Section | None = None
+    """
+    Cross section, where it is the same all along.
+    """
+    stations: Annotated[list[Station], Field(validate_default=True)] = []
+    """
+    Cross sections that change along the body, from its first end to its last; instead of `section`.
+    """
+    strain: Strain = "thetaPrime"
+    """
+    Strain measure.
+    """
+
+
+class AutoBody(Part):
+    """
+    A cable, a rod or a beam, as needed: a cable where nothing asks for its sections; else in space a rod; a beam
+    where shear moves an output by more than the error wanted, or whole matrices are given. Takes the keys of all three; those
+    that the element chosen has no use for are not used. Found while packaging; the page of the unit says why.
+    """
+
+    element: Literal["auto"] = "auto"
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    material: Material
+    """
+    Material.
+    """
+    shape: Shape
+    """
+    Unstressed shape, and the configuration at the start.
+    """
+    axial: Axial = "waves"
+    """
+    What becomes of waves of stretching.
+    """
+    axis: Vector | None = None
+    """
+    Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
+    there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    """
+    elements: Elements = "auto"
+    """
+    Number of elements; `"auto"`, or nothing said, is as many as the accuracy asks for, found while packaging.
+    """
+    markers: dict[str, StrictFloat] = {}
+    """
+    Named material coordinates: 0 is the first end, 1 the last.
+    """
+    model: Model = "auto"
+    """
+    Whether it bends and stretches.
+    """
+    motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
+    """
+    Rigid motion at the start; velocity of the first end.
+    """
+    section: Section | None = None
+    """
+    Cross section, where it is the same all along.
+    """
+    stations: Annotated[list[Station], Field(validate_default=True)] = []
+    """
+    Cross sections that change along the body, from its first end to its last; instead of `section`.
+    """
+    strain: Strain = "thetaPrime"
+    """
+    Strain measure.
+    """
+
+
+class RigidBody(Part):
+    """
+    Rigid.
+    """
+
+    element: Literal["rigid"] = "rigid"
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    position: Vector
+    """
+    Centre of mass at the start, m.
+    """
+    angle: StrictFloat = 0.0
+    """
+    Direction of the body's frame at the start, counter-clockwise, rad.
+    """
+    density: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Density of that shape, kg/m^3.
+    """
+    inertia: Inertia | None = None
+    """
+    Inertia about the centre of mass, kg m^2: a number in the plane; in space the moments about the axes of the body's
+    frame, or the whole tensor. Zero (and where nothing is said) is a particle, which does not turn.
+    """
+    markers: dict[str, Vector] = {}
+    """
+    Named points in the body's frame, whose origin is the centre of mass, m.
+    """
+    mass: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Mass, kg; or `shape` and `density`.
+    """
+    motion: Annotated[InitialMotion, Field(validate_default=True)] = {"spin": 0.0}
+    """
+    Motion at the start; velocity of the centre of mass.
+    """
+    orientation: Orientation | None = None
+    """
+    In space: how the body's frame stands at the start; along the global axes where nothing is said.
+    """
+    shape: Solid | None = None
+    """
+    Shape of a body of uniform density, instead of `mass` and `inertia`, which follow.
+    """
+
+
+Body = TypeAliasType(
+    "Body",
+    Annotated[Cable | Rod | Beam | AutoBody | RigidBody, Field(discriminator="element")],
+)
+"""
+A body; `element` says of which kind.
+"""
+
+
+class ForceLoad(Part):
+    """
+    Force at a marker, N.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["force"] = "force"
+    marker: StrictStr
+    """
+    `force`, `moment`: where it acts, `body.marker`.
+    """
+    value: LoadValue
+    """
+    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
+    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    """
+    follower: StrictBool | None = None
+    """
+    `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
+    space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
+    """
+
+
+class MomentLoad(Part):
+    """
+    Moment at a marker, counter-clockwise in the plane, N m. In space it keeps its global axes where it does not follow,
+    and its work then depends on the way that the body turns.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["moment"] = "moment"
+    marker: StrictStr
+    """
+    `force`, `moment`: where it acts, `body.marker`.
+    """
+    value: LoadValue
+    """
+    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
+    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    """
+    follower: StrictBool | None = None
+    """
+    `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
+    space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
+    """
+
+
+class TorqueLoad(Part):
+    """
+    Moment on the second marker of a joint about its axis, opposite on its first, N m.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["torque"] = "torque"
+    joint: StrictStr
+    """
+    `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
+    """
+    value: LoadValue
+    """
+    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
+    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    """
+
+
+class DistributedLoad(Part):
+    """
+    Force in global axes per reference length of a cable, rod or beam, N/m.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["distributed"] = "distributed"
+    body: StrictStr
+    """
+    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    """
+    value: LoadValue
+    """
+    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
+    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    """
+
+
+class DistributedMomentLoad(Part):
+    """
+    Moment per reference length of a rod or beam, N m/m: its power is that with the angular velocities of the sections. It keeps its
+    global axes where it does not follow, and its work then depends on the way that sections turn.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["distributed_moment"] = "distributed_moment"
+    body: StrictStr
+    """
+    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    """
+    value: LoadValue
+    """
+    `force`, `moment`, `torque`, `distributed`, `distributed_moment`: the components of a force (N), of a force per length (N/m), of a moment
+    per length (N m/m) or of a moment in space (N m), one of either in the plane or of a torque (N m). What is distributed along a body
+    takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
+    """
+    follower: StrictBool | None = None
+    """
+    `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
+    space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
+    """
+
+
+Load = TypeAliasType(
+    "Load",
+    Annotated[
+        ForceLoad
+        | MomentLoad
+        | TorqueLoad
+        | DistributedLoad
+        | DistributedMomentLoad
+        | SpringDamperLoad
+        | JointSpringLoad
+        | BushingLoad
+        | StopLoad,
+        Field(discriminator="kind"),
+    ],
+)
+"""
+A load that is known in the scene.
+"""
+
+
+class Loaded(Part):
+    """
+    A state and loads that act only while it is looked for: what is bent or plucked by them is let go at the start.
+    """
+
+    state: InitialState
+    """
+    The state.
+    """
+    loads: Annotated[list[Load], Field(validate_default=True)] = []
+    """
+    Loads that act only while it is looked for, beside all others; no springs.
+    """
+
+
+class AngleMotion(Part):
+    """
+    Direction of a marker, or direction of the second marker of a joint less that of its first,
+    rad.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "x-either": [
+                {"must": ["joint"], "may": []},
+                {"must": ["marker"], "may": []},
+            ]
+        },
+    )
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["angle"] = "angle"
+    value: MotionValue
+    """
+    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
+    """
+    joint: StrictStr | None = None
+    """
+    `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider or of another joint along a line.
+    """
+    marker: StrictStr | None = None
+    """
+    `position`, `angle`, `orientation`: the driven `body.marker`.
+    """
+
+
+class PositionMotion(Part):
+    """
+    Position of a marker, m.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["position"] = "position"
+    value: MotionValue
+    """
+    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
+    """
+    marker: StrictStr
+    """
+    `position`, `angle`, `orientation`: the driven `body.marker`.
+    """
+
+
+class OrientationMotion(Part):
+    """
+    In space how a rigid body stands: the quaternion, scalar first, of the frame of a marker's body in global axes, of any
+    length and either sign. As an input with rates: the angular velocity and the angular acceleration, in global axes.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["orientation"] = "orientation"
+    value: MotionValue
+    """
+    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
+    """
+    marker: StrictStr
+    """
+    `position`, `angle`, `orientation`: the driven `body.marker`.
+    """
+
+
+class DisplacementMotion(Part):
+    """
+    Way along the line of a slider, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
+    that line belongs to a cable.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["displacement"] = "displacement"
+    value: MotionValue
+    """
+    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
+    """
+    joint: StrictStr
+    """
+    `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider or of another joint along a line.
+    """
+
+
+Motion = TypeAliasType(
+    "Motion",
+    Annotated[
+        AngleMotion | PositionMotion | OrientationMotion | DisplacementMotion,
+        Field(discriminator="kind"),
+    ],
+)
+"""
+A driven motion.
+"""
+
+
+Initial = TypeAliasType("Initial", InitialState | Loaded)
+"""
+Where the simulation starts from: a state by its name, or a state and loads that act only while it is looked
+for. Joints that bodies as described do not fit are closed: bodies are moved as a whole, and where that is not
+enough, cables start deformed, with the least strain energy. From there bodies start with their `motion`.
+"""
+
+
+class Scene(Part):
+    """
+    A scene: bodies, joints, what drives and loads them, what goes in and what comes out.
+    """
+
+    name: StrictStr
+    """
+    Name of the scene and of the FMU: letters, digits, `_` and `-`; at most 100.
+    """
+    dimension: Annotated[StrictInt, Field(ge=2, le=3)]
+    """
+    Dimension: 2 in the plane, 3 in space. Cables in space stretch and bend, isotropically, and know no torsion.
+    """
+    bodies: list[Body]
+    """
+    Bodies; at least one.
+    """
+    about: About | None = None
+    """
+    Whose model it is.
+    """
+    accuracy: Annotated[Accuracy, Field(validate_default=True)] = {"relative_tolerance": None}
+    """
+    What accuracy is asked for.
+    """
+    experiment: Annotated[Experiment, Field(validate_default=True)] = {
+        "step": 0.01,
+        "stop_time": 1.0,
+    }
+    """
+    Default experiment of the FMU.
+    """
+    gears: Annotated[list[Gear], Field(validate_default=True)] = []
+    """
+    Gears between joints.
+    """
+    gravity: Vector | None = None
+    """
+    Gravitational acceleration, m/s^2; zero by default.
+    """
+    initial: Annotated[Initial, Field(validate_default=True)] = "as_shaped"
+    """
+    Where the simulation starts from.
+    """
+    inputs: Annotated[list[Input], Field(validate_default=True)] = []
+    """
+    Loads that the master sets.
+    """
+    joints: Annotated[list[Joint], Field(validate_default=True)] = []
+    """
+    Joints to ground and between bodies.
+    """
+    loads: Annotated[list[Load], Field(validate_default=True)] = []
+    """
+    Loads that the scene itself knows.
+    """
+    masses: Annotated[list[Mass], Field(validate_default=True)] = []
+    """
+    Masses lumped at markers.
+    """
+    method: Annotated[Method, Field(validate_default=True)] = {
+        "integrator": "auto",
+        "work_limit": 1000000000.0,
+    }
+    """
+    Integrator, where the automatic choice is not wanted.
+    """
+    motions: Annotated[list[Motion], Field(validate_default=True)] = []
+    """
+    Driven positions, angles and displacements.
+    """
+    outputs: Annotated[list[Output], Field(validate_default=True)] = []
+    """
+    Quantities that the master reads.
+    """
+    ports: Annotated[list[Port], Field(validate_default=True)] = []
+    """
+    Markers that the master couples to other units.
+    """
+    rotation: Spin = 0.0
+    """
+    Angular velocity of the frame that the scene is described in, about its origin, rad/s: a number in the plane,
+    counter-clockwise, three components in space. Gravity and the ground turn with the frame.
+    """
