@@ -244,21 +244,9 @@ impl Instance {
             report.newton_iterations
         );
         self.logger.log(Status::Ok, Category::Solver, message);
-        while let Some(name) = self.simulation.next_doubtful() {
-            let message = format_args!(
-                "{name}: errors of the steps may have left more than 10 times the relative tolerance; \
-                 tighten it where this output counts"
-            );
-            self.logger.log(Status::Warning, Category::Warning, message);
-        }
-        if let Some(singular) = self.simulation.next_singular() {
-            let message = format_args!("{singular}");
-            self.logger.log(Status::Warning, Category::Warning, message);
-        }
-        if let Some(unresolved) = self.simulation.next_unresolved() {
-            let message = format_args!("{unresolved}");
-            self.logger.log(Status::Warning, Category::Warning, message);
-        }
+        let logger = &self.logger;
+        self.simulation
+            .tell_warnings(|message| logger.log(Status::Warning, Category::Warning, message));
         outcome.map_err(|failure| {
             self.state = State::StepFailed;
             failure.into()

@@ -236,6 +236,23 @@ impl Simulation {
         self.engine.as_mut().and_then(AnyEngine::next_singular)
     }
 
+    /// Tells all that the steps so far give reason to warn of and that was not told of before, in words: outputs that the tolerance does not
+    /// reach, singular positions, a mesh that is too coarse.
+    pub fn tell_warnings(&mut self, mut tell: impl FnMut(std::fmt::Arguments<'_>)) {
+        while let Some(name) = self.next_doubtful() {
+            tell(format_args!(
+                "{name}: errors of the steps may have left more than 10 times the relative tolerance; \
+                 tighten it where this output counts"
+            ));
+        }
+        if let Some(singular) = self.next_singular() {
+            tell(format_args!("{singular}"));
+        }
+        if let Some(unresolved) = self.next_unresolved() {
+            tell(format_args!("{unresolved}"));
+        }
+    }
+
     /// Names of the joints and motions that hold, at least in part, what others hold already, and of
     /// rigid bodies that joints alone keep in shape, in the present position; none before [`Self::initialize`].
     pub fn redundant(&mut self) -> Redundant {

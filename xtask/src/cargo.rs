@@ -14,7 +14,7 @@ use crate::package::PACKAGE;
 use crate::process;
 
 /// The package of the program `flexbody`.
-const PROGRAM: &str = "flexbody-program";
+pub const PROGRAM: &str = "flexbody-program";
 
 /// Where the project lies and where its products go.
 pub struct Workspace {
@@ -122,6 +122,20 @@ impl Workspace {
         let mut command = self.cargo("build");
         let package = if name == PACKAGE { PROGRAM } else { name };
         self.executable(command.args(["--bin", name]), (package, name))
+    }
+
+    /// Builds the program `flexbody` for release, to run on other machines of this platform too: linked as libraries are.
+    pub fn portable_program(&self) -> Result<PathBuf> {
+        let linker = Linker::prepare(self, Platform::host()?)?;
+        let flags = [self.flags()?, linker.flags].concat();
+        let mut command = self.cargo("rustc");
+        command.args(["--bin", PACKAGE]);
+        let command = released(&mut command, PROGRAM, &flags);
+        command.args(["--", "-Cstrip=symbols"]);
+        product(command.args(linker.arguments), PACKAGE, |artifact| {
+            artifact["executable"].as_str()
+        })
+        .context("building the flexbody program")
     }
 
     /// Builds the program of a package outside the workspace and returns where it is.

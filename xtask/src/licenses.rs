@@ -70,8 +70,7 @@ fn content(workspace: &Workspace, package: &str, platforms: &[Platform]) -> Resu
     Ok(content)
 }
 
-/// What a package is linked with on some platform. What only its program needs is among it, because cargo knows the
-/// dependencies of packages, not of libraries; what runs while compiling is not.
+/// What others a package is linked with on some platform; what runs while compiling is not among it.
 fn linked(workspace: &Workspace, package: &str) -> Result<BTreeSet<Linked>> {
     // Of one package: cargo's metadata would add what other packages switch on.
     let mut tree = workspace.cargo("tree");
@@ -87,11 +86,16 @@ fn linked(workspace: &Workspace, package: &str) -> Result<BTreeSet<Linked>> {
         .context("cargo metadata printed broken JSON")?;
     let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
-    let mut packages = BTreeMap::new();
+    // The project's own packages come from nowhere else.
+    let (mut packages, mut own) = (BTreeMap::new(), BTreeSet::new());
     for found in list(&metadata["packages"]) {
         let manifest = PathBuf::from(text(&found["manifest_path"]));
         let authors: Vec<String> = list(&found["authors"]).iter().map(text).collect();
         let (name, version) = (text(&found["name"]), text(&found["version"]));
+        if found["source"].is_null() {
+            own.insert(name);
+            continue;
+        }
         let one = Linked {
             license: text(&found["license"]),
             authors: authors.join(", "),
@@ -108,13 +112,12 @@ fn linked(workspace: &Workspace, package: &str) -> Result<BTreeSet<Linked>> {
             continue;
         };
         let version = version.trim_start_matches('v');
-        if name != package {
-            let one = packages.get(&(name.to_owned(), version.to_owned()));
-            found.insert(
-                one.with_context(|| format!("cargo metadata names no {line}"))?
-                    .clone(),
-            );
+        if own.contains(name) {
+            continue;
         }
+        let one = packages.get(&(name.to_owned(), version.to_owned()));
+        let one = one.with_context(|| format!("cargo metadata names no {line}"))?;
+        found.insert(one.clone());
     }
     Ok(found)
 }

@@ -26,6 +26,7 @@ mod simulate;
 mod table;
 mod test;
 mod view_bundle;
+mod wheel;
 
 #[derive(Parser)]
 #[command(
@@ -94,6 +95,26 @@ enum Command {
         )]
         arguments: Vec<OsString>,
     },
+    /// Simulates a scene many times with other parameters
+    Sweep {
+        /// What the program `flexbody` takes: files, then options
+        #[arg(
+            value_name = "ARGUMENT",
+            required = true,
+            trailing_var_arg = true,
+            allow_hyphen_values = true
+        )]
+        arguments: Vec<OsString>,
+    },
+    /// Makes a Python package with the program and the libraries for FMUs, which needs no compiler
+    Wheel {
+        /// What FMUs are to run on that it packages [default: platforms like this one]
+        #[arg(long, value_name = "PLATFORM,...", value_delimiter = ',')]
+        platform: Vec<Platform>,
+        /// Where to write [default: target/wheel]
+        #[arg(long, value_name = "FOLDER")]
+        output: Option<PathBuf>,
+    },
     /// Packages the pendulum, simulates it with fmpy, compares and draws it
     Demo,
     /// Regenerates the committed modelDescription/ and scenes/scene.schema.json
@@ -140,6 +161,10 @@ fn main() -> ExitCode {
         Command::Plan { arguments } => simulate::pass_on(&workspace, "plan", &arguments),
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
         Command::View { arguments } => simulate::pass_on(&workspace, "view", &arguments),
+        Command::Sweep { arguments } => simulate::pass_on(&workspace, "sweep", &arguments),
+        Command::Wheel { platform, output } => {
+            wheel::wheel(&workspace, &platform, output.as_deref())
+        }
         Command::Demo => demo::demo(&workspace),
         Command::Describe => describe::regenerate(&workspace),
         Command::ViewBundle => view_bundle::regenerate(&workspace),

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 use packing::shown;
 use serde_json::Value;
 
-use super::{Outcome, Series, Summary};
+use super::{Finished, Outcome, Series, Summary};
 
 /// A file of one line for the sweep, then one for every run that is finished, in the order in which they were.
 pub struct Journal {
@@ -139,17 +139,18 @@ impl Outcome {
         let mut line = serde_json::json!({ "run": run });
         match self {
             Self::Failed(reason) => line["error"] = reason.as_str().into(),
-            Self::Finished(summaries, series) => {
+            Self::Finished(finished) => {
+                let summaries = || finished.summaries.iter();
                 let columns = |pick: fn(&Summary) -> f64| -> Value {
-                    summaries
-                        .iter()
+                    summaries()
                         .map(|summary| Value::from(pick(summary)))
                         .collect()
                 };
                 line["final"] = columns(|summary| summary.last);
                 line["min"] = columns(|summary| summary.least);
                 line["max"] = columns(|summary| summary.largest);
-                if let Some(Series { times, values }) = series {
+                line["warnings"] = finished.warnings.as_slice().into();
+                if let Some((times, values)) = &finished.series {
                     line["times"] = times.as_slice().into();
                     line["values"] = values
                         .iter()
@@ -172,18 +173,22 @@ impl Outcome {
             least,
             largest,
         });
-        let series = Series::from_json(line);
-        Some(Self::Finished(summaries.collect(), series))
+        Some(Self::Finished(Finished {
+            summaries: summaries.collect(),
+            warnings: texts(&line["warnings"])?,
+            series: Series::from_json(line).map(|series| (series.times, series.values)),
+        }))
     }
 }
 
 impl Series {
-    /// From a line with `times` and `values`.
+    /// From a line with `times` and `values`, and `warnings` where there are any.
     pub fn from_json(line: &Value) -> Option<Self> {
         let values = line["values"].as_array()?.iter().map(numbers);
         Some(Self {
             times: numbers(&line["times"])?,
             values: values.collect::<Option<_>>()?,
+            warnings: texts(&line["warnings"]).unwrap_or_default(),
         })
     }
 }
@@ -195,4 +200,10 @@ fn numbers(list: &Value) -> Option<Vec<f64>> {
         list.map(|value| value.as_f64().unwrap_or(f64::NAN))
             .collect(),
     )
+}
+
+/// A list of texts.
+fn texts(list: &Value) -> Option<Vec<String>> {
+    let list = list.as_array()?.iter();
+    list.map(|value| value.as_str().map(String::from)).collect()
 }

@@ -63,6 +63,8 @@ pub struct Series {
     pub times: Vec<f64>,
     /// Values of all outputs at each.
     pub values: Vec<Vec<f64>>,
+    /// What the steps gave reason to warn of.
+    pub warnings: Vec<String>,
 }
 
 /// What is told of an output in a run.
@@ -79,8 +81,18 @@ pub struct Summary {
 pub enum Outcome {
     /// Why there is no result.
     Failed(String),
-    /// Of every output; all values where they are wanted.
-    Finished(Vec<Summary>, Option<Series>),
+    /// What came of it.
+    Finished(Finished),
+}
+
+/// A run that came to its end.
+pub struct Finished {
+    /// Of every output.
+    pub summaries: Vec<Summary>,
+    /// What the steps gave reason to warn of.
+    pub warnings: Vec<String>,
+    /// Communication points and outputs at each, where they are wanted.
+    pub series: Option<(Vec<f64>, Vec<Vec<f64>>)>,
 }
 
 /// What all runs have in common.
@@ -208,6 +220,7 @@ impl Common {
         let mut series = Series {
             times: Vec::with_capacity(self.points.len() + 1),
             values: Vec::with_capacity(self.points.len() + 1),
+            warnings: Vec::new(),
         };
         self.read(&mut simulation, 0.0, &mut series)?;
         let mut time = 0.0;
@@ -215,6 +228,7 @@ impl Common {
             // As a master of FMUs does: a time and a step from there.
             let stepped = simulation.step(time + (point - time));
             stepped.map_err(|failure| format!("at {time:?} s: {failure}"))?;
+            simulation.tell_warnings(|text| series.warnings.push(text.to_string()));
             self.read(&mut simulation, point, &mut series)?;
             time = point;
         }
@@ -258,7 +272,11 @@ impl Outcome {
                 summary.largest = summary.largest.max(value);
             }
         }
-        Self::Finished(summaries, has_series.then_some(series))
+        Self::Finished(Finished {
+            summaries,
+            warnings: series.warnings,
+            series: has_series.then_some((series.times, series.values)),
+        })
     }
 }
 

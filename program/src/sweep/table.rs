@@ -38,13 +38,13 @@ pub fn write(
     for name in &common.names {
         names.extend(["final", "min", "max"].map(|which| format!("{name}.{which}")));
     }
-    names.push("error".into());
+    names.extend(["warnings".into(), "error".into()]);
     let (inputs, outputs) = (common.varied.len(), common.names.len());
     let empty = || {
         let mut columns = vec![Column::Whole(Vec::new())];
         columns.extend((0..inputs).map(|_| Column::Real(Vec::new())));
         columns.extend((0..3 * outputs).map(|_| Column::Sparse(Vec::new())));
-        columns.push(Column::Text(Vec::new()));
+        columns.extend((0..2).map(|_| Column::Text(Vec::new())));
         columns
     };
     let mut file = Parquet::create(path, &names, &empty())?;
@@ -55,8 +55,8 @@ pub fn write(
         let mut columns = empty();
         for run in first..(first + rows).min(count) {
             let outcome = journal.outcome(run)?;
-            let (summaries, error) = match outcome {
-                Outcome::Finished(summaries, _) => (Some(summaries), None),
+            let (finished, error) = match outcome {
+                Outcome::Finished(finished) => (Some(finished), None),
                 Outcome::Failed(reason) => (None, Some(reason)),
             };
             if let Some(reason) = &error {
@@ -70,11 +70,13 @@ pub fn write(
                 next()?.push(Some(value));
             }
             for output in 0..outputs {
-                let summary = summaries.as_ref().map(|all| &all[output]);
+                let summary = finished.as_ref().map(|run| &run.summaries[output]);
                 next()?.push(summary.map(|summary| summary.last));
                 next()?.push(summary.map(|summary| summary.least));
                 next()?.push(summary.map(|summary| summary.largest));
             }
+            let warnings = finished.map(|run| run.warnings.join("; "));
+            next()?.push_text(warnings.filter(|text| !text.is_empty()));
             next()?.push_text(error);
         }
         file.write(&columns)?;
@@ -95,17 +97,20 @@ pub fn write_series(common: &Common, journal: &mut Journal, path: &Path) -> Resu
     let mut file = Parquet::create(path, &names, &empty())?;
     let (mut columns, mut held) = (empty(), 0);
     for run in 0..common.axes.count() {
-        let Outcome::Finished(_, Some(series)) = journal.outcome(run)? else {
+        let Outcome::Finished(finished) = journal.outcome(run)? else {
             continue;
         };
-        for (time, row) in series.times.iter().zip(&series.values) {
+        let Some((times, values)) = finished.series else {
+            continue;
+        };
+        for (time, row) in times.iter().zip(&values) {
             columns[0].push_whole(run);
             columns[1].push(Some(*time));
             for (column, value) in columns[2..].iter_mut().zip(row) {
                 column.push(Some(*value));
             }
         }
-        held += series.times.len() * names.len();
+        held += times.len() * names.len();
         if held > HELD {
             file.write(&columns)?;
             (columns, held) = (empty(), 0);

@@ -1,0 +1,72 @@
+//! `cargo xtask wheel`: the program, the libraries for FMUs and the Python package as one file that pip installs.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use packing::{Platform, prepared, shown};
+
+use crate::cargo::{PROGRAM, Workspace};
+use crate::licenses;
+use crate::package::{PACKAGE, Stage, put_library};
+use crate::process::run;
+use crate::python::Python;
+
+/// Where the sources of the Python package are.
+const SOURCES: &str = "python";
+/// What tells the package's build where the product is, and for which platform.
+const PRODUCT: &str = "FLEXBODY_WHEEL_PRODUCT";
+const TAG: &str = "FLEXBODY_WHEEL_PLATFORM";
+
+/// Makes a wheel for this machine's platform, whose program packages FMUs for all named ones, and says where it is.
+pub fn wheel(workspace: &Workspace, platforms: &[Platform], output: Option<&Path>) -> Result<()> {
+    let host = Platform::host()?;
+    let platforms = match platforms {
+        [] => vec![host],
+        named => named.to_vec(),
+    };
+    let folder = match output {
+        Some(folder) => std::path::absolute(folder)?,
+        None => workspace.target("wheel"),
+    };
+    let stage = Stage::new(workspace, "wheel")?;
+    put_product(workspace, &platforms, &stage.0)?;
+    let python = Python::prepare_own(workspace)?;
+    let made = prepared(&folder.join("."))?;
+    run(python
+        .module("hatchling")
+        .args(["build", "-t", "wheel", "-d"])
+        .arg(&made)
+        .current_dir(workspace.path(SOURCES))
+        .env(PRODUCT, &stage.0)
+        .env(TAG, tag(host)))?;
+    println!("the wheel is in {}", shown(&made));
+    Ok(())
+}
+
+/// The program, what goes into every FMU, and the notices of what the program is linked with.
+fn put_product(workspace: &Workspace, platforms: &[Platform], folder: &Path) -> Result<()> {
+    let parts = folder.join("fmu");
+    licenses::put(workspace, PACKAGE, platforms, &parts)?;
+    for &platform in platforms {
+        let library = workspace.library(PACKAGE, platform)?;
+        put_library(&library, &parts, PACKAGE, platform)?;
+    }
+    let program = workspace.portable_program()?;
+    licenses::put(workspace, PROGRAM, platforms, folder)?;
+    let name = program.file_name().context("a program without a name")?;
+    let copy = folder.join(name);
+    let copied = std::fs::copy(&program, &copy);
+    copied.with_context(|| format!("cannot write {}", shown(&copy)))?;
+    Ok(())
+}
+
+/// What pip calls the platform; of Linux with the glibc that everything is linked for.
+fn tag(platform: Platform) -> &'static str {
+    match platform {
+        Platform::Linux64 => "manylinux_2_17_x86_64",
+        Platform::Aarch64Linux => "manylinux_2_17_aarch64",
+        Platform::Win64 => "win_amd64",
+        Platform::Darwin64 => "macosx_10_12_x86_64",
+        Platform::Aarch64Darwin => "macosx_11_0_arm64",
+    }
+}
