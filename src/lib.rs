@@ -16,6 +16,34 @@
 //! | 8 | [`page`] | drawing of a scene, and the page that comes with a unit |
 //! | 9 | [`fmi`] | what all versions of FMI share: instance, lifecycle, states, logger |
 //! | 10 | [`fmi2`] | model description and C interface of FMI 2.0 |
+//!
+//! # Example
+//!
+//! A stone that is let go falls by `g t^2 / 2`:
+//!
+//! ```
+//! use flexbody::{scene::Scene, simulation::Simulation};
+//!
+//! let scene = Scene::from_json(
+//!     r#"{
+//!         "name": "stone", "dimension": 2, "gravity": [0.0, -9.81],
+//!         "bodies": [{ "name": "stone", "element": "rigid", "mass": 2.0, "position": [0.0, 0.0],
+//!                      "markers": { "centre": [0.0, 0.0] } }],
+//!         "outputs": [{ "kind": "position", "marker": "stone.centre" }]
+//!     }"#,
+//! )?;
+//! let mut simulation = Simulation::new(scene);
+//! let names = simulation.variables();
+//! let height = names.iter().position(|variable| variable.name == "stone.centre.position[2]").unwrap();
+//!
+//! simulation.initialize(0.0)?;
+//! simulation.start()?;
+//! for point in 1..=10 {
+//!     simulation.step(0.1 * f64::from(point))?;
+//! }
+//! assert!((simulation.real(height)? + 0.5 * 9.81).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod body;
 pub mod elements;

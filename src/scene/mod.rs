@@ -67,6 +67,20 @@ impl Scene {
     ///
     /// # Errors
     /// Broken JSON, unknown keys, values of the wrong type and values out of range, each with its path.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use flexbody::scene::Scene;
+    ///
+    /// let text = r#"{ "name": "stone", "dimension": 2,
+    ///     "bodies": [{ "name": "stone", "element": "rigid", "mass": 2.0, "position": [0.0, 0.0] }] }"#;
+    /// assert!(Scene::from_json(text).is_ok());
+    ///
+    /// let error = Scene::from_json(&text.replace("2.0,", "-1,")).unwrap_err();
+    /// assert_eq!(error.path, "bodies[0].mass");
+    /// assert_eq!(error.message, "expected a positive number (kg), found -1");
+    /// ```
     pub fn from_json(text: &str) -> Result<Self, Error> {
         // Editors of some systems begin a file with a mark of its encoding.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
