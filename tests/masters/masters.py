@@ -14,16 +14,11 @@ import stat
 import sys
 import sysconfig
 import tempfile
-import zipfile
 from pathlib import Path
-from xml.sax.saxutils import quoteattr
+
+from ssp import archive, split
 
 NANOSECONDS = 10**9
-
-
-def split(path):
-    """Unit and variable; a variable may have dots of its own."""
-    return tuple(path.split(".", 1))
 
 
 def starts(system):
@@ -39,7 +34,7 @@ def fmpy_ssp(system, folder):
 
     parameters = [Parameter(f"{unit}.{name}", value) for unit, name, value in starts(system)]
     rows = simulate_ssp(
-        str(structure(system, folder)),
+        str(archive(system, folder / "coupled.ssp")),
         stop_time=system["stop"] - 0.5 * system["step"],
         step_size=system["step"],
         parameter_set=ParameterSet(parameters),
@@ -61,49 +56,6 @@ class ParameterSet:
         self.parameters = parameters
 
 
-def structure(system, folder):
-    """An SSP archive of the system."""
-    connectors = {unit: {} for unit in system["units"]}
-    for source, sink in system["connections"]:
-        for path, kind in ((source, "output"), (sink, "input")):
-            unit, name = split(path)
-            connectors[unit][name] = kind
-    for path in system["outputs"]:
-        unit, name = split(path)
-        connectors[unit][name] = "output"
-    components = ""
-    for unit, names in connectors.items():
-        lines = "".join(
-            f"<ssd:Connector name={quoteattr(name)} kind=\"{kind}\"><ssc:Real/></ssd:Connector>"
-            for name, kind in names.items()
-        )
-        components += (
-            f'<ssd:Component name="{unit}" type="application/x-fmu-sharedlibrary" source="resources/{unit}.fmu">'
-            f"<ssd:Connectors>{lines}</ssd:Connectors></ssd:Component>"
-        )
-    connections = "".join(
-        '<ssd:Connection startElement="{}" startConnector={} endElement="{}" endConnector={}/>'.format(
-            split(source)[0], quoteattr(split(source)[1]), split(sink)[0], quoteattr(split(sink)[1])
-        )
-        for source, sink in system["connections"]
-    )
-    text = (
-        '<?xml version="1.0" encoding="UTF-8"?>'
-        '<ssd:SystemStructureDescription name="coupled" version="1.0" '
-        'xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription" '
-        'xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon">'
-        f'<ssd:System name="root"><ssd:Elements>{components}</ssd:Elements>'
-        f"<ssd:Connections>{connections}</ssd:Connections></ssd:System>"
-        "</ssd:SystemStructureDescription>"
-    )
-    path = folder / "coupled.ssp"
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("SystemStructure.ssd", text)
-        for unit, data in system["units"].items():
-            archive.write(data["fmu"], f"resources/{unit}.fmu")
-    return path
-
-
 def libcosimpy_fixed(system, folder):
     """Open Simulation Platform, fixed step: Jacobi."""
     return at_end(system, libcosimpy(system, None))
@@ -112,6 +64,26 @@ def libcosimpy_fixed(system, folder):
 def libcosimpy_ecco(system, folder):
     """Open Simulation Platform, ECCO: steps chosen by the power that bonds lose."""
     return at_end(system, libcosimpy(system, ecco(system)))
+
+
+def libcosimpy_ssp(system, folder):
+    """Open Simulation Platform, fixed step, with all that it is told in an archive of SSP."""
+    from libcosimpy._internal import get_last_error_message
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
+    from libcosimpy.CosimObserver import CosimObserver
+
+    log_output_level(CosimLogLevel.WARNING)
+    execution = CosimExecution.from_ssp_file(ssp_path=str(archive(system, folder / "coupled.ssp")))
+    observer = CosimObserver.create_last_value()
+    if not (execution.add_observer(observer) and execution.simulate_until(round(system["stop"] * NANOSECONDS))):
+        raise RuntimeError(get_last_error_message())
+    slaves = {info.name.decode(): info.index for info in execution.slave_infos()}
+    values = []
+    for unit, name in map(split, system["outputs"]):
+        known = {variable.name.decode(): variable.reference for variable in execution.slave_variables(slaves[unit])}
+        values.append(observer.last_real_values(slaves[unit], [known[name]])[0])
+    return values
 
 
 def ecco(system):
@@ -316,6 +288,7 @@ MASTERS = {
         fmpy_parabolas,
         fmpy_ssp,
         libcosimpy_fixed,
+        libcosimpy_ssp,
         libcosimpy_ecco,
         ecospy_local,
         ecospy_proxy,

@@ -12,7 +12,7 @@ HERE = Path(__file__).parent
 SYSTEMS = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(HERE.glob("systems/*.json"))}
 # Masters that step all units from one communication point, with the inputs of that point; the first
 # stands for all where they must agree.
-JACOBI = ["libcosimpy_fixed", "ecospy_local", "ecospy_proxy", "container_threaded"]
+JACOBI = ["libcosimpy_fixed", "libcosimpy_ssp", "ecospy_local", "ecospy_proxy", "container_threaded"]
 # Those with ways of their own: the first step without inputs, one unit after the other.
 OWN_WAYS = ["fmpy_ssp", "container_sequential"]
 
