@@ -7,6 +7,7 @@ step is an annotation of the Open Simulation Platform: SSP 1.0 has no place for 
 import sys
 import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 HERE = Path(__file__).resolve().parent
@@ -25,7 +26,7 @@ def split(path):
 
 def structure(system, name="coupled"):
     """The text of `SystemStructure.ssd` for what a master is told."""
-    connectors = {unit: dict.fromkeys(data["start"], "parameter") for unit, data in system["units"].items()}
+    connectors = {unit: dict.fromkeys(parameters(data), "parameter") for unit, data in system["units"].items()}
     for source, sink in system["connections"]:
         for path, kind in ((source, "output"), (sink, "input")):
             unit, variable = split(path)
@@ -51,6 +52,15 @@ def structure(system, name="coupled"):
         "</osp:Algorithm></ssc:Annotation></ssd:Annotations></ssd:DefaultExperiment>"
         "</ssd:SystemStructureDescription>\n"
     )
+
+
+def parameters(data):
+    """Which start values of a unit are parameters. One of an input has no connector: FMPy would set it to zero where
+    nothing is connected to it."""
+    with zipfile.ZipFile(data["fmu"]) as file:
+        description = ElementTree.fromstring(file.read("modelDescription.xml"))
+    known = {variable.get("name"): variable.get("causality") for variable in description.iter("ScalarVariable")}
+    return [name for name in data["start"] if known[name] == "parameter"]
 
 
 def component(unit, kinds, start):
