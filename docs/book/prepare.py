@@ -45,7 +45,8 @@ def links(text, page):
         if picture:
             kind = mimetypes.guess_type(file.name)[0]
             return f'<img alt="{words}" src="data:{kind};base64,{quote(base64.b64encode(file.read_bytes()), safe="+/=")}">'
-        return f"{words} (`{file.relative_to(ROOT).as_posix()}`)"
+        path = file.relative_to(ROOT).as_posix()
+        return f"`{path}`" if words == path else f"{words} (`{path}`)"
 
     return LINK.sub(one, text)
 

@@ -130,7 +130,9 @@ def test_messages_of_troubleshooting_are_those_of_the_source():
     source = " ".join(re.sub(r"\\\n\s*", "", read(path)) for path in (ROOT / "src").rglob("*.rs"))
     missing = []
     for message in re.findall(r"^```text\n(.*?)\n```", read(SOURCE / "troubleshooting.md"), re.DOTALL | re.MULTILINE):
-        missing += [part for part in re.split("…", message) if len(part) > 8 and part.strip(" ,:;") not in source]
+        # Long ones are broken into lines on the page.
+        parts = re.split("…", " ".join(message.split()))
+        missing += [part for part in parts if len(part) > 8 and part.strip(" ,:;") not in source]
     assert not missing
 
 
