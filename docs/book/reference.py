@@ -11,7 +11,7 @@ FOLDER = HERE / "src" / "reference"
 # Pages in order: file, title, definitions. What is on none of them goes on the last.
 PAGES = [
     ("scene", "The scene", ["Scene", "About", "Experiment"]),
-    ("bodies", "Bodies", ["Body", "Model", "Axial", "Strain", "InitialMotion", "Mass"]),
+    ("bodies", "Bodies", ["Body", "Elements", "Model", "Axial", "Strain", "InitialMotion", "Mass"]),
     ("shapes", "Material, sections, shapes", ["Material", "Section", "Profile", "Station", "Shape", "Solid", "Inertia", "Orientation"]),
     ("joints", "Joints and gears", ["Joint", "Freedom", "Gear"]),
     ("motions", "Motions", ["Motion", "MotionValue", "MasterInput"]),
@@ -99,9 +99,11 @@ def variants(name, choices, links):
 
 
 def title(choice):
-    """The name of a variant: its tag, its title where the schema has one, or its only key."""
-    tags = [choice.get("properties", {}).get(tag, {}).get("const") for tag in TAGS]
-    return next(filter(None, [*tags, choice.get("title")]), None) or next(iter(choice.get("properties", {})), "value")
+    """The name of a variant as JSON has it: its tag or its only key; else its title, where the schema has one."""
+    properties = choice.get("properties", {})
+    tags = [properties.get(tag, {}).get("const") for tag in TAGS]
+    only = next(iter(properties)) if len(properties) == 1 else None
+    return next(filter(None, [*tags, only, choice.get("title")]), None) or next(iter(properties), "value")
 
 
 def keys(schema, links):
