@@ -1,0 +1,63 @@
+//! What there is to tell of a simulation beside its values: of its start, of its constraints and of its steps.
+
+use super::{AnyEngine, Redundant, Simulation, Singular, Unresolved};
+
+impl Simulation {
+    /// Gaps, in words, of joints that bodies as described do not fit by far: bodies were moved, or cables deformed, to
+    /// close them.
+    pub fn misfits(&self) -> Option<&str> {
+        let engine = self.engine.as_ref()?;
+        engine.remarks().misfits.as_deref()
+    }
+
+    /// Whether the simulation starts from an equilibrium that is not stable and that could not be left.
+    pub fn is_unstable(&self) -> bool {
+        self.engine
+            .as_ref()
+            .is_some_and(|engine| engine.remarks().is_unstable)
+    }
+
+    /// The next output of which the steps so far may have left an error far beyond the tolerance, and that was not
+    /// told of before: `body.marker.quantity`. Stiffness and fast vibrations magnify errors that the
+    /// tolerance allows in the state.
+    pub fn next_doubtful(&mut self) -> Option<&str> {
+        self.engine.as_mut().and_then(AnyEngine::next_doubtful)
+    }
+
+    /// A mesh that has become too coarse for the error wanted, told once, where the output `resolution` is asked for.
+    pub fn next_unresolved(&mut self) -> Option<Unresolved<'_>> {
+        self.engine.as_mut().and_then(AnyEngine::next_unresolved)
+    }
+
+    /// A singular position that steps came to or passed by closely, where joints count as holding what others hold already
+    /// which do not do so everywhere; every joint is told once.
+    pub fn next_singular(&mut self) -> Option<Singular> {
+        self.engine.as_mut().and_then(AnyEngine::next_singular)
+    }
+
+    /// Tells all that the steps so far give reason to warn of and that was not told of before, in words: outputs that the tolerance does not
+    /// reach, singular positions, a mesh that is too coarse.
+    pub fn tell_warnings(&mut self, mut tell: impl FnMut(std::fmt::Arguments<'_>)) {
+        while let Some(name) = self.next_doubtful() {
+            tell(format_args!(
+                "{name}: errors of the steps may have left more than 10 times the relative tolerance; \
+                 tighten it where this output counts"
+            ));
+        }
+        if let Some(singular) = self.next_singular() {
+            tell(format_args!("{singular}"));
+        }
+        if let Some(unresolved) = self.next_unresolved() {
+            tell(format_args!("{unresolved}"));
+        }
+    }
+
+    /// Names of the joints and motions that hold, at least in part, what others hold already, and of
+    /// rigid bodies that joints alone keep in shape, in the present position; none before [`Self::initialize`].
+    pub fn redundant(&mut self) -> Redundant {
+        let (engine, state) = (self.engine.as_mut(), &self.state);
+        engine
+            .map(|engine| engine.redundant(state))
+            .unwrap_or_default()
+    }
+}
