@@ -199,7 +199,18 @@ def generated(schema):
 
 
 def formatted(text):
-    command = [sys.executable, "-m", "ruff", "format", "--line-length", "120", "--isolated", "--stdin-filename", "scene.py", "-"]
+    command = [
+        sys.executable,
+        "-m",
+        "ruff",
+        "format",
+        "--line-length",
+        "120",
+        "--isolated",
+        "--stdin-filename",
+        "scene.py",
+        "-",
+    ]
     return subprocess.run(command, input=text, capture_output=True, text=True, check=True, encoding="utf-8").stdout
 
 

@@ -21,7 +21,9 @@ class ProductHook(BuildHookInterface):
         programs = [product / name for name in ["flexbody", "flexbody.exe"] if (product / name).is_file()]
         libraries = [path for path in product.glob("fmu/binaries/*/*") if path.is_file()]
         if not programs:
-            raise RuntimeError(f"expected the program flexbody in {product} ({PRODUCT}); `cargo xtask wheel` puts it there")
+            raise RuntimeError(
+                f"expected the program flexbody in {product} ({PRODUCT}); `cargo xtask wheel` puts it there"
+            )
         if not libraries:
             raise RuntimeError(f"expected libraries for FMUs in {product / 'fmu' / 'binaries'}, found none")
         platform = os.environ.get(PLATFORM)

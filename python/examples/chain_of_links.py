@@ -110,7 +110,9 @@ def main():
     fmu = flexbody.package(chain())
     result = run(fmu)
     plot(result, arguments.plot)
-    print(f"{fmu}, {arguments.plot}: lowest point {min(result[-1][f'link{n}.last.position[2]'] for n in range(1, LINKS)):.4f} m")
+    print(
+        f"{fmu}, {arguments.plot}: lowest point {min(result[-1][f'link{n}.last.position[2]'] for n in range(1, LINKS)):.4f} m"
+    )
 
 
 if __name__ == "__main__":

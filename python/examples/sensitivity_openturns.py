@@ -1,6 +1,6 @@
 """Sobol' indices by OpenTURNS: the same question as in sensitivity_salib.py, answered by a polynomial chaos.
 
-    python sensitivity_openturns.py [--samples N]
+python sensitivity_openturns.py [--samples N]
 """
 
 import argparse
@@ -27,7 +27,9 @@ def main():
     chaos.run()
     indices = ot.FunctionalChaosSobolIndices(chaos.getResult())
     for number, name in enumerate(BOUNDS):
-        print(f"{name}: first order {indices.getSobolIndex(number):.2f}, total {indices.getSobolTotalIndex(number):.2f}")
+        print(
+            f"{name}: first order {indices.getSobolIndex(number):.2f}, total {indices.getSobolTotalIndex(number):.2f}"
+        )
 
 
 if __name__ == "__main__":

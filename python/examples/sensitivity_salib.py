@@ -1,6 +1,6 @@
 """Sobol' indices by SALib: which parameter the largest tension in a rope depends on.
 
-    python sensitivity_salib.py [--samples N] [--scheduler ADDRESS|local]
+python sensitivity_salib.py [--samples N] [--scheduler ADDRESS|local]
 """
 
 import argparse

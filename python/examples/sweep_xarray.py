@@ -1,6 +1,6 @@
 """A sweep over a grid as an xarray data set, and a map of the largest tension.
 
-    python sweep_xarray.py [--plot FILE.png]
+python sweep_xarray.py [--plot FILE.png]
 """
 
 import argparse

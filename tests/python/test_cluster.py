@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 from flexbody import cluster
 from flexbody._errors import Error
-from flexbody._unit import communication_points
+from flexbody._unit import Failure, Unit, communication_points
 from instance import Fmu, Instance
 
 PLAN = {
@@ -20,7 +20,7 @@ PLAN = {
     "step": 0.05,
     "fixed": {"rod.elements": 3, "rod.tip.force[1]": 0.2},
 }
-# A density that the unit refuses, and one with which it cannot go on.
+# The run whose density the unit refuses.
 REFUSED = 5
 
 
@@ -107,6 +107,22 @@ def test_a_killed_worker_loses_nothing(fmu, tmp_path):
     assert process.wait() == 0, errors
     assert killed
     checked(results, expected(fmu, tmp_path, [run for run in range(count) if run != REFUSED]), count)
+
+
+def test_after_a_failure_the_instance_is_as_new(fmu, tmp_path):
+    unit = Unit(str(fmu), tmp_path / "unit")
+    reference = expected(fmu, tmp_path / "reference", [0])[0]
+    try:
+        for fixed, reason in [
+            ({"work_limit": 10.0}, "fmi2DoStep: .*work_limit"),
+            ({"rod.elements": 2.5}, "^rod.elements: expected an integer, found 2.5$"),
+            ({"rod.elements": -1}, "fmi2SetInteger: rod.elements"),
+        ]:
+            with pytest.raises(Failure, match=reason):
+                unit.run({**PLAN, "fixed": fixed}, values(0))
+            assert unit.run(PLAN, values(0)) == reference
+    finally:
+        unit.free()
 
 
 def test_runs_are_taken_only_as_there_is_room(fmu, tmp_path, monkeypatch):

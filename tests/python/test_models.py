@@ -141,7 +141,10 @@ def test_fields_have_their_meaning():
         (lambda: scene(dimension=2.0), "valid integer"),
         (lambda: rope(elements=-1), "greater than or equal to 0"),
         (lambda: rope(elements="many"), "auto"),
-        (lambda: rope(shape={"from": [0, 0], "to": [1, 0]}), "expected one of the keys `line`, `arc`, `helix`, found `from`, `to`"),
+        (
+            lambda: rope(shape={"from": [0, 0], "to": [1, 0]}),
+            "expected one of the keys `line`, `arc`, `helix`, found `from`, `to`",
+        ),
         (lambda: rope(shape=Line(from_=[0], to=[1, 0])), "at least 2 items"),
         (lambda: scene(bodies=[{"element": "cabel"}]), "'cable', 'rod', 'beam', 'auto', 'rigid'"),
         (lambda: Revolute(name="j", markers=["ground", "rope.top"], stiffness=1), "stiffness"),

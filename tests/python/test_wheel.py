@@ -39,7 +39,11 @@ def test_the_wheel_holds_what_is_compiled(product, tmp_path):
 
 @pytest.mark.parametrize(
     ("lacking", "message"),
-    [(NAME, "expected the program flexbody in"), ("fmu", "expected libraries for FMUs in"), (None, "FLEXBODY_WHEEL_PLATFORM")],
+    [
+        (NAME, "expected the program flexbody in"),
+        ("fmu", "expected libraries for FMUs in"),
+        (None, "FLEXBODY_WHEEL_PLATFORM"),
+    ],
 )
 def test_a_wheel_that_would_lack_something_is_refused(product, tmp_path, lacking, message):
     part = tmp_path / "part"

@@ -135,7 +135,10 @@ def simulate(scene, *, stop_time=None, step=None, values=None, input=None):
             if value is not None:
                 arguments += [option, repr(float(value))]
         for variable, value in (values or {}).items():
-            arguments += ["--set", f"{variable}={value!r}" if isinstance(value, int) else f"{variable}={float(value)!r}"]
+            arguments += [
+                "--set",
+                f"{variable}={value!r}" if isinstance(value, int) else f"{variable}={float(value)!r}",
+            ]
         if input is not None:
             arguments += ["--input", _table(input, Path(results) / "inputs.csv")]
         run(*arguments, cwd=folder)

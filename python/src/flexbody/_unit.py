@@ -8,10 +8,12 @@ import threading
 import time
 from ctypes import byref
 from io import BytesIO
+from itertools import pairwise
 from pathlib import Path
 
 from distributed import WorkerPlugin, get_worker
 from fmpy import calloc, extract, free, read_model_description
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
     FMU2Slave,
     fmi2CallbackAllocateMemoryTYPE,
@@ -19,7 +21,6 @@ from fmpy.fmi2 import (
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
     fmi2OK,
-    fmi2Warning,
 )
 from fmpy.logging import addLoggerProxy
 
@@ -75,8 +76,12 @@ class Unit:
     def _instance(self):
         """An instance as new."""
         if self.slave is not None:
-            self.slave.reset()
-            return self.slave
+            try:
+                self.slave.reset()
+                return self.slave
+            except FMICallException:
+                # What cannot be reset must not be called any more: left as it is.
+                self.slave = None
         slave = FMU2Slave(
             guid=self.description.guid,
             unzipDirectory=str(self.folder),
@@ -107,17 +112,7 @@ class Unit:
                 return self._run(plan, values)
             except Exception as error:
                 reason = "; ".join([*MESSAGES[-3:], *([] if MESSAGES else [str(error)])])
-                self._give_up()
                 raise Failure(reason) from error
-
-    def _give_up(self):
-        """After a failure the instance is as new, or there is none."""
-        try:
-            if self.slave is not None:
-                self.slave.reset()
-        except Exception:
-            # What cannot be reset must not be called any more: left as it is.
-            self.slave = None
 
     def _set(self, names_and_values):
         for name, value in names_and_values:
@@ -141,7 +136,7 @@ class Unit:
         MESSAGES.clear()
         times = communication_points(plan["stop_time"], plan["step"])
         rows = [self._get(plan["outputs"])]
-        for now, following in zip(times, times[1:]):
+        for now, following in pairwise(times):
             slave.doStep(now, following - now)
             rows.append(self._get(plan["outputs"]))
             # Warnings of steps that were done are no reason of what fails later.

@@ -7,6 +7,7 @@ of JSON for every run goes to standard output as soon as it is finished.
 """
 
 import argparse
+import contextlib
 import json
 import os
 import queue
@@ -165,13 +166,24 @@ def sweep(arguments, lines, output):
         threads = sum(client.nthreads().values())
         feeder = Feeder(client, name, lines, AHEAD * max(threads, arguments.workers))
         feeder.start()
-        for line in feeder.results():
-            print(line, file=output, flush=True)
-        client.unregister_worker_plugin(name)
+        try:
+            for line in feeder.results():
+                print(line, file=output, flush=True)
+        finally:
+            closed(client, name)
     finally:
-        client.close()
+        closed(client)
         if cluster is not None:
-            cluster.close()
+            closed(cluster)
+
+
+def closed(what, name=None):
+    """Ends a client or a cluster, or takes the unit from the workers: whatever goes wrong then, results are out."""
+    with contextlib.suppress(Exception):
+        if name is None:
+            what.close()
+        elif what.status == "running":
+            what.unregister_worker_plugin(name)
 
 
 def own_output():
@@ -185,8 +197,8 @@ def main():
     arguments = parsed(None)
     try:
         sweep(arguments, iter(sys.stdin), own_output())
-    except BrokenPipeError:
-        # No one reads any more.
+    except (BrokenPipeError, KeyboardInterrupt):
+        # No one reads any more, or waits for threads that read.
         os._exit(1)
     except (Error, OSError, ValueError, ImportError) as error:
         print(f"flexbody.cluster: {error}", file=sys.stderr)
