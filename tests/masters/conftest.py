@@ -85,6 +85,15 @@ class Systems:
         return [float(last[path.split(".", 1)[1]]) for path in system["outputs"]]
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """What is asked of one system goes to one process, which keeps its runs and its units."""
+    for item in items:
+        name = getattr(item, "callspec", None) and item.callspec.params.get("name")
+        if name:
+            item.add_marker(pytest.mark.xdist_group(name))
+
+
 @pytest.fixture(scope="session")
 def systems(tmp_path_factory):
     """Coupled systems."""

@@ -135,7 +135,7 @@ fn browser_tests(workspace: &Workspace) -> Result<()> {
     run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "load"]))
 }
 
-/// One system after the other: what is fuzzed is compiled meanwhile.
+/// What is fuzzed is compiled meanwhile.
 fn master_tests(workspace: &Workspace) -> Result<()> {
     std::thread::scope(|scope| {
         let targets = scope.spawn(|| fuzz::prepare(workspace));
@@ -151,11 +151,9 @@ fn coupled(workspace: &Workspace) -> Result<()> {
         eprintln!("skipped: the masters' packages are pinned for Linux on x86-64");
         return Ok(());
     }
-    run(&mut pytest(
-        &Python::prepare_masters(workspace)?,
-        workspace,
-        "tests/masters",
-    )?)
+    let python = Python::prepare_masters(workspace)?;
+    let mut tests = pytest(&python, workspace, "tests/masters")?;
+    run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "loadgroup"]))
 }
 
 fn pytest(python: &Python, workspace: &Workspace, tests: &str) -> Result<Command> {

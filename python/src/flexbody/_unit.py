@@ -105,7 +105,7 @@ class Unit:
             slave.freeInstance()
 
     def run(self, plan, values):
-        """Times and outputs of one run."""
+        """Times and outputs of one run, and what its steps gave reason to warn of."""
         with self.lock:
             MESSAGES.clear()
             try:
@@ -135,13 +135,14 @@ class Unit:
         slave.exitInitializationMode()
         MESSAGES.clear()
         times = communication_points(plan["stop_time"], plan["step"])
-        rows = [self._get(plan["outputs"])]
+        rows, warnings = [self._get(plan["outputs"])], []
         for now, following in pairwise(times):
             slave.doStep(now, following - now)
             rows.append(self._get(plan["outputs"]))
             # Warnings of steps that were done are no reason of what fails later.
+            warnings += MESSAGES
             MESSAGES.clear()
-        return times, rows
+        return {"times": times, "values": rows, "warnings": warnings}
 
 
 class UnitPlugin(WorkerPlugin):
@@ -178,7 +179,6 @@ def work(name, runs):
 
 def _line(plugin, run):
     try:
-        times, rows = plugin.unit.run(plugin.plan, run["values"])
-        return result(run["run"], {"times": times, "values": rows})
+        return result(run["run"], plugin.unit.run(plugin.plan, run["values"]))
     except Exception as error:
         return result(run["run"], {"error": str(error) or type(error).__name__})

@@ -172,6 +172,11 @@ impl<'a> Bench<'a> {
         Ok(self.lab.get_or_init(|| built))
     }
 
+    /// The program, built for release.
+    pub fn program(&self) -> &Path {
+        &self.program
+    }
+
     /// The workspace.
     pub fn workspace(&self) -> &Workspace {
         self.workspace

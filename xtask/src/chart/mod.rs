@@ -30,6 +30,7 @@ mod rivals;
 mod rods;
 mod server;
 mod space;
+mod sweeps;
 mod tolerances;
 mod trees;
 
@@ -40,7 +41,7 @@ type Chart = (&'static str, &'static str, fn(&Bench) -> Result<()>);
 
 /// All charts, in the order of the page.
 #[rustfmt::skip]
-const CHARTS: [Chart; 19] = [
+const CHARTS: [Chart; 20] = [
     ("mesh", "Error against the number of elements", mesh::measure),
     ("space", "Shape functions, meshes, quadratures and masses", space::measure),
     ("methods", "Integrators: error in time against CPU time", methods::measure),
@@ -50,6 +51,7 @@ const CHARTS: [Chart; 19] = [
     ("cost", "CPU time of a step against the number of elements", cost::measure),
     ("bodies", "CPU time of a step against the number of bodies", bodies::measure),
     ("overhead", "What a unit costs besides its solver", overhead::measure),
+    ("sweeps", "Many runs of one scene: throughput", sweeps::measure),
     ("coupling", "Coupled units: error against communication step, largest stable steps", coupling::measure),
     ("constraints", "Projection and partitioning: error against CPU time", constraints::measure),
     ("energies", "Energy and residuals of mechanisms over a minute", energies::energies),
