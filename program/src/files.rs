@@ -1,4 +1,4 @@
-//! Floor 11. What a run of the headless program writes: outputs, and what pictures are drawn from.
+//! What a run of the headless program writes: outputs, and what pictures are drawn from.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -6,9 +6,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result, anyhow};
 use flexbody::scene::{Body, Scene};
-use flexbody::simulation::{Causality, Simulation};
+use flexbody::simulation::Simulation;
 
 use crate::reading::at;
+use crate::settings::outputs;
 
 /// Parts of a cable that a picture shows: as many an element, at least, at most.
 const PARTS: (u32, u32, u32) = (6, 48, 480);
@@ -60,12 +61,10 @@ pub struct Table {
 impl Table {
     /// The outputs of a simulation, to be written to `sink`.
     pub fn new(simulation: &Simulation, sink: Sink) -> Self {
-        let is_output =
-            |index: &usize| Causality::of(&simulation.variables()[*index]) == Causality::Output;
-        let outputs = (0..simulation.variables().len())
-            .filter(is_output)
-            .collect();
-        Self { outputs, sink }
+        Self {
+            outputs: outputs(simulation),
+            sink,
+        }
     }
 
     /// Writes the names.

@@ -7,8 +7,9 @@ use flexbody::simulation::{Causality, Simulation};
 const OFFERED: usize = 3;
 /// How alike (Jaro-Winkler, 0 to 1) an offered name is at least.
 const ALIKE: f64 = 0.75;
-/// Sets what an option says.
-pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<()> {
+
+/// Sets what an option says, and returns the place of the variable.
+pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<usize> {
     let wrong = |found: &str| anyhow!("--set {assignment}: {found}");
     let (name, value) = assignment
         .split_once('=')
@@ -16,7 +17,8 @@ pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<()> {
     let index = settable(simulation, name.trim()).map_err(|found| wrong(&found))?;
     let value = value.trim().parse();
     let value = value.map_err(|_| wrong("expected a number"))?;
-    set(simulation, index, value).map_err(|found| wrong(&found))
+    set(simulation, index, value).map_err(|found| wrong(&found))?;
+    Ok(index)
 }
 
 /// The parameter or input of a name; without one, what to say.
@@ -43,6 +45,13 @@ pub fn set(simulation: &mut Simulation, index: usize, value: f64) -> Result<(), 
         simulation.set_real(index, value)
     };
     outcome.map_err(|error| error.to_string())
+}
+
+/// Places of the outputs.
+pub fn outputs(simulation: &Simulation) -> Vec<usize> {
+    let all = simulation.variables().iter().enumerate();
+    let outputs = all.filter(|(_, variable)| Causality::of(variable) == Causality::Output);
+    outputs.map(|(index, _)| index).collect()
 }
 
 /// Names of the variables of some kinds.

@@ -1,14 +1,15 @@
 //! `flexbody simulate`: a scene, or that in an FMU, without FMI.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, bail};
 use flexbody::scene::Experiment;
 use flexbody::simulation::{
     Causality, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular,
 };
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
+use packing::bar;
 
 use crate::files::{Shapes, Sink, Table};
 use crate::planning::planned;
@@ -122,10 +123,12 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
     let step = arguments.step.unwrap_or(scene.experiment.step);
     let points = communication_points(stop_time, step)?;
     let mut simulation = Simulation::new(scene);
-    for assignment in &arguments.set {
-        assign(&mut simulation, assignment)?;
-    }
-    let signals = signals(&mut simulation, arguments, stop_time)?;
+    let set = arguments.set.iter();
+    let set = set.map(|assignment| Ok((&**assignment, assign(&mut simulation, assignment)?)));
+    let set: Vec<(&str, usize)> = set.collect::<Result<_>>()?;
+    let input = arguments.input.as_deref();
+    let signals = input.map(|path| signals(&mut simulation, path, &set, stop_time));
+    let signals = signals.transpose()?;
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
     let redundant = simulation.redundant();
@@ -156,15 +159,13 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
     }
 }
 
-/// The inputs that vary in time, if there are any, set to their values at the start.
+/// The inputs that vary in time, by a file, set to their values at the start; what is set beside them is none of them.
 fn signals(
     simulation: &mut Simulation,
-    arguments: &Simulate,
+    path: &Path,
+    set: &[(&str, usize)],
     stop_time: f64,
-) -> Result<Option<Signals>> {
-    let Some(path) = &arguments.input else {
-        return Ok(None);
-    };
+) -> Result<Signals> {
     let text = fs::read_to_string(path).map_err(|error| at(path, error))?;
     let found = Signals::from_csv(&text, simulation.variables()).and_then(|signals| {
         signals.check_covers(0.0, stop_time)?;
@@ -177,16 +178,14 @@ fn signals(
         }
         SignalError::Wrong(_) => at(path, error),
     })?;
-    for assignment in &arguments.set {
-        let name = assignment.split('=').next().unwrap_or_default().trim();
-        let index = simulation.variables().iter().position(|v| v.name == name);
-        if index.is_some_and(|index| signals.holds(index)) {
+    for &(assignment, index) in set {
+        if signals.holds(index) {
             bail!("--set {assignment}: {} sets it already", path.display());
         }
     }
     let set = simulation.set_inputs(&signals);
     set.map_err(|error| at(path, error))?;
-    Ok(Some(signals))
+    Ok(signals)
 }
 
 /// Calculated parameters and their values.
@@ -293,9 +292,7 @@ impl Run {
     }
 }
 
-/// A progress bar on standard error; invisible where that is no terminal.
+/// A progress bar of steps.
 pub fn progress_bar(steps: u64) -> ProgressBar {
-    let template = "simulating {bar:40} {percent:>3} %  {eta} left";
-    let style = ProgressStyle::with_template(template);
-    ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    bar("simulating {bar:40} {percent:>3} %  {eta} left", steps)
 }

@@ -23,7 +23,7 @@ pub fn run(
     missing: &[usize],
     take: &mut impl FnMut(usize, Result<Series, String>) -> Result<()>,
 ) -> Result<()> {
-    let stage = packaging::Stage::new("sweep")?;
+    let stage = packaging::stage("sweep")?;
     let fmu = fmu(arguments, &stage.0)?;
     let python = std::env::var_os(PYTHON).unwrap_or_else(|| "python3".into());
     let mut command = Command::new(&python);
@@ -103,12 +103,9 @@ fn fmu(arguments: &Sweep, stage: &Path) -> Result<PathBuf> {
 
 /// Tells what all runs have in common, then every run. Where the other side is gone it has told why, or its end does.
 fn write(common: &Common, missing: &[usize], input: impl Write) -> std::io::Result<()> {
-    let variables = flexbody::simulation::Simulation::new(common.scene.clone());
-    let name = |index: usize| &variables.variables()[index].name;
     let fixed = common.fixed.iter();
-    let fixed: serde_json::Map<String, Value> = fixed
-        .map(|&(index, value)| (name(index).clone(), value.into()))
-        .collect();
+    let fixed = fixed.map(|(_, name, value)| (name.clone(), Value::from(*value)));
+    let fixed: serde_json::Map<_, _> = fixed.collect();
     let mut input = BufWriter::new(input);
     let header = json!({
         "inputs": common.axes.names(),

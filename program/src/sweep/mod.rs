@@ -11,13 +11,12 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, bail};
 use flexbody::scene::Scene;
-use flexbody::simulation::{Causality, Simulation};
-use indicatif::{ProgressBar, ProgressStyle};
+use flexbody::simulation::Simulation;
 use packing::{prepared, shown};
 use serde_json::json;
 
 use crate::planning::planned;
-use crate::settings::{assign, set, settable};
+use crate::settings::{assign, outputs, set, settable};
 use crate::simulating::communication_points;
 use axes::Axes;
 use journal::Journal;
@@ -99,10 +98,10 @@ pub struct Finished {
 struct Common {
     scene: Scene,
     axes: Axes,
-    /// Places of what varies among the variables.
+    /// Places of what varies among the variables, in the order of the axes.
     varied: Vec<usize>,
-    /// Places of what is set, and values.
-    fixed: Vec<(usize, f64)>,
+    /// What is set in all runs: place, name and value.
+    fixed: Vec<(usize, String, f64)>,
     /// Places of outputs.
     outputs: Vec<usize>,
     /// Names of outputs.
@@ -128,7 +127,9 @@ pub fn sweep(arguments: &Sweep) -> Result<()> {
             count - missing.len()
         );
     }
-    let bar = progress_bar(count, count - missing.len());
+    let template = "sweeping {bar:40} {pos}/{len} runs  {eta} left";
+    let bar = packing::bar(template, count as u64).with_position((count - missing.len()) as u64);
+    bar.reset_eta();
     let mut take = |run: usize, found: Result<Series, String>| {
         bar.inc(1);
         journal.add(run, &Outcome::new(found, series.is_some()))
@@ -138,10 +139,9 @@ pub fn sweep(arguments: &Sweep) -> Result<()> {
         None => threads::run(&common, arguments.jobs, &missing, &mut take)?,
     }
     bar.finish_and_clear();
-    let failed = table::write(&common, &mut journal, &output)?;
+    let failed = table::write(&common, &mut journal, &output, series.as_deref())?;
     println!("wrote {}", shown(&output));
     if let Some(series) = &series {
-        table::write_series(&common, &mut journal, series)?;
         println!("wrote {}", shown(series));
     }
     if let Some((number, run, reason)) = failed {
@@ -160,35 +160,28 @@ impl Common {
         // Multiples rather than sums, so that rounding does not add up.
         let points = (1..=count).map(|number| (number as f64 * step).min(stop_time));
         let mut simulation = Simulation::new(scene.clone());
-        for assignment in &arguments.set {
-            assign(&mut simulation, assignment)?;
-        }
-        let place = |name: &str| {
-            let found = settable(&simulation, name);
-            found.map_err(|error| anyhow!("{name}: {error}"))
-        };
         let mut fixed = Vec::new();
         for assignment in &arguments.set {
-            let name = assignment.split('=').next().unwrap_or_default().trim();
-            if axes.names().contains(&name) {
+            let index = assign(&mut simulation, assignment)?;
+            let name = simulation.variables()[index].name.clone();
+            if axes.names().contains(&&*name) {
                 bail!("--set {assignment}: --vary sets it already");
             }
-            let index = place(name)?;
-            fixed.push((index, simulation.setting(index)));
+            fixed.push((index, name, simulation.setting(index)));
         }
+        let place = |name| settable(&simulation, name).map_err(|error| anyhow!("{name}: {error}"));
         let varied = axes.names().into_iter().map(place);
         let varied = varied.collect::<Result<_>>().context("--vary")?;
-        let all = simulation.variables().iter().enumerate();
-        let outputs = all.filter(|(_, v)| Causality::of(v) == Causality::Output);
-        let (outputs, names) = outputs.map(|(index, v)| (index, v.name.clone())).unzip();
+        let outputs = outputs(&simulation);
+        let name = |&index: &usize| simulation.variables()[index].name.clone();
         Ok(Self {
             points: points.collect(),
             scene,
             axes,
             varied,
             fixed,
+            names: outputs.iter().map(name).collect(),
             outputs,
-            names,
             step,
         })
     }
@@ -210,10 +203,15 @@ impl Common {
     /// A run.
     fn run(&self, run: usize) -> Result<Series, String> {
         let mut simulation = Simulation::new(self.scene.clone());
-        let varied = self.varied.iter().copied().zip(self.axes.values(run));
-        for (index, value) in self.fixed.iter().copied().chain(varied) {
-            let name = simulation.variables()[index].name.clone();
-            set(&mut simulation, index, value).map_err(|error| format!("{name}: {error}"))?;
+        let mut set = |index: usize, name: &str, value: f64| {
+            set(&mut simulation, index, value).map_err(|error| format!("{name}: {error}"))
+        };
+        for (index, name, value) in &self.fixed {
+            set(*index, name, *value)?;
+        }
+        let names = self.axes.names();
+        for ((index, name), value) in self.varied.iter().zip(names).zip(self.axes.values(run)) {
+            set(*index, name, value)?;
         }
         let started = simulation.initialize(0.0).and_then(|()| simulation.start());
         started.map_err(|error| error.to_string())?;
@@ -278,13 +276,4 @@ impl Outcome {
             series: has_series.then_some((series.times, series.values)),
         })
     }
-}
-
-/// A progress bar on standard error; invisible where that is no terminal.
-fn progress_bar(count: usize, done: usize) -> ProgressBar {
-    let template = "sweeping {bar:40} {pos}/{len} runs  {eta} left";
-    let style = ProgressStyle::with_template(template);
-    let bar = ProgressBar::new(count as u64).with_position(done as u64);
-    bar.reset_eta();
-    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

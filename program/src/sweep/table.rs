@@ -1,10 +1,10 @@
 //! Results as Parquet, in the order of runs.
 
 use std::fs::File;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use packing::shown;
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
@@ -13,7 +13,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use super::journal::Journal;
-use super::{Common, Outcome};
+use super::{Common, Finished, Outcome};
 
 /// Values, about, that are held in memory before they are written.
 const HELD: usize = 1 << 21;
@@ -27,97 +27,98 @@ enum Column {
     Text(Vec<Option<String>>),
 }
 
-/// Writes a row for every run. Returns how many failed, which was the first, and why.
+/// Writes a row for every run, and one for every run and communication point to `series` where that is wanted. Returns how many runs
+/// failed, which was the first, and why.
 pub fn write(
     common: &Common,
     journal: &mut Journal,
     path: &Path,
+    series: Option<&Path>,
 ) -> Result<Option<(usize, usize, String)>> {
-    let mut names = vec!["run".to_owned()];
-    names.extend(common.axes.names().into_iter().map(String::from));
-    for name in &common.names {
-        names.extend(["final", "min", "max"].map(|which| format!("{name}.{which}")));
-    }
-    names.extend(["warnings".into(), "error".into()]);
-    let (inputs, outputs) = (common.varied.len(), common.names.len());
-    let empty = || {
-        let mut columns = vec![Column::Whole(Vec::new())];
-        columns.extend((0..inputs).map(|_| Column::Real(Vec::new())));
-        columns.extend((0..3 * outputs).map(|_| Column::Sparse(Vec::new())));
-        columns.extend((0..2).map(|_| Column::Text(Vec::new())));
-        columns
-    };
-    let mut file = Parquet::create(path, &names, &empty())?;
+    let mut runs = Parquet::create(path, columns_of_runs(common))?;
+    let points = series.map(|path| Parquet::create(path, columns_of_points(common)));
+    let mut points = points.transpose()?;
     let mut failed: Option<(usize, usize, String)> = None;
-    let count = common.axes.count();
-    let rows = (HELD / names.len()).max(1);
-    for first in (0..count).step_by(rows) {
-        let mut columns = empty();
-        for run in first..(first + rows).min(count) {
-            let outcome = journal.outcome(run)?;
-            let (finished, error) = match outcome {
-                Outcome::Finished(finished) => (Some(finished), None),
-                Outcome::Failed(reason) => (None, Some(reason)),
-            };
-            if let Some(reason) = &error {
-                let (number, _, _) = failed.get_or_insert_with(|| (0, run, reason.clone()));
-                *number += 1;
-            }
-            let mut cells = columns.iter_mut();
-            let mut next = || cells.next().context("a column for every value");
-            next()?.push_whole(run);
-            for value in common.axes.values(run) {
-                next()?.push(Some(value));
-            }
-            for output in 0..outputs {
-                let summary = finished.as_ref().map(|run| &run.summaries[output]);
-                next()?.push(summary.map(|summary| summary.last));
-                next()?.push(summary.map(|summary| summary.least));
-                next()?.push(summary.map(|summary| summary.largest));
-            }
-            let warnings = finished.map(|run| run.warnings.join("; "));
-            next()?.push_text(warnings.filter(|text| !text.is_empty()));
-            next()?.push_text(error);
+    for run in 0..common.axes.count() {
+        let (finished, error) = match journal.outcome(run)? {
+            Outcome::Finished(finished) => (Some(finished), None),
+            Outcome::Failed(reason) => (None, Some(reason)),
+        };
+        if let Some(reason) = &error {
+            let (number, _, _) = failed.get_or_insert_with(|| (0, run, reason.clone()));
+            *number += 1;
         }
-        file.write(&columns)?;
+        add_run(common, run, finished.as_ref(), error, &mut runs)?;
+        let series = finished.and_then(|finished| finished.series);
+        if let Some((points, (times, values))) = points.as_mut().zip(series) {
+            for (time, row) in times.iter().zip(&values) {
+                add_point(run, *time, row, points)?;
+            }
+        }
     }
-    file.finish()?;
+    runs.finish()?;
+    if let Some(points) = points {
+        points.finish()?;
+    }
     Ok(failed)
 }
 
-/// Writes a row for every run and communication point.
-pub fn write_series(common: &Common, journal: &mut Journal, path: &Path) -> Result<()> {
-    let mut names = vec!["run".to_owned(), "time".to_owned()];
-    names.extend(common.names.iter().cloned());
-    let empty = || {
-        let mut columns = vec![Column::Whole(Vec::new())];
-        columns.extend((1..names.len()).map(|_| Column::Real(Vec::new())));
-        columns
-    };
-    let mut file = Parquet::create(path, &names, &empty())?;
-    let (mut columns, mut held) = (empty(), 0);
-    for run in 0..common.axes.count() {
-        let Outcome::Finished(finished) = journal.outcome(run)? else {
-            continue;
-        };
-        let Some((times, values)) = finished.series else {
-            continue;
-        };
-        for (time, row) in times.iter().zip(&values) {
-            columns[0].push_whole(run);
-            columns[1].push(Some(*time));
-            for (column, value) in columns[2..].iter_mut().zip(row) {
-                column.push(Some(*value));
-            }
-        }
-        held += times.len() * names.len();
-        if held > HELD {
-            file.write(&columns)?;
-            (columns, held) = (empty(), 0);
-        }
+fn columns_of_runs(common: &Common) -> Vec<(String, Column)> {
+    let mut columns = vec![("run".into(), Column::Whole(Vec::new()))];
+    let inputs = common.axes.names().into_iter();
+    columns.extend(inputs.map(|name| (name.into(), Column::Real(Vec::new()))));
+    for name in &common.names {
+        let titles = ["final", "min", "max"].map(|which| format!("{name}.{which}"));
+        columns.extend(titles.map(|title| (title, Column::Sparse(Vec::new()))));
     }
-    file.write(&columns)?;
-    file.finish()
+    columns.extend(["warnings", "error"].map(|title| (title.into(), Column::Text(Vec::new()))));
+    columns
+}
+
+fn columns_of_points(common: &Common) -> Vec<(String, Column)> {
+    let mut columns = vec![("run".into(), Column::Whole(Vec::new()))];
+    let names = ["time".to_owned()]
+        .into_iter()
+        .chain(common.names.iter().cloned());
+    columns.extend(names.map(|name| (name, Column::Real(Vec::new()))));
+    columns
+}
+
+fn add_run(
+    common: &Common,
+    run: usize,
+    finished: Option<&Finished>,
+    error: Option<String>,
+    table: &mut Parquet,
+) -> Result<()> {
+    let mut cells = table.columns.iter_mut();
+    let mut next = || cells.next().context("a column for every value");
+    next()?.push_whole(run);
+    for value in common.axes.values(run) {
+        next()?.push(Some(value));
+    }
+    for output in 0..common.names.len() {
+        let summary = finished.map(|run| &run.summaries[output]);
+        next()?.push(summary.map(|summary| summary.last));
+        next()?.push(summary.map(|summary| summary.least));
+        next()?.push(summary.map(|summary| summary.largest));
+    }
+    let warnings = finished.map(|run| run.warnings.join("; "));
+    next()?.push_text(warnings.filter(|text| !text.is_empty()));
+    next()?.push_text(error);
+    table.end_row()
+}
+
+fn add_point(run: usize, time: f64, row: &[f64], table: &mut Parquet) -> Result<()> {
+    let [runs, times, outputs @ ..] = &mut table.columns[..] else {
+        bail!("a column for every value");
+    };
+    runs.push_whole(run);
+    times.push(Some(time));
+    for (column, value) in outputs.iter_mut().zip(row) {
+        column.push(Some(*value));
+    }
+    table.end_row()
 }
 
 impl Column {
@@ -141,6 +142,15 @@ impl Column {
         }
     }
 
+    fn clear(&mut self) {
+        match self {
+            Self::Whole(values) => values.clear(),
+            Self::Real(values) => values.clear(),
+            Self::Sparse(cells) => cells.clear(),
+            Self::Text(cells) => cells.clear(),
+        }
+    }
+
     fn physical(&self) -> Physical {
         match self {
             Self::Whole(_) => Physical::INT64,
@@ -154,13 +164,16 @@ impl Column {
 struct Parquet<'a> {
     writer: SerializedFileWriter<File>,
     path: &'a Path,
-    partial: std::path::PathBuf,
+    partial: PathBuf,
+    /// Rows that are held.
+    columns: Vec<Column>,
+    rows: usize,
 }
 
 impl<'a> Parquet<'a> {
-    fn create(path: &'a Path, names: &[String], columns: &[Column]) -> Result<Self> {
+    fn create(path: &'a Path, columns: Vec<(String, Column)>) -> Result<Self> {
         let mut fields = Vec::new();
-        for (name, column) in names.iter().zip(columns) {
+        for (name, column) in &columns {
             let repetition = match column {
                 Column::Whole(_) | Column::Real(_) => Repetition::REQUIRED,
                 Column::Sparse(_) | Column::Text(_) => Repetition::OPTIONAL,
@@ -185,14 +198,25 @@ impl<'a> Parquet<'a> {
             )?,
             path,
             partial,
+            columns: columns.into_iter().map(|(_, column)| column).collect(),
+            rows: 0,
         })
     }
 
-    fn write(&mut self, columns: &[Column]) -> Result<()> {
+    /// All columns have a value more.
+    fn end_row(&mut self) -> Result<()> {
+        self.rows += 1;
+        match self.rows * self.columns.len() < HELD {
+            true => Ok(()),
+            false => self.write(),
+        }
+    }
+
+    fn write(&mut self) -> Result<()> {
         let mut group = self.writer.next_row_group()?;
-        for column in columns {
+        for column in &mut self.columns {
             let mut writer = group.next_column()?.context("a column too many")?;
-            match column {
+            match &*column {
                 Column::Whole(values) => {
                     writer
                         .typed::<Int64Type>()
@@ -218,12 +242,17 @@ impl<'a> Parquet<'a> {
                 }
             }
             writer.close()?;
+            column.clear();
         }
         group.close()?;
+        self.rows = 0;
         Ok(())
     }
 
-    fn finish(self) -> Result<()> {
+    fn finish(mut self) -> Result<()> {
+        if self.rows > 0 {
+            self.write()?;
+        }
         self.writer.close()?;
         let renamed = std::fs::rename(&self.partial, self.path);
         renamed.with_context(|| format!("cannot write {}", shown(self.path)))
