@@ -34,13 +34,18 @@ const LIMITS: Limits = Limits {
 
 /// Packs every file below a folder.
 pub fn pack(folder: &Path, archive: &Path) -> Result<()> {
+    write(&content(folder)?, archive)
+}
+
+/// Every file below a folder, named as in an archive of it.
+pub fn content(folder: &Path) -> Result<Content> {
     let mut content = Content::new();
     for path in files(folder)? {
         let bytes =
             std::fs::read(&path).with_context(|| format!("cannot read {}", shown(&path)))?;
         content.insert(entry_name(folder, &path)?, bytes);
     }
-    write(&content, archive)
+    Ok(content)
 }
 
 /// Writes an archive.

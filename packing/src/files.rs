@@ -71,11 +71,27 @@ pub fn entry_name(folder: &Path, path: &Path) -> Result<String> {
     Ok(parts.collect::<Result<Vec<_>>>()?.join("/"))
 }
 
-/// Copies every file below a folder into another, which is made if need be.
-pub fn copy_all(from: &Path, into: &Path) -> Result<()> {
-    for file in files(from)? {
-        let copy = prepared(&into.join(entry_name(from, &file)?))?;
-        std::fs::copy(&file, &copy).with_context(|| format!("cannot write {}", shown(&copy)))?;
+/// A folder to build in, removed when it goes out of scope.
+pub struct Stage(pub PathBuf);
+
+impl Stage {
+    /// An empty folder of this process and this purpose alone, below another, which is made if need be.
+    pub fn new(below: &Path, purpose: &str) -> Result<Self> {
+        let folder = below.join(format!("{purpose}-{}", std::process::id()));
+        // A crashed process with the same number may have left one behind.
+        if folder.exists() {
+            std::fs::remove_dir_all(&folder)
+                .with_context(|| format!("cannot clear {}", shown(&folder)))?;
+        }
+        std::fs::create_dir_all(&folder)
+            .with_context(|| format!("cannot create the folder {}", shown(&folder)))?;
+        Ok(Self(folder))
     }
-    Ok(())
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        // Nothing depends on the removal, and a failing drop could not be reported.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
 }

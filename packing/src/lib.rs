@@ -5,11 +5,15 @@ mod files;
 mod platform;
 mod progress;
 
-pub use archive::{Content, pack, read, write};
-pub use files::{copy_all, entry_name, files, partial, prepared, shown, write_whole};
+pub use archive::{Content, content, pack, read, write};
+pub use files::{Stage, partial, prepared, shown, write_whole};
 pub use platform::Platform;
-pub use progress::announced;
+pub use progress::{announced, bar};
 
+/// The scene in an FMU.
+pub const SCENE: &str = "resources/scene.json";
+/// The folder beside the program with what goes into every FMU: libraries and licenses.
+pub const PARTS: &str = "fmu";
 /// Where the licenses are in an FMU.
 pub const LICENSES: &str = "documentation/licenses/";
 /// The folder of libraries in an FMU, with one folder for every platform.

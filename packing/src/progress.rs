@@ -22,3 +22,9 @@ pub fn announced<T>(doing: &str, done: &str, action: impl FnOnce() -> Result<T>)
     }
     result
 }
+
+/// A bar on standard error, as a template of `indicatif` says; invisible where that is no terminal.
+pub fn bar(template: &str, count: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template(template);
+    ProgressBar::new(count).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

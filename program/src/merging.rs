@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn notices_of_two_compilers_go_side_by_side() -> Result<()> {
         let [first, second] =
-            ["rust-1.html", "rust-2.html"].map(|name| format!("{}{name}", LICENSES));
+            ["rust-1.html", "rust-2.html"].map(|name| format!("{LICENSES}{name}"));
         let joined = join(
             fmu("linux64", &[(&first, "one")]),
             fmu("win64", &[(&second, "two")]),

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use packing::{BINARIES, Platform, announced, copy_all, pack, prepared, shown};
+use packing::{
+    BINARIES, Content, PARTS, Platform, Stage, announced, content, prepared, shown, write,
+};
 
 use crate::describing::describe;
 use crate::reading::is_fmu;
 
 /// What says which variables make up a port; only FMUs of scenes with ports have it.
-const TERMINALS: &str = "terminalsAndIcons";
-/// Beside the program: what goes into every FMU.
-const PARTS: &str = "fmu";
+const TERMINALS: &str = "terminalsAndIcons/";
 
 /// Which scene, and where to write.
 #[derive(clap::Args)]
@@ -47,22 +47,20 @@ pub fn package(arguments: &Package) -> Result<()> {
         Some(folder) => folder.clone(),
         None => beside()?,
     };
-    let left_out = libraries(&parts, &arguments.platform)?;
-    let stage = Stage::new("package")?;
+    let parts = libraries_and_licenses(&parts, &arguments.platform)?;
+    let stage = stage("package")?;
     let name = describe(&arguments.scene, &stage.0, !arguments.no_animation)?;
+    let mut content = content(&stage.0)?;
     if arguments.no_terminals {
-        remove(&stage.0.join(TERMINALS))?;
+        content.retain(|name, _| !name.starts_with(TERMINALS));
     }
-    copy_all(&parts, &stage.0)?;
-    for platform in left_out {
-        remove(&stage.0.join(BINARIES).join(platform))?;
-    }
+    content.extend(parts);
     let output = match is_named {
         true => output,
         false => prepared(&output.join(format!("{name}.fmu")))?,
     };
     let done = format!("packaged {}", shown(&output));
-    announced("packaging", &done, || pack(&stage.0, &output))
+    announced("packaging", &done, || write(&content, &output))
 }
 
 /// The file to write an FMU to, absolute, unless its name does not say that it is one.
@@ -84,8 +82,8 @@ fn beside() -> Result<PathBuf> {
     Ok(program.with_file_name(PARTS))
 }
 
-/// The platforms whose libraries are there and are not wanted.
-fn libraries(parts: &Path, wanted: &[Platform]) -> Result<Vec<String>> {
+/// What goes into an FMU for some platforms, or for all that there are libraries for where none is named.
+fn libraries_and_licenses(parts: &Path, wanted: &[Platform]) -> Result<Content> {
     let folder = parts.join(BINARIES);
     let listing = std::fs::read_dir(&folder).with_context(|| {
         let folder = shown(&folder);
@@ -105,38 +103,19 @@ fn libraries(parts: &Path, wanted: &[Platform]) -> Result<Vec<String>> {
             );
         }
     }
-    let is_wanted = |name: &str| wanted.iter().any(|platform| platform.folder() == name);
-    found.retain(|name| !wanted.is_empty() && !is_wanted(name));
-    Ok(found)
+    let mut content = content(parts)?;
+    if !wanted.is_empty() {
+        let is_of =
+            |file: &str, platform: &Platform| file.split('/').next() == Some(platform.folder());
+        content.retain(|name, _| {
+            let file = name.strip_prefix(BINARIES);
+            file.is_none_or(|file| wanted.iter().any(|platform| is_of(file, platform)))
+        });
+    }
+    Ok(content)
 }
 
-fn remove(folder: &Path) -> Result<()> {
-    if !folder.exists() {
-        return Ok(());
-    }
-    let removed = std::fs::remove_dir_all(folder);
-    removed.with_context(|| format!("cannot remove {}", shown(folder)))
-}
-
-/// A folder to build in, removed when it goes out of scope.
-pub struct Stage(pub PathBuf);
-
-impl Stage {
-    /// An empty folder of this process and this purpose alone.
-    pub fn new(purpose: &str) -> Result<Self> {
-        let name = format!("flexbody-{purpose}-{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        // A crashed process with the same number may have left one behind.
-        remove(&folder)?;
-        std::fs::create_dir_all(&folder)
-            .with_context(|| format!("cannot create the folder {}", shown(&folder)))?;
-        Ok(Self(folder))
-    }
-}
-
-impl Drop for Stage {
-    fn drop(&mut self) {
-        // Nothing depends on the removal, and a failing drop could not be reported.
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
+/// A folder among those that do not last.
+pub fn stage(purpose: &str) -> Result<Stage> {
+    Stage::new(&std::env::temp_dir(), &format!("flexbody-{purpose}"))
 }

@@ -4,9 +4,7 @@ use std::path::Path;
 
 use anyhow::{Result, anyhow, bail};
 use flexbody::scene::Scene;
-
-/// The scene in an FMU.
-const INSIDE: &str = "resources/scene.json";
+use packing::SCENE;
 
 /// Whether a file is an FMU by its name.
 pub fn is_fmu(path: &Path) -> bool {
@@ -19,10 +17,10 @@ pub fn read(path: &Path) -> Result<Scene> {
         let text = std::fs::read_to_string(path).map_err(|error| at(path, error))?;
         return Scene::from_json(&text).map_err(|error| at(path, error));
     }
-    let Some(bytes) = packing::read(path)?.remove(INSIDE) else {
-        bail!("{}: expected {INSIDE} in it, found none", path.display());
+    let Some(bytes) = packing::read(path)?.remove(SCENE) else {
+        bail!("{}: expected {SCENE} in it, found none", path.display());
     };
-    let wrong = |error: &dyn std::fmt::Display| at(path, format!("{INSIDE}: {error}"));
+    let wrong = |error: &dyn std::fmt::Display| at(path, format!("{SCENE}: {error}"));
     let text = String::from_utf8(bytes).map_err(|error| wrong(&error))?;
     Scene::from_json(&text).map_err(|error| wrong(&error))
 }

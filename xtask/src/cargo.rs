@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
-use packing::Platform;
+use packing::{Platform, Stage};
 use serde_json::Value;
 
 use crate::anonymous;
@@ -59,6 +59,11 @@ impl Workspace {
     /// A file or folder among the products.
     pub fn target(&self, relative: &str) -> PathBuf {
         self.target.join(relative)
+    }
+
+    /// An empty folder among the products to build in, of this process and this purpose alone.
+    pub fn stage(&self, purpose: &str) -> Result<Stage> {
+        Stage::new(&self.target("fmu"), purpose)
     }
 
     /// A cargo command in the project's folder.

@@ -6,10 +6,9 @@ use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
-use packing::{copy_all, entry_name, files, shown};
+use packing::{content, prepared, shown, write_whole};
 
 use crate::cargo::Workspace;
-use crate::package::Stage;
 use crate::process::{run, stdout};
 
 /// The scene that stands for all in the repository.
@@ -33,7 +32,7 @@ fn describe(workspace: &Workspace, binary: &Path, folder: &Path) -> Result<()> {
 /// Regenerates the committed files.
 pub fn regenerate(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
-    let stage = Stage::new(workspace, "stage")?;
+    let stage = workspace.stage("stage")?;
     describe(workspace, &binary, &stage.0)?;
     // Only now: a scene that is refused leaves the committed files as they are.
     let committed = workspace.path(COMMITTED);
@@ -41,7 +40,9 @@ pub fn regenerate(workspace: &Workspace) -> Result<()> {
         std::fs::remove_dir_all(&committed)
             .with_context(|| format!("cannot clear {}", shown(&committed)))?;
     }
-    copy_all(&stage.0, &committed)?;
+    for (name, bytes) in content(&stage.0)? {
+        write_whole(&prepared(&committed.join(name))?, bytes)?;
+    }
     println!("wrote {}", shown(&committed));
     let schema = workspace.path(SCHEMA);
     std::fs::write(&schema, schema_text(&binary)?)
@@ -53,21 +54,18 @@ pub fn regenerate(workspace: &Workspace) -> Result<()> {
 /// Refuses committed files that differ from what would be generated now.
 pub fn check(workspace: &Workspace) -> Result<()> {
     let binary = workspace.binary()?;
-    let stage = Stage::new(workspace, "stage")?;
+    let stage = workspace.stage("stage")?;
     describe(workspace, &binary, &stage.0)?;
     let committed = workspace.path(COMMITTED);
-    let mut names = BTreeSet::new();
-    for folder in [&stage.0, &committed] {
-        for file in files(folder)? {
-            names.insert(entry_name(folder, &file)?);
-        }
-    }
+    let [fresh, committed] = [content(&stage.0)?, content(&committed)?];
+    let names: BTreeSet<&String> = fresh.keys().chain(committed.keys()).collect();
     let mut stale: Vec<String> = names
         .into_iter()
-        .filter(|name| content(&stage.0.join(name)) != content(&committed.join(name)))
+        .filter(|name| fresh.get(*name) != committed.get(*name))
         .map(|name| format!("{COMMITTED}/{name}"))
         .collect();
-    if content(&workspace.path(SCHEMA)) != Some(schema_text(&binary)?.into_bytes()) {
+    let schema = std::fs::read(workspace.path(SCHEMA)).ok();
+    if schema != Some(schema_text(&binary)?.into_bytes()) {
         stale.push(SCHEMA.to_owned());
     }
     if !stale.is_empty() {
@@ -81,9 +79,4 @@ pub fn check(workspace: &Workspace) -> Result<()> {
 
 fn schema_text(binary: &Path) -> Result<String> {
     stdout(Command::new(binary).arg("schema"))
-}
-
-/// Content of a file, nothing where there is none.
-fn content(path: &Path) -> Option<Vec<u8>> {
-    std::fs::read(path).ok()
 }

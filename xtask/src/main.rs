@@ -61,51 +61,15 @@ enum Command {
         no_animation: bool,
     },
     /// Joins two FMUs of one scene that were built for different platforms
-    Merge {
-        /// What the program `flexbody` takes: files, then options
-        #[arg(
-            value_name = "ARGUMENT",
-            required = true,
-            trailing_var_arg = true,
-            allow_hyphen_values = true
-        )]
-        arguments: Vec<OsString>,
-    },
+    Merge(Rest),
     /// Finds numbers of elements and a tolerance for the error that a scene asks for, and says why
-    Plan {
-        /// What the program `flexbody` takes: files, then options
-        #[arg(
-            value_name = "ARGUMENT",
-            required = true,
-            trailing_var_arg = true,
-            allow_hyphen_values = true
-        )]
-        arguments: Vec<OsString>,
-    },
+    Plan(Rest),
     /// Simulates a scene (natively) or an FMU (with fmpy) to a CSV file
     Simulate(simulate::Arguments),
     /// Shows a scene (.json), an FMU or outputs (.csv) in motion: writes a page of HTML and opens it
-    View {
-        /// What the program `flexbody` takes: files, then options
-        #[arg(
-            value_name = "ARGUMENT",
-            required = true,
-            trailing_var_arg = true,
-            allow_hyphen_values = true
-        )]
-        arguments: Vec<OsString>,
-    },
+    View(Rest),
     /// Simulates a scene many times with other parameters
-    Sweep {
-        /// What the program `flexbody` takes: files, then options
-        #[arg(
-            value_name = "ARGUMENT",
-            required = true,
-            trailing_var_arg = true,
-            allow_hyphen_values = true
-        )]
-        arguments: Vec<OsString>,
-    },
+    Sweep(Rest),
     /// Makes a Python package with the program and the libraries for FMUs, which needs no compiler
     Wheel {
         /// What FMUs are to run on that it packages [default: platforms like this one]
@@ -140,6 +104,19 @@ enum Command {
     Test,
 }
 
+/// What is passed on as it is.
+#[derive(clap::Args)]
+struct Rest {
+    /// What the program `flexbody` takes: files, then options
+    #[arg(
+        value_name = "ARGUMENT",
+        required = true,
+        trailing_var_arg = true,
+        allow_hyphen_values = true
+    )]
+    arguments: Vec<OsString>,
+}
+
 fn main() -> ExitCode {
     let command = Arguments::parse().command;
     let result = cargo::Workspace::locate().and_then(|workspace| match command {
@@ -157,11 +134,11 @@ fn main() -> ExitCode {
             let options: Vec<&str> = options.into_iter().flatten().collect();
             package::package(&workspace, &scene, output.as_deref(), &platform, &options)
         }
-        Command::Merge { arguments } => simulate::pass_on(&workspace, "merge", &arguments),
-        Command::Plan { arguments } => simulate::pass_on(&workspace, "plan", &arguments),
+        Command::Merge(rest) => simulate::pass_on(&workspace, "merge", &rest.arguments),
+        Command::Plan(rest) => simulate::pass_on(&workspace, "plan", &rest.arguments),
         Command::Simulate(arguments) => simulate::simulate(&workspace, &arguments),
-        Command::View { arguments } => simulate::pass_on(&workspace, "view", &arguments),
-        Command::Sweep { arguments } => simulate::pass_on(&workspace, "sweep", &arguments),
+        Command::View(rest) => simulate::pass_on(&workspace, "view", &rest.arguments),
+        Command::Sweep(rest) => simulate::pass_on(&workspace, "sweep", &rest.arguments),
         Command::Wheel { platform, output } => {
             wheel::wheel(&workspace, &platform, output.as_deref())
         }

@@ -1,9 +1,9 @@
 //! `cargo xtask package`: builds what FMUs are made of, then the program packages.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Result};
-use packing::{Platform, prepared, shown};
+use packing::{BINARIES, Platform, prepared, shown};
 
 use crate::cargo::Workspace;
 use crate::process::run;
@@ -28,7 +28,12 @@ pub fn package(
     let product = Product::new(workspace, &platforms)?;
     let output = match output {
         Some(output) => output.to_owned(),
-        None => prepared(&workspace.target("fmu").join("."))?,
+        None => {
+            let folder = workspace.target("fmu");
+            let made = std::fs::create_dir_all(&folder);
+            made.with_context(|| format!("cannot create the folder {}", shown(&folder)))?;
+            folder
+        }
     };
     let mut command = product.packager();
     command.arg(scene).arg("--output").arg(output).args(options);
@@ -37,36 +42,11 @@ pub fn package(
 
 /// Puts the library of a package among the binaries of an FMU, named like the package.
 pub fn put_library(library: &Path, folder: &Path, package: &str, platform: Platform) -> Result<()> {
-    let inside = folder.join("binaries").join(platform.folder());
+    let inside = folder.join(BINARIES).join(platform.folder());
     let inside = prepared(&inside.join(format!("{package}{}", platform.suffix())))?;
     std::fs::copy(library, &inside)
         .map(drop)
         .with_context(|| format!("cannot copy the library {}", shown(library)))
-}
-
-/// A folder to build in, removed when it goes out of scope.
-pub struct Stage(pub PathBuf);
-
-impl Stage {
-    /// An empty folder among the products, of this process and this purpose alone.
-    pub fn new(workspace: &Workspace, purpose: &str) -> Result<Self> {
-        let folder = workspace.target(&format!("fmu/{purpose}-{}", std::process::id()));
-        // A crashed process with the same number may have left one behind.
-        if folder.exists() {
-            std::fs::remove_dir_all(&folder)
-                .with_context(|| format!("cannot clear {}", shown(&folder)))?;
-        }
-        std::fs::create_dir_all(&folder)
-            .with_context(|| format!("cannot create the folder {}", shown(&folder)))?;
-        Ok(Self(folder))
-    }
-}
-
-impl Drop for Stage {
-    fn drop(&mut self) {
-        // Nothing depends on the removal, and a failing drop could not be reported.
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
 }
 
 /// Refuses a scene that cannot be read before a minute goes into compiling.

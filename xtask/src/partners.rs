@@ -7,7 +7,7 @@ use packing::{Platform, announced, pack, prepared, shown};
 
 use crate::cargo::Workspace;
 use crate::licenses;
-use crate::package::{Stage, put_library};
+use crate::package::put_library;
 use crate::process::run_quietly;
 
 /// The package, its library in an FMU, its program, and its folder among the FMUs.
@@ -18,7 +18,7 @@ pub fn partners(workspace: &Workspace, output: Option<&Path>) -> Result<()> {
     let platform = Platform::host()?;
     let program = workspace.program(PARTNERS)?;
     let library = workspace.library(PARTNERS, platform)?;
-    let stage = Stage::new(workspace, "stage")?;
+    let stage = workspace.stage("stage")?;
     run_quietly(std::process::Command::new(program).arg(&stage.0))?;
     let output = match output {
         Some(output) => output.to_owned(),

@@ -4,18 +4,27 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result};
-use packing::{Platform, prepared, shown, write_whole};
+use packing::{PARTS, Platform, Stage, prepared, shown, write_whole};
 
 use crate::cargo::Workspace;
 use crate::licenses;
-use crate::package::{PACKAGE, Stage, put_library};
+use crate::package::{PACKAGE, put_library};
 
 /// Names a folder that products are kept in, and taken from without asking cargo again. Who sets it knows that nothing they are made of
 /// has changed since: tests, which package hundreds of scenes.
 pub const KEPT: &str = "FLEXBODY_PRODUCT";
-/// The part of a product that goes into an FMU, and the file that says where the program is.
-const PARTS: &str = "fmu";
+/// The file that says where the program is.
 const PROGRAM: &str = "program.txt";
+
+/// Builds what goes into every FMU for some platforms, and puts it beside where the program is to be.
+pub fn put_parts(workspace: &Workspace, platforms: &[Platform], folder: &Path) -> Result<()> {
+    let parts = folder.join(PARTS);
+    for &platform in platforms {
+        let library = workspace.library(PACKAGE, platform)?;
+        put_library(&library, &parts, PACKAGE, platform)?;
+    }
+    licenses::put(workspace, PACKAGE, platforms, &parts)
+}
 
 /// What FMUs for some platforms are made of.
 pub struct Product {
@@ -60,20 +69,11 @@ impl Product {
     }
 
     fn built(workspace: &Workspace, platforms: &[Platform]) -> Result<Self> {
+        let stage = workspace.stage("product")?;
         // Libraries first: what their tools lack is said before the program is compiled.
-        let mut libraries = Vec::new();
-        for &platform in platforms {
-            libraries.push((platform, workspace.library(PACKAGE, platform)?));
-        }
-        let program = workspace.binary()?;
-        let stage = Stage::new(workspace, "product")?;
-        let parts = stage.0.join(PARTS);
-        licenses::put(workspace, PACKAGE, platforms, &parts)?;
-        for (platform, library) in libraries {
-            put_library(&library, &parts, PACKAGE, platform)?;
-        }
+        put_parts(workspace, platforms, &stage.0)?;
         Ok(Self {
-            program,
+            program: workspace.binary()?,
             folder: Folder::Own(stage),
         })
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
-use packing::{prepared, shown};
+use packing::{SCENE, prepared, shown};
 
 use crate::cargo::Workspace;
 use crate::package::check_readable;
@@ -38,9 +38,6 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.png")]
     plot: Option<PathBuf>,
 }
-
-/// The scene in an FMU.
-const SCENE: &str = "resources/scene.json";
 
 /// Simulates to a CSV file and says where it is.
 pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {

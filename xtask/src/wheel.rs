@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use packing::{Platform, prepared, shown};
+use packing::{Platform, shown};
 
 use crate::cargo::{PROGRAM, Workspace};
 use crate::licenses;
-use crate::package::{PACKAGE, Stage, put_library};
 use crate::process::run;
+use crate::product::put_parts;
 use crate::python::Python;
 
 /// Where the sources of the Python package are.
@@ -28,29 +28,23 @@ pub fn wheel(workspace: &Workspace, platforms: &[Platform], output: Option<&Path
         Some(folder) => std::path::absolute(folder)?,
         None => workspace.target("wheel"),
     };
-    let stage = Stage::new(workspace, "wheel")?;
+    let stage = workspace.stage("wheel")?;
     put_product(workspace, &platforms, &stage.0)?;
     let python = Python::prepare_own(workspace)?;
-    let made = prepared(&folder.join("."))?;
     run(python
         .module("hatchling")
         .args(["build", "-t", "wheel", "-d"])
-        .arg(&made)
+        .arg(&folder)
         .current_dir(workspace.path(SOURCES))
         .env(PRODUCT, &stage.0)
         .env(TAG, tag(host)))?;
-    println!("the wheel is in {}", shown(&made));
+    println!("the wheel is in {}", shown(&folder));
     Ok(())
 }
 
 /// The program, what goes into every FMU, and the notices of what the program is linked with.
 fn put_product(workspace: &Workspace, platforms: &[Platform], folder: &Path) -> Result<()> {
-    let parts = folder.join("fmu");
-    licenses::put(workspace, PACKAGE, platforms, &parts)?;
-    for &platform in platforms {
-        let library = workspace.library(PACKAGE, platform)?;
-        put_library(&library, &parts, PACKAGE, platform)?;
-    }
+    put_parts(workspace, platforms, folder)?;
     let program = workspace.portable_program()?;
     licenses::put(workspace, PROGRAM, platforms, folder)?;
     let name = program.file_name().context("a program without a name")?;

@@ -6,8 +6,8 @@ use std::process::Command;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
-use packing::{prepared, shown};
+use indicatif::ProgressBar;
+use packing::{bar, prepared, shown};
 use serde_json::{Value, json};
 
 use crate::cargo::Workspace;
@@ -247,7 +247,7 @@ impl<'a> Bench<'a> {
         times: usize,
         long: f64,
     ) -> Result<Vec<Result<Ran>>> {
-        let bar = progress_bar(title, runs.len() * times)?;
+        let bar = progress_bar(title, runs.len() * times);
         let mut outcomes: Vec<Result<Ran>> = Vec::new();
         let mut cpu_times = vec![Vec::new(); runs.len()];
         for round in 0..times {
@@ -334,8 +334,7 @@ fn read(path: &Path) -> Result<Value> {
 }
 
 /// A bar that counts runs.
-pub fn progress_bar(title: &str, runs: usize) -> Result<ProgressBar> {
-    let style = ProgressStyle::with_template("{msg} {bar:40} {pos}/{len} runs  {elapsed}")?;
-    let bar = ProgressBar::new(runs as u64).with_style(style);
-    Ok(bar.with_message(title.to_owned()))
+pub fn progress_bar(title: &str, runs: usize) -> ProgressBar {
+    let template = "{msg} {bar:40} {pos}/{len} runs  {elapsed}";
+    bar(template, runs as u64).with_message(title.to_owned())
 }

@@ -63,7 +63,7 @@ fn reports(
     let scene = bench.case("soft_pendulum/scene.json")?;
     let empty = |kind| (kind, vec![Vec::new(); counts.len()]);
     let mut reports: Vec<(&str, Reports)> = KINDS.split(' ').map(empty).collect();
-    let bar = progress_bar(measurement, ROUNDS * counts.len() * reports.len())?;
+    let bar = progress_bar(measurement, ROUNDS * counts.len() * reports.len());
     for _ in 0..ROUNDS {
         for (at, count) in counts.iter().enumerate() {
             for (kind, reports) in &mut reports {

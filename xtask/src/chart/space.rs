@@ -114,7 +114,7 @@ fn run(bench: &Bench, moving: &Moving, kind: &str, elements: u32) -> Result<Valu
 fn moving(bench: &Bench, csv: &mut Csv, moving: &Moving, reference: &Path) -> Result<()> {
     let all = |kind| moving.meshes.map(|elements| (kind, elements));
     let plan: Vec<(&str, u32)> = KINDS.split(' ').flat_map(all).collect();
-    let bar = progress_bar(moving.title, plan.len() * ROUNDS)?;
+    let bar = progress_bar(moving.title, plan.len() * ROUNDS);
     let mut reports = vec![Vec::new(); plan.len()];
     for _ in 0..ROUNDS {
         for ((kind, elements), reports) in plan.iter().zip(&mut reports) {
