@@ -1,7 +1,4 @@
 //! What only the build knows: the platform that the library is for, as FMI calls it.
-//!
-//! Nothing is said to the linker here: cargo passes a build script's words for shared libraries on
-//! only where the manifest names one, and ours must not (see `Cargo.toml`). `xtask/src/linker.rs` does.
 
 use std::env;
 

@@ -52,15 +52,21 @@ fn xtask_never_depends_on_the_library() {
 }
 
 #[test]
-fn there_are_no_features_and_no_crate_types() {
-    for folder in [".", "packing", "partners", "program", "xtask"] {
+fn there_are_no_features_and_libraries_are_linked_apart() {
+    for folder in [".", "fmu", "packing", "partners", "program", "xtask"] {
         let path = &format!("{folder}/Cargo.toml");
+        let is_linked = ["fmu", "partners"].contains(&folder);
         for (section, line) in lines(path) {
             assert!(section != "features", "{path}: [features]");
-            assert!(!line.starts_with("crate-type"), "{path}: {line}");
+            assert!(
+                is_linked || !line.starts_with("crate-type"),
+                "{path}: {line}"
+            );
             assert!(!line.contains("optional = true"), "{path}: {line}");
         }
     }
+    // What is in every FMU is the library, and nothing else.
+    assert_eq!(dependencies("fmu/Cargo.toml"), ["flexbody"]);
 }
 
 #[test]
@@ -98,6 +104,7 @@ fn all_manifests_promise_one_rust_version() {
     let first = promised("Cargo.toml");
     assert!(first.is_some());
     for path in [
+        "fmu",
         "xtask",
         "packing",
         "partners",

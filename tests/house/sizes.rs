@@ -11,6 +11,7 @@ fn all() -> Vec<Source> {
     sources(&[
         "src",
         "tests",
+        "fmu",
         "packing/src",
         "program",
         "xtask/src",

@@ -12,8 +12,9 @@ const MASTER: &str = "lab/src/overhead/master.rs";
 /// The interface of the units that tests couple the product with: it must not share the product's faults.
 const PARTNERS: &str = "partners/src/abi.rs";
 /// Everything but the tests.
-const FOLDERS: [&str; 6] = [
+const FOLDERS: [&str; 7] = [
     "src",
+    "fmu",
     "packing/src",
     "program/src",
     "xtask/src",

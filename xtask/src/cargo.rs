@@ -8,13 +8,14 @@ use packing::{Platform, Stage};
 use serde_json::Value;
 
 use crate::anonymous;
-use crate::assembly;
 use crate::linker::Linker;
 use crate::package::PACKAGE;
 use crate::process;
 
 /// The package of the program `flexbody`.
 pub const PROGRAM: &str = "flexbody-program";
+/// The package that links the library of FMUs.
+const LIBRARY: &str = "flexbody-fmu";
 
 /// Where the project lies and where its products go.
 pub struct Workspace {
@@ -76,71 +77,54 @@ impl Workspace {
     /// Builds a package as the shared library of an FMU and returns where it is. What is in it
     /// follows from the source, the versions of the tools and the platform, not from the place.
     pub fn library(&self, package: &str, platform: Platform) -> Result<PathBuf> {
-        let linker = Linker::prepare(self, platform)?;
-        let flags = [self.flags()?, linker.flags].concat();
-        let mut last = [vec!["-Cstrip=symbols".to_owned()], linker.arguments].concat();
-        if package == PACKAGE && platform.is_host() {
-            last.push(assembly::EMIT.into());
-        }
-        if platform.is_darwin() {
-            // Else the library calls itself by the path that it was built at.
-            let name = format!("@rpath/{package}{}", platform.suffix());
-            last.extend([
-                "-Clink-arg=-install_name".into(),
-                format!("-Clink-arg={name}"),
-            ]);
-        }
-        if platform.is_linux() {
-            // Else a loader that goes by names could take it for a library of another version.
-            let name = format!("{package}-{}.so", env!("CARGO_PKG_VERSION"));
-            last.push(format!("-Clink-arg=-Wl,-soname,{name}"));
-        }
-        let mut command = self.cargo("rustc");
-        command.args(["--lib", "--crate-type", "cdylib"]);
-        command.envs(linker.sdk.map(|folder| ("SDKROOT", folder)));
-        if !platform.is_host() {
-            command.args(["--target", platform.target()]);
-        }
-        released(&mut command, package, &flags).arg("--").args(last);
-        product(&mut command, package, |artifact| {
-            let is_library = |file: &&str| file.ends_with(platform.suffix());
-            let files = artifact["filenames"].as_array()?;
-            files.iter().filter_map(Value::as_str).find(is_library)
+        let name = if package == PACKAGE { LIBRARY } else { package };
+        self.portable(platform, package, &name.replace('-', "_"), |artifact| {
+            file_of(artifact, platform.suffix())
         })
         .with_context(|| format!("building the shared library for {}", platform.folder()))
     }
 
-    /// Builds the `flexbody` program, as `cargo test` does, and returns where it is.
-    pub fn binary(&self) -> Result<PathBuf> {
-        let mut command = self.cargo("build");
-        command
-            .args(["--package", PROGRAM, "--bin", PACKAGE])
-            .args(["--message-format", "json-render-diagnostics"]);
-        product(&mut command, PACKAGE, |artifact| {
-            artifact["executable"].as_str()
+    /// Compiles what the library of FMUs and the program are linked from, and returns where it is.
+    pub fn code(&self) -> Result<PathBuf> {
+        self.portable(Platform::host()?, PACKAGE, PACKAGE, |artifact| {
+            file_of(artifact, ".rlib")
         })
-        .context("building the flexbody program")
+        .context("compiling the library")
     }
 
-    /// Builds a program for release and returns where it is; its package is named like it, but for that of the product.
+    /// Builds a program for release and returns where it is; its package is named like it, but for that of the product, which runs on
+    /// other machines of this platform too.
     pub fn program(&self, name: &str) -> Result<PathBuf> {
-        let mut command = self.cargo("build");
-        let package = if name == PACKAGE { PROGRAM } else { name };
-        self.executable(command.args(["--bin", name]), (package, name))
+        if name == PACKAGE {
+            return self
+                .portable(Platform::host()?, name, name, |artifact| {
+                    artifact["executable"].as_str()
+                })
+                .context("building the flexbody program");
+        }
+        self.executable(self.cargo("build").args(["--bin", name]), name)
     }
 
-    /// Builds the program `flexbody` for release, to run on other machines of this platform too: linked as libraries are.
-    pub fn portable_program(&self) -> Result<PathBuf> {
-        let linker = Linker::prepare(self, Platform::host()?)?;
-        let flags = [self.flags()?, linker.flags].concat();
-        let mut command = self.cargo("rustc");
-        command.args(["--bin", PACKAGE]);
-        let command = released(&mut command, PROGRAM, &flags);
-        command.args(["--", "-Cstrip=symbols"]);
-        product(command.args(linker.arguments), PACKAGE, |artifact| {
-            artifact["executable"].as_str()
-        })
-        .context("building the flexbody program")
+    /// Builds a package to run on any machine of a platform, that of the product for the host with the program, so that both are linked
+    /// from what is compiled once, and finds a product in cargo's messages.
+    fn portable(
+        &self,
+        platform: Platform,
+        package: &str,
+        name: &str,
+        find: impl Fn(&Value) -> Option<&str>,
+    ) -> Result<PathBuf> {
+        let linker = Linker::prepare(self, platform)?;
+        let mut flags = [self.flags()?, linker.flags].concat();
+        flags.push("-Cstrip=symbols".into());
+        let mut command = self.cargo("build");
+        command.envs(linker.sdk.map(|folder| ("SDKROOT", folder)));
+        command.args(["--target", platform.target()]);
+        let package = if package == PACKAGE { LIBRARY } else { package };
+        if package == LIBRARY && platform.is_host() {
+            command.args(["--package", PROGRAM]);
+        }
+        product(released(&mut command, package, &flags), name, find)
     }
 
     /// Builds the program of a package outside the workspace and returns where it is.
@@ -149,19 +133,25 @@ impl Workspace {
         command.arg("--manifest-path");
         command.arg(self.path(folder).join("Cargo.toml"));
         command.arg("--target-dir").arg(self.target(package));
-        self.executable(&mut command, (package, package))
+        self.executable(&mut command, package)
     }
 
     fn flags(&self) -> Result<Vec<String>> {
         anonymous::flags(&self.root, &self.target)
     }
 
-    fn executable(&self, command: &mut Command, (package, name): (&str, &str)) -> Result<PathBuf> {
-        // With the flags of libraries, so that the two share what they depend on.
-        let command = released(command, package, &self.flags()?);
+    fn executable(&self, command: &mut Command, name: &str) -> Result<PathBuf> {
+        let command = released(command, name, &self.flags()?);
         product(command, name, |artifact| artifact["executable"].as_str())
             .with_context(|| format!("building the {name} program"))
     }
+}
+
+/// The file with this ending that a message of cargo names.
+fn file_of<'a>(artifact: &'a Value, ending: &str) -> Option<&'a str> {
+    let files = artifact["filenames"].as_array()?;
+    let mut files = files.iter().filter_map(Value::as_str);
+    files.find(|file| file.ends_with(ending))
 }
 
 /// The compiler that cargo uses.

@@ -9,6 +9,7 @@ use anyhow::{Context, Result, bail};
 use packing::{content, prepared, shown, write_whole};
 
 use crate::cargo::Workspace;
+use crate::package::PACKAGE;
 use crate::process::{run, stdout};
 
 /// The scene that stands for all in the repository.
@@ -31,7 +32,7 @@ fn describe(workspace: &Workspace, binary: &Path, folder: &Path) -> Result<()> {
 
 /// Regenerates the committed files.
 pub fn regenerate(workspace: &Workspace) -> Result<()> {
-    let binary = workspace.binary()?;
+    let binary = workspace.program(PACKAGE)?;
     let stage = workspace.stage("stage")?;
     describe(workspace, &binary, &stage.0)?;
     // Only now: a scene that is refused leaves the committed files as they are.
@@ -53,7 +54,7 @@ pub fn regenerate(workspace: &Workspace) -> Result<()> {
 
 /// Refuses committed files that differ from what would be generated now.
 pub fn check(workspace: &Workspace) -> Result<()> {
-    let binary = workspace.binary()?;
+    let binary = workspace.program(PACKAGE)?;
     let stage = workspace.stage("stage")?;
     describe(workspace, &binary, &stage.0)?;
     let committed = workspace.path(COMMITTED);

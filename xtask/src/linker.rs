@@ -23,10 +23,8 @@ const DARWIN_LIBRARIES: [&str; 4] = ["libSystem", "libc", "libm", "libiconv"];
 /// What cargo builds the library of a platform with.
 #[derive(Default)]
 pub struct Linker {
-    /// Flags of rustc for every crate.
+    /// Flags of rustc.
     pub flags: Vec<String>,
-    /// Arguments of rustc for the library itself.
-    pub arguments: Vec<String>,
     /// The system libraries of macOS.
     pub sdk: Option<PathBuf>,
 }
@@ -56,14 +54,14 @@ impl Linker {
         };
         let file = script(platform.folder(), &format!("cc -- -target {target}"))?;
         let mut linker = Self::default();
-        linker.arguments.push(format!("-Clinker={file}"));
+        linker.flags.push(format!("-Clinker={file}"));
         if platform == Platform::Win64 {
             let file = script("dlltool", "dlltool --")?;
             linker.flags.push(format!("-Cdlltool={file}"));
             let list = prepared(&workspace.target(FOLDER).join("fmi2.def"))?;
             write(&list, &exports::list())?;
             let list = list.display();
-            linker.arguments.push(format!("-Clink-arg={list}"));
+            linker.flags.push(format!("-Clink-arg={list}"));
         }
         Ok(linker)
     }
@@ -71,14 +69,13 @@ impl Linker {
     /// Rust's own: Zig's leaves in what nothing uses, exports it and names a library by its path.
     fn darwin(workspace: &Workspace, python: &Python) -> Result<Self> {
         // The last leaves out the paths of object files, which the library's UUID is made of.
-        let arguments = [
+        let flags = [
             "-Clinker-flavor=ld64.lld",
             "-Clinker=rust-lld",
             "-Clink-arg=-S",
         ];
         Ok(Self {
-            flags: Vec::new(),
-            arguments: arguments.map(String::from).into(),
+            flags: flags.map(String::from).into(),
             sdk: Some(sdk(workspace, python)?),
         })
     }

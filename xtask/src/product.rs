@@ -73,7 +73,7 @@ impl Product {
         // Libraries first: what their tools lack is said before the program is compiled.
         put_parts(workspace, platforms, &stage.0)?;
         Ok(Self {
-            program: workspace.binary()?,
+            program: workspace.program(PACKAGE)?,
             folder: Folder::Own(stage),
         })
     }

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 use packing::{SCENE, prepared, shown};
 
 use crate::cargo::Workspace;
-use crate::package::check_readable;
+use crate::package::{PACKAGE, check_readable};
 use crate::process::run;
 use crate::python::Python;
 
@@ -97,7 +97,7 @@ pub fn simulate(workspace: &Workspace, arguments: &Arguments) -> Result<()> {
 
 /// What the program does with these arguments, built if need be.
 pub fn pass_on(workspace: &Workspace, command: &str, arguments: &[OsString]) -> Result<()> {
-    let mut program = Command::new(workspace.binary()?);
+    let mut program = Command::new(workspace.program(PACKAGE)?);
     run(program.arg(command).args(arguments))
 }
 
@@ -140,7 +140,7 @@ pub fn native(
     scene: &Path,
     shapes: Option<impl AsRef<Path>>,
 ) -> Result<Command> {
-    let mut command = Command::new(workspace.binary()?);
+    let mut command = Command::new(workspace.program(PACKAGE)?);
     command.arg("simulate").arg(scene);
     if let Some(shapes) = shapes {
         command.arg("--shapes").arg(shapes.as_ref());

@@ -101,12 +101,13 @@ fn declared_rust(workspace: &Workspace) -> Result<()> {
         .arg(workspace.target("declared-rust")))
 }
 
-/// What FMUs are made of is compiled meanwhile: linking with optimization keeps one core busy.
+/// What FMUs are made of is compiled meanwhile: in one unit, which keeps one core busy.
 fn rust_tests(workspace: &Workspace) -> Result<()> {
     std::thread::scope(|scope| {
         let products = scope.spawn(|| {
-            assembly::check(&workspace.library(PACKAGE, Platform::host()?)?)?;
-            workspace.binary()
+            assembly::check(&workspace.code()?)?;
+            workspace.library(PACKAGE, Platform::host()?)?;
+            workspace.program(PACKAGE)
         });
         let tested = run(workspace.cargo("test").arg("--workspace"));
         let built = products.join().expect("a build that does not panic");
@@ -123,7 +124,7 @@ fn fmpy_tests(workspace: &Workspace) -> Result<()> {
 fn package_tests(workspace: &Workspace) -> Result<()> {
     let python = Python::prepare_own(workspace)?;
     let mut tests = pytest(&python, workspace, "tests/python")?;
-    run(tests.env("FLEXBODY_PROGRAM", workspace.binary()?))
+    run(tests.env("FLEXBODY_PROGRAM", workspace.program(PACKAGE)?))
 }
 
 fn browser_tests(workspace: &Workspace) -> Result<()> {

@@ -7,6 +7,7 @@ use packing::{Platform, shown};
 
 use crate::cargo::{PROGRAM, Workspace};
 use crate::licenses;
+use crate::package::PACKAGE;
 use crate::process::run;
 use crate::product::put_parts;
 use crate::python::Python;
@@ -45,7 +46,7 @@ pub fn wheel(workspace: &Workspace, platforms: &[Platform], output: Option<&Path
 /// The program, what goes into every FMU, and the notices of what the program is linked with.
 fn put_product(workspace: &Workspace, platforms: &[Platform], folder: &Path) -> Result<()> {
     put_parts(workspace, platforms, folder)?;
-    let program = workspace.portable_program()?;
+    let program = workspace.program(PACKAGE)?;
     licenses::put(workspace, PROGRAM, platforms, folder)?;
     let name = program.file_name().context("a program without a name")?;
     let copy = folder.join(name);

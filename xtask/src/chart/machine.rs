@@ -36,7 +36,7 @@ fn describe() -> String {
     };
     format!(
         "{model} ({system}, {processor}), one thread, rustc {compiler}, release profile \
-         (opt-level 3, fat LTO, one codegen unit), {flags}{}",
+         (opt-level 3, one codegen unit), {flags}{}",
         load().unwrap_or_default()
     )
 }
