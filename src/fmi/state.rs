@@ -15,10 +15,10 @@ use crate::simulation::{Snapshot, Spectra};
 use crate::system::{DenseStep, Pace, State};
 
 const MAGIC: &[u8; 8] = b"FLEXBODY";
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 const GUID_BYTES: usize = 38;
 const HASH_BYTES: usize = 32;
-const ARRAYS: usize = 12;
+const ARRAYS: usize = 13;
 /// Numbers of every motion that inputs drive.
 const DRIVEN: usize = 5;
 /// Numbers that every state has.
@@ -134,6 +134,7 @@ impl SavedState {
             frames,
             angles,
             travel,
+            released,
             driven,
             slopes,
             held,
@@ -159,6 +160,7 @@ impl SavedState {
             frames: frames.to_vec(),
             angles,
             travel,
+            released,
             driven: driven.to_vec(),
             work: [input, lost],
             dense: DenseStep::from_numbers(step_numbers, vectors),
@@ -203,6 +205,7 @@ impl SavedState {
             state.frames.as_flattened(),
             &state.angles,
             &state.travel,
+            &state.released,
             state.driven.as_flattened(),
             slopes.as_flattened(),
             held,
@@ -360,6 +363,7 @@ mod tests {
                     frames: vec![[1.0, 0.0, 0.0, 0.0]],
                     angles: vec![7.0],
                     travel: vec![0.5],
+                    released: vec![1.0],
                     driven: vec![[1.0, 2.0, 3.0, 4.0, 5.0]],
                     work: [8.0, -9.0],
                     dense: DenseStep {

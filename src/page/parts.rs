@@ -17,7 +17,9 @@ pub(super) fn parts(scene: &Scene) -> String {
             .holds
             .iter()
             .map(|hold| hold_in_words(scene.dimension, joint, hold));
-        let holds = holds.collect::<Vec<_>>().join("; ");
+        let until = joint.release.and_then(|release| release.time);
+        let until = until.map(|time| format!("lets go at {} s", number(time)));
+        let holds = holds.chain(until).collect::<Vec<_>>().join("; ");
         row(&[&code(joint.name), kind, &ends_in_words(&joint.ends), &holds])
     });
     let gears = resolved.gears.iter().map(gear_in_words);

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use super::description::{
     Along, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
 };
-use crate::system::Drive;
+use crate::system::{Drive, Release};
 pub use loads::{Action, Bushing, Load, LoadKind, On, Spring};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
@@ -232,6 +232,8 @@ pub struct Joint<'a> {
     pub ends: Ends<'a>,
     /// What it holds.
     pub holds: Vec<Hold>,
+    /// When it lets go, if it does.
+    pub release: Option<Release>,
 }
 
 /// What a joint holds. Angles (rad) and lengths (m) that are not given are those at the start.
@@ -311,6 +313,8 @@ pub enum InputKind<'a> {
     Action(Action<'a>),
     /// Length at rest of the spring-damper of this name, m.
     RestLength(&'a str),
+    /// Whether the joint of this name lets go.
+    Release(&'a str),
 }
 
 /// A joint or a motion that reacts.

@@ -167,6 +167,7 @@ fn check_numbers(snapshot: &Snapshot) -> Result<(), Error> {
         state.frames.as_flattened(),
         &state.angles,
         &state.travel,
+        &state.released,
         state.driven.as_flattened(),
         snapshot.slopes.as_flattened(),
         &snapshot.held,

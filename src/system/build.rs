@@ -21,7 +21,7 @@ use crate::body::{
 use crate::math::function::Function;
 use crate::math::space::Vector;
 use crate::math::sparse::Matrix;
-use rows::{constraints, free_ends, links, unplaced, unplaced_rod};
+use rows::{constraints, free_ends, links, releases, unplaced, unplaced_rod};
 
 /// Part of a gradient that counts as none.
 const NOTHING: f64 = 1e-12;
@@ -105,6 +105,7 @@ impl<const D: usize> System<D> {
         let chains_damped = rods_damped || parts.chains.iter().any(CableChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let grounded = grounded(&parts, &nonlinear);
+        let releases = releases(&parts).map(|(_, release)| release).collect();
         let takes_moments = takes_moments(&parts);
         let frames = take_frames(&mut parts);
         let described = parts.nodes.clone();
@@ -142,6 +143,7 @@ impl<const D: usize> System<D> {
             loads: parts.loads,
             initial_loads: parts.initial_loads,
             angles: parts.angles,
+            releases,
             slides: Vec::new(),
             gravity: parts.gravity,
             weight: Vec::new(),
@@ -160,7 +162,8 @@ impl<const D: usize> System<D> {
 
     /// Finds what functions of time there are.
     fn find_functions(&mut self) {
-        let has_breaks = self.functions().any(|(_, f)| f.has_breaks());
+        let has_breaks = self.functions().any(|(_, f)| f.has_breaks())
+            || self.releases.iter().any(|release| release.time.is_some());
         // Tables are smooth between their points.
         let is_expression = |f: &Function| matches!(f, Function::Expression(_));
         let is_driven_by_time = self.functions().any(|(_, f)| is_expression(f));
@@ -314,6 +317,7 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel: &travel,
             angles: &angles,
+            released: &vec![false; self.releases.len()],
         };
         let mut y = vec![0.0; assembly.free()];
         let is_free = |(index, constraint): (usize, &Constraint<D>)| {

@@ -52,6 +52,7 @@ use crate::math::space::Vector;
 
 use crate::body::{Chain, Elimination, Frames, Node, RodChain};
 use crate::elements::cable::Cable;
+pub use joints::Release;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
 use motion::tree::Tree;
@@ -98,6 +99,8 @@ pub struct System<const D: usize = 2> {
     /// Loads that act only where the initial state is looked for.
     initial_loads: Vec<Load<D>>,
     angles: Vec<Angle<D>>,
+    /// When joints let go.
+    releases: Vec<Release>,
     /// For every slide, its constraint.
     slides: Vec<usize>,
     gravity: Vector<D>,
@@ -269,6 +272,7 @@ impl<const D: usize> System<D> {
             frames: vec![NO_TURN; self.frames.count()],
             angles: vec![0.0; self.angles.len()],
             travel: vec![0.0; self.slides.len()],
+            released: vec![0.0; self.releases.len()],
             driven: vec![[0.0; 5]; self.trajectories().count()],
             work: [0.0; 2],
             dense: DenseStep::blank(n),

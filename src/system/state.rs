@@ -234,6 +234,8 @@ pub struct State {
     pub angles: Vec<f64>,
     /// Where slides are on their cables, m.
     pub travel: Vec<f64>,
+    /// Of every joint that lets go: 1 where it has done so, 0 where it holds.
+    pub released: Vec<f64>,
     /// Motions that inputs drive: value and four derivatives.
     pub driven: Vec<[f64; 5]>,
     /// Work that came in from outside and that was dissipated since the start, J.
@@ -253,20 +255,22 @@ impl State {
         self.frames.copy_from_slice(&other.frames);
         self.angles.copy_from_slice(&other.angles);
         self.travel.copy_from_slice(&other.travel);
+        self.released.copy_from_slice(&other.released);
         self.driven.copy_from_slice(&other.driven);
         self.work = other.work;
         self.dense.copy_from(&other.dense);
     }
 
-    /// Numbers of coordinates, rates, frames, angles, slides, driven motions, and of what a step within which it stands
+    /// Numbers of coordinates, rates, frames, angles, slides, joints that let go, driven motions, and of what a step within which it stands
     /// holds.
-    pub fn sizes(&self) -> [usize; 7] {
+    pub fn sizes(&self) -> [usize; 8] {
         [
             self.coordinates.len(),
             self.rates.len(),
             self.frames.len(),
             self.angles.len(),
             self.travel.len(),
+            self.released.len(),
             self.driven.len(),
             self.dense.vectors.len(),
         ]

@@ -1,5 +1,6 @@
 //! Scratch of a system: nothing allocates in a step.
 
+use super::joints::Release;
 use super::motion::rank::RankWatch;
 use super::motion::tree::Tree;
 use super::signal::Trajectory;
@@ -38,6 +39,9 @@ pub struct Work<const D: usize = 2> {
     pub(super) input_rates: Vec<f64>,
     pub(super) angles: Vec<f64>,
     pub(super) travel: Vec<f64>,
+    /// When joints let go, and which of them have done so.
+    pub(super) releases: Vec<Release>,
+    pub(super) released: Vec<bool>,
     /// Frames that rotations are counted from, and how bodies have turned from there.
     pub(super) frames: Vec<Quaternion>,
     pub(super) turns: Vec<Turn>,
@@ -76,6 +80,7 @@ pub(super) struct Configuration<const D: usize> {
     x: Vec<Node<D>>,
     drives: Vec<[f64; 3]>,
     travel: Vec<f64>,
+    released: Vec<bool>,
 }
 
 impl<const D: usize> Configuration<D> {
@@ -85,15 +90,23 @@ impl<const D: usize> Configuration<D> {
             x: vec![[[f64::NAN; D]; 2]; system.reference.len()],
             drives: vec![[0.0; 3]; system.drives.len()],
             travel: vec![0.0; system.slides.len()],
+            released: vec![false; system.releases.len()],
         }
     }
 
     /// Whether it is not this one; from now on it is.
     #[inline(always)]
-    fn is_outdated(&mut self, x: &[Node<D>], drives: &[[f64; 3]], travel: &[f64]) -> bool {
-        if self.x == x && self.drives == drives && self.travel == travel {
+    fn is_outdated(
+        &mut self,
+        x: &[Node<D>],
+        drives: &[[f64; 3]],
+        (travel, released): (&[f64], &[bool]),
+    ) -> bool {
+        let same = self.x == x && self.drives == drives && self.travel == travel;
+        if same && self.released == released {
             return false;
         }
+        self.released.copy_from_slice(released);
         self.x.copy_from_slice(x);
         self.drives.copy_from_slice(drives);
         self.travel.copy_from_slice(travel);
@@ -104,12 +117,14 @@ impl<const D: usize> Configuration<D> {
 impl<const D: usize> Work<D> {
     /// Whether the Jacobian is not that of the configuration in place; from now on it is.
     pub(super) fn outdates_jacobian(&mut self) -> bool {
-        (self.jacobian_at).is_outdated(&self.x, &self.drives, &self.travel)
+        let held = (&self.travel[..], &self.released[..]);
+        (self.jacobian_at).is_outdated(&self.x, &self.drives, held)
     }
 
     /// The same of the factors of the tree.
     pub(super) fn outdates_tree(&mut self) -> bool {
-        (self.tree_at).is_outdated(&self.x, &self.drives, &self.travel)
+        let held = (&self.travel[..], &self.released[..]);
+        (self.tree_at).is_outdated(&self.x, &self.drives, held)
     }
 
     /// For a system.
@@ -140,6 +155,8 @@ impl<const D: usize> Work<D> {
             input_rates: Vec::new(),
             angles: vec![0.0; system.angles.len()],
             travel: vec![0.0; system.slides.len()],
+            released: vec![false; system.releases.len()],
+            releases: system.releases.clone(),
             frames: vec![NO_TURN; system.frames.count()],
             base_turns: turns.clone(),
             turns,
@@ -180,6 +197,7 @@ impl<const D: usize> Work<D> {
         }
         self.angles.copy_from_slice(&state.angles);
         self.travel.copy_from_slice(&state.travel);
+        self.release(state);
         for (course, driven) in self.trajectories.iter_mut().zip(&state.driven) {
             let [p, v, a, ..] = *driven;
             *course = Trajectory::hold(state.time, [p, v, a]);

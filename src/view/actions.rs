@@ -51,7 +51,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
     });
     let of_input = |input: &'a Input<'a>, name: Option<&'a str>| match &input.kind {
         InputKind::Action(action) => Some((name.unwrap_or(action.kind.words()[0]), action)),
-        InputKind::RestLength(_) => None,
+        InputKind::RestLength(_) | InputKind::Release(_) => None,
     };
     let inputs = resolved.inputs.iter();
     let inputs = inputs.filter_map(|input| of_input(input, None));

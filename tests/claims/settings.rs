@@ -148,6 +148,7 @@ keys! {
     Elements => "bodies", "/elements", "";
     Mass => "bodies", "/mass", "kg";
     LumpedMass => "masses", "/mass", "kg";
+    ReleaseTime => "joints", "/release_time", "s";
     HingeStiffness => "joints", "/stiffness", "N.m/rad";
     HingeDamping => "joints", "/damping", "N.m.s/rad";
     SpringStiffness => "loads", "/stiffness", "N/m";
@@ -163,7 +164,8 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 93] = [
+const INPUTS: [(&str, &str); 94] = [
+    ("inputs.release", ""),
     ("inputs.distributed_moment[1]", "N.m/m"),
     ("inputs.distributed_moment[2]", "N.m/m"),
     ("inputs.distributed_moment[3]", "N.m/m"),

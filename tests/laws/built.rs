@@ -91,6 +91,7 @@ impl Mechanism {
             spring: None,
             turn: None,
             way: None,
+            release: None,
         }
     }
 

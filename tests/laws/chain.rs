@@ -162,6 +162,7 @@ impl Chain {
             spring: None,
             turn: None,
             way: None,
+            release: None,
         }
     }
 

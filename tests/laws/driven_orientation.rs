@@ -154,6 +154,7 @@ fn conditions_have_the_derivatives_of_their_values() {
                     about,
                 }),
                 offset: 0.0,
+                release: None,
             };
             let value = constraint.value(&view(&moving, &still, &drives));
             let view = view(&x, &v, &course);
@@ -178,6 +179,7 @@ fn view<'a, N: Number>(
         chains: &[],
         travel: &[],
         angles: &[],
+        released: &[],
     }
 }
 

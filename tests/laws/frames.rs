@@ -93,6 +93,7 @@ impl Frame {
             chains: &self.chains,
             travel: &travel,
             angles: &[],
+            released: &[],
         };
         f(constraint, &view)
     }

@@ -407,6 +407,7 @@ impl Mechanism {
             spring: None,
             turn: None,
             way: None,
+            release: None,
         }
     }
 

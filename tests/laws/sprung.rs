@@ -329,6 +329,7 @@ impl Mechanism {
             spring: None,
             turn: None,
             way: None,
+            release: None,
         }
     }
 

@@ -57,6 +57,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         spring: None,
         turn: None,
         way: None,
+        release: None,
     };
     let system = System::new(Parts {
         bodies: std::iter::once(0..nodes.len()).collect(),

@@ -245,7 +245,7 @@ class TorqueInput(Part):
     kind: Literal["torque"] = "torque"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in.
+    `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
     """
     start: list[StrictFloat] = []
     """
@@ -309,10 +309,33 @@ class RestLengthInput(Part):
     """
 
 
+class ReleaseInput(Part):
+    """
+    Whether a joint lets go: it does, for good, in the first step that begins with more than 0.
+    """
+
+    kind: Literal["release"] = "release"
+    joint: StrictStr
+    """
+    `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force, one of others; zero by default,
+    for a rest length that of the spring-damper.
+    """
+
+
 Input = TypeAliasType(
     "Input",
     Annotated[
-        ForceInput | MomentInput | TorqueInput | DistributedInput | DistributedMomentInput | RestLengthInput,
+        ForceInput
+        | MomentInput
+        | TorqueInput
+        | DistributedInput
+        | DistributedMomentInput
+        | RestLengthInput
+        | ReleaseInput,
         Field(discriminator="kind"),
     ],
 )
@@ -393,6 +416,11 @@ class OrientationJoint(Part):
     `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
     rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class AlongJoint(Part):
@@ -409,6 +437,11 @@ class AlongJoint(Part):
     """
     What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
     then `body.marker`.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1715,6 +1748,11 @@ class Revolute(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Spherical(Part):
@@ -1735,6 +1773,11 @@ class Spherical(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1769,6 +1812,11 @@ class Universal(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Weld(Part):
@@ -1794,6 +1842,11 @@ class Weld(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1824,6 +1877,11 @@ class Slider(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Cylindrical(Part):
@@ -1852,6 +1910,11 @@ class Cylindrical(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1885,6 +1948,11 @@ class Screw(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1920,6 +1988,11 @@ class Prismatic(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Planar(Part):
@@ -1949,6 +2022,11 @@ class Planar(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Distance(Part):
@@ -1973,6 +2051,11 @@ class Distance(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -2012,6 +2095,11 @@ class Hinge(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     `hinge` only: stiffness against rotation, N m/rad.
@@ -2041,6 +2129,11 @@ class Generic(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 

@@ -27,7 +27,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
             label: label.unwrap_or(action.kind.words()[0]),
             components: at_start(action, &input.start),
         }),
-        InputKind::RestLength(_) => None,
+        InputKind::RestLength(_) | InputKind::Release(_) => None,
     };
     let inputs = resolved.inputs.iter().filter_map(|own| input(own, None));
     let loads = resolved.loads.iter().filter_map(|load| match &load.kind {

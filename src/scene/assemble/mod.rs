@@ -331,6 +331,7 @@ impl<const D: usize> Builder<'_, D> {
             spring: None,
             turn: None,
             way: None,
+            release: None,
         });
     }
 
@@ -346,7 +347,8 @@ impl<const D: usize> Builder<'_, D> {
                     _ => holds.extend(self.primitives(hold, joint, ends)),
                 }
             }
-            holds.extend(self.clamp(joint));
+            // What lets go is held by constraints.
+            holds.extend(self.clamp(joint).filter(|_| joint.release.is_none()));
             let springs = joint.holds.iter();
             let turn = self.turn_of(joint);
             let spring = springs.filter_map(|hold| self.spring_of(hold, ends, turn));
@@ -357,6 +359,7 @@ impl<const D: usize> Builder<'_, D> {
                 spring,
                 turn,
                 way: joint.slider().map(|slider| self.way(&slider)),
+                release: joint.release,
             });
         }
     }

@@ -52,6 +52,10 @@ pub struct Joint {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
+    /// Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    /// same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub release_time: Option<f64>,
 }
 
 /// Joints by name.

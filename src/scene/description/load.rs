@@ -113,7 +113,7 @@ pub struct Input {
     /// `force`, `moment`: where it acts, `body.marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
-    /// `torque`: name of the revolute joint or hinge that it acts in.
+    /// `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
     /// `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
@@ -147,6 +147,8 @@ pub enum InputKind {
     DistributedMoment,
     /// Length at rest of a spring-damper, m.
     RestLength,
+    /// Whether a joint lets go: it does, for good, in the first step that begins with more than 0.
+    Release,
 }
 
 impl Kind for LoadKind {
@@ -189,6 +191,7 @@ impl Kind for InputKind {
             Self::Distributed => &[(&["body"], &[])],
             Self::DistributedMoment => &[(&["body"], &["follower"])],
             Self::RestLength => &[(&["load"], &[])],
+            Self::Release => &[(&["joint"], &[])],
         }
     }
 }
@@ -281,7 +284,7 @@ macro_rules! actions {
         }
     )*};
 }
-actions!(LoadKind but SpringDamper | JointSpring | Stop | Bushing, InputKind but RestLength);
+actions!(LoadKind but SpringDamper | JointSpring | Stop | Bushing, InputKind but RestLength | Release);
 
 impl Input {
     /// Number of components.

@@ -47,7 +47,7 @@ impl<'a> Resolved<'a> {
             let (kind, start) = self.resolve_input(&path, input, first)?;
             let of = match &kind {
                 resolved::InputKind::Action(action) => action.on(),
-                resolved::InputKind::RestLength(name) => name,
+                resolved::InputKind::RestLength(name) | resolved::InputKind::Release(name) => name,
             };
             if !seen.insert((input.kind as u8, of, input.follower)) {
                 let wanted = "an input not declared before";
@@ -71,6 +71,11 @@ impl<'a> Resolved<'a> {
         input: &'a Input,
         first: usize,
     ) -> Result<(resolved::InputKind<'a>, Vec<f64>), Error> {
+        if input.kind == InputKind::Release {
+            let name = needed(path, "joint", "a name", input.joint.as_deref())?;
+            self.set_release(&format!("{path}.joint"), name, first)?;
+            return Ok((resolved::InputKind::Release(name), vec![0.0]));
+        }
         let Some(kind) = input.kind.action() else {
             let name = needed(path, "load", "a name", input.load.as_deref())?;
             let start = self.set_rest_length(&format!("{path}.load"), name, first)?;

@@ -9,6 +9,7 @@ use crate::scene::description::{Condition, Declaration, Joint, Kind as _};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{self, Ends, First, Hold, Marker, Place, Resolved, SlideId};
 use crate::scene::{Error, Vector};
+use crate::system::Release;
 
 /// Cosine of an angle that is a right one but for rounding.
 const RIGHT: f64 = 1e-6;
@@ -101,6 +102,9 @@ impl Joint {
         if let Some(length) = self.length {
             positive(&at("length"), "m", length)?;
         }
+        if let Some(time) = self.release_time {
+            finite(&at("release_time"), time)?;
+        }
         if let Some(pitch) = self.pitch {
             not_zero(&at("pitch"), "m", pitch)?;
         }
@@ -181,6 +185,10 @@ impl<'a> Resolved<'a> {
                 is_planar: self.scene.dimension == 2,
                 ends,
                 holds,
+                release: joint.release_time.map(|time| Release {
+                    time: Some(time),
+                    input: None,
+                }),
             });
         }
         Ok(())

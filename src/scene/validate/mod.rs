@@ -11,6 +11,7 @@ mod motions;
 mod outputs;
 mod ports;
 mod references;
+mod releases;
 mod sections;
 mod springs;
 mod stress;
@@ -61,6 +62,7 @@ impl Scene {
         resolved.resolve_outputs()?;
         resolved.resolve_ports()?;
         resolved.resolve_initial()?;
+        resolved.check_releases()?;
         self.validate_accuracy()?;
         positive("experiment.stop_time", "s", self.experiment.stop_time)?;
         positive("experiment.step", "s", self.experiment.step)?;

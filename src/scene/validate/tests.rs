@@ -2,6 +2,7 @@
 //! message begins.
 
 mod planar_beams;
+mod releases;
 mod schema;
 mod space;
 mod stress;

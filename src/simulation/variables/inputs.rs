@@ -96,7 +96,14 @@ fn add_orientation(
 }
 
 /// Key, meaning and unit of a load's variables, and what its components are along.
-fn words(input: &Input<'_>) -> (&'static str, &'static str, Unit, &'static [&'static str]) {
+fn words(
+    input: &Input<'_>,
+) -> (
+    &'static str,
+    &'static str,
+    Option<Unit>,
+    &'static [&'static str],
+) {
     const AXES: [&str; 3] = ["component x", "component y", "component z"];
     const TURNING: [&str; 3] = [
         "along the x axis of its frame",
@@ -112,11 +119,18 @@ fn words(input: &Input<'_>) -> (&'static str, &'static str, Unit, &'static [&'st
         "along the direction there",
         "across, to the left of the direction",
     ];
-    let InputKind::Action(action) = &input.kind else {
-        return ("rest_length", "Length at rest of", METRE, &[""]);
+    let action = match &input.kind {
+        InputKind::Action(action) => action,
+        InputKind::RestLength(_) => {
+            return ("rest_length", "Length at rest of", Some(METRE), &[""]);
+        }
+        InputKind::Release(_) => {
+            let what = "Makes a joint let go, for good, where it is above 0 as a step begins:";
+            return ("release", what, None, &[""]);
+        }
     };
     let is_spatial = input.start.len() == 3;
-    match (action.kind, action.follower) {
+    let (key, what, unit, ways): (_, _, _, &[_]) = match (action.kind, action.follower) {
         (ActionKind::Force, true) => {
             let ways: &[_] = if is_spatial { &TURNING } else { &ALONG };
             ("follower_force", "Force that turns along, on", NEWTON, ways)
@@ -151,7 +165,8 @@ fn words(input: &Input<'_>) -> (&'static str, &'static str, Unit, &'static [&'st
             let key = "distributed_follower_moment";
             (key, what, NEWTON_METRE_PER_METRE, &SECTIONS)
         }
-    }
+    };
+    (key, what, Some(unit), ways)
 }
 
 /// A load; its variables bear the name of a port or of what it acts on.
@@ -159,7 +174,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     let (key, what, unit, ways) = words(input);
     let of = match &input.kind {
         InputKind::Action(action) => action.on(),
-        InputKind::RestLength(load) => load,
+        InputKind::RestLength(of) | InputKind::Release(of) => of,
     };
     let (name, before) = (
         format!("{}.{key}", port.unwrap_or(of)),
@@ -176,7 +191,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
             format!("{what} {of}{comma}{way}"),
             Source::Input(input.first + axis),
         );
-        list.add(name, what, Some(unit), source, Some(*start));
+        list.add(name, what, unit, source, Some(*start));
     }
     list.mark_direct(before);
     for variable in &mut list.variables[before..] {

@@ -89,6 +89,8 @@ pub enum Parameter {
     SolidLength(RigidId, usize),
     /// Moment of inertia of a rigid body.
     Inertia(RigidId, usize),
+    /// Time at which a joint lets go.
+    ReleaseTime(usize),
     /// Mass lumped at a marker.
     LumpedMass(usize),
     /// Stiffness of a hinge.

@@ -214,10 +214,15 @@ fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &Bushing<'_>) {
     }
 }
 
-/// Stiffness and damping of hinges, springs, bushings, stops and couplings.
+/// Times at which joints let go; stiffness and damping of hinges, springs, bushings, stops and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
     for (i, joint) in resolved.joints.iter().enumerate() {
+        if let Some(time) = joint.release.and_then(|release| release.time) {
+            let key = format!("{}.release_time", joint.name);
+            let what = format!("Time at which {} lets go", joint.name);
+            list.parameter(key, what, Some(SECOND), ReleaseTime(i), time);
+        }
         if let Some(starts) = joint.spring() {
             let units = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
             let parameters = [HingeStiffness(i), HingeDamping(i)];
@@ -349,6 +354,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
             set_inertia(inertia.get_or_insert_default(), axis, value);
         }
         LumpedMass(i) => scene.masses[i].mass = value,
+        ReleaseTime(i) => scene.joints[i].release_time = Some(value),
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),
         SpringStiffness(i) | TorsionStiffness(i) => scene.loads[i].stiffness = Some(value),

@@ -4,7 +4,9 @@ use super::Parts;
 use crate::body::{Frame, Links, Node, RodChain, Row, no_node, tied_with, untwisted};
 use crate::math::space::Vector;
 use crate::system::end::End;
-use crate::system::joints::{Constraint, ConstraintKind, HeldRow, Linear, Target, UnitLength};
+use crate::system::joints::{
+    Constraint, ConstraintKind, HeldRow, Linear, Release, Target, UnitLength,
+};
 use crate::system::loads::Load;
 
 /// Most nodes that pins tie together and are eliminated with (docs/decisions/0029-constraints-at-linear-cost.md).
@@ -39,6 +41,7 @@ pub(super) fn constraints<const D: usize>(
                 joint: None,
                 kind: ConstraintKind::UnitLength(UnitLength { node: *node }),
                 offset: 0.0,
+                release: None,
             });
             continue;
         }
@@ -57,7 +60,18 @@ pub(super) fn constraints<const D: usize>(
         joint.constraints((index, &parts.nodes), &mut linear, &mut nonlinear);
     }
     release_rows(parts, &mut linear, &mut nonlinear);
+    let places: Vec<usize> = releases(parts).map(|(joint, _)| joint).collect();
+    for constraint in &mut nonlinear {
+        let lets_go = |joint: usize| places.iter().position(|of| *of == joint);
+        constraint.release = constraint.joint.and_then(lets_go);
+    }
     (linear, nonlinear)
+}
+
+/// Joints that let go, and when.
+pub(super) fn releases<const D: usize>(parts: &Parts<D>) -> impl Iterator<Item = (usize, Release)> {
+    let joints = parts.joints.iter().enumerate();
+    joints.filter_map(|(index, joint)| Some((index, joint.release?)))
 }
 
 /// A number of a node that is none of its coordinates.
@@ -125,7 +139,7 @@ pub(super) fn unplaced<const D: usize>([center, _]: &Node<D>) -> Node<D> {
 }
 
 /// Rows that hold axes of rigid bodies in space, which are no coordinates, keep multipliers instead of being eliminated. So
-/// do pins that would tie many rigid bodies together: what is tied together is dense.
+/// do those of joints that let go, and pins that would tie many rigid bodies together: what is tied together is dense.
 fn release_rows<const D: usize>(
     parts: &Parts<D>,
     linear: &mut Vec<Linear<D>>,
@@ -135,7 +149,7 @@ fn release_rows<const D: usize>(
     let tied = tied_with(parts.nodes.len(), &rows);
     let is_released = |index: usize| {
         let joint = &parts.joints[index];
-        if joint.ends.iter().any(End::is_framed) {
+        if joint.release.is_some() || joint.ends.iter().any(End::is_framed) {
             return true;
         }
         let joins = joint.ends.iter().all(|end| end.is_rigid());

@@ -12,7 +12,9 @@ mod motion;
 mod perpendicular;
 mod point_on_curve;
 mod related;
+mod release;
 mod rows;
+mod target;
 mod unit;
 
 pub use clamp::Clamp;
@@ -25,7 +27,9 @@ pub use line::PointOnLine;
 pub use perpendicular::{Across, Perpendicular};
 pub use point_on_curve::PointOnCurve;
 pub use related::Related;
+pub use release::Release;
 use rows::Rows;
+pub use target::Target;
 pub use unit::UnitLength;
 
 use super::CableChain;
@@ -84,47 +88,8 @@ pub struct Joint<const D: usize = 2> {
     pub turn: Option<AxisTurn<D>>,
     /// The way that its second end can go along a line of the first, where that stands still or belongs to a rigid body.
     pub way: Option<Way<D>>,
-}
-
-/// What a row is to equal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Target {
-    /// A fixed number.
-    Fixed(f64),
-    /// A driven coordinate plus a number.
-    Value(usize, f64),
-    /// Cosine of a driven angle.
-    Cosine(usize),
-    /// Sine of a driven angle.
-    Sine(usize),
-}
-
-impl Target {
-    /// Whether it changes in time.
-    pub fn is_driven(&self) -> bool {
-        !matches!(self, Self::Fixed(_))
-    }
-
-    /// Value and first two derivatives from those of the driven coordinates.
-    pub fn derivatives<N: Number>(&self, drives: &[[N; 3]]) -> [N; 3] {
-        match *self {
-            Self::Fixed(value) => [N::of(value), N::of(0.0), N::of(0.0)],
-            Self::Value(index, offset) => {
-                let [p, v, a] = drives[index];
-                [p + N::of(offset), v, a]
-            }
-            Self::Cosine(index) => {
-                let [p, v, a] = drives[index];
-                let (sin, cos) = p.sin_cos();
-                [cos, -sin * v, -cos * v * v - sin * a]
-            }
-            Self::Sine(index) => {
-                let [p, v, a] = drives[index];
-                let (sin, cos) = p.sin_cos();
-                [sin, cos * v, cos * a - sin * v * v]
-            }
-        }
-    }
+    /// When it lets go, if it does.
+    pub release: Option<Release>,
 }
 
 /// A linear constraint of a joint.
@@ -154,6 +119,8 @@ pub struct View<'a, const D: usize, N = f64> {
     pub travel: &'a [N],
     /// Angles that the system counts, rad: what angles are nearest to.
     pub angles: &'a [N],
+    /// Which of the joints that let go have done so.
+    pub released: &'a [bool],
 }
 
 /// A non-linear constraint `g(x, t) = 0` with the force `-J^T lambda`.
@@ -165,6 +132,8 @@ pub struct Constraint<const D: usize = 2> {
     pub kind: ConstraintKind<D>,
     /// What `g` is to equal: 0, but where joints that do not fit yet are closed little by little.
     pub offset: f64,
+    /// Place of its joint among those that let go.
+    pub release: Option<usize>,
 }
 
 /// Kinds of non-linear constraints.
@@ -216,11 +185,15 @@ impl<const D: usize> Constraint<D> {
             joint: Some(joint),
             kind,
             offset: 0.0,
+            release: None,
         }
     }
 
     /// `g`.
     pub fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
+        if self.is_released(view) {
+            return N::of(0.0);
+        }
         let value = each!(self, c => c.value(view));
         value - N::of(self.offset)
     }
@@ -231,6 +204,9 @@ impl<const D: usize> Constraint<D> {
         view: &View<'_, D, N>,
         mut call: impl FnMut(&Gradient<D, N>),
     ) {
+        if self.is_released(view) {
+            return;
+        }
         // Called in one place for what joins two ends, so that it can be compiled into its caller.
         let many: &mut dyn FnMut(&Gradient<D, N>) = &mut call;
         let gradient = match &self.kind {
@@ -278,6 +254,7 @@ impl<const D: usize> Constraint<D> {
     /// Derivative of `g` by time alone, 1/s.
     pub fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         match &self.kind {
+            _ if self.is_released(view) => N::of(0.0),
             ConstraintKind::AngleBetween(c) => c.rate(view),
             ConstraintKind::HeldRow(c) => c.rate(view),
             ConstraintKind::DrivenTurn(c) => c.rate(view),
@@ -289,12 +266,16 @@ impl<const D: usize> Constraint<D> {
 
     /// `d^2 g / dt^2` without the part of accelerations, 1/s^2.
     pub fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        each!(self, c => c.bias(view))
+        match self.is_released(view) {
+            true => N::of(0.0),
+            false => each!(self, c => c.bias(view)),
+        }
     }
 
     /// Second derivatives times the multiplier, block by block of nodes.
     pub fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         match &self.kind {
+            _ if self.is_released(view) => {}
             ConstraintKind::UnitLength(c) => c.stiffness(lambda, add),
             ConstraintKind::AngleBetween(c) => c.stiffness(lambda, view, add),
             ConstraintKind::Distance(c) => c.stiffness(lambda, add),
@@ -355,7 +336,8 @@ impl<const D: usize> Constraint<D> {
 
     /// Whether its derivatives are the same in every configuration.
     pub fn is_linear(&self) -> bool {
-        matches!(&self.kind, ConstraintKind::HeldRow(row) if row.is_constant)
+        let is_constant = matches!(&self.kind, ConstraintKind::HeldRow(row) if row.is_constant);
+        is_constant && self.release.is_none()
     }
 
     /// Whether its force has a stiffness that is told block by block of these nodes.

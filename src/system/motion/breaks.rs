@@ -73,7 +73,9 @@ impl<const D: usize> System<D> {
             return None;
         }
         let found = (self.functions()).filter_map(|(_, function)| function.next_break(from, until));
-        found.min_by(f64::total_cmp)
+        let due = self.releases.iter().filter_map(|release| release.time);
+        let due = due.filter(|time| from < *time && *time <= until);
+        found.chain(due).min_by(f64::total_cmp)
     }
 
     /// Driven coordinates as functions of time have them at `clock`, with one derivative.
@@ -90,6 +92,7 @@ impl<const D: usize> Model<'_, D> {
     /// Begins a stretch without kinks and jumps at `from`; its end, `until` at the latest.
     pub(in crate::system) fn enter(&mut self, from: f64, until: f64) -> f64 {
         let (first, last) = (from + grain(from), until + grain(until));
+        self.work.release_at(from, self.inputs);
         let found = self.system.next_break(first, last);
         self.crossing = found;
         self.work.stretch = match (self.system.has_breaks, found) {

@@ -6,7 +6,6 @@ use nalgebra::Complex;
 use crate::body::{Node, RENEWED, largest_turn};
 use crate::elements::Element;
 use crate::system::instant::Instant;
-use crate::system::joints::ConstraintKind;
 use crate::system::signal::{Trajectory, moved};
 use crate::system::{State, System, Work};
 
@@ -139,6 +138,7 @@ impl<'a, const D: usize> Model<'a, D> {
         state: &State,
     ) -> Self {
         work.resume(state);
+        work.release_at(state.time, inputs);
         work.stretch = None;
         work.inputs.clear();
         work.inputs.extend_from_slice(inputs);
@@ -328,42 +328,6 @@ impl<'a, const D: usize> Model<'a, D> {
         }
         system.project_velocities(&mut state.rates, self.work);
         true
-    }
-
-    /// Counts angles on, follows slides and driven motions.
-    pub fn count(&mut self, state: &mut State) -> Accepted {
-        let system = self.system;
-        for (driven, course) in state.driven.iter_mut().zip(&self.work.trajectories) {
-            *driven = course.orders(state.time);
-        }
-        if state.angles.is_empty() && state.travel.is_empty() && system.rod_chains().is_empty() {
-            return Accepted::AsIs;
-        }
-        system.forward_kinematics(state.time, &state.coordinates, None, self.work);
-        if let Some((body, element)) = system.overbent(&self.work.x) {
-            return Accepted::Overbent(body, element);
-        }
-        for (i, angle) in system.angles.iter().enumerate() {
-            state.angles[i] = angle.value(&self.work.x, self.work.angles[i]);
-        }
-        self.work.angles.copy_from_slice(&state.angles);
-        state.travel.copy_from_slice(&self.work.travel);
-        for (constraint, travel) in system.slides.iter().zip(&state.travel) {
-            let constraint = &system.constraints[*constraint];
-            let ConstraintKind::PointOnCurve(along) = &constraint.kind else {
-                continue;
-            };
-            let length = system.chains[along.chain].length();
-            if !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
-                let joint = constraint.joint.unwrap_or(0);
-                state.copy_from(&self.work.before);
-                return Accepted::RanOff(joint);
-            }
-        }
-        if !system.slides.is_empty() {
-            self.work.before.copy_from(state);
-        }
-        Accepted::AsIs
     }
 }
 

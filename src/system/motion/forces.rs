@@ -196,6 +196,7 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel,
             angles,
+            released: &work.released,
         };
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             constraint.stiffness(*lambda, &view, &mut |a, b, block| {

@@ -73,6 +73,7 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel: &work.travel,
             angles: &work.angles,
+            released: &work.released,
         };
         for (row, constraint) in self.constraints.iter().enumerate() {
             if !work.jacobian.needs(row) {
@@ -116,6 +117,7 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel: &work.travel,
             angles: &work.angles,
+            released: &work.released,
         }
     }
 

@@ -65,9 +65,9 @@ impl RankWatch {
         }
     }
 
-    /// Keeps which constraints count where most of them do. Whether these are as many.
-    fn keep(&mut self, jacobian: &Jacobian) -> bool {
-        let rank = jacobian.rank();
+    /// Keeps which constraints count where most of them do, with those of joints that have let go. Whether these are as many.
+    fn keep(&mut self, jacobian: &Jacobian, released: usize) -> bool {
+        let rank = jacobian.rank() + released;
         if rank > self.most {
             self.most = rank;
             let counted = self.counted.iter_mut().enumerate();
@@ -84,15 +84,19 @@ impl<const D: usize> System<D> {
         if self.constraints.is_empty() || work.is_tree {
             return;
         }
+        let released = self.released_rows(work);
         let (jacobian, watch) = (&mut work.jacobian, &mut work.rank);
         // As the next acceleration does.
         jacobian.factor(RANK);
-        let is_most = watch.keep(jacobian);
+        let is_most = watch.keep(jacobian, released);
         if jacobian.has_full_rank() {
             return;
         }
         for row in 0..self.constraints.len() {
-            if watch.words[row] != Word::None || jacobian.is_independent(row) {
+            let release = self.constraints[row].release;
+            let is_released = release.is_some_and(|place| work.released[place]);
+            let is_told = watch.words[row] != Word::None || jacobian.is_independent(row);
+            if is_told || is_released {
                 continue;
             }
             let is_near = !is_most && watch.counted[row]
@@ -127,11 +131,14 @@ impl<const D: usize> System<D> {
     /// do. What is told to hold nearly so is not told again.
     pub fn redundant_at(&self, state: &State, work: &mut Work<D>) -> Redundant {
         let dependent = self.dependent(RANK, state, work);
-        work.rank.keep(&work.jacobian);
+        let released = self.released_rows(work);
+        work.rank.keep(&work.jacobian, released);
         let mut rest = vec![0.0; self.coordinates()];
         // What is left of rows, orthonormal: a row that others give together with one of these is none of them.
         let mut basis: Vec<Vec<f64>> = Vec::new();
         let (mut exactly, mut nearly) = (Vec::new(), Vec::new());
+        let is_held = |row: &usize| !self.has_let_go(*row, work);
+        let dependent: Vec<usize> = dependent.into_iter().filter(is_held).collect();
         for row in dependent {
             let mut left = work.jacobian.part_left(row, &mut rest);
             for _ in 0..2 {
@@ -176,6 +183,18 @@ impl<const D: usize> System<D> {
         let rows = 0..self.constraints.len();
         rows.filter(|row| !work.jacobian.is_independent(*row))
             .collect()
+    }
+
+    /// Whether the joint of a constraint has let go.
+    fn has_let_go(&self, row: usize, work: &Work<D>) -> bool {
+        let release = self.constraints[row].release;
+        release.is_some_and(|place| work.released[place])
+    }
+
+    /// Number of constraints whose joints have let go.
+    fn released_rows(&self, work: &Work<D>) -> usize {
+        let rows = 0..self.constraints.len();
+        rows.filter(|row| self.has_let_go(*row, work)).count()
     }
 
     /// What constraints belong to.

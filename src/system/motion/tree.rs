@@ -156,7 +156,7 @@ fn pairs<const D: usize>(system: &System<D>) -> Option<Vec<Pair<D>>> {
         let ends = constraint.ends();
         let bodies = [body(system, ends.first()?)?, body(system, ends.get(1)?)?];
         let same = |pair: &Pair<D>| pair.bodies == bodies || pair.bodies == [bodies[1], bodies[0]];
-        if bodies[0] == bodies[1] {
+        if bodies[0] == bodies[1] || constraint.release.is_some() {
             return None;
         }
         let index = pairs.iter().position(same);

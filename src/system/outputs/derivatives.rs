@@ -178,6 +178,7 @@ impl<const D: usize> Derivatives<D> {
     fn follow(&mut self, system: &System<D>, plain: &Evaluation<D>) {
         let values = &mut self.values;
         values.frames.copy_from_slice(&plain.frames);
+        values.released.copy_from_slice(&plain.released);
         for ((set, angle), now) in (values.angles.iter_mut().zip(&system.angles)).zip(&plain.angles)
         {
             *set = angle.value(&values.x, Jet::from_re(*now));

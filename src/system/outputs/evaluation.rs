@@ -37,6 +37,8 @@ pub struct Evaluation<const D: usize = 2, N = f64> {
     pub(in crate::system) drives: Vec<[N; 3]>,
     /// Frames that the state holds of rigid bodies of space.
     pub(in crate::system) frames: Vec<Quaternion>,
+    /// Which of the joints that let go have done so.
+    pub(in crate::system) released: Vec<bool>,
 }
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -57,6 +59,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             travel: vec![zero; system.slides.len()],
             drives: vec![[zero; 3]; system.drives.len()],
             frames: vec![NO_TURN; system.frames.count()],
+            released: vec![false; system.releases.len()],
         }
     }
 }
@@ -81,6 +84,7 @@ impl<const D: usize> Evaluation<D> {
         self.travel.copy_from_slice(&work.travel);
         self.drives.copy_from_slice(&work.drives);
         self.frames.copy_from_slice(&state.frames);
+        self.released.copy_from_slice(&work.released);
     }
 
     /// Computes accelerations and what constraints supply.
@@ -102,6 +106,7 @@ impl<const D: usize> Evaluation<D> {
         self.acceleration.copy_from_slice(&work.other);
         self.supply.copy_from_slice(&work.supply);
         self.lambda.copy_from_slice(&work.lambda);
+        self.released.copy_from_slice(&work.released);
     }
 }
 
@@ -239,6 +244,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             chains: &system.chains,
             travel: &self.travel,
             angles: &self.angles,
+            released: &self.released,
         }
     }
 

@@ -386,6 +386,7 @@ impl<const D: usize> System<D> {
                 chains: &self.chains,
                 travel: &travel,
                 angles: &angles,
+                released: &work.released,
             };
             constraint.for_each(&view, |node, term| {
                 let f = f[node].as_flattened_mut().iter_mut();

@@ -108,6 +108,7 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             travel: &travel,
             angles: &angles,
+            released: &work.released,
         };
         let rates = rows.iter().map(|row| {
             let mut rate = vec![0.0; self.coordinates()];

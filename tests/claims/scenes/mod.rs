@@ -15,6 +15,7 @@ mod methods;
 mod motions;
 mod planar_beams;
 mod ports;
+mod releases;
 mod rigid;
 mod rods;
 mod section_joints;
@@ -54,6 +55,7 @@ pub fn all() -> Vec<Specimen> {
         loads::all(),
         inputs::all(),
         ports::all(),
+        releases::all(),
         methods::all(),
         tables::all(),
         initial::all(),

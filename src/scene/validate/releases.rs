@@ -1,0 +1,85 @@
+//! Checks of joints that let go.
+
+use super::checks::{expected, quoted};
+use crate::scene::Error;
+use crate::scene::resolved::{
+    HolderId, InputKind, JointCoordinate, LoadKind, MotionKind, On, Resolved, Turning,
+};
+use crate::system::Release;
+
+impl Resolved<'_> {
+    /// Lets an input make a joint let go.
+    pub(super) fn set_release(
+        &mut self,
+        path: &str,
+        name: &str,
+        first: usize,
+    ) -> Result<(), Error> {
+        let joint = self.joints.iter_mut().find(|joint| joint.name == name);
+        let Some(joint) = joint else {
+            return Err(expected(path, "a joint of this scene", quoted(name)));
+        };
+        joint.release.get_or_insert(Release::default()).input = Some(first);
+        Ok(())
+    }
+
+    /// A joint that lets go has no spring, and nothing acts on its coordinates or drives them.
+    pub(super) fn check_releases(&self) -> Result<(), Error> {
+        let acting = self.acting();
+        let joints = self.joints.iter().enumerate();
+        for (index, joint) in joints.filter(|(_, joint)| joint.release.is_some()) {
+            let path = format!("joints[{index}]");
+            let acts = acting.iter().find(|(on, _)| *on == joint.holder);
+            let found = match (joint.spring(), acts) {
+                (Some(_), _) => "a spring of its own".into(),
+                (None, Some((_, name))) => quoted(name),
+                (None, None) => continue,
+            };
+            let wanted = "nothing that acts on the coordinates of a joint that lets go";
+            return Err(expected(&path, wanted, found));
+        }
+        Ok(())
+    }
+
+    /// Joints on whose coordinates something acts, and its name.
+    fn acting(&self) -> Vec<(HolderId, &str)> {
+        let of = |coordinate: &JointCoordinate<'_>| match coordinate {
+            JointCoordinate::Displacement(slider) => slider.joint,
+            JointCoordinate::Angle(pivot) => pivot.joint,
+        };
+        let mut found = Vec::new();
+        for gear in &self.gears {
+            found.extend(gear.coordinates.iter().map(|on| (of(on), gear.name)));
+        }
+        for motion in &self.motions {
+            match &motion.kind {
+                MotionKind::Angle(Turning::Pivot(pivot), _) => {
+                    found.push((pivot.joint, motion.name));
+                }
+                MotionKind::Displacement(slider, _) => found.push((slider.joint, motion.name)),
+                _ => {}
+            }
+        }
+        for load in &self.loads {
+            match &load.kind {
+                LoadKind::JointSpring { on, .. } | LoadKind::Stop { on, .. } => {
+                    found.push((of(on), load.name));
+                }
+                LoadKind::Action { action, .. } => {
+                    if let On::Joint(pivot) = action.on {
+                        found.push((pivot.joint, load.name));
+                    }
+                }
+                _ => {}
+            }
+        }
+        for input in &self.inputs {
+            if let InputKind::Action(action) = &input.kind
+                && let On::Joint(pivot) = action.on
+            {
+                found.push((pivot.joint, action.kind.words()[0]));
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,31 @@
+//! Joints that let go: when, and what may act on them.
+
+use serde_json::{Value, json};
+
+use super::check;
+
+fn scene() -> Value {
+    json!({"name": "let_go", "dimension": 2,
+        "bodies": [{"name": "bob", "element": "rigid", "mass": 1, "inertia": 1, "position": [1, 0], "markers": {"p": [-1, 0]}}],
+        "joints": [{"name": "pin", "kind": "revolute", "markers": ["ground", "bob.p"], "release_time": 1.5}],
+        "motions": [], "loads": [], "inputs": [{"kind": "release", "joint": "pin"}]})
+}
+
+#[test]
+fn a_joint_lets_go_where_nothing_acts_on_its_coordinates() {
+    check(
+        scene,
+        r#"
+        /name | "free" | accepted
+        /joints/0/release_time | null | accepted
+        /joints/0 | {"name": "pin", "kind": "hinge", "markers": ["ground", "bob.p"], "stiffness": 1} | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found a spring of its own
+        /loads | [{"name": "motor", "kind": "torque", "joint": "pin", "value": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "motor"
+        /loads | [{"name": "end", "kind": "stop", "joint": "pin", "stiffness": 1, "upper": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "end"
+        /motions | [{"name": "drive", "kind": "angle", "joint": "pin", "value": "t"}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "drive"
+        /inputs/1 | {"kind": "torque", "joint": "pin"} | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "torque"
+        /inputs/0/joint | "pen" | inputs[0].joint: expected a joint of this scene, found "pen"
+        /inputs/0/joint | null | inputs[0].joint: expected a name, found nothing
+        /inputs/0/marker | "bob.p" | inputs[0].marker
+        "#,
+    );
+}

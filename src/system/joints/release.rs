@@ -1,0 +1,47 @@
+//! Joints that let go: from a time on, or from the first step on that begins with an input above zero. What they hold keeps multipliers; once
+//! they have let go their conditions are zero identically and count no more. Nothing is struck: positions and velocities go on.
+
+use super::{Constraint, View};
+use crate::math::switches::grain;
+use crate::system::{State, Work};
+
+/// When a joint lets go, for good.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Release {
+    /// At this time, s.
+    pub time: Option<f64>,
+    /// In the first step that begins with this input above 0.
+    pub input: Option<usize>,
+}
+
+impl Release {
+    /// Whether its time has come at a time, s.
+    fn is_due(&self, time: f64) -> bool {
+        self.time.is_some_and(|due| due <= time + grain(time))
+    }
+}
+
+impl<const D: usize> Constraint<D> {
+    /// Whether its joint has let go.
+    pub(super) fn is_released<N>(&self, view: &View<'_, D, N>) -> bool {
+        self.release.is_some_and(|place| view.released[place])
+    }
+}
+
+impl<const D: usize> Work<D> {
+    /// Takes over which joints have let go at a state, and which are due by then.
+    pub(in crate::system) fn release(&mut self, state: &State) {
+        let told = state.released.iter().zip(&self.releases);
+        for (is_released, (told, release)) in self.released.iter_mut().zip(told) {
+            *is_released = *told > 0.0 || release.is_due(state.time);
+        }
+    }
+
+    /// Joints let go that are due at a time (s), or by inputs.
+    pub(in crate::system) fn release_at(&mut self, time: f64, inputs: &[f64]) {
+        for (is_released, release) in self.released.iter_mut().zip(&self.releases) {
+            let is_told = release.input.is_some_and(|input| inputs[input] > 0.0);
+            *is_released |= is_told || release.is_due(time);
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! What a state keeps beside coordinates and rates: driven motions, angles over full turns, slides, joints that have let go.
+
+use super::dynamics::{Accepted, Model};
+use crate::system::State;
+use crate::system::joints::ConstraintKind;
+
+impl<const D: usize> Model<'_, D> {
+    /// Counts angles on, follows slides and driven motions.
+    pub fn count(&mut self, state: &mut State) -> Accepted {
+        let system = self.system;
+        for (told, is_released) in state.released.iter_mut().zip(&self.work.released) {
+            *told = f64::from(u8::from(*is_released));
+        }
+        for (driven, course) in state.driven.iter_mut().zip(&self.work.trajectories) {
+            *driven = course.orders(state.time);
+        }
+        if state.angles.is_empty() && state.travel.is_empty() && system.rod_chains().is_empty() {
+            return Accepted::AsIs;
+        }
+        system.forward_kinematics(state.time, &state.coordinates, None, self.work);
+        if let Some((body, element)) = system.overbent(&self.work.x) {
+            return Accepted::Overbent(body, element);
+        }
+        for (i, angle) in system.angles.iter().enumerate() {
+            state.angles[i] = angle.value(&self.work.x, self.work.angles[i]);
+        }
+        self.work.angles.copy_from_slice(&state.angles);
+        state.travel.copy_from_slice(&self.work.travel);
+        for (constraint, travel) in system.slides.iter().zip(&state.travel) {
+            let constraint = &system.constraints[*constraint];
+            let ConstraintKind::PointOnCurve(along) = &constraint.kind else {
+                continue;
+            };
+            let length = system.chains[along.chain].length();
+            let is_released = (constraint.release).is_some_and(|at| self.work.released[at]);
+            if !is_released && !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
+                let joint = constraint.joint.unwrap_or(0);
+                state.copy_from(&self.work.before);
+                return Accepted::RanOff(joint);
+            }
+        }
+        if !system.slides.is_empty() {
+            self.work.before.copy_from(state);
+        }
+        Accepted::AsIs
+    }
+}
