@@ -143,12 +143,13 @@ impl SavedState {
         if vectors.is_empty() {
             vectors = DenseStep::blank(coordinates.len()).vectors;
         }
-        let (driven, rest) = driven.as_chunks::<DRIVEN>();
-        let (slopes, none) = slopes.as_chunks();
-        let (eigenvalues, half) = eigenvalues.as_chunks();
-        let (frames, quarter) = frames.as_chunks();
-        let parts: [&[f64]; 4] = [rest, none, half, quarter];
-        if parts.iter().any(|part| !part.is_empty()) {
+        let ((driven, rest), (slopes, none)) = (driven.as_chunks::<DRIVEN>(), slopes.as_chunks());
+        let ((eigenvalues, half), (frames, quarter)) =
+            (eigenvalues.as_chunks(), frames.as_chunks());
+        if [rest, none, half, quarter]
+            .iter()
+            .any(|part| !part.is_empty())
+        {
             return Err(refused(PARTS));
         }
         let state = State {
@@ -430,7 +431,7 @@ mod tests {
         assert!(reason(other.to_bytes()).contains("expected one of the model"));
         let mut version = bytes.clone();
         version[8] = 1;
-        assert!(reason(version).contains("format version 7, found 1"));
+        assert!(reason(version).contains("format version 8, found 1"));
         let mut mode = bytes.clone();
         mode[50] = 64;
         assert!(reason(mode).contains("lifecycle"));

@@ -11,17 +11,8 @@ use crate::system::Drive;
 /// Tables of the parts of a scene; nothing for what it has none of.
 pub(super) fn parts(scene: &Scene) -> String {
     let resolved = scene.resolved();
-    let joints = resolved.joints.iter().map(|joint| {
-        let kind = joint.declaration().name;
-        let holds = joint
-            .holds
-            .iter()
-            .map(|hold| hold_in_words(scene.dimension, joint, hold));
-        let until = joint.release.and_then(|release| release.time);
-        let until = until.map(|time| format!("lets go at {} s", number(time)));
-        let holds = holds.chain(until).collect::<Vec<_>>().join("; ");
-        row(&[&code(joint.name), kind, &ends_in_words(&joint.ends), &holds])
-    });
+    let joints = resolved.joints.iter();
+    let joints = joints.map(|joint| joint_in_words(scene.dimension, joint));
     let gears = resolved.gears.iter().map(gear_in_words);
     let motions = resolved.motions.iter().map(|motion| {
         let what = format!("{} {}", driven(motion), code(motion.kind.of()));
@@ -147,6 +138,17 @@ fn given(before: &str, value: Option<f64>, unit: &str) -> String {
     value.map_or(String::new(), |value| {
         format!("{before} {} {unit}", number(value))
     })
+}
+
+/// The row of a joint.
+fn joint_in_words(dimension: usize, joint: &Joint<'_>) -> String {
+    let kind = joint.declaration().name;
+    let holds = joint.holds.iter();
+    let holds = holds.map(|hold| hold_in_words(dimension, joint, hold));
+    let until = joint.release.and_then(|release| release.time);
+    let until = until.map(|time| format!("lets go at {} s", number(time)));
+    let holds = holds.chain(until).collect::<Vec<_>>().join("; ");
+    row(&[&code(joint.name), kind, &ends_in_words(&joint.ends), &holds])
 }
 
 /// What a joint holds.

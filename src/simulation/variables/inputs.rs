@@ -95,6 +95,9 @@ fn add_orientation(
     }
 }
 
+/// What an input means that releases a joint.
+const LETS_GO: &str = "Makes a joint let go, for good, where it is above 0 as a step begins:";
+
 /// Key, meaning and unit of a load's variables, and what its components are along.
 fn words(
     input: &Input<'_>,
@@ -124,10 +127,7 @@ fn words(
         InputKind::RestLength(_) => {
             return ("rest_length", "Length at rest of", Some(METRE), &[""]);
         }
-        InputKind::Release(_) => {
-            let what = "Makes a joint let go, for good, where it is above 0 as a step begins:";
-            return ("release", what, None, &[""]);
-        }
+        InputKind::Release(_) => return ("release", LETS_GO, None, &[""]),
     };
     let is_spatial = input.start.len() == 3;
     let (key, what, unit, ways): (_, _, _, &[_]) = match (action.kind, action.follower) {
