@@ -146,12 +146,7 @@ impl SavedState {
         let ((driven, rest), (slopes, none)) = (driven.as_chunks::<DRIVEN>(), slopes.as_chunks());
         let ((eigenvalues, half), (frames, quarter)) =
             (eigenvalues.as_chunks(), frames.as_chunks());
-        if [rest, none, half, quarter]
-            .iter()
-            .any(|part| !part.is_empty())
-        {
-            return Err(refused(PARTS));
-        }
+        whole([rest, none, half, quarter])?;
         let state = State {
             time,
             step,
@@ -220,6 +215,14 @@ impl SavedState {
 
 /// What is wrong with arrays of a length that they cannot have.
 const PARTS: &str = "holds a part of a driven motion, of an input, of an eigenvalue or of a frame";
+
+/// Refuses what is left of arrays that are made of equal parts.
+fn whole(rests: [&[f64]; 4]) -> Result<(), Fault> {
+    match rests.iter().all(|rest| rest.is_empty()) {
+        true => Ok(()),
+        false => Err(refused(PARTS)),
+    }
+}
 
 /// Where an instance stood: its lifecycle state, whether it was initialized, whether it was started.
 fn stage(mode: u8, flags: u8) -> Result<(lifecycle::State, bool, bool), Fault> {
