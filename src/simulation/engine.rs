@@ -161,8 +161,7 @@ impl<const D: usize> Engine<D> {
             _ => None,
         };
         if self.initial != InitialState::AsShaped {
-            let turning = steady.and_then(|steady| steady.turning());
-            let found = equilibrium::find(system, inputs, &mut self.work, &mut state, turning);
+            let found = equilibrium::find(system, inputs, &mut self.work, &mut state, steady);
             let found = found.map_err(|error| self.unsettled(error))?;
             self.remarks.is_unstable = !found.is_stable;
             if steady.is_some() || !motions.is_none() {

@@ -1,4 +1,4 @@
-//! What acts, to be drawn as arrows: loads, inputs, and the forces of joints and motions.
+//! What acts, to be drawn as arrows: loads, inputs, currents of fluids, and the forces of joints and motions.
 
 use crate::math::function::Function;
 use crate::scene::{self, HolderId, Input, InputKind, LoadKind, MarkerId, On, PortKind, Resolved};
@@ -38,7 +38,8 @@ pub(super) enum Where {
 
 /// What its components follow from.
 enum Origin<'a> {
-    Action(&'a scene::Action<'a>),
+    /// Its components, and expressions of those that change along a body.
+    Components(&'a [Signal], &'a [(usize, &'a str)]),
     Reaction(HolderId),
 }
 
@@ -51,7 +52,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
     });
     let of_input = |input: &'a Input<'a>, name: Option<&'a str>| match &input.kind {
         InputKind::Action(action) => Some((name.unwrap_or(action.kind.words()[0]), action)),
-        InputKind::RestLength(_) => None,
+        InputKind::RestLength(_) | InputKind::Current(_) => None,
     };
     let inputs = resolved.inputs.iter();
     let inputs = inputs.filter_map(|input| of_input(input, None));
@@ -64,6 +65,10 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
     });
     let known = loads.chain(inputs).chain(ports);
     let known = known.map(|(name, action)| of_action(name, action, dimension));
+    let fluids = resolved.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Fluid(fluid) => Some(of_fluid(load.name, fluid)),
+        _ => None,
+    });
     let joints = resolved.joints.iter();
     let joints = joints.map(|joint| (joint.name, joint.holder, joint.ends.second.id));
     let motions = resolved.motions.iter();
@@ -78,7 +83,20 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
         on: Where::Marker(marker),
         of: Origin::Reaction(holder),
     });
-    known.chain(reactions).collect()
+    known.chain(fluids).chain(reactions).collect()
+}
+
+/// The current of a fluid.
+fn of_fluid<'a>(name: &'a str, fluid: &'a scene::Fluid<'a>) -> Action<'a> {
+    Action {
+        name,
+        unit: "m/s",
+        is_moment: false,
+        follower: false,
+        components: fluid.current.len(),
+        on: Where::Body(fluid.on.id.body_index()),
+        of: Origin::Components(&fluid.current, &fluid.along),
+    }
 }
 
 fn of_action<'a>(name: &'a str, action: &'a scene::Action<'a>, dimension: usize) -> Action<'a> {
@@ -93,7 +111,7 @@ fn of_action<'a>(name: &'a str, action: &'a scene::Action<'a>, dimension: usize)
             On::Joint(pivot) => Where::Joint(pivot.ends.second.id, pivot.joint.index()),
             On::Cable(cable) => Where::Body(cable.id.body_index()),
         },
-        of: Origin::Action(action),
+        of: Origin::Components(&action.components, &action.along),
     }
 }
 
@@ -105,15 +123,15 @@ impl Action<'_> {
 
     /// Its components now, arrow by arrow.
     pub fn values(&self, simulation: &mut Simulation) -> Result<Vec<f64>, Error> {
-        let action = match self.of {
+        let (components, along) = match self.of {
             Origin::Reaction(holder) => {
                 let force = simulation.reaction(holder)?;
                 return Ok(force[..self.components].to_vec());
             }
-            Origin::Action(action) => action,
+            Origin::Components(components, along) => (components, along),
         };
         let (time, inputs) = (simulation.time(), simulation.inputs());
-        let same: Vec<f64> = (action.components.iter())
+        let same: Vec<f64> = (components.iter())
             .map(|component| match component {
                 Signal::Function(function) => function.value(time),
                 Signal::Input(place) => inputs[*place],
@@ -126,7 +144,7 @@ impl Action<'_> {
         for arrow in 0..ARROWS {
             let s = (f64::from(arrow) + 0.5) / f64::from(ARROWS);
             let mut at = same.clone();
-            for (axis, text) in &action.along {
+            for (axis, text) in along {
                 let function = Function::along(text, s);
                 at[*axis] = function.map_or(0.0, |function| function.value(time));
             }

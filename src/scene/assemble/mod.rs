@@ -4,6 +4,7 @@ mod axes;
 mod axial;
 mod bodies;
 mod coordinates;
+mod fluids;
 mod initial;
 mod loads;
 mod motions;
@@ -268,6 +269,7 @@ impl<const D: usize> Builder<'_, D> {
             self.parts.lumped_masses.push(LumpedMass {
                 marker,
                 mass: mass.mass,
+                added: 0.0,
                 inertia,
             });
             self.parts
@@ -275,6 +277,7 @@ impl<const D: usize> Builder<'_, D> {
                 .extend(section.map(|of| LumpedMass {
                     marker: Marker::rigid(of.body, of.nodes[1], [0.0; 2]),
                     mass: 0.0,
+                    added: 0.0,
                     inertia: mass.inertia,
                 }));
         }

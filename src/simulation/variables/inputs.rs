@@ -112,8 +112,10 @@ fn words(input: &Input<'_>) -> (&'static str, &'static str, Unit, &'static [&'st
         "along the direction there",
         "across, to the left of the direction",
     ];
-    let InputKind::Action(action) = &input.kind else {
-        return ("rest_length", "Length at rest of", METRE, &[""]);
+    let action = match &input.kind {
+        InputKind::Action(action) => action,
+        InputKind::RestLength(_) => return ("rest_length", "Length at rest of", METRE, &[""]),
+        InputKind::Current(_) => return ("current", "Velocity of", METRE_PER_SECOND, &AXES),
     };
     let is_spatial = input.start.len() == 3;
     match (action.kind, action.follower) {
@@ -159,7 +161,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     let (key, what, unit, ways) = words(input);
     let of = match &input.kind {
         InputKind::Action(action) => action.on(),
-        InputKind::RestLength(load) => load,
+        InputKind::RestLength(load) | InputKind::Current(load) => load,
     };
     let (name, before) = (
         format!("{}.{key}", port.unwrap_or(of)),

@@ -115,6 +115,12 @@ pub enum Parameter {
     BushingTurningStiffness(usize, usize),
     /// Damping of a bushing about an axis (0 to 2), N m s/rad.
     BushingTurningDamping(usize, usize),
+    /// Density of a fluid.
+    FluidDensity(usize),
+    /// Coefficient of drag across the line, or with 1 along it.
+    Drag(usize, usize),
+    /// Coefficient of added mass.
+    AddedMass(usize),
     /// Stiffness of a coupling.
     CouplingStiffness(usize),
     /// Damping of a coupling.

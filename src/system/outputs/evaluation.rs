@@ -323,7 +323,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         for lump in &system.lumped_masses {
             let marker = lump.marker.lift();
-            let (m, j) = (N::of(lump.mass), N::of(lump.inertia));
+            let (m, j) = (N::of(lump.moved()), N::of(lump.inertia));
             let (x, d) = (marker.position(&self.x), marker.direction(&self.x));
             let (p, s) = (marker.position(&self.v) * m, marker.direction(&self.v) * j);
             add(x, p, true);
