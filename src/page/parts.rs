@@ -3,8 +3,8 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    Ends, Fluid, Gear, Hold, Joint, JointCoordinate, Load, LoadKind, Motion, MotionKind, Port, PortKind,
-    Scene, Turning, Value,
+    Ends, Fluid, Gear, Hold, Joint, JointCoordinate, Load, LoadKind, Motion, MotionKind, Port,
+    PortKind, Scene, Turning, Value,
 };
 use crate::system::{Drive, Signal};
 
@@ -268,7 +268,10 @@ fn load_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) 
 }
 
 fn fluid_in_words(fluid: &Fluid<'_>) -> String {
-    let is_input = fluid.current.iter().any(|of| matches!(of, Signal::Input(_)));
+    let is_input = fluid
+        .current
+        .iter()
+        .any(|of| matches!(of, Signal::Input(_)));
     let current = match (is_input, fluid.given) {
         (true, _) => "current: input".into(),
         (false, []) => "at rest".into(),
@@ -284,7 +287,10 @@ fn fluid_in_words(fluid: &Fluid<'_>) -> String {
     let lengths = given(", diameter", fluid.diameter, "m") + &given(", area", fluid.area, "m2");
     let lifts = if fluid.buoyancy { "" } else { ", no buoyancy" };
     let density = number(fluid.density);
-    format!("{density} kg/m3, {current}{}{lengths}{lifts}", coefficients.concat())
+    format!(
+        "{density} kg/m3, {current}{}{lengths}{lifts}",
+        coefficients.concat()
+    )
 }
 
 /// The same of springs, dampers and stops of joints.

@@ -28,8 +28,8 @@ pub use description::{
 };
 pub use elements::Chosen;
 pub use resolved::{
-    Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First, Fluid,
-    Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
+    Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First,
+    Fluid, Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
     LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output, Pivot, Place, PointId,
     Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider, Spring, Turning,
 };

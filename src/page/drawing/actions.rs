@@ -130,9 +130,8 @@ impl<'a> Picture<'a> {
                 continue;
             };
             let mut inputs = self.resolved.inputs.iter();
-            let input = inputs.find(
-                |input| matches!(input.kind, InputKind::Current(name) if name == load.name),
-            );
+            let input = inputs
+                .find(|input| matches!(input.kind, InputKind::Current(name) if name == load.name));
             let start = input.map_or(&[][..], |input| &input.start);
             let current = in_middle(&fluid.current, &fluid.along, start);
             if input.is_some() || current.iter().any(|part| *part != 0.0) {

@@ -111,10 +111,9 @@ impl<'a> LoadKind<'a> {
         match self {
             Self::Spring(spring) => Some(spring.ends),
             Self::Bushing(bushing) => Some(bushing.ends),
-            Self::Action { .. }
-            | Self::JointSpring { .. }
-            | Self::Stop { .. }
-            | Self::Fluid(_) => None,
+            Self::Action { .. } | Self::JointSpring { .. } | Self::Stop { .. } | Self::Fluid(_) => {
+                None
+            }
         }
     }
 

@@ -44,7 +44,9 @@ impl<'a> Resolved<'a> {
             [] if load.current.is_none() => {
                 let zero = Value::Number(0.0);
                 let zeros = vec![zero; dimension];
-                components(path, dimension, &zeros, |path, of| component(path, of, true))?
+                components(path, dimension, &zeros, |path, of| {
+                    component(path, of, true)
+                })?
             }
             _ => components(&at("current"), dimension, given, |path, of| {
                 component(path, of, true)

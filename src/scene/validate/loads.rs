@@ -4,9 +4,7 @@ use super::checks::{Key, components, expected, keys, needed, not_negative, sprin
 use crate::math::expression::Expression;
 use crate::math::function::Function;
 use crate::scene::Error;
-use crate::scene::description::{
-    ActionKind, ActsOn, Kind as _, Load, LoadKind, LoadValue, Value,
-};
+use crate::scene::description::{ActionKind, ActsOn, Kind as _, Load, LoadKind, LoadValue, Value};
 use crate::scene::resolved::{self, Action, On, Resolved, Spring};
 use crate::system::Signal;
 

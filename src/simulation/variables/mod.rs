@@ -117,8 +117,10 @@ pub enum Parameter {
     BushingTurningDamping(usize, usize),
     /// Density of a fluid.
     FluidDensity(usize),
-    /// Coefficient of drag across the line, or with 1 along it.
-    Drag(usize, usize),
+    /// Coefficient of drag across the line.
+    Drag(usize),
+    /// Coefficient of drag along the line.
+    TangentialDrag(usize),
     /// Coefficient of added mass.
     AddedMass(usize),
     /// Stiffness of a coupling.

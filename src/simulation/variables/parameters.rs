@@ -220,8 +220,8 @@ fn add_fluid(list: &mut List, (i, of): (usize, &str), fluid: &Fluid<'_>) {
     #[rustfmt::skip] // a table
     let rows = [
         ("density", "Density", Some(DENSITY), Parameter::FluidDensity(i), fluid.density),
-        ("drag", "Coefficient of drag across the line", None, Parameter::Drag(i, 0), across),
-        ("tangential_drag", "Coefficient of drag along the line", None, Parameter::Drag(i, 1), along),
+        ("drag", "Coefficient of drag across the line", None, Parameter::Drag(i), across),
+        ("tangential_drag", "Coefficient of drag along the line", None, Parameter::TangentialDrag(i), along),
         ("added_mass", "Coefficient of added mass", None, Parameter::AddedMass(i), fluid.added_mass),
     ];
     list.parameters(of, "of", &rows);
@@ -386,8 +386,8 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
             scene.loads[i].rotational_damping.get_or_insert_default()[axis] = value;
         }
         FluidDensity(i) => scene.loads[i].density = Some(value),
-        Drag(i, 0) => scene.loads[i].drag = Some(value),
-        Drag(i, _) => scene.loads[i].tangential_drag = Some(value),
+        Drag(i) => scene.loads[i].drag = Some(value),
+        TangentialDrag(i) => scene.loads[i].tangential_drag = Some(value),
         AddedMass(i) => scene.loads[i].added_mass = Some(value),
         CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
         CouplingDamping(i) => scene.ports[i].damping = Some(value),

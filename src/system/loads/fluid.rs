@@ -169,11 +169,7 @@ impl<const D: usize> Fluid<D> {
     }
 
     /// The current at the Gauss points of a stretch by what its components are: their values or their rates.
-    fn current<N: Number>(
-        &self,
-        stretch: usize,
-        of: impl Fn(&Signal) -> N + Copy,
-    ) -> Values<D, N> {
+    fn current<N: Number>(&self, stretch: usize, of: impl Fn(&Signal) -> N + Copy) -> Values<D, N> {
         let uniform: Vector<D, N> = self.current.uniform.each_ref().map(of).into();
         std::array::from_fn(|point| {
             let place = GAUSS_5.len() * stretch + point;

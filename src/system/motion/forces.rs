@@ -364,7 +364,8 @@ impl<const D: usize> System<D> {
         for lump in &self.lumped_masses {
             let marker = lump.marker.lift();
             let (at, on) = (map(marker.position(x)), map(marker.direction(x)));
-            sum += at.norm_squared() * N::of(lump.moved()) + on.norm_squared() * N::of(lump.inertia);
+            sum +=
+                at.norm_squared() * N::of(lump.moved()) + on.norm_squared() * N::of(lump.inertia);
         }
         for (node, part, mass) in self.frames.list().iter().flat_map(Frame::masses) {
             sum += map(x[node][part].into()).norm_squared() * N::of(mass);

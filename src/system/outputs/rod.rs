@@ -116,9 +116,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let own = &system.lumped_masses[rod.mass];
         let [density, moved] = [own.mass, own.moved()].map(|mass| N::of(mass / rod.length));
         let at = Marker::rigid(0, rod.node, [from, 0.0]).lift();
-        let [start, slope] = self
-            .inertia_at(system, &at)
-            .map(|inertia| -inertia * moved);
+        let [start, slope] = self.inertia_at(system, &at).map(|inertia| -inertia * moved);
         let load = system.gravity.map(N::of) * density + self.distributed(system, rod.node) + start;
         // Integrals of 1, s and s^2 over the part.
         let length = to - from;
