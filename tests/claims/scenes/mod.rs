@@ -41,7 +41,40 @@ use crate::specimen::Specimen;
 
 /// All of them.
 pub fn all() -> Vec<Specimen> {
-    let parts = [fluids::all()];
+    let parts = [
+        rigid::all(),
+        rods::all(),
+        frames::all(),
+        cables::all(),
+        meshes::all(),
+        sections::all(),
+        joints::all(),
+        slides::all(),
+        motions::all(),
+        planar_beams::all(),
+        loads::all(),
+        fluids::all(),
+        inputs::all(),
+        ports::all(),
+        methods::all(),
+        tables::all(),
+        initial::all(),
+        space::all(),
+        space_bodies::all(),
+        space_joints::all(),
+        space_modes::all(),
+        coordinates::all(),
+        bushings::all(),
+        space_ports::all(),
+        space_driven::all(),
+        space_rods::all(),
+        space_beams::all(),
+        spread::all(),
+        stress::all(),
+        section_joints::all(),
+        shapes::all(),
+        tapers::all(),
+    ];
     parts.into_iter().flatten().collect()
 }
 
