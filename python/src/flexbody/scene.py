@@ -211,8 +211,8 @@ class ForceInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -232,8 +232,8 @@ class MomentInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -249,8 +249,8 @@ class TorqueInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -266,8 +266,8 @@ class DistributedInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -287,8 +287,8 @@ class DistributedMomentInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -300,19 +300,42 @@ class RestLengthInput(Part):
     kind: Literal["rest_length"] = "rest_length"
     load: StrictStr
     """
-    `rest_length`: name of the spring-damper.
+    `rest_length`: name of the spring-damper; `current`: of the fluid.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
+    """
+
+
+class CurrentInput(Part):
+    """
+    Velocity of a fluid in global axes, m/s.
+    """
+
+    kind: Literal["current"] = "current"
+    load: StrictStr
+    """
+    `rest_length`: name of the spring-damper; `current`: of the fluid.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
 Input = TypeAliasType(
     "Input",
     Annotated[
-        ForceInput | MomentInput | TorqueInput | DistributedInput | DistributedMomentInput | RestLengthInput,
+        ForceInput
+        | MomentInput
+        | TorqueInput
+        | DistributedInput
+        | DistributedMomentInput
+        | RestLengthInput
+        | CurrentInput,
         Field(discriminator="kind"),
     ],
 )
@@ -2103,6 +2126,57 @@ class SpringDamperLoad(Part):
     """
 
 
+class FluidLoad(Part):
+    """
+    A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
+    and others 1950). The added mass counts in all directions alike.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["fluid"] = "fluid"
+    body: StrictStr
+    """
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    """
+    density: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    `fluid`: density of the fluid, kg/m^3.
+    """
+    added_mass: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `fluid`: coefficient of added mass, the fluid that moves along by that which is displaced; 0 by default.
+    """
+    area: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    `fluid`: area of the section that displaces fluid, m^2; that of the circle of `diameter` by default.
+    """
+    buoyancy: StrictBool | None = None
+    """
+    `fluid`: whether the weight of the displaced fluid lifts the body; true by default.
+    """
+    current: Annotated[list[Value] | None, Field(max_length=3, min_length=2)] = None
+    """
+    `fluid`: velocity of the fluid in global axes, m/s; zero by default. Its components may be expressions in `s` too, as those of
+    what is distributed along a body.
+    """
+    diameter: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    `fluid`: diameter that drag counts with, m; by default the outer one of a circle or tube, else that of a circle with the area of
+    the section.
+    """
+    drag: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `fluid`: coefficient of drag across the line, by the area `diameter` times length; 0 by default.
+    """
+    tangential_drag: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `fluid`: coefficient of drag along the line, by the area `pi diameter` times length; 0 by default.
+    """
+
+
 LoadValueComponents = TypeAliasType(
     "LoadValueComponents",
     Annotated[list[Value], Field(max_length=3, min_length=2, title="LoadValueComponents")],
@@ -2590,7 +2664,7 @@ class DistributedLoad(Part):
     kind: Literal["distributed"] = "distributed"
     body: StrictStr
     """
-    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     """
     value: LoadValue
     """
@@ -2613,7 +2687,7 @@ class DistributedMomentLoad(Part):
     kind: Literal["distributed_moment"] = "distributed_moment"
     body: StrictStr
     """
-    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     """
     value: LoadValue
     """
@@ -2639,7 +2713,8 @@ Load = TypeAliasType(
         | SpringDamperLoad
         | JointSpringLoad
         | BushingLoad
-        | StopLoad,
+        | StopLoad
+        | FluidLoad,
         Field(discriminator="kind"),
     ],
 )
