@@ -7,7 +7,7 @@ use crate::page::symbols;
 use crate::scene::{self, Cable, Input, InputKind, LoadKind, Marker, On, PortKind, Resolved};
 use crate::system::Signal;
 
-/// Arrows that stand for a distributed force.
+/// Arrows at most that stand for a distributed force: on a short body as many as have room.
 const ARROWS: u32 = 7;
 
 /// A load or an input that is drawn as an arrow.
@@ -153,8 +153,14 @@ impl<'a> Picture<'a> {
     }
 
     fn distributed(&mut self, label: &str, cable: Cable<'_>, along: Point, is_vector: bool) {
-        for arrow in 0..ARROWS {
-            let s = (f64::from(arrow) + 0.5) / f64::from(ARROWS);
+        let places = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| self.at(cable.body.shape.point(s)));
+        let ways = places.windows(2);
+        let length: f64 = ways
+            .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
+            .sum();
+        let arrows = (length / (0.5 * self.unit)).clamp(1.0, f64::from(ARROWS)) as u32;
+        for arrow in 0..arrows {
+            let s = (f64::from(arrow) + 0.5) / f64::from(arrows);
             let at = self.at(cable.body.shape.point(s));
             let tail = match is_vector {
                 true => symbols::force(&mut self.canvas, at, along, 0.6 * self.unit),
@@ -163,7 +169,7 @@ impl<'a> Picture<'a> {
                     moved(at, along.map(|part| -part), self.unit)
                 }
             };
-            if arrow == ARROWS / 2 {
+            if arrow == arrows / 2 {
                 self.name_force(tail, along, label);
             }
         }
