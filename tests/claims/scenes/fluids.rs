@@ -122,79 +122,40 @@ fn claimed(mut specimen: Specimen, rows: &[Row]) -> Specimen {
     specimen
 }
 
+/// The fluid with something changed.
+fn changed(change: fn(&mut Water)) -> Water {
+    let mut water = WATER;
+    change(&mut water);
+    water
+}
+
+/// A round cable in a fluid.
+fn round(name: &'static str, keys: Value, change: fn(&mut Water)) -> Row {
+    (name, circle(), keys, changed(change), DENSITY * CIRCLE)
+}
+
 /// Every coefficient and size, and each left out.
 fn streams() -> Specimen {
     let tube = json!({"shape": {"tube": {"radius": RADIUS, "inner_radius": 0.015}}});
-    let numbers = json!({"area": 3e-4, "second_moment": 1e-8});
     let hollow = DENSITY * PI * (RADIUS * RADIUS - 0.015 * 0.015);
-    let line = DENSITY * CIRCLE;
-    let of = |change: &dyn Fn(&mut Water)| {
-        let mut water = WATER;
-        change(&mut water);
-        water
-    };
-    let wide = |w: &mut Water| (w.diameter, w.area) = (0.05, 0.25 * PI * 0.05 * 0.05);
-    let even = |w: &mut Water| (w.diameter, w.area) = (2.0 * (3e-4 / PI).sqrt(), 3e-4);
+    let numbers = json!({"area": 3e-4, "second_moment": 1e-8});
+    let even = changed(|w| (w.diameter, w.area) = (2.0 * (3e-4 / PI).sqrt(), 3e-4));
     let rows: [Row; 11] = [
-        ("all", circle(), whole(), WATER, line),
+        round("all", whole(), |_| ()),
         ("tube", tube, whole(), WATER, hollow),
-        ("numbers", numbers, whole(), of(&even), DENSITY * 3e-4),
-        (
-            "wide",
-            circle(),
-            with("diameter", json!(0.05)),
-            of(&wide),
-            line,
-        ),
-        (
-            "area",
-            circle(),
-            with("area", json!(7e-4)),
-            of(&|w| w.area = 7e-4),
-            line,
-        ),
-        (
-            "sunk",
-            circle(),
-            with("buoyancy", json!(false)),
-            of(&|w| w.lifts = 0.0),
-            line,
-        ),
-        (
-            "lifted",
-            circle(),
-            with("buoyancy", json!(true)),
-            WATER,
-            line,
-        ),
-        (
-            "slippery",
-            circle(),
-            without("tangential_drag"),
-            of(&|w| w.tangential = 0.0),
-            line,
-        ),
-        (
-            "sharp",
-            circle(),
-            without("drag"),
-            of(&|w| w.drag = 0.0),
-            line,
-        ),
-        (
-            "light",
-            circle(),
-            without("added_mass"),
-            of(&|w| w.added = 0.0),
-            line,
-        ),
-        (
-            "calm",
-            circle(),
-            without("current"),
-            of(&|w| w.current = [0.0; 2]),
-            line,
-        ),
+        ("numbers", numbers, whole(), even, DENSITY * 3e-4),
+        round("wide", with("diameter", json!(0.05)), |w| {
+            (w.diameter, w.area) = (0.05, 0.25 * PI * 0.05 * 0.05);
+        }),
+        round("area", with("area", json!(7e-4)), |w| w.area = 7e-4),
+        round("sunk", with("buoyancy", json!(false)), |w| w.lifts = 0.0),
+        round("lifted", with("buoyancy", json!(true)), |_| ()),
+        round("slippery", without("tangential_drag"), |w| {
+            w.tangential = 0.0;
+        }),
+        round("sharp", without("drag"), |w| w.drag = 0.0),
+        round("light", without("added_mass"), |w| w.added = 0.0),
+        round("calm", without("current"), |w| w.current = [0.0; 2]),
     ];
     claimed(Specimen::new("fluids", scene("fluids", &rows)), &rows)
 }
