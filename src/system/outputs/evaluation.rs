@@ -62,11 +62,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 }
 
 impl<const D: usize> Evaluation<D> {
-    /// Takes over the inputs.
-    pub fn set_inputs(&mut self, inputs: &[f64]) {
+    /// Takes over the inputs and their first and second derivatives, zero where there are none.
+    pub fn set_inputs(&mut self, inputs: &[f64], slopes: &[[f64; 2]]) {
         self.inputs.clear();
         self.inputs.extend_from_slice(inputs);
         self.input_rates.clear();
+        self.input_rates.extend(slopes.iter().map(|[rate, _]| rate));
         self.input_rates.resize(inputs.len(), 0.0);
     }
 
@@ -83,7 +84,7 @@ impl<const D: usize> Evaluation<D> {
         self.frames.copy_from_slice(&state.frames);
     }
 
-    /// Computes accelerations and what constraints supply.
+    /// Computes accelerations and what constraints supply, inputs held.
     pub fn dynamics(
         &mut self,
         system: &System<D>,
@@ -91,9 +92,20 @@ impl<const D: usize> Evaluation<D> {
         inputs: &[f64],
         work: &mut Work<D>,
     ) {
-        self.set_inputs(inputs);
+        self.dynamics_moving(system, state, (inputs, &[]), work);
+    }
+
+    /// The same while inputs move with these first and second derivatives.
+    pub fn dynamics_moving(
+        &mut self,
+        system: &System<D>,
+        state: &State,
+        (inputs, slopes): (&[f64], &[[f64; 2]]),
+        work: &mut Work<D>,
+    ) {
+        self.set_inputs(inputs, slopes);
         let mut a = std::mem::take(&mut work.a);
-        let mut model = Model::new(system, inputs, work, state);
+        let mut model = Model::new(system, inputs, work, state).moving(slopes);
         model.accelerate(state.time, &state.coordinates, &state.rates, &mut a);
         system.supply(&a, work);
         work.a = a;
