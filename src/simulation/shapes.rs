@@ -6,7 +6,7 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::{Error, Quantity, Simulation};
 use crate::body::{Marker, Node, axes_at, combined};
-use crate::math::space::{Vector, components};
+use crate::math::space::{Vector, components, spins};
 use crate::scene::{Along, Assembled, HolderId};
 use crate::system::{CableChain, State, System};
 
@@ -70,6 +70,39 @@ impl Simulation {
             for (axis, part) in force.iter_mut().enumerate().take(self.scene.dimension) {
                 let quantity = Quantity::Reaction(holder, axis, Along::Global);
                 *part = engine.output(quantity, &self.state, &self.inputs);
+            }
+        }
+        Ok(force)
+    }
+
+    /// The moment (N m) of a joint or motion on its second end now, in global components, whether it is an output or not; in the plane the
+    /// third alone.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn reaction_moment(&mut self, holder: HolderId) -> Result<[f64; 3], Error> {
+        self.refresh()?;
+        let mut moment = [0.0; 3];
+        if let Some(engine) = &mut self.engine {
+            for axis in spins(self.scene.dimension) {
+                let quantity = Quantity::ReactionMoment(holder, axis, Along::Global);
+                moment[axis] = engine.output(quantity, &self.state, &self.inputs);
+            }
+        }
+        Ok(moment)
+    }
+
+    /// The force (N) of a spring on its second end now, in global components, by its place among the loads; of one about the axis of a joint
+    /// the moment (N m) about that, first.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn pull(&mut self, load: usize) -> Result<[f64; 3], Error> {
+        self.refresh()?;
+        let mut force = [0.0; 3];
+        if let Some(engine) = &mut self.engine {
+            for (axis, part) in force.iter_mut().enumerate().take(self.scene.dimension) {
+                *part = engine.output(Quantity::Pull(load, axis), &self.state, &self.inputs);
             }
         }
         Ok(force)

@@ -54,6 +54,8 @@ pub struct Assembled<const D: usize = 2> {
     stances: Vec<Quaternion>,
     /// For every coupling, its place among the loads of the system.
     couplings: Vec<usize>,
+    /// Place there of the first load of the scene: springs of hinges come before.
+    first_load: usize,
     /// Points of sections whose stress is read.
     points: Vec<SectionPoint>,
 }
@@ -105,6 +107,11 @@ impl<const D: usize> Assembled<D> {
         &self.points[id.index()]
     }
 
+    /// Place among the loads of the system of a load of the scene, by its place there.
+    pub fn load(&self, place: usize) -> usize {
+        self.first_load + place
+    }
+
     /// Place among the loads of the system of a coupling.
     pub fn coupling(&self, id: CouplingId) -> usize {
         self.couplings[id.index()]
@@ -145,6 +152,7 @@ impl Resolved<'_> {
         builder.joints();
         builder.gears();
         builder.motions();
+        let first_load = builder.parts.loads.len();
         builder.loads()?;
         builder.inputs();
         builder.ports();
@@ -165,6 +173,7 @@ impl Resolved<'_> {
             frames,
             centers,
             couplings: builder.couplings,
+            first_load,
         })
     }
 

@@ -230,6 +230,29 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
     }
 
+    /// Force (N) of a spring on its second end; of one about an axis of a joint the moment (N m) about it, first.
+    pub fn pull(&self, system: &System<D>, load: usize) -> Vector<D, N> {
+        let (load, at) = (&system.loads[load], self.instant(system));
+        let about = |moment: N| {
+            let mut first = Vector::zeros();
+            first[0] = moment;
+            first
+        };
+        match load {
+            Load::JointSpring(spring) if spring.coordinate.is_angle() => about(spring.force(at)),
+            Load::Stop(stop) if stop.coordinate.is_angle() => about(stop.force(at)),
+            _ => {
+                let (mut sum, second) = (Vector::zeros(), load.ends().last().map(End::lift));
+                load.act(at, |end, [position, _]| {
+                    if Some(end) == second.as_ref() {
+                        sum += position;
+                    }
+                });
+                sum
+            }
+        }
+    }
+
     pub(in crate::system) fn instant<'a>(&'a self, system: &'a System<D>) -> Instant<'a, D, N> {
         Instant {
             time: self.time,
