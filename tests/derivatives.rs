@@ -377,3 +377,45 @@ fn a_prescribed_acceleration_acts_on_its_reaction_at_once() {
     let rate = ball.output_derivative(force, 1).expect("an output");
     assert!((rate - 4.0).abs() < 1e-10, "{rate}");
 }
+
+/// Water that is accelerated takes along what it displaces, as the master says in the next step and as outputs have it at once.
+#[test]
+fn a_current_whose_rate_the_master_gives_pushes() {
+    let text = r#"{ "name": "bar_in_current", "dimension": 2, "accuracy": { "relative_tolerance": 1e-10 },
+      "bodies": [ { "name": "bar", "element": "cable", "elements": 2, "material": { "youngs_modulus": 1e6, "density": 1500 },
+                    "section": { "shape": { "circle": { "radius": 0.02 } } },
+                    "shape": { "line": { "from": [0, 0], "to": [1, 0] } }, "markers": { "end": 1 } } ],
+      "loads": [ { "name": "sea", "kind": "fluid", "body": "bar", "density": 1000, "added_mass": 0.8 } ],
+      "inputs": [ { "kind": "current", "load": "sea" } ],
+      "outputs": [ { "kind": "velocity", "marker": "bar.end" }, { "kind": "acceleration", "marker": "bar.end" } ] }"#;
+    let mut simulation = Simulation::new(Scene::from_json(text).expect("a valid scene"));
+    simulation.initialize(0.0).expect("an initial state");
+    simulation.start().expect("a start");
+    let [current, speed, kick] = [
+        "sea.current[2]",
+        "bar.end.velocity[2]",
+        "bar.end.acceleration[2]",
+    ]
+    .map(|name| index(&simulation, name));
+    let get = |simulation: &mut Simulation, at: usize| simulation.real(at).expect("a variable");
+    assert_eq!(get(&mut simulation, kick), 0.0);
+    // Mass of the water per mass of what moves.
+    let (ratio, rate, second, h) = (1.8 / (1.5 + 0.8), 0.6, -0.9, 0.4);
+    for (order, slope) in [(1, rate), (2, second)] {
+        let set = simulation.set_input_derivative(current, order, slope);
+        set.expect("an input");
+    }
+    let at_once = get(&mut simulation, kick);
+    assert!((at_once - ratio * rate).abs() < 1e-9, "{at_once}");
+    simulation.step(h).expect("a step");
+    let water = h * (rate + 0.5 * h * second);
+    let found = [current, speed, kick].map(|at| get(&mut simulation, at));
+    let wanted = [water, ratio * water, ratio * (rate + h * second)];
+    for (found, wanted) in found.into_iter().zip(wanted) {
+        assert!((found - wanted).abs() < 1e-9, "{found} {wanted}");
+    }
+    // It goes on as it was left, in water that no longer speeds up.
+    simulation.step(2.0 * h).expect("a step");
+    let found = [speed, kick].map(|at| get(&mut simulation, at));
+    assert!((found[0] - ratio * water).abs() < 1e-9 && found[1].abs() < 1e-9);
+}

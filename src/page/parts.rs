@@ -3,10 +3,10 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    Ends, Gear, Hold, Joint, JointCoordinate, Load, LoadKind, Motion, MotionKind, Port, PortKind,
-    Scene, Turning, Value,
+    Ends, Fluid, Gear, Hold, Joint, JointCoordinate, Load, LoadKind, Motion, MotionKind, Port,
+    PortKind, Scene, Turning, Value,
 };
-use crate::system::Drive;
+use crate::system::{Drive, Signal};
 
 /// Tables of the parts of a scene; nothing for what it has none of.
 pub(super) fn parts(scene: &Scene) -> String {
@@ -262,8 +262,39 @@ fn load_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) 
                 size,
             )
         }
+        LoadKind::Fluid(fluid) => (
+            "fluid".into(),
+            code(&fluid.on.body.name),
+            fluid_in_words(fluid),
+        ),
         _ => spring_in_words(load),
     }
+}
+
+fn fluid_in_words(fluid: &Fluid<'_>) -> String {
+    let is_input = fluid
+        .current
+        .iter()
+        .any(|of| matches!(of, Signal::Input(_)));
+    let current = match (is_input, fluid.given) {
+        (true, _) => "current: input".into(),
+        (false, []) => "at rest".into(),
+        (false, given) => format!("current ({}) m/s", values(given)),
+    };
+    let [across, along] = fluid.drag;
+    let coefficients = [
+        ("drag", across),
+        ("drag along the line", along),
+        ("added mass", fluid.added_mass),
+    ];
+    let coefficients = coefficients.map(|(what, of)| format!(", {what} {}", number(of)));
+    let lengths = given(", diameter", fluid.diameter, "m") + &given(", area", fluid.area, "m2");
+    let lifts = if fluid.buoyancy { "" } else { ", no buoyancy" };
+    let density = number(fluid.density);
+    format!(
+        "{density} kg/m3, {current}{}{lengths}{lifts}",
+        coefficients.concat()
+    )
 }
 
 /// The same of springs, dampers and stops of joints.
@@ -306,7 +337,7 @@ fn spring_in_words(load: &Load<'_>) -> (String, String, String) {
                 sizes.collect::<Vec<_>>().join(", "),
             )
         }
-        LoadKind::Action { .. } | LoadKind::Spring(_) => Default::default(),
+        LoadKind::Action { .. } | LoadKind::Spring(_) | LoadKind::Fluid(_) => Default::default(),
     }
 }
 

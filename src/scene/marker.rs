@@ -311,14 +311,14 @@ impl<'a> Joint<'a> {
     }
 
     /// Whether it holds the direction of what it joins.
-    pub(super) fn holds_direction(&self) -> bool {
+    pub fn holds_direction(&self) -> bool {
         self.holds
             .iter()
             .any(|hold| matches!(hold, Hold::Direction(_) | Hold::Axis(_) | Hold::Across(..)))
     }
 
     /// Whether it holds a position or a distance.
-    pub(in crate::scene) fn holds_position(&self) -> bool {
+    pub fn holds_position(&self) -> bool {
         let is_position = |hold: &Hold| {
             use Hold::{Across, Axis, Direction, Spring};
             !matches!(hold, Direction(_) | Axis(_) | Across(..) | Spring { .. })

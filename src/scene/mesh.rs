@@ -77,7 +77,7 @@ impl<'a> Resolved<'a> {
         }
         actions.extend(self.inputs.iter().filter_map(|input| match &input.kind {
             InputKind::Action(action) => Some(action),
-            InputKind::RestLength(_) | InputKind::Release(_) => None,
+            InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
         }));
         found.extend(actions.into_iter().filter_map(|action| match action.on {
             On::Marker(marker) => Some(marker),

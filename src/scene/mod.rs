@@ -29,7 +29,7 @@ pub use description::{
 pub use elements::Chosen;
 pub use resolved::{
     Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First,
-    Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
+    Fluid, Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
     LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output, Pivot, Place, PointId,
     Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider, Spring, Turning,
 };

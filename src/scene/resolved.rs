@@ -9,7 +9,7 @@ use super::description::{
     Along, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
 };
 use crate::system::{Drive, Release};
-pub use loads::{Action, Bushing, Load, LoadKind, On, Spring};
+pub use loads::{Action, Bushing, Fluid, Load, LoadKind, On, Spring};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
 macro_rules! numbers {
@@ -315,6 +315,8 @@ pub enum InputKind<'a> {
     RestLength(&'a str),
     /// Whether the joint of this name lets go.
     Release(&'a str),
+    /// Velocity of the fluid of this name, m/s.
+    Current(&'a str),
 }
 
 /// A joint or a motion that reacts.

@@ -59,6 +59,10 @@ impl Scene {
                 let path = place(format!("loads[{i}].value"), values.len(), k);
                 add(path, &load.name, value, 0);
             }
+            for (k, value) in load.current.iter().flatten().enumerate() {
+                // The fluid pushes as it is accelerated.
+                add(format!("loads[{i}].current[{k}]"), &load.name, value, 1);
+            }
             if let Some(length) = &load.length {
                 // The rate at which a rest length changes does work.
                 add(format!("loads[{i}].length"), &load.name, length, 1);

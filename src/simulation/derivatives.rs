@@ -22,7 +22,7 @@ impl Simulation {
             self.inputs.slopes[place][order as usize - 1] = value;
         }
         if let Some(engine) = &mut self.engine {
-            engine.inputs_changed(&self.inputs.values);
+            engine.inputs_changed(&self.inputs);
         }
         Ok(())
     }
@@ -113,7 +113,7 @@ impl Simulation {
         })?;
         self.refresh()?;
         if let Some(engine) = &mut self.engine {
-            engine.differentiate(&self.state, &self.inputs.values, &self.direction);
+            engine.differentiate(&self.state, &self.inputs, &self.direction);
         }
         Ok(())
     }

@@ -35,7 +35,7 @@ macro_rules! handed_on {
 }
 
 handed_on! {
-    fn initial_state([&mut] self, time: f64, inputs: &[f64]) -> Result<(State, Spectra), Error>;
+    fn initial_state([&mut] self, time: f64, inputs: &Inputs) -> Result<(State, Spectra), Error>;
     fn remarks([&] self) -> &Remarks;
     fn redundant([&mut] self, state: &State) -> Redundant;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
@@ -46,14 +46,14 @@ handed_on! {
     fn next_unresolved([&mut] self) -> Option<Unresolved<'_>>;
     fn fits([&] self, state: &State) -> bool;
     fn forget([&mut] self);
-    fn inputs_changed([&mut] self, inputs: &[f64]);
-    fn output([&mut] self, quantity: Quantity, state: &State, inputs: &[f64]) -> f64;
+    fn inputs_changed([&mut] self, inputs: &Inputs);
+    fn output([&mut] self, quantity: Quantity, state: &State, inputs: &Inputs) -> f64;
     fn derivative([&mut] self, of: Quantity, order: usize, state: &State, inputs: &Inputs) -> f64;
-    fn differentiate([&mut] self, state: &State, inputs: &[f64], direction: &[f64]);
+    fn differentiate([&mut] self, state: &State, inputs: &Inputs, direction: &[f64]);
     fn change([&mut] self, quantity: Quantity, state: &State) -> f64;
-    fn markers([&mut] self, state: &State, inputs: &[f64]) -> Vec<[f64; 3]>;
-    fn outlines([&mut] self, state: &State, inputs: &[f64], parts: &dyn Fn(usize) -> u32) -> Outlines;
-    fn poses([&mut] self, state: &State, inputs: &[f64]) -> Vec<Pose>;
+    fn markers([&mut] self, state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
+    fn outlines([&mut] self, state: &State, inputs: &Inputs, parts: &dyn Fn(usize) -> u32) -> Outlines;
+    fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
 }
 
 impl AnyEngine {

@@ -94,7 +94,7 @@ impl<const D: usize> Engine<D> {
         let blank = system.blank_state(0.0);
         let reached = state.as_ref().unwrap_or(&blank);
         evaluation.kinematics(system, reached, &mut work);
-        evaluation.set_inputs(&inputs);
+        evaluation.set_inputs(&inputs, &[]);
         let start = method::Start {
             system,
             state: reached,
@@ -136,8 +136,9 @@ impl<const D: usize> Engine<D> {
     pub(super) fn initial_state(
         &mut self,
         time: f64,
-        inputs: &[f64],
+        inputs: &Inputs,
     ) -> Result<(State, Spectra), Error> {
+        let values = &inputs.values;
         let Assembled {
             system,
             nodes,
@@ -145,12 +146,12 @@ impl<const D: usize> Engine<D> {
             motions,
             ..
         } = &self.assembled;
-        let misfits = system.misfits((time, inputs), nodes, MISFIT, &mut self.work);
+        let misfits = system.misfits((time, values), nodes, MISFIT, &mut self.work);
         self.remarks = Remarks::default();
         let described = (&nodes[..], &rates[..]);
         let state = match self.start.take() {
-            Some((start, state)) if time == 0.0 && start == inputs => Ok(state),
-            _ => system.initial_state(time, inputs, described, &mut self.work),
+            Some((start, state)) if time == 0.0 && start == *values => Ok(state),
+            _ => system.initial_state(time, values, described, &mut self.work),
         };
         let mut state = state.map_err(|error| Error::NotAssembled(self.open_joints(&error)))?;
         if let Some(which) = system.overbent(&system.nodes_of(&state, &mut self.work)) {
@@ -161,15 +162,14 @@ impl<const D: usize> Engine<D> {
             _ => None,
         };
         if self.initial != InitialState::AsShaped {
-            let turning = steady.and_then(|steady| steady.turning());
-            let found = equilibrium::find(system, inputs, &mut self.work, &mut state, turning);
+            let found = equilibrium::find(system, values, &mut self.work, &mut state, steady);
             let found = found.map_err(|error| self.unsettled(error))?;
             self.remarks.is_unstable = !found.is_stable;
             if steady.is_some() || !motions.is_none() {
                 let x = system.nodes_of(&state, &mut self.work);
                 let rates =
                     steady.map_or_else(|| motions.rates(&x), |steady| system.field(&steady, &x));
-                if !system.start_moving(&rates, inputs, &mut self.work, &mut state) {
+                if !system.start_moving(&rates, values, &mut self.work, &mut state) {
                     let gaps = Vec::new();
                     return Err(Error::NotAssembled(
                         self.open_joints(&NotAssembled { gaps }),
@@ -182,7 +182,7 @@ impl<const D: usize> Engine<D> {
         if !misfits.is_empty() {
             self.remarks.misfits = Some(self.gaps(&misfits));
         }
-        let spectra = self.spectra(inputs, &state)?;
+        let spectra = self.spectra(values, &state)?;
         self.forget();
         state.work[0] -= self.set_energy(&state, inputs);
         self.forget();
@@ -272,7 +272,7 @@ impl<const D: usize> Engine<D> {
         until: f64,
     ) -> (Report, Result<(), StepFailure>) {
         self.forget();
-        state.work[0] += self.set_energy(state, &inputs.values);
+        state.work[0] += self.set_energy(state, inputs);
         let (system, start) = (&self.assembled.system, state.time);
         let model = Model::new(system, &inputs.values, &mut self.work, state);
         let model = model.limited(self.most_work);
@@ -284,11 +284,11 @@ impl<const D: usize> Engine<D> {
         inputs.advance(state.time - start);
         self.forget();
         if result.is_ok() && counts.steps > 0 {
-            self.watch(state, &inputs.values, counts.steps, state.time - start);
+            self.watch(state, inputs, counts.steps, state.time - start);
         }
-        state.work[0] -= self.set_energy(state, &inputs.values);
+        state.work[0] -= self.set_energy(state, inputs);
         self.forget();
-        self.watch_mesh(state, &inputs.values);
+        self.watch_mesh(state, inputs);
         let report = Report {
             method: self.methods.name(&state.pace),
             steps: counts.steps,
@@ -305,7 +305,7 @@ impl<const D: usize> Engine<D> {
 
     /// Energy in springs whose length or end inputs may set. Between steps the work in a state is short of it,
     /// so that the work of an input that jumps is counted by the energy it leaves behind.
-    fn set_energy(&mut self, state: &State, inputs: &[f64]) -> f64 {
+    fn set_energy(&mut self, state: &State, inputs: &Inputs) -> f64 {
         if !self.sets_springs {
             return 0.0;
         }
@@ -325,14 +325,14 @@ impl<const D: usize> Engine<D> {
     }
 
     /// The inputs have changed: positions and velocities stand.
-    pub(super) fn inputs_changed(&mut self, inputs: &[f64]) {
-        self.evaluation.set_inputs(inputs);
+    pub(super) fn inputs_changed(&mut self, inputs: &Inputs) {
+        self.evaluation.set_inputs(&inputs.values, &inputs.slopes);
         self.evaluated = self.evaluated.min(Evaluated::Kinematics);
         self.derived = Derived::Nothing;
     }
 
     /// Value of an output; computes only what it needs and has not computed yet.
-    pub(super) fn output(&mut self, quantity: Quantity, state: &State, inputs: &[f64]) -> f64 {
+    pub(super) fn output(&mut self, quantity: Quantity, state: &State, inputs: &Inputs) -> f64 {
         self.evaluate(needs(quantity), state, inputs);
         let mut work = state.work;
         if quantity == Quantity::Input {
@@ -342,7 +342,7 @@ impl<const D: usize> Engine<D> {
     }
 
     /// The system, and its nodes in a state.
-    pub(super) fn nodes(&mut self, state: &State, inputs: &[f64]) -> (&Assembled<D>, &[Node<D>]) {
+    pub(super) fn nodes(&mut self, state: &State, inputs: &Inputs) -> (&Assembled<D>, &[Node<D>]) {
         self.evaluate(Evaluated::Kinematics, state, inputs);
         (&self.assembled, &self.evaluation.x)
     }
@@ -356,7 +356,7 @@ impl<const D: usize> Engine<D> {
         inputs: &Inputs,
     ) -> f64 {
         if self.derived < Derived::Time(order) || self.derived == Derived::Inputs {
-            self.prepare(state, &inputs.values);
+            self.prepare(state, inputs);
             let (system, plain) = (&self.assembled.system, &self.evaluation);
             if let Some(derivatives) = &mut self.derivatives {
                 let (at, slopes) = ((plain, state), &inputs.slopes);
@@ -379,7 +379,7 @@ impl<const D: usize> Engine<D> {
     }
 
     /// Prepares [`Self::change`] of outputs with inputs along a direction.
-    pub(super) fn differentiate(&mut self, state: &State, inputs: &[f64], direction: &[f64]) {
+    pub(super) fn differentiate(&mut self, state: &State, inputs: &Inputs, direction: &[f64]) {
         self.prepare(state, inputs);
         let (system, plain) = (&self.assembled.system, &self.evaluation);
         if let Some(derivatives) = &mut self.derivatives {
@@ -408,7 +408,7 @@ impl<const D: usize> Engine<D> {
     }
 
     /// Evaluates state and inputs anew: derivatives start from the scratch that this leaves behind.
-    fn prepare(&mut self, state: &State, inputs: &[f64]) {
+    fn prepare(&mut self, state: &State, inputs: &Inputs) {
         self.forget();
         self.evaluate(Evaluated::Dynamics, state, inputs);
         if self.derivatives.is_none() {
@@ -435,16 +435,17 @@ impl<const D: usize> Engine<D> {
         value(quantity, values, assembled, work)
     }
 
-    fn evaluate(&mut self, needs: Evaluated, state: &State, inputs: &[f64]) {
+    fn evaluate(&mut self, needs: Evaluated, state: &State, inputs: &Inputs) {
         let system = &self.assembled.system;
         if needs >= Evaluated::Kinematics && self.evaluated < Evaluated::Kinematics {
-            self.evaluation.set_inputs(inputs);
+            self.evaluation.set_inputs(&inputs.values, &inputs.slopes);
             self.evaluation.kinematics(system, state, &mut self.work);
             self.evaluated = Evaluated::Kinematics;
         }
         if needs > self.evaluated {
+            let inputs = (&inputs.values[..], &inputs.slopes[..]);
             self.evaluation
-                .dynamics(system, state, inputs, &mut self.work);
+                .dynamics_moving(system, state, inputs, &mut self.work);
             self.evaluated = needs;
         }
     }

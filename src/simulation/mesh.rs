@@ -1,6 +1,7 @@
 //! Meshes that do not carry the shapes that cables have: what is read of it, and told once.
 
 use super::engine::Engine;
+use super::inputs::Inputs;
 use super::{Quantity, Source, Variable};
 use crate::math::jet::Number;
 use crate::scene::Assembled;
@@ -74,7 +75,7 @@ impl std::fmt::Display for Unresolved<'_> {
 
 impl<const D: usize> Engine<D> {
     /// Looks at the meshes at a communication point until they are first too coarse.
-    pub(super) fn watch_mesh(&mut self, state: &State, inputs: &[f64]) {
+    pub(super) fn watch_mesh(&mut self, state: &State, inputs: &Inputs) {
         if !self.mesh.is_read || self.mesh.found.is_some() {
             return;
         }

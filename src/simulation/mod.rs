@@ -264,7 +264,7 @@ impl Simulation {
                 let value = self
                     .engine
                     .as_mut()
-                    .map(|engine| engine.output(quantity, &self.state, &self.inputs.values));
+                    .map(|engine| engine.output(quantity, &self.state, &self.inputs));
                 Ok(value.unwrap_or(0.0))
             }
         }
@@ -296,7 +296,7 @@ impl Simulation {
         let resolved = scene.resolve()?;
         finite_at(&scene.timed(), start_time)?;
         let mut engine = AnyEngine::new(&resolved, &self.variables)?;
-        let (state, spectra) = engine.initial_state(start_time, &self.inputs.values)?;
+        let (state, spectra) = engine.initial_state(start_time, &self.inputs)?;
         (self.engine, self.state, self.spectra) = (Some(engine), state, spectra);
         self.current = true;
         Ok(())
@@ -371,7 +371,7 @@ impl Simulation {
                 self.values[index] = value;
                 self.inputs.values[place] = value;
                 if let Some(engine) = &mut self.engine {
-                    engine.inputs_changed(&self.inputs.values);
+                    engine.inputs_changed(&self.inputs);
                 }
             }
             Source::Parameter(_) if self.started => {

@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 
 use super::engine::Engine;
+use super::inputs::Inputs;
 use super::{Error, Quantity, Simulation};
 use crate::body::{Marker, Node, axes_at, combined};
-use crate::math::space::{Vector, components};
+use crate::math::space::{Vector, components, spins};
 use crate::scene::{Along, Assembled, HolderId};
 use crate::system::{CableChain, State, System};
 
@@ -29,7 +30,7 @@ impl Simulation {
     pub fn markers(&mut self) -> Result<Vec<[f64; 3]>, Error> {
         self.refresh()?;
         let engine = self.engine.as_mut();
-        let markers = engine.map(|engine| engine.markers(&self.state, &self.inputs.values));
+        let markers = engine.map(|engine| engine.markers(&self.state, &self.inputs));
         Ok(markers.unwrap_or_default())
     }
 
@@ -41,7 +42,7 @@ impl Simulation {
     pub fn outlines(&mut self, parts: impl Fn(usize) -> u32) -> Result<Vec<Vec<[f64; 3]>>, Error> {
         self.refresh()?;
         let engine = self.engine.as_mut();
-        let inputs = &self.inputs.values;
+        let inputs = &self.inputs;
         let outlines = engine.map(|engine| engine.outlines(&self.state, inputs, &parts));
         Ok(outlines.unwrap_or_default())
     }
@@ -53,7 +54,7 @@ impl Simulation {
     pub fn poses(&mut self) -> Result<Vec<Pose>, Error> {
         self.refresh()?;
         let engine = self.engine.as_mut();
-        let poses = engine.map(|engine| engine.poses(&self.state, &self.inputs.values));
+        let poses = engine.map(|engine| engine.poses(&self.state, &self.inputs));
         Ok(poses.unwrap_or_default())
     }
 
@@ -68,7 +69,40 @@ impl Simulation {
         if let Some(engine) = &mut self.engine {
             for (axis, part) in force.iter_mut().enumerate().take(self.scene.dimension) {
                 let quantity = Quantity::Reaction(holder, axis, Along::Global);
-                *part = engine.output(quantity, &self.state, &self.inputs.values);
+                *part = engine.output(quantity, &self.state, &self.inputs);
+            }
+        }
+        Ok(force)
+    }
+
+    /// The moment (N m) of a joint or motion on its second end now, in global components, whether it is an output or not; in the plane the
+    /// third alone.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn reaction_moment(&mut self, holder: HolderId) -> Result<[f64; 3], Error> {
+        self.refresh()?;
+        let mut moment = [0.0; 3];
+        if let Some(engine) = &mut self.engine {
+            for axis in spins(self.scene.dimension) {
+                let quantity = Quantity::ReactionMoment(holder, axis, Along::Global);
+                moment[axis] = engine.output(quantity, &self.state, &self.inputs);
+            }
+        }
+        Ok(moment)
+    }
+
+    /// The force (N) of a spring on its second end now, in global components, by its place among the loads; of one about the axis of a joint
+    /// the moment (N m) about that, first.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn pull(&mut self, load: usize) -> Result<[f64; 3], Error> {
+        self.refresh()?;
+        let mut force = [0.0; 3];
+        if let Some(engine) = &mut self.engine {
+            for (axis, part) in force.iter_mut().enumerate().take(self.scene.dimension) {
+                *part = engine.output(Quantity::Pull(load, axis), &self.state, &self.inputs);
             }
         }
         Ok(force)
@@ -82,7 +116,7 @@ impl Simulation {
 
 impl<const D: usize> Engine<D> {
     /// Where all markers are.
-    pub(super) fn markers(&mut self, state: &State, inputs: &[f64]) -> Vec<[f64; 3]> {
+    pub(super) fn markers(&mut self, state: &State, inputs: &Inputs) -> Vec<[f64; 3]> {
         let (assembled, x) = self.nodes(state, inputs);
         let markers = assembled.markers().iter();
         markers
@@ -94,7 +128,7 @@ impl<const D: usize> Engine<D> {
     pub(super) fn outlines(
         &mut self,
         state: &State,
-        inputs: &[f64],
+        inputs: &Inputs,
         parts: &dyn Fn(usize) -> u32,
     ) -> Vec<Vec<[f64; 3]>> {
         let (assembled, x) = self.nodes(state, inputs);
@@ -102,7 +136,7 @@ impl<const D: usize> Engine<D> {
     }
 
     /// How all bodies stand.
-    pub(super) fn poses(&mut self, state: &State, inputs: &[f64]) -> Vec<Pose> {
+    pub(super) fn poses(&mut self, state: &State, inputs: &Inputs) -> Vec<Pose> {
         let (assembled, x) = self.nodes(state, inputs);
         let bodies = assembled.system.bodies().iter().enumerate();
         bodies

@@ -7,6 +7,7 @@
 //! ones do, by their squares.
 
 use super::engine::Engine;
+use super::inputs::Inputs;
 use super::quantities::{Quantity, Scale, natural};
 use crate::integrators::Tolerance;
 use crate::math::vector::norm;
@@ -131,14 +132,15 @@ impl Watch {
 
 impl<const D: usize> Engine<D> {
     /// Samples what the errors of the last step do to outputs that magnify them.
-    pub(super) fn watch(&mut self, state: &State, inputs: &[f64], steps: u64, time: f64) {
+    pub(super) fn watch(&mut self, state: &State, inputs: &Inputs, steps: u64, time: f64) {
         let mut watch = std::mem::take(&mut self.watch);
         if watch.is_due(steps, time) {
             watch.take(|quantity| self.output(quantity, state, inputs));
             let shifted = &mut watch.shifted;
             shifted.copy_from(state);
             let system = &self.assembled.system;
-            let mut model = Model::new(system, inputs, &mut self.work, state);
+            let model = Model::new(system, &inputs.values, &mut self.work, state);
+            let mut model = model.moving(&inputs.slopes);
             let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
             let at = (state.time, &state.coordinates[..], &state.rates[..]);
             let within = state.dense.is_under_way().then_some(&state.dense);

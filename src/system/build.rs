@@ -33,8 +33,17 @@ pub struct LumpedMass {
     pub marker: Marker,
     /// Mass, kg.
     pub mass: f64,
+    /// Mass of the fluid that moves along, kg: it has inertia and no weight.
+    pub added: f64,
     /// Inertia of the direction against turning (and of a slope against stretching), kg m^2.
     pub inertia: f64,
+}
+
+impl LumpedMass {
+    /// Mass that is moved, kg.
+    pub fn moved(&self) -> f64 {
+        self.mass + self.added
+    }
 }
 
 /// What a system is made of.

@@ -299,7 +299,7 @@ impl<const D: usize> System<D> {
             chain.add_inertia(s, a, f);
         }
         for lump in &self.lumped_masses {
-            let at: Vector<D> = lump.marker.position(a) * (s * lump.mass);
+            let at: Vector<D> = lump.marker.position(a) * (s * lump.moved());
             let on = lump.marker.direction(a) * (s * lump.inertia);
             lump.marker.add_force(at, on, f);
         }

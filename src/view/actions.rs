@@ -1,7 +1,11 @@
-//! What acts, to be drawn as arrows: loads, inputs, and the forces of joints and motions.
+//! What acts, to be drawn as arrows: loads, inputs, springs, currents of fluids, and the forces and moments of joints and motions.
 
 use crate::math::function::Function;
-use crate::scene::{self, HolderId, Input, InputKind, LoadKind, MarkerId, On, PortKind, Resolved};
+use crate::math::space::spins;
+use crate::scene::{
+    self, HolderId, Input, InputKind, JointCoordinate, LoadKind, MarkerId, MotionKind, On,
+    PortKind, Resolved,
+};
 use crate::simulation::{Error, Simulation};
 use crate::system::Signal;
 
@@ -38,8 +42,12 @@ pub(super) enum Where {
 
 /// What its components follow from.
 enum Origin<'a> {
-    Action(&'a scene::Action<'a>),
+    /// Its components, and expressions of those that change along a body.
+    Components(&'a [Signal], &'a [(usize, &'a str)]),
     Reaction(HolderId),
+    ReactionMoment(HolderId),
+    /// A spring or a stop, by its place among the loads.
+    Spring(usize),
 }
 
 /// Everything that acts in a scene.
@@ -51,7 +59,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
     });
     let of_input = |input: &'a Input<'a>, name: Option<&'a str>| match &input.kind {
         InputKind::Action(action) => Some((name.unwrap_or(action.kind.words()[0]), action)),
-        InputKind::RestLength(_) | InputKind::Release(_) => None,
+        InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
     };
     let inputs = resolved.inputs.iter();
     let inputs = inputs.filter_map(|input| of_input(input, None));
@@ -64,21 +72,96 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
     });
     let known = loads.chain(inputs).chain(ports);
     let known = known.map(|(name, action)| of_action(name, action, dimension));
-    let joints = resolved.joints.iter();
-    let joints = joints.map(|joint| (joint.name, joint.holder, joint.ends.second.id));
-    let motions = resolved.motions.iter();
-    let motions = motions.map(|motion| (motion.name, motion.holder, motion.kind.marker().id));
-    let reactions = joints.chain(motions);
-    let reactions = reactions.map(|(name, holder, marker)| Action {
+    let fluids = resolved.loads.iter().filter_map(|load| match &load.kind {
+        LoadKind::Fluid(fluid) => Some(of_fluid(load.name, fluid)),
+        _ => None,
+    });
+    let springs = resolved.loads.iter().enumerate();
+    let springs = springs.filter_map(|(place, load)| of_spring(place, load, dimension));
+    let reactions = reactions(resolved);
+    (known.chain(fluids))
+        .chain(springs)
+        .chain(reactions)
+        .collect()
+}
+
+/// Forces and moments of joints and motions, those that they may have.
+fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = Action<'a>> {
+    let dimension = resolved.scene.dimension;
+    let joints = resolved.joints.iter().map(|joint| {
+        let holds = [
+            joint.holds_position(),
+            joint.holds_direction() || joint.spring().is_some(),
+        ];
+        (joint.name, joint.holder, joint.ends.second.id, holds)
+    });
+    let motions = resolved.motions.iter().map(|motion| {
+        let turns = matches!(
+            motion.kind,
+            MotionKind::Angle(..) | MotionKind::Orientation(..)
+        );
+        let marker = motion.kind.marker().id;
+        (motion.name, motion.holder, marker, [!turns, turns])
+    });
+    let of = move |(name, holder, marker, holds): (&'a str, HolderId, MarkerId, [bool; 2])| {
+        let [force, moment] = [false, true].map(|is_moment| Action {
+            name,
+            unit: if is_moment { "N m" } else { "N" },
+            is_moment,
+            follower: false,
+            components: match is_moment {
+                true => spins(dimension).len(),
+                false => dimension,
+            },
+            on: Where::Marker(marker),
+            of: match is_moment {
+                true => Origin::ReactionMoment(holder),
+                false => Origin::Reaction(holder),
+            },
+        });
+        let found = holds.into_iter().zip([force, moment]);
+        found.filter_map(|(is_there, action)| is_there.then_some(action))
+    };
+    joints.chain(motions).flat_map(of)
+}
+
+/// What a spring, a bushing or a stop does to its second end; none of other loads.
+fn of_spring<'a>(place: usize, load: &'a scene::Load<'a>, dimension: usize) -> Option<Action<'a>> {
+    let (on, is_moment) = match &load.kind {
+        LoadKind::Spring(_) | LoadKind::Bushing(_) => {
+            (Where::Marker(load.kind.between()?.second.id), false)
+        }
+        LoadKind::JointSpring { on, .. } | LoadKind::Stop { on, .. } => match on {
+            JointCoordinate::Displacement(slider) => (Where::Marker(slider.ends.second.id), false),
+            JointCoordinate::Angle(pivot) => {
+                let marker = pivot.ends.second.id;
+                (Where::Joint(marker, pivot.joint.index()), true)
+            }
+        },
+        LoadKind::Action { .. } | LoadKind::Fluid(_) => return None,
+    };
+    Some(Action {
+        name: load.name,
+        unit: if is_moment { "N m" } else { "N" },
+        is_moment,
+        follower: false,
+        components: if is_moment { 1 } else { dimension },
+        on,
+        of: Origin::Spring(place),
+    })
+}
+
+/// The current of a fluid.
+fn of_fluid<'a>(name: &'a str, fluid: &'a scene::Fluid<'a>) -> Action<'a> {
+    Action {
         name,
-        unit: "N",
+        unit: "m/s",
         is_moment: false,
         follower: false,
-        components: dimension,
-        on: Where::Marker(marker),
-        of: Origin::Reaction(holder),
-    });
-    known.chain(reactions).collect()
+        components: fluid.current.len(),
+        on: Where::Body(fluid.on.id.body_index()),
+        of: Origin::Components(&fluid.current, &fluid.along),
+    }
 }
 
 fn of_action<'a>(name: &'a str, action: &'a scene::Action<'a>, dimension: usize) -> Action<'a> {
@@ -93,27 +176,34 @@ fn of_action<'a>(name: &'a str, action: &'a scene::Action<'a>, dimension: usize)
             On::Joint(pivot) => Where::Joint(pivot.ends.second.id, pivot.joint.index()),
             On::Cable(cable) => Where::Body(cable.id.body_index()),
         },
-        of: Origin::Action(action),
+        of: Origin::Components(&action.components, &action.along),
     }
 }
 
 impl Action<'_> {
-    /// Whether it is the force of a joint or motion.
+    /// Whether it is a force or moment of a joint or motion.
     pub fn is_reaction(&self) -> bool {
-        matches!(self.of, Origin::Reaction(_))
+        matches!(self.of, Origin::Reaction(_) | Origin::ReactionMoment(_))
     }
 
     /// Its components now, arrow by arrow.
     pub fn values(&self, simulation: &mut Simulation) -> Result<Vec<f64>, Error> {
-        let action = match self.of {
+        let (components, along) = match self.of {
             Origin::Reaction(holder) => {
                 let force = simulation.reaction(holder)?;
                 return Ok(force[..self.components].to_vec());
             }
-            Origin::Action(action) => action,
+            Origin::ReactionMoment(holder) => {
+                let moment = simulation.reaction_moment(holder)?;
+                return Ok(moment[3 - self.components..].to_vec());
+            }
+            Origin::Spring(place) => {
+                return Ok(simulation.pull(place)?[..self.components].to_vec());
+            }
+            Origin::Components(components, along) => (components, along),
         };
         let (time, inputs) = (simulation.time(), simulation.inputs());
-        let same: Vec<f64> = (action.components.iter())
+        let same: Vec<f64> = (components.iter())
             .map(|component| match component {
                 Signal::Function(function) => function.value(time),
                 Signal::Input(place) => inputs[*place],
@@ -126,7 +216,7 @@ impl Action<'_> {
         for arrow in 0..ARROWS {
             let s = (f64::from(arrow) + 0.5) / f64::from(ARROWS);
             let mut at = same.clone();
-            for (axis, text) in &action.along {
+            for (axis, text) in along {
                 let function = Function::along(text, s);
                 at[*axis] = function.map_or(0.0, |function| function.value(time));
             }

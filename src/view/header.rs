@@ -6,8 +6,8 @@ use super::recording::Recording;
 use super::sections::{has_corners, sections};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
 use crate::scene::{
-    BodyReference, Cable, CableBody, Ends, First, Hold, Joint, Marker, Place, PortKind, Resolved,
-    Rigid, Solid, Symbol,
+    BodyReference, Cable, CableBody, Ends, First, Hold, Joint, JointCoordinate, Load, LoadKind,
+    Marker, Place, PortKind, Resolved, Rigid, Solid, Symbol,
 };
 use crate::simulation::Pose;
 
@@ -54,13 +54,19 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
             quoted(load.name)
         ))
     });
+    let stops = resolved.loads.iter().filter_map(of_stop);
+    let gears = resolved.gears.iter().map(|gear| {
+        let joints = gear.coordinates.map(|of| joint_of(&of));
+        format!("{{\"name\":{},\"joints\":{joints:?}}}", quoted(gear.name))
+    });
     let outputs = list(&recording.outputs, |(name, unit)| {
         format!("{{\"name\":{},\"unit\":{}}}", quoted(name), quoted(unit))
     });
     let (tracks, encoded) = numbers.finish();
     let header = format!(
         "{{\"name\":{},\"dimension\":{},\"gravity\":{:?},\"times\":{times},\"row_times\":{row_times},\"table\":{table},\
-         \"bodies\":[{}],\"markers\":{markers},\"joints\":{},\"springs\":{},\"actions\":[{}],\"outputs\":{outputs},\
+         \"bodies\":[{}],\"markers\":{markers},\"joints\":{},\"springs\":{},\
+         \"stops\":{},\"gears\":{},\"actions\":[{}],\"outputs\":{outputs},\
          \"tracks\":[{tracks}]}}",
         quoted(&scene.name),
         scene.dimension,
@@ -68,6 +74,8 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
         bodies.join(","),
         list(joints.chain(motions), |text| text),
         list(springs, |text| text),
+        list(stops, |text| text),
+        list(gears, |text| text),
         acting.join(","),
     );
     (header, encoded)
@@ -228,6 +236,27 @@ fn of_ends(recording: &Recording, ends: &Ends<'_>) -> String {
         First::Cable(_) => format!("{{\"marker\":{second}}}"),
     };
     format!("[{first},{{\"marker\":{second}}}]")
+}
+
+/// Place among the joints of the one that a coordinate belongs to.
+fn joint_of(coordinate: &JointCoordinate<'_>) -> usize {
+    match coordinate {
+        JointCoordinate::Displacement(slider) => slider.joint.index(),
+        JointCoordinate::Angle(pivot) => pivot.joint.index(),
+    }
+}
+
+fn of_stop(load: &Load<'_>) -> Option<String> {
+    let LoadKind::Stop { on, limits, .. } = &load.kind else {
+        return None;
+    };
+    let [lower, upper] = limits.map(|limit| limit.map_or("null".into(), |at| format!("{at:?}")));
+    Some(format!(
+        "{{\"name\":{},\"joint\":{},\"is_angle\":{},\"lower\":{lower},\"upper\":{upper}}}",
+        quoted(load.name),
+        joint_of(on),
+        on.is_angle()
+    ))
 }
 
 fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {

@@ -293,4 +293,41 @@ mod tests {
         };
         assert!((first[1] - 9.81 * (1.0 - 0.25 / 0.35)).abs() < 1e-9 && first[0].abs() < 1e-9);
     }
+
+    #[test]
+    fn what_springs_do_and_moments_of_joints_are_kept() {
+        let text = r#"{ "name": "held", "dimension": 2, "gravity": [0.0, -10.0],
+          "bodies": [
+            { "name": "arm", "element": "rigid", "mass": 2.0, "inertia": 0.1, "position": [0.5, 0.0],
+              "markers": { "root": [-0.5, 0.0] } },
+            { "name": "vane", "element": "rigid", "mass": 1.0, "inertia": 0.1, "position": [3.0, 0.0],
+              "markers": { "axle": [0.0, 0.0] } },
+            { "name": "bead", "element": "rigid", "mass": 1.0, "position": [5.0, 2.0],
+              "markers": { "eye": [0.0, 0.0] } } ],
+          "joints": [ { "name": "wall", "kind": "weld", "markers": ["ground", "arm.root"] },
+                      { "name": "pin", "kind": "revolute", "markers": ["ground", "vane.axle"] },
+                      { "name": "rail", "kind": "slider", "markers": ["ground", "bead.eye"], "direction": [0.0, 1.0] } ],
+          "loads": [ { "name": "rope", "kind": "spring_damper", "markers": ["ground", "bead.eye"], "point": [5.0, 0.0],
+                       "stiffness": 30.0, "length": 1.5 },
+                     { "name": "vane_spring", "kind": "joint_spring", "joint": "pin", "stiffness": 5.0, "rest": 0.2 },
+                     { "name": "buffer", "kind": "stop", "joint": "rail", "stiffness": 8.0, "lower": 0.25 } ],
+          "experiment": { "stop_time": 0.1, "step": 0.1 } }"#;
+        let scene = Scene::from_json(text).expect("a valid scene");
+        let run = Recording::new(&scene, None, &Limits::PAGE, &mut |_, _| ()).expect("a run");
+        // Springs by Hooke's law, stops by how far they are passed; then forces and moments of joints.
+        let expected: [&[f64]; 7] = [
+            &[0.0, -15.0],
+            &[1.0],
+            &[0.0, 2.0],
+            &[0.0, 20.0],
+            &[10.0],
+            &[0.0, 10.0],
+            &[0.0, 0.0],
+        ];
+        assert_eq!(run.acting[0].len(), expected.len());
+        for (found, wanted) in run.acting[0].iter().zip(expected) {
+            let near = found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-9);
+            assert!(near && found.len() == wanted.len(), "{found:?} {wanted:?}");
+        }
+    }
 }

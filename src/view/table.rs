@@ -102,7 +102,7 @@ impl Table {
         let (tracks, encoded) = numbers.finish();
         let header = format!(
             "{{\"name\":{},\"dimension\":{dimension},\"gravity\":[0,0],\"times\":{times},\"row_times\":{times},\"table\":{table},\
-             \"bodies\":[],\"markers\":{markers},\"joints\":[],\"springs\":[],\"actions\":[],\"outputs\":{outputs},\"tracks\":[{tracks}]}}",
+             \"bodies\":[],\"markers\":{markers},\"joints\":[],\"springs\":[],\"stops\":[],\"gears\":[],\"actions\":[],\"outputs\":{outputs},\"tracks\":[{tracks}]}}",
             quoted(title)
         );
         (header, encoded)

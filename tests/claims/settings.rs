@@ -157,6 +157,10 @@ keys! {
     TorsionDamping => "loads", "/damping", "N.m.s/rad";
     StopDamping => "loads", "/damping", "s/m";
     TorsionStopDamping => "loads", "/damping", "s/rad";
+    FluidDensity => "loads", "/density", "kg/m3";
+    Drag => "loads", "/drag", "";
+    TangentialDrag => "loads", "/tangential_drag", "";
+    AddedMass => "loads", "/added_mass", "";
     CouplingStiffness => "ports", "/stiffness", "N/m";
     CouplingDamping => "ports", "/damping", "N.s/m";
     TurningStiffness => "ports", "/rotational_stiffness", "N.m/rad";

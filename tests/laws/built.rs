@@ -147,6 +147,7 @@ impl Mechanism {
             lumped_masses.push(LumpedMass {
                 marker,
                 mass,
+                added: 0.0,
                 inertia,
             });
         }
@@ -156,6 +157,7 @@ impl Mechanism {
             .map(|(place, [mass, inertia])| LumpedMass {
                 marker: self.marker(*place),
                 mass: *mass,
+                added: 0.0,
                 inertia: *inertia,
             });
         lumped_masses.extend(extra);

@@ -15,6 +15,7 @@ mod differences;
 mod driven;
 mod driven_orientation;
 mod elements;
+mod fluids;
 mod frames;
 mod least;
 mod linkage;

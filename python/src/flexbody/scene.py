@@ -211,8 +211,8 @@ class ForceInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -232,8 +232,8 @@ class MomentInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -245,12 +245,12 @@ class TorqueInput(Part):
     kind: Literal["torque"] = "torque"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
+    `torque`: name of the revolute joint or hinge that it acts in.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -266,8 +266,8 @@ class DistributedInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -287,8 +287,8 @@ class DistributedMomentInput(Part):
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -300,29 +300,29 @@ class RestLengthInput(Part):
     kind: Literal["rest_length"] = "rest_length"
     load: StrictStr
     """
-    `rest_length`: name of the spring-damper.
+    `rest_length`: name of the spring-damper; `current`: of the fluid.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
-class ReleaseInput(Part):
+class CurrentInput(Part):
     """
-    Whether a joint lets go: it does, for good, in the first step that begins with more than 0.
+    Velocity of a fluid in global axes, m/s.
     """
 
-    kind: Literal["release"] = "release"
-    joint: StrictStr
+    kind: Literal["current"] = "current"
+    load: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
+    `rest_length`: name of the spring-damper; `current`: of the fluid.
     """
     start: list[StrictFloat] = []
     """
-    Value before the master sets one: the components of a force, one of others; zero by default,
-    for a rest length that of the spring-damper.
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
     """
 
 
@@ -335,7 +335,7 @@ Input = TypeAliasType(
         | DistributedInput
         | DistributedMomentInput
         | RestLengthInput
-        | ReleaseInput,
+        | CurrentInput,
         Field(discriminator="kind"),
     ],
 )
@@ -416,11 +416,6 @@ class OrientationJoint(Part):
     `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
     rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
     """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
 
 
 class AlongJoint(Part):
@@ -437,11 +432,6 @@ class AlongJoint(Part):
     """
     What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
     then `body.marker`.
-    """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1748,11 +1738,6 @@ class Revolute(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
 
 
 class Spherical(Part):
@@ -1773,11 +1758,6 @@ class Spherical(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
-    """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1812,11 +1792,6 @@ class Universal(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
 
 
 class Weld(Part):
@@ -1842,11 +1817,6 @@ class Weld(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
-    """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1877,11 +1847,6 @@ class Slider(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
 
 
 class Cylindrical(Part):
@@ -1910,11 +1875,6 @@ class Cylindrical(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
-    """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1948,11 +1908,6 @@ class Screw(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
-    """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1988,11 +1943,6 @@ class Prismatic(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
 
 
 class Planar(Part):
@@ -2022,11 +1972,6 @@ class Planar(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
 
 
 class Distance(Part):
@@ -2051,11 +1996,6 @@ class Distance(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
-    """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -2095,11 +2035,6 @@ class Hinge(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
-    """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     `hinge` only: stiffness against rotation, N m/rad.
@@ -2129,11 +2064,6 @@ class Generic(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
-    """
-    release_time: StrictFloat | None = None
-    """
-    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
-    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -2193,6 +2123,57 @@ class SpringDamperLoad(Part):
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    """
+
+
+class FluidLoad(Part):
+    """
+    A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
+    and others 1950). The added mass counts in all directions alike.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["fluid"] = "fluid"
+    body: StrictStr
+    """
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    """
+    density: Annotated[StrictFloat, Field(gt=0.0)]
+    """
+    `fluid`: density of the fluid, kg/m^3.
+    """
+    added_mass: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `fluid`: coefficient of added mass, the fluid that moves along by that which is displaced; 0 by default.
+    """
+    area: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    `fluid`: area of the section that displaces fluid, m^2; that of the circle of `diameter` by default.
+    """
+    buoyancy: StrictBool | None = None
+    """
+    `fluid`: whether the weight of the displaced fluid lifts the body; true by default.
+    """
+    current: Annotated[list[Value] | None, Field(max_length=3, min_length=2)] = None
+    """
+    `fluid`: velocity of the fluid in global axes, m/s; zero by default. Its components may be expressions in `s` too, as those of
+    what is distributed along a body.
+    """
+    diameter: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    `fluid`: diameter that drag counts with, m; by default the outer one of a circle or tube, else that of a circle with the area of
+    the section.
+    """
+    drag: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `fluid`: coefficient of drag across the line, by the area `diameter` times length; 0 by default.
+    """
+    tangential_drag: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `fluid`: coefficient of drag along the line, by the area `pi diameter` times length; 0 by default.
     """
 
 
@@ -2683,7 +2664,7 @@ class DistributedLoad(Part):
     kind: Literal["distributed"] = "distributed"
     body: StrictStr
     """
-    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     """
     value: LoadValue
     """
@@ -2706,7 +2687,7 @@ class DistributedMomentLoad(Part):
     kind: Literal["distributed_moment"] = "distributed_moment"
     body: StrictStr
     """
-    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     """
     value: LoadValue
     """
@@ -2732,7 +2713,8 @@ Load = TypeAliasType(
         | SpringDamperLoad
         | JointSpringLoad
         | BushingLoad
-        | StopLoad,
+        | StopLoad
+        | FluidLoad,
         Field(discriminator="kind"),
     ],
 )

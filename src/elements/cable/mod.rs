@@ -179,7 +179,7 @@ impl<const D: usize> Cable<D> {
             (kernel.natural_strain, kernel.natural_curvature) = kernel.strains(&e.data.0);
         }
         Self {
-            mass: mass(&parameters, &taper.density, p.bending_stiffness > 0.0),
+            mass: mass(&parameters, &taper, p.bending_stiffness > 0.0),
             parameters,
             taper,
             kernel,
@@ -195,14 +195,28 @@ impl<const D: usize> Cable<D> {
 
     /// [`Element::weight`] of the part of the element up to `xi` in [0, 1], kg and kg m.
     pub fn weight_before(&self, xi: f64) -> SVector<f64, 4> {
-        let (l, taper) = (self.parameters.length, &self.taper.density);
+        let taper = &self.taper.density;
         if taper.is_uniform() {
-            return shape::integrals(xi, l) * self.mean_density();
+            return shape::integrals(xi, self.parameters.length) * self.mean_density();
         }
+        self.integral_before(xi, |at| self.parameters.line_density * taper.at(at))
+    }
+
+    /// The same of all that is moved, the fluid which moves along among it.
+    pub fn moved_before(&self, xi: f64) -> SVector<f64, 4> {
+        let (parameters, taper) = (&self.parameters, &self.taper);
+        if taper.moves_evenly() {
+            return shape::integrals(xi, parameters.length) * taper.mean_moved(parameters);
+        }
+        self.integral_before(xi, |at| taper.moved(parameters, at))
+    }
+
+    /// Integral of a density times the shape functions up to a place.
+    fn integral_before(&self, xi: f64, density: impl Fn(f64) -> f64) -> SVector<f64, 4> {
+        let l = self.parameters.length;
         let terms = GAUSS_5.iter().map(|point| {
             let at = point.at * xi;
-            let density = self.parameters.line_density * taper.at(at);
-            shape::values(at, l) * (point.weight * xi * l * density)
+            shape::values(at, l) * (point.weight * xi * l * density(at))
         });
         terms.sum()
     }
@@ -275,7 +289,7 @@ impl<const D: usize> Element<D> for Cable<D> {
         }
         let mut element = self.clone();
         (element.kernel.bends, element.kernel.bending_stiffness) = (true, [stiffness; 3]);
-        element.mass = mass(&self.parameters, &self.taper.density, true);
+        element.mass = mass(&self.parameters, &self.taper, true);
         if self.kernel.natural_strain != [0.0; 3] {
             element.kernel.natural_curvature = element.kernel.strains(&shape.data.0).1;
         }

@@ -8,7 +8,8 @@ use super::{Inertia, Parameters};
 use crate::elements::{Along, shape};
 use crate::math::quadrature::GAUSS_5;
 
-/// What the stiffnesses and the mass of [`Parameters`] are multiplied by along an element; one everywhere by default.
+/// What the stiffnesses and the mass of [`Parameters`] are multiplied by along an element, one everywhere by default, and the
+/// mass of a fluid beside them.
 #[derive(Clone, Copy, Debug)]
 pub struct Taper {
     /// Of axial stiffness.
@@ -17,6 +18,8 @@ pub struct Taper {
     pub bending: Along,
     /// Of mass per reference length.
     pub density: Along,
+    /// Mass per reference length of the fluid that moves along, kg/m; none by default. It has inertia and no weight.
+    pub added: Along,
 }
 
 impl Default for Taper {
@@ -26,23 +29,41 @@ impl Default for Taper {
             axial,
             bending,
             density,
+            added: Along::from(0.0),
         }
     }
 }
 
-/// Mass matrix of a cable with or without bending stiffness.
-pub(super) fn mass(parameters: &Parameters, taper: &Along, bends: bool) -> SMatrix<f64, 4, 4> {
+impl Taper {
+    /// Mass per reference length that is moved at `xi` in [0, 1], kg/m: that of the cable and that of the fluid.
+    pub(super) fn moved(&self, parameters: &Parameters, xi: f64) -> f64 {
+        parameters.line_density * self.density.at(xi) + self.added.at(xi)
+    }
+
+    /// Its mean along the element.
+    pub(super) fn mean_moved(&self, parameters: &Parameters) -> f64 {
+        parameters.line_density * self.density.mean() + self.added.mean()
+    }
+
+    /// Whether what is moved is the same everywhere.
+    pub(super) fn moves_evenly(&self) -> bool {
+        self.density.is_uniform() && self.added.is_uniform()
+    }
+}
+
+/// Mass matrix of a cable with or without bending stiffness, that of the fluid which moves along with it.
+pub(super) fn mass(parameters: &Parameters, taper: &Taper, bends: bool) -> SMatrix<f64, 4, 4> {
     let l = parameters.length;
     let (a, b) = (13.0 / 35.0, 9.0 / 70.0);
     let (c, d) = (11.0 * l / 210.0, 13.0 * l / 420.0);
     let (f, g) = (l * l / 105.0, l * l / 140.0);
-    let density = parameters.line_density * taper.mean();
+    let mean = taper.mean_moved(parameters);
     let mut consistent =
         SMatrix::from([[a, c, b, -d], [c, f, d, -g], [b, d, a, -c], [-d, -g, -c, f]]);
-    if !taper.is_uniform() {
+    if !taper.moves_evenly() {
         let terms = GAUSS_5.iter().map(|point| {
             let values = shape::values(point.at, l);
-            let weight = point.weight * taper.at(point.at) / taper.mean();
+            let weight = point.weight * taper.moved(parameters, point.at) / mean;
             values * values.transpose() * weight
         });
         consistent = terms.sum();
@@ -57,5 +78,5 @@ pub(super) fn mass(parameters: &Parameters, taper: &Along, bends: bool) -> SMatr
     let mass = consistent
         + second * second.transpose() * (quadratic / 5.0)
         + third * third.transpose() * (cubic / 7.0);
-    mass * (density * l)
+    mass * (mean * l)
 }

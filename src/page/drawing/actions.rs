@@ -7,7 +7,7 @@ use crate::page::symbols;
 use crate::scene::{self, Cable, Input, InputKind, LoadKind, Marker, On, PortKind, Resolved};
 use crate::system::Signal;
 
-/// Arrows that stand for a distributed force.
+/// Arrows at most that stand for a distributed force: on a short body as many as have room.
 const ARROWS: u32 = 7;
 
 /// A load or an input that is drawn as an arrow.
@@ -27,7 +27,7 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
             label: label.unwrap_or(action.kind.words()[0]),
             components: at_start(action, &input.start),
         }),
-        InputKind::RestLength(_) | InputKind::Release(_) => None,
+        InputKind::RestLength(_) | InputKind::Release(_) | InputKind::Current(_) => None,
     };
     let inputs = resolved.inputs.iter().filter_map(|own| input(own, None));
     let loads = resolved.loads.iter().filter_map(|load| match &load.kind {
@@ -54,17 +54,35 @@ fn at_start(action: &scene::Action<'_>, inputs: &[f64]) -> Vec<f64> {
     if !action.kind.is_force() {
         return Vec::new();
     }
-    let values = action.components.iter().enumerate();
+    in_middle(&action.components, &action.along, inputs)
+}
+
+/// Components at the start, from those of an input; what changes along a body is taken in the middle.
+fn in_middle(components: &[Signal], along: &[(usize, &str)], inputs: &[f64]) -> Vec<f64> {
+    let values = components.iter().enumerate();
     let value = |(axis, component): (usize, &Signal)| match component {
         Signal::Function(function) => function.value(0.0),
         Signal::Input(_) => inputs[axis],
     };
     let mut components: Vec<f64> = values.map(value).collect();
-    for (axis, text) in &action.along {
+    for (axis, text) in along {
         let middle = Function::along(text, 0.5);
         components[*axis] = middle.map_or(0.0, |function| function.value(0.0));
     }
     components
+}
+
+/// Direction of a vector in the image. One that starts at zero has none yet; obliquely from below it keeps clear of the names above.
+fn way(components: &[f64]) -> Point {
+    let part = |k: usize| components.get(k).copied().unwrap_or(0.0);
+    if components.iter().all(|part| *part == 0.0) {
+        return direction([-1.0, -1.0]);
+    }
+    let [across, up] = match components.len() {
+        2 => [part(0), part(1)],
+        count => seen(count, [part(0), part(1), part(2)]),
+    };
+    direction([across, -up])
 }
 
 impl<'a> Action<'a> {
@@ -77,19 +95,14 @@ impl<'a> Action<'a> {
         }
     }
 
-    /// Direction of a force in the image, from the direction at its marker. One that starts at zero
-    /// has none yet; obliquely from below it keeps clear of the names above.
+    /// Direction of a force in the image, from the direction at its marker.
     pub(super) fn way(&self, [x, y]: Point) -> Point {
         match self.components[..] {
-            _ if self.components.iter().all(|part| *part == 0.0) => direction([-1.0, -1.0]),
             // Along, and across to the left; y points down the page.
-            [a, b] if self.action.follower => direction([a * x + b * y, a * y - b * x]),
-            [a, b] => direction([a, -b]),
-            ref components => {
-                let part = |k: usize| components.get(k).copied().unwrap_or(0.0);
-                let [across, up] = seen(components.len(), [part(0), part(1), part(2)]);
-                direction([across, -up])
+            [a, b] if self.action.follower && [a, b] != [0.0; 2] => {
+                direction([a * x + b * y, a * y - b * x])
             }
+            ref components => way(components),
         }
     }
 }
@@ -101,7 +114,28 @@ impl<'a> Picture<'a> {
                 On::Marker(marker) if action.action.kind.is_force() => self.force(&action, marker),
                 On::Marker(marker) => self.turn(marker),
                 On::Joint(pivot) => self.turn(pivot.ends.second),
-                On::Cable(cable) => self.distributed(&action, cable),
+                On::Cable(cable) => {
+                    let along = action.way([1.0, 0.0]);
+                    self.distributed(action.label, cable, along, action.action.kind.is_force());
+                }
+            }
+        }
+        self.fluids();
+    }
+
+    /// Fluids that stream, as arrows of their currents.
+    fn fluids(&mut self) {
+        for load in &self.resolved.loads {
+            let LoadKind::Fluid(fluid) = &load.kind else {
+                continue;
+            };
+            let mut inputs = self.resolved.inputs.iter();
+            let input = inputs
+                .find(|input| matches!(input.kind, InputKind::Current(name) if name == load.name));
+            let start = input.map_or(&[][..], |input| &input.start);
+            let current = in_middle(&fluid.current, &fluid.along, start);
+            if input.is_some() || current.iter().any(|part| *part != 0.0) {
+                self.distributed(load.name, fluid.on, way(&current), true);
             }
         }
     }
@@ -118,20 +152,25 @@ impl<'a> Picture<'a> {
         self.name_force(tail, along, action.label);
     }
 
-    fn distributed(&mut self, action: &Action<'a>, cable: Cable<'_>) {
-        let along = action.way([1.0, 0.0]);
-        for arrow in 0..ARROWS {
-            let s = (f64::from(arrow) + 0.5) / f64::from(ARROWS);
+    fn distributed(&mut self, label: &str, cable: Cable<'_>, along: Point, is_vector: bool) {
+        let places = [0.0, 0.25, 0.5, 0.75, 1.0].map(|s| self.at(cable.body.shape.point(s)));
+        let ways = places.windows(2);
+        let length: f64 = ways
+            .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
+            .sum();
+        let arrows = (length / (0.5 * self.unit)).clamp(1.0, f64::from(ARROWS)) as u32;
+        for arrow in 0..arrows {
+            let s = (f64::from(arrow) + 0.5) / f64::from(arrows);
             let at = self.at(cable.body.shape.point(s));
-            let tail = match action.action.kind.is_force() {
+            let tail = match is_vector {
                 true => symbols::force(&mut self.canvas, at, along, 0.6 * self.unit),
                 false => {
                     symbols::turn(&mut self.canvas, at, 0.6 * self.unit, symbols::LOAD);
                     moved(at, along.map(|part| -part), self.unit)
                 }
             };
-            if arrow == ARROWS / 2 {
-                self.name_force(tail, along, action.label);
+            if arrow == arrows / 2 {
+                self.name_force(tail, along, label);
             }
         }
     }

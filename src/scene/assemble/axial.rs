@@ -25,7 +25,7 @@ impl Resolved<'_> {
         let (body, middle) = (cable.body, cable.body.section_at(0.5));
         let [stiffness, density] = [
             body.axial_stiffness_of(&middle),
-            body.line_density_of(&middle),
+            body.line_density_of(&middle) + self.added_mass(cable.id.body_index(), &middle),
         ];
         let speed = (stiffness / density).sqrt();
         let halves = match self.held_ends(cable) {

@@ -18,11 +18,13 @@ use crate::system::{CableChain, LumpedMass, Rod};
 /// Rotations an element in which the axes of a rod are carried along a shape that no plane holds.
 const STEPS: u32 = 256;
 
-/// A rigid body about its centre of mass: where that is, m, the angle of its frame, rad, mass, kg, and inertia, kg m^2.
+/// A rigid body about its centre of mass: where that is, m, the angle of its frame, rad, mass and that of the fluid which moves along, kg,
+/// and inertia of both, kg m^2.
 struct Lump {
     position: [f64; 3],
     angle: f64,
     mass: f64,
+    added: f64,
     inertia: f64,
 }
 
@@ -71,6 +73,7 @@ impl<const D: usize> Builder<'_, D> {
                 position: rigid.position.full(),
                 angle: rigid.angle,
                 mass: rigid.mass(),
+                added: 0.0,
                 inertia: rigid.inertia().number(),
             },
         );
@@ -115,7 +118,9 @@ impl<const D: usize> Builder<'_, D> {
         let cable = reference.body;
         let mesh = self.resolved.nodes(reference)?;
         let axial = self.resolved.axial_damping_time(reference);
-        let chain = CableChain::new(build_elements(cable, axial, &mesh), first);
+        let added = |section: &SectionNumbers| self.resolved.added_mass(reference.id.body, section);
+        let elements = build_elements((cable, &added), axial, &mesh);
+        let chain = CableChain::new(elements, first);
         let node = |s: &f64| {
             let ways = [cable.shape.point(*s), cable.shape.tangent(*s)];
             ways.map(|way| vector::<D, f64>(way).into())
@@ -139,6 +144,7 @@ impl<const D: usize> Builder<'_, D> {
             self.parts.lumped_masses.push(LumpedMass {
                 marker: Marker::rigid(body, node, [0.0; 2]),
                 mass: 0.0,
+                added: 0.0,
                 inertia,
             });
         }
@@ -210,7 +216,9 @@ impl<const D: usize> Builder<'_, D> {
     /// A cable that does not bend, about its middle; gives back how far along it from there its first end is, m.
     fn rod(&mut self, index: usize, cable: &CableBody) -> f64 {
         let length = cable.shape.length();
-        let mass = cable.line_density_of(&cable.section_at(0.5)) * length;
+        let section = cable.section_at(0.5);
+        let mass = cable.line_density_of(&section) * length;
+        let added = self.resolved.added_mass(index, &section) * length;
         let [x, y, _] = cable.shape.tangent(0.5);
         self.parts.rods.push(Rod {
             node: self.parts.nodes.len(),
@@ -223,7 +231,8 @@ impl<const D: usize> Builder<'_, D> {
                 position: cable.shape.point(0.5),
                 angle: y.atan2(x),
                 mass,
-                inertia: mass * length * length / 12.0,
+                added,
+                inertia: (mass + added) * length * length / 12.0,
             },
         );
         -0.5 * length
@@ -238,6 +247,7 @@ impl<const D: usize> Builder<'_, D> {
         self.parts.lumped_masses.push(LumpedMass {
             marker: Marker::rigid(index, node, [0.0; 2]),
             mass: lump.mass,
+            added: lump.added,
             inertia: lump.inertia,
         });
     }
@@ -317,8 +327,9 @@ fn numbers_along(body: &CableBody, s: &[f64]) -> impl Fn(f64) -> SectionNumbers 
     move |xi| sections(from + xi * (to - from)).0
 }
 
+/// The elements of a body, with the mass of the fluid (kg/m) that moves along at a section.
 fn build_elements<const D: usize>(
-    body: &CableBody,
+    (body, added): (&CableBody, &dyn Fn(&SectionNumbers) -> f64),
     axial_damping_time: f64,
     nodes: &[f64],
 ) -> Vec<cable::Cable<D>> {
@@ -352,7 +363,14 @@ fn build_elements<const D: usize>(
             strain,
             inertia: Inertia::Corrected,
         };
-        let mut taper = cable::Taper::default();
+        let added = |xi: f64| added(&numbers_along(body, s)(xi));
+        let mut taper = cable::Taper {
+            added: match body.stations.is_empty() {
+                true => Along::from(added(0.5)),
+                false => Along::through(added),
+            },
+            ..cable::Taper::default()
+        };
         if !body.stations.is_empty() {
             taper.axial = Along::through(|xi| stretching(xi) / stretching(0.5));
             taper.density = Along::through(|xi| density(xi) / density(0.5));

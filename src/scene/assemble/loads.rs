@@ -5,9 +5,9 @@ use crate::body::RodChain;
 use crate::math::function::Function;
 use crate::math::quadrature::GAUSS_5;
 use crate::scene::Error;
-use crate::scene::resolved::{Action, Cable, Form, InputKind, LoadKind, On, Spring};
+use crate::scene::resolved::{Action, Cable, InputKind, LoadKind, On, Spring};
 use crate::system::Signal;
-use crate::system::loads::{self, Density, DistributedMoment, Load, PANELS};
+use crate::system::loads::{self, Density, DistributedMoment, Load};
 
 impl<const D: usize> Builder<'_, D> {
     pub(super) fn loads(&mut self) -> Result<(), Error> {
@@ -23,6 +23,7 @@ impl<const D: usize> Builder<'_, D> {
                 }
                 LoadKind::Stop { on, sizes, limits } => self.stop(on, *sizes, *limits),
                 LoadKind::Bushing(bushing) => self.bushing(bushing),
+                LoadKind::Fluid(fluid) => self.fluid(fluid, &format!("loads[{index}]"))?,
             };
             self.parts.loads.push(built);
         }
@@ -67,10 +68,7 @@ impl<const D: usize> Builder<'_, D> {
             On::Joint(pivot) => moment(self.ends(pivot.ends)),
             On::Cable(cable) if !action.kind.is_force() => self.moment_along(cable, action),
             On::Cable(cable) => Load::Distributed(loads::Distributed {
-                on: match cable.id.form {
-                    Form::Chain(chain) => loads::Line::Chain(chain),
-                    Form::Rod(rod) => loads::Line::Rod(self.parts.rods[rod]),
-                },
+                on: self.line(cable),
                 density: uniform(components),
             }),
         }
@@ -101,14 +99,15 @@ impl<const D: usize> Builder<'_, D> {
     fn action_along(&self, action: &Action<'_>, path: &str) -> Result<Load<D>, Error> {
         let mut load = self.action(action);
         if let On::Cable(cable) = action.on {
+            let (along, path) = (&action.along[..], format!("{path}.value"));
             match &mut load {
                 Load::Distributed(on) => {
-                    self.fill(cable, (action, path), &mut on.density.along)?;
+                    self.fill(cable, (along, &path), &mut on.density.along)?;
                 }
                 Load::DistributedMoment(on) => {
                     // In the plane the third alone.
                     let first = if D == 2 { 2 } else { 0 };
-                    self.fill(cable, (action, path), &mut on.density.along[first..])?;
+                    self.fill(cable, (along, &path), &mut on.density.along[first..])?;
                 }
                 _ => {}
             }
@@ -117,26 +116,23 @@ impl<const D: usize> Builder<'_, D> {
     }
 
     /// Fills in the components that change along a body, at the Gauss points of its elements or, of one that does not bend, even parts.
-    fn fill(
+    pub(super) fn fill(
         &self,
         cable: Cable<'_>,
-        (action, path): (&Action<'_>, &str),
+        (given, path): (&[(usize, &str)], &str),
         along: &mut [Vec<Signal>],
     ) -> Result<(), Error> {
-        if action.along.is_empty() {
+        if given.is_empty() {
             return Ok(());
         }
-        let mesh = match cable.id.form {
-            Form::Chain(_) => self.resolved.nodes(cable)?,
-            Form::Rod(_) => (0..=PANELS).map(|k| k as f64 / PANELS as f64).collect(),
-        };
-        for (k, text) in &action.along {
+        let mesh = self.stretches(cable)?;
+        for (k, text) in given {
             for ends in mesh.windows(2) {
                 for point in GAUSS_5 {
                     let s = ends[0] + point.at * (ends[1] - ends[0]);
                     let function = Function::along(text, s);
                     let function =
-                        function.map_err(|told| Error::new(format!("{path}.value[{k}]"), told))?;
+                        function.map_err(|told| Error::new(format!("{path}[{k}]"), told))?;
                     along[*k].push(Signal::Function(function));
                 }
             }
@@ -160,7 +156,7 @@ impl<const D: usize> Builder<'_, D> {
 }
 
 /// What is the same all along a body.
-fn uniform<const K: usize>(components: &[Signal]) -> Density<K> {
+pub(super) fn uniform<const K: usize>(components: &[Signal]) -> Density<K> {
     Density {
         uniform: each(components),
         along: std::array::from_fn(|_| Vec::new()),

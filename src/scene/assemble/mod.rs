@@ -4,6 +4,7 @@ mod axes;
 mod axial;
 mod bodies;
 mod coordinates;
+mod fluids;
 mod initial;
 mod loads;
 mod motions;
@@ -53,6 +54,8 @@ pub struct Assembled<const D: usize = 2> {
     stances: Vec<Quaternion>,
     /// For every coupling, its place among the loads of the system.
     couplings: Vec<usize>,
+    /// Place there of the first load of the scene: springs of hinges come before.
+    first_load: usize,
     /// Points of sections whose stress is read.
     points: Vec<SectionPoint>,
 }
@@ -104,6 +107,11 @@ impl<const D: usize> Assembled<D> {
         &self.points[id.index()]
     }
 
+    /// Place among the loads of the system of a load of the scene, by its place there.
+    pub fn load(&self, place: usize) -> usize {
+        self.first_load + place
+    }
+
     /// Place among the loads of the system of a coupling.
     pub fn coupling(&self, id: CouplingId) -> usize {
         self.couplings[id.index()]
@@ -144,6 +152,7 @@ impl Resolved<'_> {
         builder.joints();
         builder.gears();
         builder.motions();
+        let first_load = builder.parts.loads.len();
         builder.loads()?;
         builder.inputs();
         builder.ports();
@@ -164,6 +173,7 @@ impl Resolved<'_> {
             frames,
             centers,
             couplings: builder.couplings,
+            first_load,
         })
     }
 
@@ -268,6 +278,7 @@ impl<const D: usize> Builder<'_, D> {
             self.parts.lumped_masses.push(LumpedMass {
                 marker,
                 mass: mass.mass,
+                added: 0.0,
                 inertia,
             });
             self.parts
@@ -275,6 +286,7 @@ impl<const D: usize> Builder<'_, D> {
                 .extend(section.map(|of| LumpedMass {
                     marker: Marker::rigid(of.body, of.nodes[1], [0.0; 2]),
                     mass: 0.0,
+                    added: 0.0,
                     inertia: mass.inertia,
                 }));
         }

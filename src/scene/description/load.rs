@@ -22,7 +22,7 @@ pub struct Load {
     /// `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coordinate: Option<CoordinateKind>,
-    /// `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    /// `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
@@ -74,6 +74,39 @@ pub struct Load {
     /// `stop`: the largest coordinate without force, m or rad; no stop there by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub upper: Option<f64>,
+    /// `fluid`: density of the fluid, kg/m^3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub density: Option<f64>,
+    /// `fluid`: velocity of the fluid in global axes, m/s; zero by default. Its components may be expressions in `s` too, as those of
+    /// what is distributed along a body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(length(min = 2, max = 3))]
+    pub current: Option<Vec<Value>>,
+    /// `fluid`: coefficient of drag across the line, by the area `diameter` times length; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub drag: Option<f64>,
+    /// `fluid`: coefficient of drag along the line, by the area `pi diameter` times length; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub tangential_drag: Option<f64>,
+    /// `fluid`: coefficient of added mass, the fluid that moves along by that which is displaced; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub added_mass: Option<f64>,
+    /// `fluid`: diameter that drag counts with, m; by default the outer one of a circle or tube, else that of a circle with the area of
+    /// the section.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub diameter: Option<f64>,
+    /// `fluid`: area of the section that displaces fluid, m^2; that of the circle of `diameter` by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub area: Option<f64>,
+    /// `fluid`: whether the weight of the displaced fluid lifts the body; true by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub buoyancy: Option<bool>,
 }
 
 /// Loads by name.
@@ -102,6 +135,9 @@ pub enum LoadKind {
     /// One-sided springs and dampers on a coordinate of a joint, beyond a lower limit, an upper one or both, without friction; the
     /// force is continuous in time (Hunt and Crossley 1975).
     Stop,
+    /// A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
+    /// and others 1950). The added mass counts in all directions alike.
+    Fluid,
 }
 
 /// A load that the master sets.
@@ -119,14 +155,14 @@ pub struct Input {
     /// `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// `rest_length`: name of the spring-damper.
+    /// `rest_length`: name of the spring-damper; `current`: of the fluid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<String>,
     /// `force`, in space `moment` and `distributed_moment` too: as of a load.
     #[serde(default, skip_serializing_if = "is_false")]
     pub follower: bool,
-    /// Value before the master sets one: the components of a force, one of others; zero by default,
-    /// for a rest length that of the spring-damper.
+    /// Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    /// for a rest length that of the spring-damper, for a current that of the fluid.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub start: Vec<f64>,
 }
@@ -149,6 +185,8 @@ pub enum InputKind {
     RestLength,
     /// Whether a joint lets go: it does, for good, in the first step that begins with more than 0.
     Release,
+    /// Velocity of a fluid in global axes, m/s.
+    Current,
 }
 
 impl Kind for LoadKind {
@@ -175,6 +213,18 @@ impl Kind for LoadKind {
                 &["joint", "stiffness"],
                 &["coordinate", "damping", "lower", "upper"],
             )],
+            Self::Fluid => &[(
+                &["body", "density"],
+                &[
+                    "current",
+                    "drag",
+                    "tangential_drag",
+                    "added_mass",
+                    "diameter",
+                    "area",
+                    "buoyancy",
+                ],
+            )],
             Self::SpringDamper => &[(&["markers"], &["point", "stiffness", "damping", "length"])],
         }
     }
@@ -190,7 +240,7 @@ impl Kind for InputKind {
             Self::Torque => &[(&["joint"], &[])],
             Self::Distributed => &[(&["body"], &[])],
             Self::DistributedMoment => &[(&["body"], &["follower"])],
-            Self::RestLength => &[(&["load"], &[])],
+            Self::RestLength | Self::Current => &[(&["load"], &[])],
             Self::Release => &[(&["joint"], &[])],
         }
     }
@@ -284,13 +334,16 @@ macro_rules! actions {
         }
     )*};
 }
-actions!(LoadKind but SpringDamper | JointSpring | Stop | Bushing, InputKind but RestLength | Release);
+actions!(LoadKind but SpringDamper | JointSpring | Stop | Bushing | Fluid, InputKind but RestLength | Release | Current);
 
 impl Input {
     /// Number of components.
     pub fn components(&self, dimension: usize) -> usize {
-        let action = self.kind.action();
-        action.map_or(1, |action| action.components(dimension))
+        match (self.kind.action(), self.kind) {
+            (Some(action), _) => action.components(dimension),
+            (None, InputKind::Current) => dimension,
+            (None, _) => 1,
+        }
     }
 }
 

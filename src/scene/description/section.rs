@@ -325,6 +325,14 @@ impl Section {
 }
 
 impl SectionNumbers {
+    /// Diameter of its outline, m: the outer one of a circle or tube, else that of a circle of its area.
+    pub fn diameter(&self) -> f64 {
+        match self.shape {
+            Some(Profile::Circle { radius } | Profile::Tube { radius, .. }) => 2.0 * radius,
+            _ => 2.0 * (self.area / PI).sqrt(),
+        }
+    }
+
     /// Linear between these and others, whose part counts.
     fn mixed(&self, other: &Self, part: f64) -> Self {
         let mix = |a: f64, b: f64| a + part * (b - a);

@@ -1,7 +1,9 @@
 //! Loads of a resolved scene: forces and moments, springs, dampers and stops.
 
+use std::f64::consts::PI;
+
 use super::{Cable, Ends, JointCoordinate, Marker, Pivot};
-use crate::scene::description::{ActionKind, Value};
+use crate::scene::description::{ActionKind, SectionNumbers, Value};
 use crate::system::Signal;
 
 /// A load that the scene knows.
@@ -45,6 +47,51 @@ pub enum LoadKind<'a> {
         /// Limits below and above.
         limits: [Option<f64>; 2],
     },
+    /// A fluid along a body.
+    Fluid(Fluid<'a>),
+}
+
+/// A fluid along a body.
+#[derive(Clone, Debug)]
+pub struct Fluid<'a> {
+    /// What it streams past.
+    pub on: Cable<'a>,
+    /// Its density, kg/m^3.
+    pub density: f64,
+    /// Its velocity, m/s; zero of the components that change along the body.
+    pub current: Vec<Signal>,
+    /// Components that change along the body, and their expressions.
+    pub along: Vec<(usize, &'a str)>,
+    /// The components as written; none where it rests.
+    pub given: &'a [Value],
+    /// Coefficients of drag across the line and along it.
+    pub drag: [f64; 2],
+    /// Coefficient of added mass.
+    pub added_mass: f64,
+    /// Diameter that drag counts with, m, where it is not that of the section.
+    pub diameter: Option<f64>,
+    /// Area that displaces fluid, m^2, where it is not that of a circle of this diameter.
+    pub area: Option<f64>,
+    /// Whether it lifts.
+    pub buoyancy: bool,
+}
+
+impl Fluid<'_> {
+    /// Diameter that drag counts with at a section, m.
+    pub fn diameter(&self, section: &SectionNumbers) -> f64 {
+        self.diameter.unwrap_or_else(|| section.diameter())
+    }
+
+    /// Mass of the fluid that is displaced at a section, kg/m.
+    pub fn displaced(&self, section: &SectionNumbers) -> f64 {
+        let circle = 0.25 * PI * self.diameter(section).powi(2);
+        self.density * self.area.unwrap_or(circle)
+    }
+
+    /// Mass of the fluid that moves along at a section, kg/m.
+    pub fn added(&self, section: &SectionNumbers) -> f64 {
+        self.added_mass * self.displaced(section)
+    }
 }
 
 /// Springs and dampers along and about the axes of the first end's body.
@@ -64,14 +111,16 @@ impl<'a> LoadKind<'a> {
         match self {
             Self::Spring(spring) => Some(spring.ends),
             Self::Bushing(bushing) => Some(bushing.ends),
-            Self::Action { .. } | Self::JointSpring { .. } | Self::Stop { .. } => None,
+            Self::Action { .. } | Self::JointSpring { .. } | Self::Stop { .. } | Self::Fluid(_) => {
+                None
+            }
         }
     }
 
     /// Its largest stiffness against ways (N/m) and against turns (N m/rad).
     pub fn stiffness(&self) -> [f64; 2] {
         match self {
-            Self::Action { .. } => [0.0; 2],
+            Self::Action { .. } | Self::Fluid(_) => [0.0; 2],
             Self::Spring(spring) => [spring.stiffness, 0.0],
             Self::Bushing(bushing) => bushing
                 .stiffness

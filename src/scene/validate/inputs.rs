@@ -47,7 +47,9 @@ impl<'a> Resolved<'a> {
             let (kind, start) = self.resolve_input(&path, input, first)?;
             let of = match &kind {
                 resolved::InputKind::Action(action) => action.on(),
-                resolved::InputKind::RestLength(name) | resolved::InputKind::Release(name) => name,
+                resolved::InputKind::RestLength(name)
+                | resolved::InputKind::Release(name)
+                | resolved::InputKind::Current(name) => name,
             };
             if !seen.insert((input.kind as u8, of, input.follower)) {
                 let wanted = "an input not declared before";
@@ -78,7 +80,12 @@ impl<'a> Resolved<'a> {
         }
         let Some(kind) = input.kind.action() else {
             let name = needed(path, "load", "a name", input.load.as_deref())?;
-            let start = self.set_rest_length(&format!("{path}.load"), name, first)?;
+            let place = format!("{path}.load");
+            if input.kind == InputKind::Current {
+                let start = self.set_current(&place, name, first)?;
+                return Ok((resolved::InputKind::Current(name), start));
+            }
+            let start = self.set_rest_length(&place, name, first)?;
             return Ok((resolved::InputKind::RestLength(name), vec![start]));
         };
         let count = input.components(self.scene.dimension);

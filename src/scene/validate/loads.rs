@@ -4,13 +4,13 @@ use super::checks::{Key, components, expected, keys, needed, not_negative, sprin
 use crate::math::expression::Expression;
 use crate::math::function::Function;
 use crate::scene::Error;
-use crate::scene::description::{ActionKind, ActsOn, Kind as _, Load, LoadValue, Value};
+use crate::scene::description::{ActionKind, ActsOn, Kind as _, Load, LoadKind, LoadValue, Value};
 use crate::scene::resolved::{self, Action, On, Resolved, Spring};
 use crate::system::Signal;
 
 impl Load {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 18] = [
+        let all: [Key; 26] = [
             ("marker", self.marker.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
             ("body", self.body.is_some(), "a name"),
@@ -29,6 +29,18 @@ impl Load {
             ("rest", self.rest.is_some(), "a coordinate"),
             ("lower", self.lower.is_some(), "a limit"),
             ("upper", self.upper.is_some(), "a limit"),
+            ("density", self.density.is_some(), "a density"),
+            ("current", self.current.is_some(), "a velocity"),
+            ("drag", self.drag.is_some(), "a coefficient"),
+            (
+                "tangential_drag",
+                self.tangential_drag.is_some(),
+                "a coefficient",
+            ),
+            ("added_mass", self.added_mass.is_some(), "a coefficient"),
+            ("diameter", self.diameter.is_some(), "a diameter"),
+            ("area", self.area.is_some(), "an area"),
+            ("buoyancy", self.buoyancy.is_some(), "true or false"),
             (
                 "translational_stiffness",
                 self.translational_stiffness.is_some(),
@@ -52,6 +64,15 @@ impl Load {
         ];
         keys(path, "load", &all, self.kind.keys())
     }
+}
+
+/// A component of a load as a function of time; of what changes along a body see [`function_along`].
+pub(super) fn component(path: &str, of: &Value, is_spread: bool) -> Result<Signal, Error> {
+    let function = match of {
+        Value::Expression(text) if is_spread => function_along(path, text),
+        _ => value(path, of, false),
+    };
+    function.map(Signal::Function)
 }
 
 /// The function of time that a component is all along a body; zero of one that changes along it.
@@ -86,7 +107,11 @@ impl<'a> Resolved<'a> {
             if load.kind.action().is_none() {
                 let wanted = "a force, a moment, a torque or a distributed one";
                 let place = format!("{path}.kind");
-                return Err(expected(&place, wanted, "springs and dampers"));
+                let found = match load.kind {
+                    LoadKind::Fluid => "a fluid",
+                    _ => "springs and dampers",
+                };
+                return Err(expected(&place, wanted, found));
             }
             let kind = self.resolve_load(&path, load)?;
             let name = &load.name;
@@ -169,13 +194,7 @@ impl<'a> Resolved<'a> {
         kind: ActionKind,
         given: &LoadValue,
     ) -> Result<Vec<Signal>, Error> {
-        let signal = |path: &str, of: &Value| {
-            let function = match of {
-                Value::Expression(text) if kind.is_spread() => function_along(path, text),
-                _ => value(path, of, false),
-            };
-            function.map(Signal::Function)
-        };
+        let signal = |path: &str, of: &Value| component(path, of, kind.is_spread());
         match (kind.is_force(), given) {
             (true, _) => components(path, self.scene.dimension, given.components(), signal),
             (false, _) if kind.components(self.scene.dimension) > 1 => {

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod checks;
+mod fluids;
 mod gears;
 mod inputs;
 mod joints;

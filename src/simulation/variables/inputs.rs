@@ -128,6 +128,9 @@ fn words(
             return ("rest_length", "Length at rest of", Some(METRE), &[""]);
         }
         InputKind::Release(_) => return ("release", LETS_GO, None, &[""]),
+        InputKind::Current(_) => {
+            return ("current", "Velocity of", Some(METRE_PER_SECOND), &AXES);
+        }
     };
     let is_spatial = input.start.len() == 3;
     let (key, what, unit, ways): (_, _, _, &[_]) = match (action.kind, action.follower) {
@@ -174,7 +177,7 @@ fn add_load(list: &mut List, input: &Input<'_>, port: Option<&str>) {
     let (key, what, unit, ways) = words(input);
     let of = match &input.kind {
         InputKind::Action(action) => action.on(),
-        InputKind::RestLength(of) | InputKind::Release(of) => of,
+        InputKind::RestLength(of) | InputKind::Release(of) | InputKind::Current(of) => of,
     };
     let (name, before) = (
         format!("{}.{key}", port.unwrap_or(of)),

@@ -117,6 +117,14 @@ pub enum Parameter {
     BushingTurningStiffness(usize, usize),
     /// Damping of a bushing about an axis (0 to 2), N m s/rad.
     BushingTurningDamping(usize, usize),
+    /// Density of a fluid.
+    FluidDensity(usize),
+    /// Coefficient of drag across the line.
+    Drag(usize),
+    /// Coefficient of drag along the line.
+    TangentialDrag(usize),
+    /// Coefficient of added mass.
+    AddedMass(usize),
     /// Stiffness of a coupling.
     CouplingStiffness(usize),
     /// Damping of a coupling.

@@ -4,7 +4,7 @@ use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
 use crate::math::space::spins;
 use crate::scene::{
-    BodyReference, Bushing, Cable, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene,
+    BodyReference, Bushing, Cable, Fluid, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene,
 };
 
 /// Key, meaning, unit, what it stands for, start value.
@@ -214,6 +214,19 @@ fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &Bushing<'_>) {
     }
 }
 
+/// Density and coefficients of a fluid.
+fn add_fluid(list: &mut List, (i, of): (usize, &str), fluid: &Fluid<'_>) {
+    let [across, along] = fluid.drag;
+    #[rustfmt::skip] // a table
+    let rows = [
+        ("density", "Density", Some(DENSITY), Parameter::FluidDensity(i), fluid.density),
+        ("drag", "Coefficient of drag across the line", None, Parameter::Drag(i), across),
+        ("tangential_drag", "Coefficient of drag along the line", None, Parameter::TangentialDrag(i), along),
+        ("added_mass", "Coefficient of added mass", None, Parameter::AddedMass(i), fluid.added_mass),
+    ];
+    list.parameters(of, "of", &rows);
+}
+
 /// Times at which joints let go; stiffness and damping of hinges, springs, bushings, stops and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
@@ -234,6 +247,10 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
         let about = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
         let (starts, units, parameters) = match &load.kind {
             LoadKind::Action { .. } => continue,
+            LoadKind::Fluid(fluid) => {
+                add_fluid(list, (i, load.name), fluid);
+                continue;
+            }
             LoadKind::Bushing(bushing) => {
                 add_bushing(list, (i, load.name), bushing);
                 continue;
@@ -374,6 +391,10 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         BushingTurningDamping(i, axis) => {
             scene.loads[i].rotational_damping.get_or_insert_default()[axis] = value;
         }
+        FluidDensity(i) => scene.loads[i].density = Some(value),
+        Drag(i) => scene.loads[i].drag = Some(value),
+        TangentialDrag(i) => scene.loads[i].tangential_drag = Some(value),
+        AddedMass(i) => scene.loads[i].added_mass = Some(value),
         CouplingStiffness(i) => scene.ports[i].stiffness = Some(value),
         CouplingDamping(i) => scene.ports[i].damping = Some(value),
         TurningStiffness(i) => scene.ports[i].rotational_stiffness = Some(value),

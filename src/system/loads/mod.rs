@@ -6,6 +6,7 @@ mod couple;
 mod density;
 mod distributed;
 mod distributed_moment;
+mod fluid;
 mod force;
 mod joint_spring;
 mod moment;
@@ -20,6 +21,7 @@ pub use density::{Density, Values};
 pub(in crate::system) use distributed::weights;
 pub use distributed::{Distributed, Line};
 pub use distributed_moment::DistributedMoment;
+pub use fluid::{Fluid, Strip};
 pub use force::Force;
 pub use joint_spring::JointSpring;
 pub use moment::Moment;
@@ -34,6 +36,7 @@ use super::signal::Signal;
 use crate::body::{Node, RodChain};
 use crate::math::jet::Number;
 use crate::math::space::Vector;
+use crate::system::CableChain;
 
 /// Even parts of a body that does not bend in which what changes along it is integrated.
 pub const PANELS: usize = 8;
@@ -51,6 +54,8 @@ pub enum Load<const D: usize = 2> {
     Distributed(Distributed<D>),
     /// A moment per reference length of a rod or beam.
     DistributedMoment(Box<DistributedMoment>),
+    /// A fluid that streams past a cable or a rod.
+    Fluid(Box<Fluid<D>>),
     /// A spring with a damper between two ends.
     Spring(Spring<D>),
     /// A spring with a damper on a coordinate of a joint.
@@ -73,6 +78,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::Distributed(load) => load.add_force(at, f),
             Self::DistributedMoment(load) => load.add_force(at, f),
+            Self::Fluid(load) => load.add_force(at, f),
             _ => self.act(at, |end, [position, direction]| {
                 end.add_force(position, direction, f);
             }),
@@ -90,7 +96,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.act(at, call),
             Self::Moment(load) => load.act(at, call),
             Self::Couple(load) => load.act(at, call),
-            Self::Distributed(_) | Self::DistributedMoment(_) => {}
+            Self::Distributed(_) | Self::DistributedMoment(_) | Self::Fluid(_) => {}
             Self::Spring(load) => load.act(at, call),
             Self::JointSpring(load) => load.act(at, call),
             Self::Stop(load) => load.act(at, call),
@@ -109,6 +115,7 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => load.add_stiffness(at, stiffness),
             // What it adds to the stiffness where bodies turn is not symmetric, and small beside inertia.
             Self::Couple(_) | Self::Distributed(_) | Self::DistributedMoment(_) => {}
+            Self::Fluid(load) => load.add_damping(at, damping),
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
             Self::JointSpring(load) => load.add_tangent(at, stiffness, damping),
             Self::Stop(load) => load.add_tangent(at, stiffness, damping),
@@ -128,6 +135,7 @@ impl<const D: usize> Load<D> {
             Self::Couple(load) => [load.power(at), none],
             Self::Distributed(load) => [load.power(at), none],
             Self::DistributedMoment(load) => [load.power(at), none],
+            Self::Fluid(load) => load.power(at),
             Self::Spring(load) => load.power(at),
             Self::JointSpring(load) => [none, load.dissipation(at)],
             Self::Stop(load) => [none, load.dissipation(at)],
@@ -161,6 +169,7 @@ impl<const D: usize> Load<D> {
             Self::Couple(load) => load.work(before, after),
             Self::Distributed(load) => load.work(before, after),
             Self::DistributedMoment(load) => load.work(before, after),
+            Self::Fluid(load) => load.work(before, after),
             Self::Bushing(load) => load.work(before, after),
             Self::RotationalBushing(load) => load.work(before, after),
             Self::OrientationBushing(load) => load.work(before, after),
@@ -188,6 +197,7 @@ impl<const D: usize> Load<D> {
             }
             Self::Distributed(load) => load.density.hold(at, fraction),
             Self::DistributedMoment(load) => load.density.hold(at, fraction),
+            Self::Fluid(load) => load.hold(at, fraction),
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
             Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {}
             Self::Bushing(load) => {
@@ -206,12 +216,13 @@ impl<const D: usize> Load<D> {
         held
     }
 
-    /// Whether it has a potential, so that its tangent is symmetric: a force that turns with a body has none.
+    /// Whether it has a potential, so that its tangent is symmetric: a force that turns with a body has none, nor has drag.
     pub fn is_conservative(&self) -> bool {
         match self {
             Self::Force(load) => !load.follower,
             Self::Couple(load) => load.is_torque,
             Self::DistributedMoment(_) => false,
+            Self::Fluid(load) => !load.streams(),
             _ => true,
         }
     }
@@ -227,7 +238,11 @@ impl<const D: usize> Load<D> {
             | Self::OrientationBushing(_) => true,
             Self::JointSpring(load) => load.coordinate.is_angle(),
             Self::Stop(load) => load.coordinate.is_angle(),
-            Self::Force(_) | Self::Distributed(_) | Self::Spring(_) | Self::Bushing(_) => false,
+            Self::Force(_)
+            | Self::Distributed(_)
+            | Self::Fluid(_)
+            | Self::Spring(_)
+            | Self::Bushing(_) => false,
         }
     }
 
@@ -239,6 +254,7 @@ impl<const D: usize> Load<D> {
     /// Whether it dissipates.
     pub fn is_damped(&self) -> bool {
         match self {
+            Self::Fluid(load) => load.is_damped(),
             Self::Spring(load) => load.damping > 0.0,
             Self::JointSpring(load) => load.damping > 0.0,
             Self::Stop(load) => load.damping > 0.0,
@@ -257,6 +273,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => (&load.components, &[]),
             Self::Distributed(load) => (&load.density.uniform, &[]),
             Self::DistributedMoment(load) => (&load.density.uniform, &[]),
+            Self::Fluid(load) => (&load.current.uniform, &[]),
             Self::Moment(load) => (one(&load.size), &[]),
             Self::Spring(load) => (one(&load.length), &[]),
             Self::Couple(_) | Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {
@@ -273,6 +290,7 @@ impl<const D: usize> Load<D> {
         let along: &[Vec<Signal>] = match self {
             Self::Distributed(load) => &load.density.along,
             Self::DistributedMoment(load) => &load.density.along,
+            Self::Fluid(load) => &load.current.along,
             _ => &[],
         };
         let here = first.iter().chain(second);
@@ -281,8 +299,9 @@ impl<const D: usize> Load<D> {
     }
 
     /// Nodes on which its forces depend and act, of every part of it that depends on no others.
-    pub fn parts(&self, sections: &[RodChain]) -> Vec<Vec<usize>> {
+    pub fn parts(&self, chains: &[CableChain<D>], sections: &[RodChain]) -> Vec<Vec<usize>> {
         match self {
+            Self::Fluid(load) => load.parts(chains),
             Self::DistributedMoment(load) => {
                 let rod = &sections[load.on];
                 let elements = 0..rod.count();
@@ -296,6 +315,7 @@ impl<const D: usize> Load<D> {
     pub fn add_part<N: Number>(&self, at: Instant<'_, D, N>, part: usize, f: &mut [Node<D, N>]) {
         match self {
             Self::DistributedMoment(load) => load.add_force_on(at, part, f),
+            Self::Fluid(load) => load.add_force_on(at, part, f),
             _ => self.add_force(at, f),
         }
     }
@@ -306,7 +326,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => vec![End::Body(load.marker)],
             Self::Moment(load) => load.ends.to_vec(),
             Self::Couple(load) => load.ends.to_vec(),
-            Self::Distributed(_) => vec![],
+            Self::Distributed(_) | Self::Fluid(_) => vec![],
             Self::DistributedMoment(load) => vec![End::Body(load.end)],
             Self::Spring(load) => load.ends.to_vec(),
             Self::JointSpring(load) => load.coordinate.ends().to_vec(),

@@ -365,7 +365,8 @@ impl<const D: usize> System<D> {
         for lump in &self.lumped_masses {
             let marker = lump.marker.lift();
             let (at, on) = (map(marker.position(x)), map(marker.direction(x)));
-            sum += at.norm_squared() * N::of(lump.mass) + on.norm_squared() * N::of(lump.inertia);
+            sum +=
+                at.norm_squared() * N::of(lump.moved()) + on.norm_squared() * N::of(lump.inertia);
         }
         for (node, part, mass) in self.frames.list().iter().flat_map(Frame::masses) {
             sum += map(x[node][part].into()).norm_squared() * N::of(mass);
@@ -387,7 +388,7 @@ pub(in crate::system) fn add_mass<const D: usize>(
     }
     for lump in lumped_masses {
         let ends = [End::Body(lump.marker), End::Ground(Vector::zeros())];
-        for (part, size) in [lump.mass, lump.inertia].into_iter().enumerate() {
+        for (part, size) in [lump.moved(), lump.inertia].into_iter().enumerate() {
             let (k, zero) = (axes * size, SMatrix::zeros());
             coupling(
                 &ends,

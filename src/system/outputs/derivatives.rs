@@ -83,7 +83,7 @@ impl<const D: usize> Derivatives<D> {
         let slope = |i: usize| slopes.get(i).copied().unwrap_or_default();
         self.set_inputs(plain, |i| {
             let [first, second] = slope(i);
-            [[first, second], [second, 0.0]]
+            ([first, second], [first, second, 0.0])
         });
         let mut trajectories = system.trajectories().enumerate();
         for ((drive, set), now) in
@@ -143,7 +143,9 @@ impl<const D: usize> Derivatives<D> {
         work: &mut Work<D>,
     ) {
         self.values.time = Jet::from_re(plain.time);
-        self.set_inputs(plain, |i| [[direction[i], 0.0], [0.0; 2]]);
+        self.set_inputs(plain, |i| {
+            ([direction[i], 0.0], [plain.input_rates[i], 0.0, 0.0])
+        });
         let mut trajectories = system.trajectories();
         let drives = system.drives.iter().zip(&mut self.values.drives);
         for (place, (drive, set)) in drives.enumerate() {
@@ -164,13 +166,18 @@ impl<const D: usize> Derivatives<D> {
     }
 
     /// Inputs with derivatives, and their rates with derivatives.
-    fn set_inputs(&mut self, plain: &Evaluation<D>, derivatives: impl Fn(usize) -> [[f64; 2]; 2]) {
+    fn set_inputs(
+        &mut self,
+        plain: &Evaluation<D>,
+        derivatives: impl Fn(usize) -> ([f64; 2], [f64; 3]),
+    ) {
         self.values.inputs.clear();
         self.values.input_rates.clear();
         for (i, input) in plain.inputs.iter().enumerate() {
-            let [[first, second], [third, fourth]] = derivatives(i);
+            let ([first, second], [rate, by_one, by_two]) = derivatives(i);
             self.values.inputs.push(Jet::new(*input, first, second));
-            self.values.input_rates.push(Jet::new(first, third, fourth));
+            let rate = Jet::new(rate, by_one, by_two);
+            self.values.input_rates.push(rate);
         }
     }
 

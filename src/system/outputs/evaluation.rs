@@ -65,11 +65,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 }
 
 impl<const D: usize> Evaluation<D> {
-    /// Takes over the inputs.
-    pub fn set_inputs(&mut self, inputs: &[f64]) {
+    /// Takes over the inputs and their first and second derivatives, zero where there are none.
+    pub fn set_inputs(&mut self, inputs: &[f64], slopes: &[[f64; 2]]) {
         self.inputs.clear();
         self.inputs.extend_from_slice(inputs);
         self.input_rates.clear();
+        self.input_rates.extend(slopes.iter().map(|[rate, _]| rate));
         self.input_rates.resize(inputs.len(), 0.0);
     }
 
@@ -87,7 +88,7 @@ impl<const D: usize> Evaluation<D> {
         self.released.copy_from_slice(&work.released);
     }
 
-    /// Computes accelerations and what constraints supply.
+    /// Computes accelerations and what constraints supply, inputs held.
     pub fn dynamics(
         &mut self,
         system: &System<D>,
@@ -95,9 +96,20 @@ impl<const D: usize> Evaluation<D> {
         inputs: &[f64],
         work: &mut Work<D>,
     ) {
-        self.set_inputs(inputs);
+        self.dynamics_moving(system, state, (inputs, &[]), work);
+    }
+
+    /// The same while inputs move with these first and second derivatives.
+    pub fn dynamics_moving(
+        &mut self,
+        system: &System<D>,
+        state: &State,
+        (inputs, slopes): (&[f64], &[[f64; 2]]),
+        work: &mut Work<D>,
+    ) {
+        self.set_inputs(inputs, slopes);
         let mut a = std::mem::take(&mut work.a);
-        let mut model = Model::new(system, inputs, work, state);
+        let mut model = Model::new(system, inputs, work, state).moving(slopes);
         model.accelerate(state.time, &state.coordinates, &state.rates, &mut a);
         system.supply(&a, work);
         work.a = a;
@@ -223,6 +235,29 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
     }
 
+    /// Force (N) of a spring on its second end; of one about an axis of a joint the moment (N m) about it, first.
+    pub fn pull(&self, system: &System<D>, load: usize) -> Vector<D, N> {
+        let (load, at) = (&system.loads[load], self.instant(system));
+        let about = |moment: N| {
+            let mut first = Vector::zeros();
+            first[0] = moment;
+            first
+        };
+        match load {
+            Load::JointSpring(spring) if spring.coordinate.is_angle() => about(spring.force(at)),
+            Load::Stop(stop) if stop.coordinate.is_angle() => about(stop.force(at)),
+            _ => {
+                let (mut sum, second) = (Vector::zeros(), load.ends().last().map(End::lift));
+                load.act(at, |end, [position, _]| {
+                    if Some(end) == second.as_ref() {
+                        sum += position;
+                    }
+                });
+                sum
+            }
+        }
+    }
+
     pub(in crate::system) fn instant<'a>(&'a self, system: &'a System<D>) -> Instant<'a, D, N> {
         Instant {
             time: self.time,
@@ -329,7 +364,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         for lump in &system.lumped_masses {
             let marker = lump.marker.lift();
-            let (m, j) = (N::of(lump.mass), N::of(lump.inertia));
+            let (m, j) = (N::of(lump.moved()), N::of(lump.inertia));
             let (x, d) = (marker.position(&self.x), marker.direction(&self.x));
             let (p, s) = (marker.position(&self.v) * m, marker.direction(&self.v) * j);
             add(x, p, true);

@@ -113,11 +113,10 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         rod: &Rod,
         [from, to]: [f64; 2],
     ) -> (Vector<D, N>, Vector3<N>) {
-        let density = N::of(system.lumped_masses[rod.mass].mass / rod.length);
+        let own = &system.lumped_masses[rod.mass];
+        let [density, moved] = [own.mass, own.moved()].map(|mass| N::of(mass / rod.length));
         let at = Marker::rigid(0, rod.node, [from, 0.0]).lift();
-        let [start, slope] = self
-            .inertia_at(system, &at)
-            .map(|inertia| -inertia * density);
+        let [start, slope] = self.inertia_at(system, &at).map(|inertia| -inertia * moved);
         let load = system.gravity.map(N::of) * density + self.distributed(system, rod.node) + start;
         // Integrals of 1, s and s^2 over the part.
         let length = to - from;
@@ -182,7 +181,8 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             if !is_own(index) && is_on(&lump.marker) {
                 let marker = lump.marker.lift();
                 let [position, direction] = self.inertia_at(system, &marker);
-                let force = (system.gravity.map(N::of) - position) * N::of(lump.mass);
+                let weight = system.gravity.map(N::of) * N::of(lump.mass);
+                let force = weight - position * N::of(lump.moved());
                 call(
                     &End::Body(marker),
                     [force, -direction * N::of(lump.inertia)],

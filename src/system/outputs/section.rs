@@ -18,7 +18,7 @@ use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, GAUSS_5, Point, integrals_to};
 use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
-use crate::system::loads::{self, Distributed, Load, Values};
+use crate::system::loads::{self, Distributed, Fluid, Load, Values};
 use crate::system::{CableChain, System};
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -99,10 +99,10 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let load = self.distributed(system, chain.nodes(0)[0]);
         let changing = self.changing(system, (chain.nodes(0)[0], j));
         let force = |xi: f64| {
-            let weight = part.weight_before(xi);
+            let (weight, moved) = (part.weight_before(xi), part.moved_before(xi));
             let gravity = system.gravity * (weight[0] + weight[2]);
             let mut force =
-                first - load * N::of(xi * l) - gravity.map(N::of) + inertia * weight.map(N::of);
+                first - load * N::of(xi * l) - gravity.map(N::of) + inertia * moved.map(N::of);
             if let Some(values) = &changing {
                 force -= integral(values, xi) * N::of(l);
             }
@@ -182,7 +182,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         sum
     }
 
-    /// Sum of what of them changes along the body, at the Gauss points of a stretch, N/m; none where nothing does.
+    /// Sum of what of them changes along the body, and of what fluids do, at the Gauss points of a stretch, N/m; none where nothing does.
     pub(super) fn changing(
         &self,
         system: &System<D>,
@@ -195,6 +195,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             let sum = sum.get_or_insert([Vector::zeros(); GAUSS_5.len()]);
             sum.iter_mut()
                 .zip(values)
+                .for_each(|(sum, value)| *sum += value);
+        }
+        for load in fluids_along(system, first) {
+            let sum = sum.get_or_insert([Vector::zeros(); GAUSS_5.len()]);
+            sum.iter_mut()
+                .zip(load.values(at, stretch))
                 .for_each(|(sum, value)| *sum += value);
         }
         sum
@@ -229,6 +235,17 @@ fn forces_along<const D: usize>(
 ) -> impl Iterator<Item = &Distributed<D>> {
     system.loads.iter().filter_map(move |load| match load {
         Load::Distributed(load) if load.first_node(&system.chains) == first => Some(load),
+        _ => None,
+    })
+}
+
+/// Fluids that stream past the body with this first node.
+fn fluids_along<const D: usize>(
+    system: &System<D>,
+    first: usize,
+) -> impl Iterator<Item = &Fluid<D>> {
+    system.loads.iter().filter_map(move |load| match load {
+        Load::Fluid(load) if load.first_node(&system.chains) == first => Some(&**load),
         _ => None,
     })
 }

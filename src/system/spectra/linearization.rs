@@ -191,7 +191,11 @@ impl<const D: usize> System<D> {
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut following: Option<General<f64>> = None;
         for (index, load) in self.loads.iter().enumerate() {
-            for (part, nodes) in load.parts(&self.rod_chains).iter().enumerate() {
+            for (part, nodes) in load
+                .parts(&self.chains, &self.rod_chains)
+                .iter()
+                .enumerate()
+            {
                 let force = |x: &Nodes<D>, v: &Nodes<D>, f: &mut Nodes<D>| {
                     let at = Instant {
                         time: Jet::from_re(time),
@@ -321,7 +325,7 @@ impl<const D: usize> System<D> {
             add(nodes, &|x, a, b| {
                 let mut nodal = scratch.borrow_mut();
                 nodal[b] = x;
-                let at: Vector<D> = marker.position(&nodal) * lump.mass;
+                let at: Vector<D> = marker.position(&nodal) * lump.moved();
                 let on = marker.direction(&nodal) * lump.inertia;
                 nodal[b] = no_node();
                 let forces = marker.forces(at, on);

@@ -111,12 +111,11 @@ pub fn natural_frequencies<const D: usize>(
     Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {
-        let ends = system.loads[load].ends();
-        let body = ends
-            .iter()
-            .find_map(|end| end.marker())
-            .map_or(0, |marker| marker.body);
-        return Err(SpectrumError::NotConservative(body));
+        let parts = system.loads[load].parts(&system.chains, &system.rod_chains);
+        let acted: Vec<usize> = parts.into_iter().flatten().collect();
+        let mut bodies = system.bodies.iter();
+        let body = bodies.position(|nodes| acted.iter().any(|node| nodes.contains(node)));
+        return Err(SpectrumError::NotConservative(body.unwrap_or(0)));
     }
     refuse_turning(system, &linear, state)?;
     linear.hand_over(work);

@@ -4,6 +4,7 @@
 use crate::body::{Node, add_node, no_node};
 use crate::math::function::Function;
 use crate::math::space::{Vector, carried};
+use crate::system::loads::Load;
 use crate::system::signal::Drive;
 use crate::system::{Instant, System, Work};
 
@@ -78,6 +79,15 @@ impl<const D: usize> System<D> {
         self.rotation = rate;
         // The Coriolis force is that of the rates at rest, not of those that the scratch still holds.
         self.needs_rates = true;
+    }
+
+    /// Takes bodies at rest through fluids, as a whole: velocity of the origin, m/s, and angular velocity, rad/s.
+    pub(in crate::system) fn carry(&mut self, velocity: Vector<D>, rate: [f64; 3]) {
+        for load in &mut self.loads {
+            if let Load::Fluid(fluid) = load {
+                fluid.carried = (velocity, rate);
+            }
+        }
     }
 
     /// Holds joints apart by a fraction of their gaps.

@@ -46,6 +46,20 @@ function spiral(at) {
   }));
 }
 
+function circle(centre, radius) {
+  return through(Array.from({ length: 25 }, (_, k) => {
+    const angle = (2 * Math.PI * k) / 24;
+    return [centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle)];
+  }), true);
+}
+
+/** Two wheels that turn each other. */
+function wheels(from, to) {
+  const reach = Math.hypot(to[0] - from[0], to[1] - from[1]);
+  const radius = reach > 16 ? reach / 2 : 8;
+  return through([from, to]) + circle(from, radius) + circle(to, radius);
+}
+
 /** Everything over the picture. */
 export class Marks {
   constructor(motion, layer, project) {
@@ -60,6 +74,13 @@ export class Marks {
     this.ways = this.wayOfMarkers();
     this.joints = motion.joints.map((joint) => this.jointParts(joint));
     this.springs = motion.springs.map(() => element(this.groups.joints, 'path', { fill: 'none', stroke: SPRING, 'stroke-width': 1.7 }));
+    const marks = (list, stroke, width) => list.map((of) => {
+      const mark = element(this.groups.joints, 'path', { fill: 'none', stroke, 'stroke-width': width });
+      element(mark, 'title', {}, of.name);
+      return mark;
+    });
+    this.stops = marks(motion.stops, GROUND, 2.6);
+    this.gears = marks(motion.gears, FAINT, 1.1);
     this.arrows = motion.actions.map((action) => {
       const group = element(action.is_reaction ? this.groups.reactions : this.groups.loads, 'g');
       return { group, parts: [] };
@@ -166,6 +187,11 @@ export class Marks {
       const [from, to] = spring.ends.map((end) => this.project(motion.endOf(end)));
       set(this.springs[number], { d: zigzag(from, to) });
     });
+    motion.stops.forEach((stop, number) => set(this.stops[number], { d: this.bars(stop) }));
+    motion.gears.forEach((gear, number) => {
+      const [from, to] = gear.joints.map((joint) => this.project(motion.endOf(motion.joints[joint].ends[1])));
+      set(this.gears[number], { d: wheels(from, to) });
+    });
     motion.actions.forEach((action, number) => this.updateAction(action, number));
     this.placeNames();
   }
@@ -175,10 +201,6 @@ export class Marks {
     const [first, second] = joint.ends.map((end) => this.project(motion.endOf(end)));
     const isGrounded = joint.ends[0].point !== undefined;
     const at = isGrounded && joint.symbol !== 'slider' && joint.symbol !== 'prismatic' ? first : second;
-    const circle = (centre, radius) => through(Array.from({ length: 25 }, (_, k) => {
-      const angle = (2 * Math.PI * k) / 24;
-      return [centre[0] + radius * Math.cos(angle), centre[1] + radius * Math.sin(angle)];
-    }), true);
     const along = this.along(joint, second);
     let [drawn, behind, filled] = ['', '', 'none'];
     const foot = () => {
@@ -212,6 +234,20 @@ export class Marks {
     }
     set(back, { d: behind });
     set(front, { d: drawn, fill: filled });
+  }
+
+  /** Bars of a stop: of a way where the marker is when it meets them, of an angle beside it. */
+  bars(stop) {
+    const { motion } = this;
+    const joint = motion.joints[stop.joint];
+    const second = this.project(motion.endOf(joint.ends[1]));
+    const direction = stop.is_angle ? undefined : motion.direction(joint);
+    const { way } = direction ? this.along(joint, second) : { way: [1, 0] };
+    return [[-1, stop.lower], [1, stop.upper]].filter(([, limit]) => limit !== null).map(([side, limit]) => {
+      const met = direction ? this.project(motion.endOf(joint.ends[0]).addScaledVector(direction, limit)) : second;
+      const wall = moved(met, way, side * (direction ? 10 : 20));
+      return through([moved(wall, across(way), -9), moved(wall, across(way), 9)]);
+    }).join('');
   }
 
   /** How a joint's direction, or that of its second marker, is seen: unit way in the image, and how much of it lies there. */

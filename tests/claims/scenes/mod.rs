@@ -5,6 +5,7 @@ mod bushings;
 mod cables;
 mod coordinates;
 mod coupled;
+mod fluids;
 mod frames;
 mod initial;
 mod inputs;
@@ -53,6 +54,7 @@ pub fn all() -> Vec<Specimen> {
         motions::all(),
         planar_beams::all(),
         loads::all(),
+        fluids::all(),
         inputs::all(),
         ports::all(),
         releases::all(),

@@ -14,6 +14,7 @@ mod newton;
 mod unsymmetric;
 
 use super::held::Open;
+use super::steady::Steady;
 use crate::body::Node;
 use crate::math::space::Vector;
 use crate::math::vector::norm;
@@ -107,7 +108,7 @@ pub struct Turning<const D: usize = 2> {
 }
 
 /// Finds the equilibrium under gravity, inputs, loads and those of the initial state, all held as they are at the
-/// time of `state`, from its configuration; in a steady turn where one is given. Counts angles on the way and
+/// time of `state`, from its configuration; in a steady motion where one is given. Counts angles on the way and
 /// leaves the rates at zero.
 ///
 /// # Errors
@@ -117,9 +118,13 @@ pub fn find<const D: usize>(
     inputs: &[f64],
     work: &mut Work<D>,
     state: &mut State,
-    turning: Option<Turning<D>>,
+    steady: Option<Steady<D>>,
 ) -> Result<Found, NotFound> {
     let mut held = system.held_at(inputs, work, state);
+    if let Some(Steady { velocity, rate }) = steady {
+        held.carry(velocity, rate);
+    }
+    let turning = steady.and_then(|steady| steady.turning());
     if let Some(Turning { rate, center }) = turning {
         held.turn(rate, center);
     }

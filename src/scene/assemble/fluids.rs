@@ -1,0 +1,80 @@
+//! Fluids along bodies, and the mass that moves along with these.
+
+use super::{Builder, loads::uniform};
+use crate::math::quadrature::GAUSS_5;
+use crate::math::space::vector;
+use crate::scene::Error;
+use crate::scene::description::SectionNumbers;
+use crate::scene::resolved::{Cable, Fluid, Form, LoadKind, Resolved};
+use crate::system::loads::{self, Line, Load, PANELS, Strip};
+
+impl Resolved<'_> {
+    /// Mass of all fluids that move along with a body at a section, kg/m.
+    pub(super) fn added_mass(&self, body: usize, section: &SectionNumbers) -> f64 {
+        let loads = self.loads.iter();
+        let added = loads.filter_map(|load| match &load.kind {
+            LoadKind::Fluid(fluid) if fluid.on.id.body_index() == body => {
+                Some(fluid.added(section))
+            }
+            _ => None,
+        });
+        added.sum()
+    }
+}
+
+impl Fluid<'_> {
+    fn strip(&self, section: &SectionNumbers) -> Strip {
+        let [across, along] = self.drag;
+        let faced = 0.5 * self.density * self.diameter(section);
+        let displaced = self.displaced(section);
+        Strip {
+            drag: [faced * across, faced * std::f64::consts::PI * along],
+            buoyant: if self.buoyancy { displaced } else { 0.0 },
+            inert: displaced + self.added(section),
+        }
+    }
+}
+
+impl<const D: usize> Builder<'_, D> {
+    /// Places of a body between which what acts along it is known at Gauss points: its nodes, or ends of even parts of one that does not bend.
+    pub(super) fn stretches(&self, cable: Cable<'_>) -> Result<Vec<f64>, Error> {
+        match cable.id.form {
+            Form::Chain(_) => self.resolved.nodes(cable),
+            Form::Rod(_) => Ok((0..=PANELS).map(|k| k as f64 / PANELS as f64).collect()),
+        }
+    }
+
+    pub(super) fn line(&self, cable: Cable<'_>) -> Line {
+        match cable.id.form {
+            Form::Chain(chain) => Line::Chain(chain),
+            Form::Rod(rod) => Line::Rod(self.parts.rods[rod]),
+        }
+    }
+
+    pub(super) fn fluid(&self, fluid: &Fluid<'_>, path: &str) -> Result<Load<D>, Error> {
+        let cable = fluid.on;
+        let mut strips = Vec::new();
+        for ends in self.stretches(cable)?.windows(2) {
+            let sections = cable.body.sections_about(0.5 * (ends[0] + ends[1]));
+            for point in GAUSS_5 {
+                let section = match cable.id.form {
+                    Form::Chain(_) => sections(ends[0] + point.at * (ends[1] - ends[0])).0,
+                    // All along it that of its middle, as its mass.
+                    Form::Rod(_) => cable.body.section_at(0.5),
+                };
+                strips.push(fluid.strip(&section));
+            }
+        }
+        let mut current = uniform(&fluid.current);
+        let path = format!("{path}.current");
+        self.fill(cable, (&fluid.along, &path), &mut current.along)?;
+        Ok(Load::Fluid(Box::new(loads::Fluid {
+            on: self.line(cable),
+            strips,
+            current,
+            gravity: vector(self.resolved.scene.gravity.full()),
+            carried: (vector([0.0; 3]), [0.0; 3]),
+            fraction: 1.0,
+        })))
+    }
+}

@@ -1,0 +1,338 @@
+//! A fluid that streams past a cable, rod or beam: drag, inertia of the fluid and buoyancy per reference length. With the velocity `u` of
+//! the fluid less that of the line, its parts `u_t` along the tangent and `u_n` across it, the displaced area `A` and the diameter `D`
+//!
+//! `f = C_d rho D |u_n| u_n / 2 + C_t rho pi D |u_t| u_t / 2 + rho A (1 + C_a) du/dt - rho A g`,
+//!
+//! `du/dt` that of the fluid at a fixed place, `g` the gravitational acceleration. The rest, `-rho A C_a` times the acceleration of the
+//! line, is in the mass matrix (docs/decisions/0056-added-mass.md).
+//!
+//! Source: J. R. Morison, M. P. O'Brien, J. W. Johnson, S. A. Schaaf, The force exerted by surface waves on piles, Journal of Petroleum
+//! Technology 2 (1950) 149-154 (drag and inertia); M. Hall, A. Goupee, Validation of a lumped-mass mooring line model with DeepCwind
+//! semisubmersible model test data, Ocean Engineering 104 (2015) 590-603, Eqs. 9-14 (along and across a line).
+
+use nalgebra::SMatrix;
+
+use super::density::{Density, Values};
+use super::distributed::Line;
+use super::{Add, Instant, PANELS};
+use crate::body::{Node, no_block};
+use crate::elements::{Element, shape};
+use crate::math::function::Function;
+use crate::math::jet::Number;
+use crate::math::quadrature::GAUSS_5;
+use crate::math::space::{Vector, spun};
+use crate::system::CableChain;
+use crate::system::signal::Signal;
+
+/// What a fluid does at a place along a line, per reference length.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Strip {
+    /// Drag across the line and along it: force by the square of the velocity, N s^2/m^3.
+    pub drag: [f64; 2],
+    /// Mass of the fluid that is displaced and has weight, kg/m: none without buoyancy.
+    pub buoyant: f64,
+    /// Mass of the displaced fluid and of that which moves along, kg/m: its acceleration takes the line along.
+    pub inert: f64,
+}
+
+/// A fluid along a body.
+#[derive(Clone, Debug)]
+pub struct Fluid<const D: usize = 2> {
+    /// What it streams past. Its stretches are the elements of a chain, of a rod as many even parts as [`PANELS`].
+    pub on: Line,
+    /// What it does at the Gauss points of every stretch in turn.
+    pub strips: Vec<Strip>,
+    /// Velocity of the fluid, m/s.
+    pub current: Density<D>,
+    /// Gravitational acceleration, m/s^2.
+    pub gravity: Vector<D>,
+    /// Velocity of the body as a whole beside its rates, where equilibria are sought in a steady motion: that of the origin, m/s, and
+    /// angular velocity, rad/s.
+    pub carried: (Vector<D>, [f64; 3]),
+    /// Part of the force that acts.
+    pub fraction: f64,
+}
+
+/// A Gauss point: the nodes that it lies between, twice the same of a rod; what position and slope are of theirs; and the length that it
+/// stands for, m.
+struct Place {
+    nodes: [usize; 2],
+    position: [f64; 4],
+    slope: [f64; 4],
+    weight: f64,
+}
+
+impl Place {
+    /// The sum of nodal vectors with weights.
+    fn sum<const D: usize, N: Number>(&self, weights: &[f64; 4], x: &[Node<D, N>]) -> Vector<D, N> {
+        let mut sum = Vector::zeros();
+        for (k, weight) in weights.iter().enumerate() {
+            sum += Vector::from(x[self.nodes[k / 2]][k % 2]) * N::of(*weight);
+        }
+        sum
+    }
+}
+
+/// The velocity of the fluid past a place: along the tangent, a unit vector, and across it.
+struct Flow<const D: usize, N> {
+    tangent: Vector<D, N>,
+    along: N,
+    across: Vector<D, N>,
+    /// Size of the part across.
+    speed: N,
+}
+
+/// The length of a vector; none, without derivatives, of a vector that is zero.
+fn length<const D: usize, N: Number>(v: &Vector<D, N>) -> N {
+    match v.iter().all(|part| part.plain() == 0.0) {
+        true => N::of(0.0),
+        false => v.norm(),
+    }
+}
+
+/// The size of a number.
+fn size<N: Number>(of: N) -> N {
+    if of.plain() < 0.0 { -of } else { of }
+}
+
+impl<const D: usize, N: Number> Flow<D, N> {
+    /// Drag, N/m.
+    fn drag(&self, [across, along]: [f64; 2]) -> Vector<D, N> {
+        let pushed = self.across * (N::of(across) * self.speed);
+        pushed + self.tangent * (N::of(along) * size(self.along) * self.along)
+    }
+}
+
+impl<const D: usize> Flow<D, f64> {
+    /// Derivative of the drag by the velocity, N s/m^2.
+    fn damping(&self, [across, along]: [f64; 2]) -> SMatrix<f64, D, D> {
+        let tangent = self.tangent * self.tangent.transpose();
+        let mut damping = tangent * (2.0 * along * self.along.abs());
+        if self.speed > 0.0 {
+            let turned = self.across * self.across.transpose() / self.speed;
+            let even = (SMatrix::identity() - tangent) * self.speed;
+            damping += (even + turned) * across;
+        }
+        damping
+    }
+}
+
+impl<const D: usize> Fluid<D> {
+    /// Number of its stretches.
+    fn stretches(&self) -> usize {
+        self.strips.len() / GAUSS_5.len()
+    }
+
+    /// First node of the body that it streams past.
+    pub(in crate::system) fn first_node(&self, chains: &[CableChain<D>]) -> usize {
+        match self.on {
+            Line::Chain(chain) => chains[chain].nodes(0)[0],
+            Line::Rod(rod) => rod.node,
+        }
+    }
+
+    /// Nodes of its stretches.
+    pub(super) fn parts(&self, chains: &[CableChain<D>]) -> Vec<Vec<usize>> {
+        match self.on {
+            Line::Chain(chain) => {
+                let stretches = 0..self.stretches();
+                stretches.map(|j| chains[chain].nodes(j).to_vec()).collect()
+            }
+            Line::Rod(rod) => vec![vec![rod.node]; self.stretches()],
+        }
+    }
+
+    fn place(&self, chains: &[CableChain<D>], stretch: usize, point: usize) -> Place {
+        let point = GAUSS_5[point];
+        match self.on {
+            Line::Chain(chain) => {
+                let chain = &chains[chain];
+                let length = chain.elements()[stretch].length();
+                Place {
+                    nodes: chain.nodes(stretch),
+                    position: shape::values(point.at, length).into(),
+                    slope: shape::slopes(point.at, length).into(),
+                    weight: point.weight * length,
+                }
+            }
+            Line::Rod(rod) => {
+                let part = rod.length / PANELS as f64;
+                let arm = (stretch as f64 + point.at) * part - 0.5 * rod.length;
+                Place {
+                    nodes: [rod.node; 2],
+                    position: [1.0, arm, 0.0, 0.0],
+                    slope: [0.0, 1.0, 0.0, 0.0],
+                    weight: point.weight * part,
+                }
+            }
+        }
+    }
+
+    /// The current at the Gauss points of a stretch by what its components are: their values or their rates.
+    fn current<N: Number>(&self, stretch: usize, of: impl Fn(&Signal) -> N + Copy) -> Values<D, N> {
+        let uniform: Vector<D, N> = self.current.uniform.each_ref().map(of).into();
+        std::array::from_fn(|point| {
+            let place = GAUSS_5.len() * stretch + point;
+            let here = |values: &Vec<Signal>| values.get(place).map_or(N::of(0.0), of);
+            uniform + Vector::from(self.current.along.each_ref().map(here))
+        })
+    }
+
+    fn flow<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        place: &Place,
+        current: Vector<D, N>,
+    ) -> Flow<D, N> {
+        let (velocity, rate) = self.carried;
+        let mut carried = velocity.map(N::of);
+        if rate != [0.0; 3] {
+            carried += spun(rate, place.sum(&place.position, at.x));
+        }
+        let past = current - place.sum(&place.position, at.v) - carried;
+        let slope = place.sum(&place.slope, at.x);
+        let tangent = slope / slope.norm();
+        let along = tangent.dot(&past);
+        let across = past - tangent * along;
+        Flow {
+            speed: length(&across),
+            tangent,
+            along,
+            across,
+        }
+    }
+
+    /// Calls with every Gauss point of a stretch, the flow and what the fluid does there, and the whole force, N/m.
+    fn each<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        stretch: usize,
+        mut call: impl FnMut(&Place, &Flow<D, N>, &Strip, Vector<D, N>),
+    ) {
+        let current = self.current(stretch, |signal| signal.value(at));
+        let rates = self.current(stretch, |signal| signal.rate(at));
+        for (point, (current, rate)) in current.into_iter().zip(rates).enumerate() {
+            let strip = &self.strips[GAUSS_5.len() * stretch + point];
+            let place = self.place(at.chains, stretch, point);
+            let flow = self.flow(at, &place, current);
+            let force = flow.drag(strip.drag) + rate * N::of(strip.inert)
+                - (self.gravity * strip.buoyant).map(N::of);
+            call(&place, &flow, strip, force * N::of(self.fraction));
+        }
+    }
+
+    /// Forces at the Gauss points of a stretch, N/m.
+    pub(in crate::system) fn values<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        stretch: usize,
+    ) -> Values<D, N> {
+        let (mut values, mut point) = ([Vector::zeros(); GAUSS_5.len()], 0);
+        self.each(at, stretch, |_, _, _, force| {
+            values[point] = force;
+            point += 1;
+        });
+        values
+    }
+
+    /// Adds its forces on a stretch.
+    pub(super) fn add_force_on<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        stretch: usize,
+        f: &mut [Node<D, N>],
+    ) {
+        self.each(at, stretch, |place, _, _, force| {
+            for (k, part) in place.position.into_iter().enumerate() {
+                let on = force * N::of(part * place.weight);
+                let node = &mut f[place.nodes[k / 2]][k % 2];
+                (node.iter_mut().zip(&on)).for_each(|(sum, on)| *sum += *on);
+            }
+        });
+    }
+
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+        for stretch in 0..self.stretches() {
+            self.add_force_on(at, stretch, f);
+        }
+    }
+
+    /// What its force changes by as the line turns is left out: it is not symmetric, and steps converge without it.
+    pub(super) fn add_damping(&self, at: Instant<'_, D>, damping: Add<'_, D>) {
+        if !self.is_damped() {
+            return;
+        }
+        for stretch in 0..self.stretches() {
+            let [mut first, mut between, mut last] = [no_block(); 3];
+            let mut nodes = [0; 2];
+            self.each(at, stretch, |place, flow, strip, _| {
+                let matrix = flow.damping(strip.drag) * (place.weight * self.fraction);
+                nodes = place.nodes;
+                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    for (block, [row, column]) in [
+                        (&mut first, [p, q]),
+                        (&mut between, [2 + p, q]),
+                        (&mut last, [2 + p, 2 + q]),
+                    ] {
+                        let weight = place.position[row] * place.position[column];
+                        for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
+                            block[p][r][q][c] += weight * matrix[(r, c)];
+                        }
+                    }
+                }
+            });
+            let [a, b] = nodes;
+            damping(a, a, &first);
+            if a != b {
+                damping(b, a, &between);
+                damping(b, b, &last);
+            }
+        }
+    }
+
+    /// What the fluid supplies where it moves or lifts, and what drag takes out of the motion against it.
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        let (mut on_line, mut lost) = (N::of(0.0), N::of(0.0));
+        for stretch in 0..self.stretches() {
+            self.each(at, stretch, |place, flow, strip, force| {
+                let weight = N::of(place.weight);
+                let past = flow.across + flow.tangent * flow.along;
+                let drag = flow.drag(strip.drag) * N::of(self.fraction);
+                on_line += force.dot(&place.sum(&place.position, at.v)) * weight;
+                lost += drag.dot(&past) * weight;
+            });
+        }
+        [on_line + lost, lost]
+    }
+
+    /// That of forces which stay as they are before.
+    pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {
+        let mut sum = 0.0;
+        for stretch in 0..self.stretches() {
+            self.each(before, stretch, |place, _, _, force| {
+                let [from, to] = [before, after].map(|at| place.sum(&place.position, at.x));
+                sum += force.dot(&(to - from)) * place.weight;
+            });
+        }
+        sum
+    }
+
+    /// Becomes a fraction of what it is, from then on, the current as it is at an instant.
+    pub(super) fn hold(&mut self, at: Instant<'_, D>, fraction: f64) {
+        self.current.hold(at, 1.0);
+        self.fraction *= fraction;
+    }
+
+    /// Whether its velocity takes something out.
+    pub(super) fn is_damped(&self) -> bool {
+        self.strips.iter().any(|strip| strip.drag != [0.0; 2])
+    }
+
+    /// Whether it can do without a potential: buoyancy alone acts on what rests in a fluid at rest.
+    pub(super) fn streams(&self) -> bool {
+        let rests = |signal: &Signal| matches!(signal, Signal::Function(Function::Constant(0.0)));
+        let (velocity, rate) = self.carried;
+        let is_carried = velocity != Vector::<D>::zeros() || rate != [0.0; 3];
+        self.is_damped() && (is_carried || !self.current.signals().all(rests))
+    }
+}
