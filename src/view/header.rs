@@ -6,8 +6,8 @@ use super::recording::Recording;
 use super::sections::{has_corners, sections};
 use crate::math::rotation::{NO_TURN, Quaternion, quaternion_near};
 use crate::scene::{
-    BodyReference, Cable, CableBody, Ends, First, Hold, Joint, Marker, Place, PortKind, Resolved,
-    Rigid, Solid, Symbol,
+    BodyReference, Cable, CableBody, Ends, First, Hold, Joint, LoadKind, Marker, Place, PortKind,
+    Resolved, Rigid, Solid, Symbol,
 };
 use crate::simulation::Pose;
 
@@ -54,13 +54,14 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
             quoted(load.name)
         ))
     });
+    let surfaces = list(of_surfaces(recording, &resolved), |text| text);
     let outputs = list(&recording.outputs, |(name, unit)| {
         format!("{{\"name\":{},\"unit\":{}}}", quoted(name), quoted(unit))
     });
     let (tracks, encoded) = numbers.finish();
     let header = format!(
         "{{\"name\":{},\"dimension\":{},\"gravity\":{:?},\"times\":{times},\"row_times\":{row_times},\"table\":{table},\
-         \"bodies\":[{}],\"markers\":{markers},\"joints\":{},\"springs\":{},\"actions\":[{}],\"outputs\":{outputs},\
+         \"bodies\":[{}],\"markers\":{markers},\"joints\":{},\"springs\":{},\"surfaces\":{surfaces},\"actions\":[{}],\"outputs\":{outputs},\
          \"tracks\":[{tracks}]}}",
         quoted(&scene.name),
         scene.dimension,
@@ -228,6 +229,26 @@ fn of_ends(recording: &Recording, ends: &Ends<'_>) -> String {
         First::Cable(_) => format!("{{\"marker\":{second}}}"),
     };
     format!("[{first},{{\"marker\":{second}}}]")
+}
+
+/// Lines of the surfaces that bodies touch, as far as these move.
+fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
+    let poses = recording.poses.iter().flatten();
+    let near: Vec<[f64; 3]> = poses
+        .flat_map(|pose| pose.nodes.iter().map(|[position, _]| *position))
+        .collect();
+    let loads = resolved.loads.iter();
+    let surfaces = loads.filter_map(|load| match &load.kind {
+        LoadKind::Contact(contact) => {
+            let lines = contact.surface.lines(recording.scene.dimension, &near);
+            Some(format!(
+                "{{\"name\":{},\"lines\":{lines:?}}}",
+                quoted(load.name)
+            ))
+        }
+        _ => None,
+    });
+    surfaces.collect()
 }
 
 fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {

@@ -15,6 +15,7 @@ mod rotation;
 mod section;
 mod solid;
 mod strict;
+mod surface;
 mod torsion;
 mod value;
 mod vector;
@@ -41,6 +42,7 @@ pub use rotation::{Inertia, Orientation};
 pub use section::{Profile, Section, SectionNumbers, Station};
 pub use solid::Solid;
 pub use strict::Strict;
+pub use surface::Surface;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};
 pub use vector::{Spin, Vector};
 

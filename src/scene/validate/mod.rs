@@ -2,6 +2,7 @@
 
 mod bodies;
 mod checks;
+mod contact;
 mod gears;
 mod inputs;
 mod joints;

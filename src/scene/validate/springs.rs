@@ -15,6 +15,7 @@ impl<'a> Resolved<'a> {
         match load.kind {
             Given::JointSpring => self.joint_spring(path, load),
             Given::Stop => self.stop(path, load),
+            Given::Contact => self.contact(path, load).map(LoadKind::Contact),
             Given::Bushing => self.bushing(path, load).map(LoadKind::Bushing),
             _ => self.spring(path, load).map(LoadKind::Spring),
         }

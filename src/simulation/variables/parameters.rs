@@ -4,7 +4,7 @@ use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
 use crate::math::space::spins;
 use crate::scene::{
-    BodyReference, Bushing, Cable, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene,
+    BodyReference, Bushing, By, Cable, Contact, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene,
 };
 
 /// Key, meaning, unit, what it stands for, start value.
@@ -214,7 +214,25 @@ fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &Bushing<'_>) {
     }
 }
 
-/// Stiffness and damping of hinges, springs, bushings, stops and couplings.
+/// Stiffness, damping and friction of a contact.
+fn add_contact(list: &mut List, (i, of): (usize, &str), contact: &Contact<'_>) {
+    use Parameter::*;
+    let stiffness = match contact.by {
+        By::Marker(_) => NEWTON_PER_METRE,
+        By::Cable(_) => NEWTON_PER_SQUARE_METRE,
+    };
+    let units = [stiffness, SECOND_PER_METRE];
+    let parameters = [SpringStiffness(i), StopDamping(i)];
+    list.damper(of, units, parameters, contact.sizes);
+    // Without a speed of slip there can be none.
+    if contact.slip_velocity.is_some() {
+        let what = "Coefficient of friction";
+        let row = ("friction", what, None, Friction(i), contact.friction);
+        list.parameters(of, "of", &[row]);
+    }
+}
+
+/// Stiffness and damping of hinges, springs, bushings, stops, contacts and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
     for (i, joint) in resolved.joints.iter().enumerate() {
@@ -231,6 +249,10 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
             LoadKind::Action { .. } => continue,
             LoadKind::Bushing(bushing) => {
                 add_bushing(list, (i, load.name), bushing);
+                continue;
+            }
+            LoadKind::Contact(contact) => {
+                add_contact(list, (i, load.name), contact);
                 continue;
             }
             LoadKind::Spring(spring) => {
@@ -355,6 +377,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         SpringDamping(i) | TorsionDamping(i) | StopDamping(i) | TorsionStopDamping(i) => {
             scene.loads[i].damping = Some(value);
         }
+        Friction(i) => scene.loads[i].friction = Some(value),
         BushingStiffness(i, axis) => {
             let Scene { loads, .. } = scene;
             loads[i].translational_stiffness.get_or_insert_default()[axis] = value;
