@@ -151,6 +151,8 @@ keys! {
     HingeStiffness => "joints", "/stiffness", "N.m/rad";
     HingeDamping => "joints", "/damping", "N.m.s/rad";
     SpringStiffness => "loads", "/stiffness", "N/m";
+    SpreadStiffness => "loads", "/stiffness", "N/m2";
+    Friction => "loads", "/friction", "";
     SpringDamping => "loads", "/damping", "N.s/m";
     TorsionStiffness => "loads", "/stiffness", "N.m/rad";
     TorsionDamping => "loads", "/damping", "N.m.s/rad";

@@ -95,7 +95,7 @@ pub enum Parameter {
     HingeStiffness(usize),
     /// Damping of a hinge.
     HingeDamping(usize),
-    /// Stiffness of a spring-damper or a contact.
+    /// Stiffness of a spring-damper or of a contact of a marker.
     SpringStiffness(usize),
     /// Damping of a spring-damper.
     SpringDamping(usize),
@@ -107,6 +107,8 @@ pub enum Parameter {
     StopDamping(usize),
     /// Damping of a stop of an angle, s/rad.
     TorsionStopDamping(usize),
+    /// Stiffness of a contact of a body, N/m per length.
+    SpreadStiffness(usize),
     /// Coefficient of friction of a contact.
     Friction(usize),
     /// Stiffness of a bushing along an axis (0 to 2), N/m.

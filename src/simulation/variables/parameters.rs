@@ -217,13 +217,12 @@ fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &Bushing<'_>) {
 /// Stiffness, damping and friction of a contact.
 fn add_contact(list: &mut List, (i, of): (usize, &str), contact: &Contact<'_>) {
     use Parameter::*;
-    let stiffness = match contact.by {
-        By::Marker(_) => NEWTON_PER_METRE,
-        By::Cable(_) => NEWTON_PER_SQUARE_METRE,
+    let (stiffness, unit) = match contact.by {
+        By::Marker(_) => (SpringStiffness(i), NEWTON_PER_METRE),
+        By::Cable(_) => (SpreadStiffness(i), NEWTON_PER_SQUARE_METRE),
     };
-    let units = [stiffness, SECOND_PER_METRE];
-    let parameters = [SpringStiffness(i), StopDamping(i)];
-    list.damper(of, units, parameters, contact.sizes);
+    let parameters = [stiffness, StopDamping(i)];
+    list.damper(of, [unit, SECOND_PER_METRE], parameters, contact.sizes);
     // Without a speed of slip there can be none.
     if contact.slip_velocity.is_some() {
         let what = "Coefficient of friction";
@@ -373,7 +372,9 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         LumpedMass(i) => scene.masses[i].mass = value,
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),
-        SpringStiffness(i) | TorsionStiffness(i) => scene.loads[i].stiffness = Some(value),
+        SpringStiffness(i) | TorsionStiffness(i) | SpreadStiffness(i) => {
+            scene.loads[i].stiffness = Some(value);
+        }
         SpringDamping(i) | TorsionDamping(i) | StopDamping(i) | TorsionStopDamping(i) => {
             scene.loads[i].damping = Some(value);
         }

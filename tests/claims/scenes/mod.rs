@@ -3,6 +3,7 @@
 
 mod bushings;
 mod cables;
+mod contacts;
 mod coordinates;
 mod coupled;
 mod frames;
@@ -61,6 +62,7 @@ pub fn all() -> Vec<Specimen> {
         space_bodies::all(),
         space_joints::all(),
         space_modes::all(),
+        contacts::all(),
         coordinates::all(),
         bushings::all(),
         space_ports::all(),
