@@ -18,7 +18,7 @@ const SINGLE: [&str; 3] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 10] = [
+const REFUSED: [&str; 11] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -29,6 +29,7 @@ const REFUSED: [&str; 10] = [
     "initial.loads{joint_spring}",
     "initial.loads{stop}",
     "initial.loads{bushing}",
+    "initial.loads{contact}",
 ];
 /// Keys that are refused where one of them alone is changed.
 const TOGETHER: [&str; 7] = [

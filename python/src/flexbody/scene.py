@@ -432,8 +432,8 @@ class JointSpringLoad(Part):
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
-    that is passed by `d`, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     rest: StrictFloat | None = None
     """
@@ -441,7 +441,8 @@ class JointSpringLoad(Part):
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `contact`: N/m of a marker, N/m per reference length of a body.
     """
 
 
@@ -495,7 +496,8 @@ class StopLoad(Part):
     """
     stiffness: Annotated[StrictFloat, Field(ge=0.0)]
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `contact`: N/m of a marker, N/m per reference length of a body.
     """
     coordinate: CoordinateKind | None = None
     """
@@ -503,8 +505,8 @@ class StopLoad(Part):
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
-    that is passed by `d`, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     lower: StrictFloat | None = None
     """
@@ -2085,8 +2087,8 @@ class SpringDamperLoad(Part):
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
-    that is passed by `d`, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     length: Value | None = None
     """
@@ -2099,7 +2101,8 @@ class SpringDamperLoad(Part):
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `contact`: N/m of a marker, N/m per reference length of a body.
     """
 
 
@@ -2208,6 +2211,94 @@ class Helix(Part):
 Shape = TypeAliasType("Shape", Annotated[Line | Arc | Helix, under_one_of("line", "arc", "helix")])
 """
 Unstressed shape of a cable.
+"""
+
+
+class PlaneSurface(Part):
+    """
+    Plane, in the plane a straight line; the ground is below.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "plane"},
+    )
+    point: Vector
+    """
+    A point of it, m.
+    """
+    normal: Vector
+    """
+    Direction away from the ground, of any length but zero.
+    """
+
+
+class CircleSurface(Part):
+    """
+    Circle, in the plane.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "circle"},
+    )
+    center: Vector
+    """
+    Its centre, m.
+    """
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+
+
+class SphereSurface(Part):
+    """
+    Sphere, in space.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "sphere"},
+    )
+    center: Vector
+    """
+    Its centre, m.
+    """
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+
+
+class CylinderSurface(Part):
+    """
+    Cylinder without end, in space.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "cylinder"},
+    )
+    point: Vector
+    """
+    A point of its axis, m.
+    """
+    axis: Vector
+    """
+    Direction of its axis, of any length but zero.
+    """
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+
+
+Surface = TypeAliasType(
+    "Surface",
+    Annotated[
+        PlaneSurface | CircleSurface | SphereSurface | CylinderSurface,
+        under_one_of("plane", "circle", "sphere", "cylinder"),
+    ],
+)
+"""
+Surface of the ground that is touched from outside; it stands still.
 """
 
 
@@ -2513,7 +2604,7 @@ class ForceLoad(Part):
     kind: Literal["force"] = "force"
     marker: StrictStr
     """
-    `force`, `moment`: where it acts, `body.marker`.
+    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
     """
     value: LoadValue
     """
@@ -2541,7 +2632,7 @@ class MomentLoad(Part):
     kind: Literal["moment"] = "moment"
     marker: StrictStr
     """
-    `force`, `moment`: where it acts, `body.marker`.
+    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
     """
     value: LoadValue
     """
@@ -2590,7 +2681,8 @@ class DistributedLoad(Part):
     kind: Literal["distributed"] = "distributed"
     body: StrictStr
     """
-    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
     value: LoadValue
     """
@@ -2613,7 +2705,8 @@ class DistributedMomentLoad(Part):
     kind: Literal["distributed_moment"] = "distributed_moment"
     body: StrictStr
     """
-    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
     value: LoadValue
     """
@@ -2628,6 +2721,54 @@ class DistributedMomentLoad(Part):
     """
 
 
+class ContactLoad(Part):
+    """
+    Contact of a marker, or of the line of a cable, rod or beam, with a surface of the ground: a one-sided spring and damper along the
+    normal (Hunt and Crossley 1975) and friction along the surface, which is none at rest, so that an equilibrium has none.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-either": [{"must": ["marker"], "may": []}, {"must": ["body"], "may": []}]},
+    )
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["contact"] = "contact"
+    surface: Surface
+    """
+    `contact`: what is touched.
+    """
+    stiffness: Annotated[StrictFloat, Field(ge=0.0)]
+    """
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `contact`: N/m of a marker, N/m per reference length of a body.
+    """
+    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    """
+    friction: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `contact`: Coulomb's coefficient of friction; 0 by default.
+    """
+    marker: StrictStr | None = None
+    """
+    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
+    """
+    slip_velocity: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `contact` with friction: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. What would
+    stick creeps at a fraction of it.
+    """
+    body: StrictStr | None = None
+    """
+    `distributed`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
+    """
+
+
 Load = TypeAliasType(
     "Load",
     Annotated[
@@ -2639,7 +2780,8 @@ Load = TypeAliasType(
         | SpringDamperLoad
         | JointSpringLoad
         | BushingLoad
-        | StopLoad,
+        | StopLoad
+        | ContactLoad,
         Field(discriminator="kind"),
     ],
 )

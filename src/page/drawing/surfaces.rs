@@ -30,7 +30,7 @@ impl Picture<'_> {
     pub(super) fn surfaces(&mut self) {
         let style = Style {
             stroke: FAINT,
-            width: 0.12 * self.unit,
+            width: 0.05 * self.unit,
             fill: "none",
         };
         let dimension = self.scene.dimension;

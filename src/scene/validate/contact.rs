@@ -69,6 +69,7 @@ impl<'a> Resolved<'a> {
             needed(path, "slip_velocity", "a speed", load.slip_velocity)?;
         }
         if let Some(slip_velocity) = load.slip_velocity {
+            needed(path, "friction", "a coefficient", load.friction)?;
             positive(&at("slip_velocity"), "m/s", slip_velocity)?;
         }
         Ok(Contact {

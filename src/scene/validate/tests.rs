@@ -1,6 +1,7 @@
 //! What scenes may say, and refusals, one line each: where, what stands there instead, and how the
 //! message begins.
 
+mod contacts;
 mod planar_beams;
 mod schema;
 mod space;

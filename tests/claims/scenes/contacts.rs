@@ -223,8 +223,11 @@ fn along_a_rigid_body() -> Specimen {
 /// Evenly deep and moving as a whole, it is pushed and rubbed evenly.
 fn along_a_cable() -> Specimen {
     let (density, velocity, depth) = (2.5, [0.9, -0.4], 0.03);
+    // Touches nothing.
+    let above =
+        line(&json!({"name": "above", "shape": {"line": {"from": [0.0, 0.5], "to": [1.0, 0.5]}}}));
     let scene = json!({"name": "dragged", "dimension": 2,
-        "bodies": [line(&json!({"motion": {"velocity": velocity}})), extra()],
+        "bodies": [line(&json!({"motion": {"velocity": velocity}})), above],
         "loads": [{"name": "floor", "kind": "contact", "body": "rod", "stiffness": STIFFNESS, "damping": DAMPING,
                    "friction": FRICTION, "slip_velocity": SLIP,
                    "surface": {"plane": {"point": [5.0, depth], "normal": [0.0, 1.0]}}}],
@@ -242,7 +245,7 @@ fn along_a_rod() -> Specimen {
     let depths = [0.02, 0.05];
     let plane = |normal: Vector3<f64>, depth: f64| json!({"plane": {"point": array(normal * depth), "normal": array(normal)}});
     let scene = json!({"name": "groove", "dimension": 3,
-        "bodies": [{"element": "rod", "name": "rod", "elements": 3,
+        "bodies": [{"element": "rod", "name": "rod", "elements": 3, "axial": "waves",
             "material": {"youngs_modulus": 1e6, "shear_modulus": 4e5, "density": 1250.0},
             "section": {"area": 2e-3, "second_moments": [1e-7, 2e-7], "torsion_constant": 2e-7},
             "shape": {"line": {"from": [0.0, 0.0, 0.0], "to": [1.0, 0.0, 0.0]}}, "markers": {"p": 0.3, "e": 1.0}}],
