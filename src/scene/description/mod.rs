@@ -147,6 +147,12 @@ impl Scene {
         is_error_alone || cables.any(|cable| cable.elements.is_none())
     }
 
+    /// Whether bodies have damping ratios that have not become times.
+    pub fn has_ratios(&self) -> bool {
+        let mut cables = self.bodies.iter().filter_map(Body::cable);
+        cables.any(|cable| cable.material.damping_ratio.is_some())
+    }
+
     /// Error wanted of outputs where it is planned for: as given, or 1e-3.
     pub fn error(&self) -> f64 {
         self.accuracy.error.unwrap_or(1e-3)

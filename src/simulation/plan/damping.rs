@@ -1,0 +1,162 @@
+//! From the damping ratio of a body's first mode to a Kelvin-Voigt time. The scene swings without dampers about its start; the first mode
+//! in which at least half of the energy is strain of the body is meant. With its displacements `w`, of unit mass, and the stiffness `K_e` of
+//! the body alone, Kelvin-Voigt damping takes `tau w^T K_e w` there, which is to be `2 zeta omega`.
+//!
+//! Source: R. W. Clough, J. Penzien, Dynamics of Structures, 3rd ed. (2003), section 12-4 (damping in modal coordinates; in proportion to
+//! stiffness).
+
+use super::search::fewest;
+use crate::scene::{Error, Scene};
+use crate::simulation::dimension::AnyEngine;
+use crate::simulation::variables::{start_inputs, variables};
+
+/// Elements that a body whose number is still open has at least: they miss a first frequency by less than 1e-5.
+const ELEMENTS: u32 = 16;
+/// Part of the energy of a mode that is strain of the body, but for roundoff.
+const SHARE: f64 = 0.5 - 1e-9;
+/// Modes that are looked at first, how many times as many next, and at most.
+const FIRST: usize = 12;
+const TIMES: usize = 4;
+const MOST: usize = 768;
+
+/// A damping ratio that became a time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Damped {
+    /// The body.
+    pub name: String,
+    /// Damping ratio of the mode.
+    pub ratio: f64,
+    /// Its angular frequency without damping, rad/s.
+    pub frequency: f64,
+    /// Part of its energy that is strain of the body.
+    pub share: f64,
+    /// Kelvin-Voigt damping time of the body, s.
+    pub time: f64,
+}
+
+/// A mode as a body sees it: its frequency (rad/s) and `w^T K_e w` (1/s^2).
+type Found = (f64, f64);
+
+/// The scene with the damping times that its damping ratios make, and where they come from.
+///
+/// # Errors
+/// What is not valid, no start, and no mode that is a body's.
+pub(in crate::simulation) fn damp(scene: &Scene) -> Result<(Scene, Vec<Damped>), Error> {
+    let (mut damped, mut asked) = (scene.clone(), Vec::new());
+    for (index, body) in damped.bodies.iter_mut().enumerate() {
+        let ratio = body
+            .cable_mut()
+            .and_then(|of| of.material.damping_ratio.take());
+        asked.extend(ratio.map(|ratio| (index, ratio)));
+    }
+    let open: Vec<usize> = asked
+        .iter()
+        .filter(|of| of.1 > 0.0)
+        .map(|of| of.0)
+        .collect();
+    let found = match open.is_empty() {
+        true => Vec::new(),
+        false => modes_of(&damped, &open)?,
+    };
+    let mut account = Vec::new();
+    let mut found = found.into_iter();
+    for (index, ratio) in asked {
+        if ratio == 0.0 {
+            continue;
+        }
+        let Some((frequency, stiffness)) = found.next() else {
+            continue;
+        };
+        let time = 2.0 * ratio * frequency / stiffness;
+        let name = damped.bodies[index].name().to_owned();
+        if let Some(line) = damped.bodies[index].cable_mut() {
+            line.material.damping_time = time;
+        }
+        account.push(Damped {
+            name,
+            ratio,
+            frequency,
+            share: stiffness / (frequency * frequency),
+            time,
+        });
+    }
+    Ok((damped, account))
+}
+
+/// The scene as it swings: with meshes where they are open, and with nothing that is read.
+fn swinging(scene: &Scene) -> Result<Scene, Error> {
+    let mut scene = scene.clone().plain();
+    scene.outputs.clear();
+    scene.accuracy.relative_tolerance.get_or_insert(1e-6);
+    let fewest = fewest(&scene)?;
+    let lines = scene.bodies.iter_mut().filter_map(|body| body.cable_mut());
+    for (line, fewest) in lines.zip(fewest) {
+        line.elements.get_or_insert(fewest.max(ELEMENTS));
+    }
+    Ok(scene)
+}
+
+/// The first mode of every one of these bodies.
+fn modes_of(scene: &Scene, open: &[usize]) -> Result<Vec<Found>, Error> {
+    let scene = swinging(scene)?;
+    let place = |index: usize| format!("bodies[{index}].material.damping_ratio");
+    let refused = |told: String| {
+        let message =
+            format!("expected modes about the start, found none ({told}); write `damping_time`");
+        Error::new(place(open[0]), message)
+    };
+    let inputs = start_inputs(&variables(&scene));
+    let engine = |scene: &Scene| {
+        let resolved = scene.resolve()?;
+        AnyEngine::new(&resolved, &[]).map_err(|error| refused(error.to_string()))
+    };
+    let mut still = engine(&scene)?;
+    let (state, _) =
+        (still.initial_state(0.0, &inputs)).map_err(|error| refused(error.to_string()))?;
+    // With a time of 1 s a body is damped by its stiffness.
+    let damped = open.iter().map(|index| {
+        let mut scene = scene.clone();
+        if let Some(line) = scene.bodies[*index].cable_mut() {
+            line.material.damping_time = 1.0;
+        }
+        engine(&scene)
+    });
+    let mut damped = damped.collect::<Result<Vec<_>, Error>>()?;
+    let mut count = FIRST;
+    loop {
+        let modes = still.modes(&state, &inputs, count).map_err(refused)?;
+        let (ways, squares): (Vec<_>, Vec<_>) = modes
+            .into_iter()
+            .map(|mode| (mode.way, mode.square))
+            .unzip();
+        let others = still.damping_along(&state, &inputs, &ways);
+        let found: Vec<Option<Found>> = damped
+            .iter_mut()
+            .map(|engine| {
+                let whole = engine.damping_along(&state, &inputs, &ways);
+                let own = whole
+                    .iter()
+                    .zip(&others)
+                    .map(|(whole, other)| whole - other);
+                let mut modes = squares.iter().zip(own);
+                let is_its =
+                    |(square, own): &(&f64, f64)| **square > 0.0 && *own >= SHARE * **square;
+                modes.find(is_its).map(|(square, own)| (square.sqrt(), own))
+            })
+            .collect();
+        let missing = found.iter().position(Option::is_none);
+        let Some(missing) = missing else {
+            return Ok(found.into_iter().flatten().collect());
+        };
+        if squares.len() < count || count >= MOST {
+            let name = scene.bodies[open[missing]].name();
+            let message = format!(
+                "expected a mode in which at least half of the energy is strain of \"{name}\", found none among the {} lowest; \
+                 write `damping_time`",
+                squares.len()
+            );
+            return Err(Error::new(place(open[missing]), message));
+        }
+        count *= TIMES;
+    }
+}
