@@ -160,3 +160,71 @@ fn modes_of(scene: &Scene, open: &[usize]) -> Result<Vec<Found>, Error> {
         count *= TIMES;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    fn scene(changes: &Value) -> Value {
+        let mut body = json!({"name": "rod", "element": "cable", "elements": 4,
+            "material": {"youngs_modulus": 2e9, "density": 1200.0, "damping_ratio": 0.02},
+            "section": {"area": 1e-3, "second_moment": 1e-8},
+            "shape": {"line": {"from": [0.0, 0.0], "to": [2.0, 0.0]}}, "markers": {"a": 0.0, "e": 1.0}});
+        for (key, value) in changes.as_object().into_iter().flatten() {
+            body[key] = value.clone();
+        }
+        json!({"name": "damped", "dimension": 2, "bodies": [body],
+            "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.a"]}]})
+    }
+
+    fn damped(scene: &Value) -> Result<(Scene, Vec<Damped>), Error> {
+        damp(&Scene::from_json(&scene.to_string())?)
+    }
+
+    #[test]
+    fn what_nothing_strains_has_no_ratio() {
+        let told = damped(&scene(&json!({"model": "rigid"})))
+            .expect_err("nothing strains it")
+            .to_string();
+        assert!(
+            told.starts_with(
+                "bodies[0].material.damping_ratio: expected a mode in which at least half"
+            ) && told.ends_with("write `damping_time`"),
+            "{told}"
+        );
+    }
+
+    /// Modes that gravity and a tight string alone hold are passed over.
+    #[test]
+    fn a_hanging_rope_is_damped_where_it_stretches() {
+        let mut scene = scene(&json!({"section": {"area": 1e-3, "second_moment": 0.0},
+            "shape": {"line": {"from": [0.0, 0.0], "to": [0.0, -2.0]}}, "elements": 8}));
+        scene["gravity"] = json!([0.0, -9.81]);
+        scene["initial"] = json!("static_equilibrium");
+        let (_, account) = damped(&scene).expect("a mode");
+        // The bar that is clamped at one end: pi c / (2 L).
+        let exact = std::f64::consts::FRAC_PI_4 * (2e9_f64 / 1200.0).sqrt();
+        assert!(
+            (account[0].frequency / exact - 1.0).abs() < 1e-4,
+            "{account:?}"
+        );
+        assert!(
+            (account[0].time * exact / 0.04 - 1.0).abs() < 1e-4,
+            "{account:?}"
+        );
+    }
+
+    /// The mesh of a body whose number of elements is open is fine enough, and none without damping needs no modes.
+    #[test]
+    fn open_meshes_and_zero_are_taken() {
+        let [given, open] = [json!({}), json!({"elements": "auto"})]
+            .map(|changes| damped(&scene(&changes)).expect("a mode").1[0].frequency);
+        assert!((given / open - 1.0).abs() < 1e-4, "{given} {open}");
+        let mut none = scene(&json!({"model": "rigid"}));
+        none["bodies"][0]["material"]["damping_ratio"] = json!(0.0);
+        let (scene, account) = damped(&none).expect("no damping");
+        assert!(account.is_empty() && !scene.has_ratios());
+    }
+}

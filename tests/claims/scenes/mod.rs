@@ -6,6 +6,7 @@ mod cables;
 mod contacts;
 mod coordinates;
 mod coupled;
+mod damping;
 mod frames;
 mod initial;
 mod inputs;
@@ -64,6 +65,7 @@ pub fn all() -> Vec<Specimen> {
         space_modes::all(),
         contacts::all(),
         coordinates::all(),
+        damping::all(),
         bushings::all(),
         space_ports::all(),
         space_driven::all(),
