@@ -553,6 +553,12 @@ class Material(Part):
     Material of a cable.
     """
 
+    damping_ratio: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    In place of `damping_time`: damping ratio of the first mode of the scene, about its start, in which at least half of the energy is
+    strain of this body. Packaging makes of it the `damping_time` with which the body gives the mode this ratio; a mode of twice the
+    frequency has about twice the ratio.
+    """
     damping_time: Annotated[StrictFloat, Field(ge=0.0)] = 0.0
     """
     Kelvin-Voigt damping: ratio of viscosity to stiffness, s.
