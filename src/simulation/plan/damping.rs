@@ -105,10 +105,11 @@ fn modes_of(scene: &Scene, open: &[usize]) -> Result<Vec<Found>, Error> {
             format!("expected modes about the start, found none ({told}); write `damping_time`");
         Error::new(place(open[0]), message)
     };
-    let inputs = start_inputs(&variables(&scene));
+    let variables = variables(&scene);
+    let inputs = start_inputs(&variables);
     let engine = |scene: &Scene| {
         let resolved = scene.resolve()?;
-        AnyEngine::new(&resolved, &[]).map_err(|error| refused(error.to_string()))
+        AnyEngine::new(&resolved, &variables).map_err(|error| refused(error.to_string()))
     };
     let mut still = engine(&scene)?;
     let (state, _) =
@@ -176,7 +177,8 @@ mod tests {
             body[key] = value.clone();
         }
         json!({"name": "damped", "dimension": 2, "bodies": [body],
-            "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.a"]}]})
+            "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "rod.a"]}],
+            "inputs": [{"kind": "force", "marker": "rod.e", "start": [0.0, 0.1]}]})
     }
 
     fn damped(scene: &Value) -> Result<(Scene, Vec<Damped>), Error> {
