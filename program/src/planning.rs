@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use anyhow::Result;
 use flexbody::scene::{Chosen, Scene};
-use flexbody::simulation::{self, Plan, Planned, Settles};
+use flexbody::simulation::{self, Damped, Plan, Planned, Settles};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::reading::{at, read};
@@ -49,7 +49,11 @@ pub fn planned(path: &Path) -> Result<(Scene, Planned)> {
 pub fn plan(arguments: &Planning) -> Result<()> {
     let path = &arguments.scene;
     let (scene, planned) = planned(path)?;
-    let Planned { elements, numbers } = &planned;
+    let Planned {
+        elements,
+        damping,
+        numbers,
+    } = &planned;
     if let (Some(file), Some(plan)) = (&arguments.report, numbers) {
         fs::write(file, json(plan)).map_err(|error| at(file, error))?;
     }
@@ -58,10 +62,10 @@ pub fn plan(arguments: &Planning) -> Result<()> {
         let written = courses.map_or(Ok(()), |text| fs::write(file, text));
         written.map_err(|error| at(file, error))?;
     }
-    print!("{}", chosen_in_words(elements));
+    print!("{}{}", chosen_in_words(elements), damping_in_words(damping));
     match numbers {
         Some(plan) => print!("{}", in_words(plan)),
-        None if !elements.is_empty() => (),
+        None if !elements.is_empty() || !damping.is_empty() => (),
         None => println!("nothing to plan: the scene gives numbers of elements and a tolerance"),
     }
     let Some(output) = &arguments.output else {
@@ -118,6 +122,28 @@ fn chosen_in_words(elements: &[Chosen]) -> String {
         "elements chosen\n{}\n",
         table(&["body", "element and why"], rows.collect())
     )
+}
+
+/// Damping times that were made of ratios as a list of a terminal.
+fn damping_in_words(damping: &[Damped]) -> String {
+    if damping.is_empty() {
+        return String::new();
+    }
+    let rows = damping.iter().map(|of| {
+        let mode = format!(
+            "{:.6} rad/s, {:.1} % strain of it",
+            of.frequency,
+            100.0 * of.share
+        );
+        [
+            of.name.clone(),
+            of.ratio.to_string(),
+            mode,
+            format!("{:e} s", of.time),
+        ]
+    });
+    let heads = ["body", "damping ratio", "mode", "damping time"];
+    format!("damping\n{}\n", table(&heads, rows.collect()))
 }
 
 /// The plan as tables of a terminal.

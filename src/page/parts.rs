@@ -3,8 +3,8 @@
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::{
-    Ends, Fluid, Gear, Hold, Joint, JointCoordinate, Load, LoadKind, Motion, MotionKind, Port,
-    PortKind, Scene, Turning, Value,
+    By, Contact, Ends, Fluid, Gear, Hold, Joint, JointCoordinate, Load, LoadKind, Motion,
+    MotionKind, Port, PortKind, Scene, Surface, Turning, Value, Vector,
 };
 use crate::system::{Drive, Signal};
 
@@ -267,7 +267,7 @@ fn load_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) 
             code(&fluid.on.body.name),
             fluid_in_words(fluid),
         ),
-        _ => spring_in_words(load),
+        _ => spring_in_words(dimension, load),
     }
 }
 
@@ -298,7 +298,7 @@ fn fluid_in_words(fluid: &Fluid<'_>) -> String {
 }
 
 /// The same of springs, dampers and stops of joints.
-fn spring_in_words(load: &Load<'_>) -> (String, String, String) {
+fn spring_in_words(dimension: usize, load: &Load<'_>) -> (String, String, String) {
     let units = |on: &JointCoordinate<'_>| match on.is_angle() {
         true => ["N m/rad", "N m s/rad", "s/rad", "rad"],
         false => ["N/m", "N s/m", "s/m", "m"],
@@ -337,8 +337,46 @@ fn spring_in_words(load: &Load<'_>) -> (String, String, String) {
                 sizes.collect::<Vec<_>>().join(", "),
             )
         }
+        LoadKind::Contact(contact) => contact_in_words(dimension, contact),
         LoadKind::Action { .. } | LoadKind::Spring(_) | LoadKind::Fluid(_) => Default::default(),
     }
+}
+
+/// The same of a contact.
+fn contact_in_words(dimension: usize, contact: &Contact<'_>) -> (String, String, String) {
+    let (by, unit) = match contact.by {
+        By::Marker(marker) => (code(marker.name), "N/m"),
+        By::Cable(cable) => (code(&cable.body.name), "N/m per length"),
+    };
+    let vector = |of: &Vector| vector(dimension, of.full());
+    let surface = match &contact.surface {
+        Surface::Plane { point, normal } => {
+            format!("through {}, normal {}", vector(point), vector(normal))
+        }
+        Surface::Circle { center, radius } | Surface::Sphere { center, radius } => {
+            format!("of radius {} m about {}", number(*radius), vector(center))
+        }
+        Surface::Cylinder {
+            point,
+            axis,
+            radius,
+        } => format!(
+            "of radius {} m about the axis through {} along {}",
+            number(*radius),
+            vector(point),
+            vector(axis)
+        ),
+    };
+    let [k, a] = contact.sizes.map(number);
+    let friction = contact.slip_velocity.map_or(String::new(), |speed| {
+        let friction = number(contact.friction);
+        format!(", friction {friction}, smooth below {} m/s", number(speed))
+    });
+    (
+        format!("contact with a {}", contact.surface.name()),
+        by,
+        format!("{surface}; {k} {unit}, {a} s/m{friction}"),
+    )
 }
 
 /// A point or a direction, with as many components as there are dimensions.

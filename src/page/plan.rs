@@ -4,11 +4,13 @@ use super::canvas::escape;
 use super::number::number;
 use super::table::{code, row, table};
 use crate::scene::Chosen;
-use crate::simulation::{Plan, Planned, Settles};
+use crate::simulation::{Damped, Plan, Planned, Settles};
 
 /// The sections; nothing of a scene that was not planned.
 pub fn plan(planned: &Planned) -> String {
-    elements(&planned.elements) + &planned.numbers.as_ref().map(numbers).unwrap_or_default()
+    elements(&planned.elements)
+        + &damping(&planned.damping)
+        + &planned.numbers.as_ref().map(numbers).unwrap_or_default()
 }
 
 /// Elements that were chosen.
@@ -24,6 +26,32 @@ fn elements(chosen: &[Chosen]) -> String {
             "Elements that were chosen",
             note,
             &["Body", "Element", "Why"],
+            rows.collect(),
+        ),
+    }
+}
+
+/// Damping times that were made of damping ratios.
+fn damping(damped: &[Damped]) -> String {
+    let rows = damped.iter().map(|of| {
+        let [ratio, frequency, share, time] =
+            [of.ratio, of.frequency, of.share, of.time].map(number);
+        row(&[&code(&of.name), &ratio, &frequency, &share, &time])
+    });
+    let note = "<p>A body that a damping ratio is written of has the Kelvin-Voigt time that gives this ratio to the first mode \
+        about the start in which at least half of the energy is strain of the body.</p>\n";
+    match damped.is_empty() {
+        true => String::new(),
+        false => table(
+            "Damping by ratios",
+            note,
+            &[
+                "Body",
+                "Damping ratio",
+                "Frequency of the mode, rad/s",
+                "Strain of the body in its energy",
+                "Damping time, s",
+            ],
             rows.collect(),
         ),
     }

@@ -72,6 +72,7 @@ impl<'a> Resolved<'a> {
         for load in &self.loads {
             match &load.kind {
                 LoadKind::Action { action, .. } => actions.push(action),
+                LoadKind::Contact(contact) => found.extend(contact.by.marker()),
                 kind => found.extend(kind.between().iter().flat_map(|ends| ends.markers())),
             }
         }

@@ -24,14 +24,15 @@ pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, CableBody, Course, Experiment, Inertia,
     Initial, InitialMotion, InitialState, InputCourse, Integrator, Interpolation, Material, Method,
     Model, Orientation, OutputKind, Profile, RigidBody, Scene, Section, SectionNumbers, Sections,
-    Shape, Solid, Spin, Station, Strain, Symbol, Table, Value, Vector,
+    Shape, Solid, Spin, Station, Strain, Surface, Symbol, Table, Value, Vector,
 };
 pub use elements::Chosen;
 pub use resolved::{
-    Action, AngleId, BodyReference, Bushing, Cable, CableId, Coupling, CouplingId, Ends, First,
-    Fluid, Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint, JointCoordinate, Load,
-    LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output, Pivot, Place, PointId,
-    Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider, Spring, Turning,
+    Action, AngleId, BodyReference, Bushing, By, Cable, CableId, Contact, Coupling, CouplingId,
+    Ends, First, Fluid, Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint,
+    JointCoordinate, Load, LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output,
+    Pivot, Place, PointId, Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider,
+    Spring, Turning,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};

@@ -9,7 +9,7 @@ use super::description::{
     Along, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
 };
 use crate::system::{Drive, Release};
-pub use loads::{Action, Bushing, Fluid, Load, LoadKind, On, Spring};
+pub use loads::{Action, Bushing, By, Contact, Fluid, Load, LoadKind, On, Spring};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
 macro_rules! numbers {

@@ -6,7 +6,7 @@ use super::{
     Error, Pose, Quantity, Redundant, Report, Singular, Spectra, StepFailure, Unresolved, Variable,
 };
 use crate::scene::{Error as SceneError, Resolved, Scene};
-use crate::system::State;
+use crate::system::{Mode, State};
 
 /// What a step did, and why it was not finished.
 type Stepped = (Report, Result<(), StepFailure>);
@@ -36,6 +36,8 @@ macro_rules! handed_on {
 
 handed_on! {
     fn initial_state([&mut] self, time: f64, inputs: &Inputs) -> Result<(State, Spectra), Error>;
+    fn modes([&mut] self, state: &State, inputs: &[f64], count: usize) -> Result<Vec<Mode>, String>;
+    fn damping_along([&mut] self, state: &State, inputs: &[f64], ways: &[Vec<f64>]) -> Vec<f64>;
     fn remarks([&] self) -> &Remarks;
     fn redundant([&mut] self, state: &State) -> Redundant;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
@@ -53,6 +55,7 @@ handed_on! {
     fn change([&mut] self, quantity: Quantity, state: &State) -> f64;
     fn markers([&mut] self, state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
     fn outlines([&mut] self, state: &State, inputs: &Inputs, parts: &dyn Fn(usize) -> u32) -> Outlines;
+    fn pull([&mut] self, load: usize, state: &State, inputs: &Inputs) -> [f64; 3];
     fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
 }
 

@@ -2,6 +2,7 @@
 
 use super::inputs::Inputs;
 use super::mesh::MeshWatch;
+use super::modes::in_words;
 use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
@@ -9,11 +10,12 @@ use super::{Error, Quantity, Report, Source, Spectra, StepFailure, Variable, met
 use crate::body::Node;
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
+use crate::math::space::components;
 use crate::scene::{Assembled, Holder, InitialState, Resolved, Timed};
 use crate::system::equilibrium::{self, Failure, NotFound};
 use crate::system::{
-    Derivatives, Dynamics, Evaluation, Gap, Model, NotAssembled, SpectrumError, State, System,
-    Work, eigenvalues, natural_frequencies,
+    Derivatives, Dynamics, Evaluation, Gap, Model, NotAssembled, State, System, Work, eigenvalues,
+    natural_frequencies,
 };
 
 /// What the derivatives at hand are by.
@@ -209,23 +211,17 @@ impl<const D: usize> Engine<D> {
     fn spectra(&mut self, inputs: &[f64], state: &State) -> Result<Spectra, Error> {
         let ([natural, damped], mut spectra) = (self.wanted, Spectra::default());
         let (system, work) = (&self.assembled.system, &mut self.work);
-        let refused = |kind: &str, error: SpectrumError| {
-            let message = match error {
-                SpectrumError::NotConservative(body) => format!(
-                    "expected forces with a potential, found one that follows {:?}; \"eigenvalue\" takes it",
-                    self.bodies[body]
-                ),
-                other => other.to_string(),
-            };
-            Error::Spectrum(format!("{kind}: {message}"))
-        };
+        let refused = |kind: &str, told: String| Error::Spectrum(format!("{kind}: {told}"));
         if natural > 0 {
             let found = natural_frequencies(system, inputs, work, state, natural);
-            spectra.frequencies = found.map_err(|error| refused("natural_frequency", error))?;
+            let found =
+                found.map_err(|error| refused("natural_frequency", in_words(&self.bodies, error)));
+            spectra.frequencies = found?;
         }
         if damped > 0 {
             let found = eigenvalues(system, inputs, work, state, damped);
-            let found = found.map_err(|error| refused("eigenvalue", error))?;
+            let found =
+                found.map_err(|error| refused("eigenvalue", in_words(&self.bodies, error)))?;
             let parts = found.iter().map(|s| [s.decay_rate, s.frequency]);
             spectra.eigenvalues = parts.collect();
         }
@@ -339,6 +335,13 @@ impl<const D: usize> Engine<D> {
             work[0] += self.set_energy(state, inputs);
         }
         value(quantity, &self.evaluation, &self.assembled, work)
+    }
+
+    /// Force of a spring of the scene on its second end, N; of one about an axis the moment about it, first, N m.
+    pub(super) fn pull(&mut self, load: usize, state: &State, inputs: &Inputs) -> [f64; 3] {
+        self.evaluate(Evaluated::Dynamics, state, inputs);
+        let place = self.assembled.load(load);
+        components(&self.evaluation.pull(&self.assembled.system, place))
     }
 
     /// The system, and its nodes in a state.

@@ -14,6 +14,16 @@ pub(super) struct Inputs {
 }
 
 impl Inputs {
+    /// At rest at these values.
+    pub(super) fn at_rest(values: Vec<f64>) -> Self {
+        Self {
+            slopes: vec![[0.0; 2]; values.len()],
+            held: values.clone(),
+            values,
+            moving: false,
+        }
+    }
+
     /// Moves on by a time, s.
     pub(super) fn advance(&mut self, t: f64) {
         for (value, [first, second]) in self.values.iter_mut().zip(&mut self.slopes) {

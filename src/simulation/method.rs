@@ -168,9 +168,10 @@ fn elastic_rate(resolved: &Resolved<'_>) -> f64 {
 
 /// Rate of the whole mass on the stiffest spring or hinge; 0 without one.
 fn spring_rate(resolved: &Resolved<'_>, size: f64, mass: f64) -> f64 {
-    // A stop is met now and then.
+    // A stop or a surface is met now and then.
     let loads = resolved.loads.iter();
-    let loads = loads.filter(|load| !matches!(load.kind, LoadKind::Stop { .. }));
+    let is_met = |kind: &LoadKind<'_>| matches!(kind, LoadKind::Stop { .. } | LoadKind::Contact(_));
+    let loads = loads.filter(|load| !is_met(&load.kind));
     let of_springs = loads.map(|load| {
         let [against_ways, against_turns] = load.kind.stiffness();
         against_ways.max(against_turns / (size * size))

@@ -7,6 +7,7 @@ mod engine;
 mod inputs;
 mod mesh;
 mod method;
+mod modes;
 mod plan;
 mod quantities;
 mod shapes;
@@ -23,7 +24,8 @@ mod watch;
 pub use dimension::check;
 pub use mesh::Unresolved;
 pub use plan::{
-    Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, Settled, Settles, courses, plan,
+    Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, Settled, Settles, courses,
+    plan,
 };
 pub use quantities::Quantity;
 pub use shapes::Pose;
@@ -36,6 +38,7 @@ use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;
 use dimension::AnyEngine;
 use inputs::Inputs;
+use plan::damp;
 use variables::{set_parameter, start_inputs};
 
 /// Why a simulation cannot go on.
@@ -131,6 +134,8 @@ impl Simulation {
     /// When the scene is not valid ([`Scene::resolved`]).
     pub fn new(scene: Scene) -> Self {
         let scene = scene.plain();
+        // Where that fails, initialization says why.
+        let scene = damp(&scene).map_or(scene, |(damped, _)| damped);
         Self::with(variables(&scene), scene)
     }
 
@@ -139,12 +144,7 @@ impl Simulation {
         let inputs = start_inputs(&variables);
         Self {
             direction: vec![0.0; inputs.len()],
-            inputs: Inputs {
-                slopes: vec![[0.0; 2]; inputs.len()],
-                held: inputs.clone(),
-                values: inputs,
-                moving: false,
-            },
+            inputs: Inputs::at_rest(inputs),
             scene,
             variables,
             values,
@@ -291,6 +291,9 @@ impl Simulation {
             let message = "expected numbers of elements and a relative_tolerance, found some that are left to the \
                            planner: `flexbody plan` finds them";
             return Err(Error::Scene(SceneError::new("scene", message)));
+        }
+        if self.scene.has_ratios() {
+            damp(&self.scene)?;
         }
         let scene = self.parametrized();
         let resolved = scene.resolve()?;

@@ -36,6 +36,7 @@ pub use outputs::stress::SectionPoint;
 pub use rod::Rod;
 pub use signal::{Drive, Given, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;
+pub use spectra::modes::{Mode, damping_along, modes};
 pub use spectra::spectrum::{
     Eigenvalue, SpectrumError, eigenvalues, linearized, natural_frequencies,
 };

@@ -138,7 +138,7 @@ fn of_spring<'a>(place: usize, load: &'a scene::Load<'a>, dimension: usize) -> O
                 (Where::Joint(marker, pivot.joint.index()), true)
             }
         },
-        LoadKind::Action { .. } | LoadKind::Fluid(_) => return None,
+        LoadKind::Action { .. } | LoadKind::Fluid(_) | LoadKind::Contact(_) => return None,
     };
     Some(Action {
         name: load.name,

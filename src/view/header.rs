@@ -59,6 +59,7 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
         let joints = gear.coordinates.map(|of| joint_of(&of));
         format!("{{\"name\":{},\"joints\":{joints:?}}}", quoted(gear.name))
     });
+    let surfaces = list(of_surfaces(recording, &resolved), |text| text);
     let outputs = list(&recording.outputs, |(name, unit)| {
         format!("{{\"name\":{},\"unit\":{}}}", quoted(name), quoted(unit))
     });
@@ -66,7 +67,7 @@ pub(super) fn header(recording: &Recording) -> (String, String) {
     let header = format!(
         "{{\"name\":{},\"dimension\":{},\"gravity\":{:?},\"times\":{times},\"row_times\":{row_times},\"table\":{table},\
          \"bodies\":[{}],\"markers\":{markers},\"joints\":{},\"springs\":{},\
-         \"stops\":{},\"gears\":{},\"actions\":[{}],\"outputs\":{outputs},\
+         \"surfaces\":{surfaces},\"stops\":{},\"gears\":{},\"actions\":[{}],\"outputs\":{outputs},\
          \"tracks\":[{tracks}]}}",
         quoted(&scene.name),
         scene.dimension,
@@ -257,6 +258,26 @@ fn of_stop(load: &Load<'_>) -> Option<String> {
         joint_of(on),
         on.is_angle()
     ))
+}
+
+/// Lines of the surfaces that bodies touch, as far as these move.
+fn of_surfaces(recording: &Recording, resolved: &Resolved<'_>) -> Vec<String> {
+    let poses = recording.poses.iter().flatten();
+    let near: Vec<[f64; 3]> = poses
+        .flat_map(|pose| pose.nodes.iter().map(|[position, _]| *position))
+        .collect();
+    let loads = resolved.loads.iter();
+    let surfaces = loads.filter_map(|load| match &load.kind {
+        LoadKind::Contact(contact) => {
+            let lines = contact.surface.lines(recording.scene.dimension, &near);
+            Some(format!(
+                "{{\"name\":{},\"lines\":{lines:?}}}",
+                quoted(load.name)
+            ))
+        }
+        _ => None,
+    });
+    surfaces.collect()
 }
 
 fn of_joint(recording: &Recording, joint: &Joint<'_>) -> String {

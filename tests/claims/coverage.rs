@@ -18,7 +18,7 @@ const SINGLE: [&str; 3] = [
     "outputs{eigenvalue}.body",
 ];
 /// What stands in the schema and is refused.
-const REFUSED: [&str; 11] = [
+const REFUSED: [&str; 12] = [
     "bodies{rod}.motion.spin#number",
     "bodies{rod}.strain",
     "bodies{rod}.model=rigid",
@@ -30,6 +30,7 @@ const REFUSED: [&str; 11] = [
     "initial.loads{stop}",
     "initial.loads{bushing}",
     "initial.loads{fluid}",
+    "initial.loads{contact}",
 ];
 /// Keys that are refused where one of them alone is changed.
 const TOGETHER: [&str; 7] = [

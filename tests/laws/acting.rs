@@ -1,10 +1,13 @@
 //! Loads one by one, on cables and rigid bodies in random states: forces from energies, tangents by
 //! differences, power.
 
-use flexbody::body::{Frames, Node, NodeBlock};
+use flexbody::body::{Frames, Marker, Node, NodeBlock};
+use flexbody::elements::Element;
 use flexbody::math::function::Function;
 use flexbody::system::Instant;
-use flexbody::system::loads::{Bushing, JointSpring, Load, RotationalBushing, Stop};
+use flexbody::system::loads::{
+    Bushing, Contact, JointSpring, Load, Place, RotationalBushing, Stop, Surface,
+};
 use flexbody::system::{Angle, Coordinate, Direction, End, Signal, Way};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::prelude::*;
@@ -139,6 +142,61 @@ fn on_coordinates<'a>(frame: &'a Frame, ends: [End; 2]) -> Vec<Acted<'a>> {
     loads.map(acted).collect()
 }
 
+/// Contacts of markers and of all cables with a line and with a circle, all of them below it.
+fn contacts(frame: &Frame, friction: f64, damping: f64) -> Vec<Acted<'_>> {
+    let made = &frame.made;
+    let markers = ends(made).into_iter().filter_map(|[_, end]| {
+        let End::Body(marker) = made.product_end(end) else {
+            return None;
+        };
+        let weight = 1.0;
+        Some(vec![Place { marker, weight }])
+    });
+    let cables = frame.chains.iter().enumerate().map(|(body, chain)| {
+        let elements = chain.elements().iter().enumerate();
+        let places = elements.flat_map(|(j, element)| {
+            [0.1, 0.6].map(|xi| Place {
+                marker: Marker::within(body, chain, j, xi),
+                weight: 0.5 * element.length(),
+            })
+        });
+        places.collect::<Vec<_>>()
+    });
+    let normal = Vector2::new(made.noise[23].cos(), made.noise[23].sin());
+    let both = markers.chain(cables).flat_map(|places| {
+        let points = places.iter().map(|place| place.marker.position(&frame.x));
+        let points: Vec<Vector2<f64>> = points.collect();
+        let highest = points.iter().map(|point| normal.dot(point));
+        let highest = highest.fold(f64::NEG_INFINITY, f64::max);
+        let center = points[0] - normal * 1.3;
+        let far = points.iter().map(|point| (point - center).norm());
+        let surfaces = [
+            Surface::Plane {
+                point: normal * (highest + 0.4),
+                normal,
+            },
+            Surface::Round {
+                center,
+                axis: None,
+                radius: far.fold(0.0, f64::max) + 0.3,
+            },
+        ];
+        surfaces.map(|surface| Acted {
+            frame,
+            load: Load::Contact(Box::new(Contact {
+                places: places.clone(),
+                surface,
+                stiffness: 5.0 + made.noise[24],
+                damping,
+                friction,
+                slip_velocity: 2.0,
+            })),
+            angles: Vec::new(),
+        })
+    });
+    both.collect()
+}
+
 fn loads(frame: &Frame) -> Vec<Acted<'_>> {
     let made = &frame.made;
     let mut actions = Vec::new();
@@ -181,7 +239,9 @@ fn loads(frame: &Frame) -> Vec<Acted<'_>> {
         angles: Vec::new(),
     };
     let actions = actions.iter().map(acted);
-    actions.chain(couplings(frame)).chain(rotational).collect()
+    let contacts = contacts(frame, 0.0, 0.01);
+    let actions = actions.chain(couplings(frame)).chain(contacts);
+    actions.chain(rotational).collect()
 }
 
 /// A number that changes in time, and its rate.
@@ -255,7 +315,7 @@ fn law(acted: &Acted<'_>) -> Outcome {
             within("work", (force[i] - exact).abs(), 1e-8 * most)?;
         }
         let conservative = match &acted.load {
-            Load::Spring(_) | Load::JointSpring(_) | Load::Stop(_) => true,
+            Load::Spring(_) | Load::JointSpring(_) | Load::Stop(_) | Load::Contact(_) => true,
             Load::Bushing(load) => load.damping == 0.0,
             Load::RotationalBushing(load) => load.damping == 0.0,
             _ => false,
@@ -298,6 +358,43 @@ fn loads_have_the_forces_tangents_and_power_that_they_say() {
         let frame = frame(made);
         for acted in loads(&frame) {
             law(&acted).map_err(|e| TestCaseError::fail(format!("{e} of {:?}", acted.load)))?;
+        }
+        Ok(())
+    });
+}
+
+/// Friction has the damping matrix that it says while points slip, takes energy, and is none at rest.
+#[test]
+fn friction_slows_what_slips() {
+    check(CASES, frames(), |made| {
+        let frame = frame(made);
+        let (x, v) = (&frame.x, &frame.v);
+        let rest = vec![[[0.0; 2]; 2]; x.len()];
+        let pairs = contacts(&frame, 0.4, 0.0).into_iter();
+        for (rough, smooth) in pairs.zip(contacts(&frame, 0.0, 0.0)) {
+            let [_, damping] = rough.tangent(x, v, 0.0);
+            for i in 0..damping.ncols() {
+                let unit = frame.unit(i);
+                for j in 0..damping.nrows() {
+                    let by_v = -slope(2e-3, |s| rough.force(x, &along(v, &unit, s), 0.0)[j]);
+                    within(
+                        "damping",
+                        (damping[(j, i)] - by_v).abs(),
+                        1e-6 * (1.0 + damping.amax()),
+                    )?;
+                }
+            }
+            let difference = |v| rough.force(x, v, 0.0) - smooth.force(x, v, 0.0);
+            within("at rest", difference(&rest).amax(), 0.0)?;
+            let moving = DVector::from_column_slice(v.as_flattened().as_flattened());
+            let [_, dissipated] = rough.at((x, v, 0.0), |load, at| load.power(at));
+            let power = difference(v).dot(&moving);
+            within(
+                "power",
+                (power + dissipated).abs(),
+                1e-9 * (1.0 + power.abs()),
+            )?;
+            prop_assert!(dissipated >= 0.0);
         }
         Ok(())
     });

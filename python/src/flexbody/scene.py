@@ -245,7 +245,7 @@ class TorqueInput(Part):
     kind: Literal["torque"] = "torque"
     joint: StrictStr
     """
-    `torque`: name of the revolute joint or hinge that it acts in.
+    `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
     """
     start: list[StrictFloat] = []
     """
@@ -309,6 +309,23 @@ class RestLengthInput(Part):
     """
 
 
+class ReleaseInput(Part):
+    """
+    Whether a joint lets go: it does, for good, in the first step that begins with more than 0.
+    """
+
+    kind: Literal["release"] = "release"
+    joint: StrictStr
+    """
+    `torque`: name of the revolute joint or hinge that it acts in; `release`: of the joint that lets go.
+    """
+    start: list[StrictFloat] = []
+    """
+    Value before the master sets one: the components of a force or a current, one of others; zero by default,
+    for a rest length that of the spring-damper, for a current that of the fluid.
+    """
+
+
 class CurrentInput(Part):
     """
     Velocity of a fluid in global axes, m/s.
@@ -335,6 +352,7 @@ Input = TypeAliasType(
         | DistributedInput
         | DistributedMomentInput
         | RestLengthInput
+        | ReleaseInput
         | CurrentInput,
         Field(discriminator="kind"),
     ],
@@ -416,6 +434,11 @@ class OrientationJoint(Part):
     `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
     rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class AlongJoint(Part):
@@ -432,6 +455,11 @@ class AlongJoint(Part):
     """
     What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
     then `body.marker`.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -455,8 +483,8 @@ class JointSpringLoad(Part):
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
-    that is passed by `d`, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     rest: StrictFloat | None = None
     """
@@ -464,7 +492,8 @@ class JointSpringLoad(Part):
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `contact`: N/m of a marker, N/m per reference length of a body.
     """
 
 
@@ -518,7 +547,8 @@ class StopLoad(Part):
     """
     stiffness: Annotated[StrictFloat, Field(ge=0.0)]
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `contact`: N/m of a marker, N/m per reference length of a body.
     """
     coordinate: CoordinateKind | None = None
     """
@@ -526,8 +556,8 @@ class StopLoad(Part):
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
-    that is passed by `d`, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     lower: StrictFloat | None = None
     """
@@ -574,6 +604,12 @@ class Material(Part):
     Material of a cable.
     """
 
+    damping_ratio: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    In place of `damping_time`: damping ratio of the first mode of the scene, about its start, in which at least half of the energy is
+    strain of this body. Packaging makes of it the `damping_time` with which the body gives the mode this ratio; a mode of twice the
+    frequency has about twice the ratio.
+    """
     damping_time: Annotated[StrictFloat, Field(ge=0.0)] = 0.0
     """
     Kelvin-Voigt damping: ratio of viscosity to stiffness, s.
@@ -1738,6 +1774,11 @@ class Revolute(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Spherical(Part):
@@ -1758,6 +1799,11 @@ class Spherical(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1792,6 +1838,11 @@ class Universal(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Weld(Part):
@@ -1817,6 +1868,11 @@ class Weld(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1847,6 +1903,11 @@ class Slider(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Cylindrical(Part):
@@ -1875,6 +1936,11 @@ class Cylindrical(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1908,6 +1974,11 @@ class Screw(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -1943,6 +2014,11 @@ class Prismatic(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Planar(Part):
@@ -1972,6 +2048,11 @@ class Planar(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
 
 
 class Distance(Part):
@@ -1996,6 +2077,11 @@ class Distance(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -2035,6 +2121,11 @@ class Hinge(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
+    """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     `hinge` only: stiffness against rotation, N m/rad.
@@ -2064,6 +2155,11 @@ class Generic(Part):
     point: Vector | None = None
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
+    """
+    release_time: StrictFloat | None = None
+    """
+    Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
+    same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     """
 
 
@@ -2108,8 +2204,8 @@ class SpringDamperLoad(Part):
     """
     damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
-    that is passed by `d`, s/m or s/rad; 0 by default.
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     """
     length: Value | None = None
     """
@@ -2122,7 +2218,8 @@ class SpringDamperLoad(Part):
     """
     stiffness: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
-    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `contact`: N/m of a marker, N/m per reference length of a body.
     """
 
 
@@ -2139,7 +2236,8 @@ class FluidLoad(Part):
     kind: Literal["fluid"] = "fluid"
     body: StrictStr
     """
-    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
     density: Annotated[StrictFloat, Field(gt=0.0)]
     """
@@ -2282,6 +2380,94 @@ class Helix(Part):
 Shape = TypeAliasType("Shape", Annotated[Line | Arc | Helix, under_one_of("line", "arc", "helix")])
 """
 Unstressed shape of a cable.
+"""
+
+
+class PlaneSurface(Part):
+    """
+    Plane, in the plane a straight line; the ground is below.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "plane"},
+    )
+    point: Vector
+    """
+    A point of it, m.
+    """
+    normal: Vector
+    """
+    Direction away from the ground, of any length but zero.
+    """
+
+
+class CircleSurface(Part):
+    """
+    Circle, in the plane.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "circle"},
+    )
+    center: Vector
+    """
+    Its centre, m.
+    """
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+
+
+class SphereSurface(Part):
+    """
+    Sphere, in space.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "sphere"},
+    )
+    center: Vector
+    """
+    Its centre, m.
+    """
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+
+
+class CylinderSurface(Part):
+    """
+    Cylinder without end, in space.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-key": "cylinder"},
+    )
+    point: Vector
+    """
+    A point of its axis, m.
+    """
+    axis: Vector
+    """
+    Direction of its axis, of any length but zero.
+    """
+    radius: StrictFloat
+    """
+    Radius, m.
+    """
+
+
+Surface = TypeAliasType(
+    "Surface",
+    Annotated[
+        PlaneSurface | CircleSurface | SphereSurface | CylinderSurface,
+        under_one_of("plane", "circle", "sphere", "cylinder"),
+    ],
+)
+"""
+Surface of the ground that is touched from outside; it stands still.
 """
 
 
@@ -2587,7 +2773,7 @@ class ForceLoad(Part):
     kind: Literal["force"] = "force"
     marker: StrictStr
     """
-    `force`, `moment`: where it acts, `body.marker`.
+    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
     """
     value: LoadValue
     """
@@ -2615,7 +2801,7 @@ class MomentLoad(Part):
     kind: Literal["moment"] = "moment"
     marker: StrictStr
     """
-    `force`, `moment`: where it acts, `body.marker`.
+    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
     """
     value: LoadValue
     """
@@ -2664,7 +2850,8 @@ class DistributedLoad(Part):
     kind: Literal["distributed"] = "distributed"
     body: StrictStr
     """
-    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
     value: LoadValue
     """
@@ -2687,7 +2874,8 @@ class DistributedMomentLoad(Part):
     kind: Literal["distributed_moment"] = "distributed_moment"
     body: StrictStr
     """
-    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
     value: LoadValue
     """
@@ -2699,6 +2887,54 @@ class DistributedMomentLoad(Part):
     """
     `force`, in space `moment` too: the components turn with the marker; in the plane along and across (to the left), in
     space along the axes of the body's frame. `distributed_moment`: they turn with the sections and are along their axes.
+    """
+
+
+class ContactLoad(Part):
+    """
+    Contact of a marker, or of the line of a cable, rod or beam, with a surface of the ground: a one-sided spring and damper along the
+    normal (Hunt and Crossley 1975) and friction along the surface, which is none at rest, so that an equilibrium has none.
+    """
+
+    model_config = ConfigDict(
+        json_schema_extra={"x-either": [{"must": ["marker"], "may": []}, {"must": ["body"], "may": []}]},
+    )
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["contact"] = "contact"
+    surface: Surface
+    """
+    `contact`: what is touched.
+    """
+    stiffness: Annotated[StrictFloat, Field(ge=0.0)]
+    """
+    `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    `contact`: N/m of a marker, N/m per reference length of a body.
+    """
+    damping: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
+    """
+    friction: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `contact`: Coulomb's coefficient of friction; 0 by default.
+    """
+    marker: StrictStr | None = None
+    """
+    `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
+    """
+    slip_velocity: Annotated[StrictFloat | None, Field(ge=0.0)] = None
+    """
+    `contact` with friction: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. What would
+    stick creeps at a fraction of it.
+    """
+    body: StrictStr | None = None
+    """
+    `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     """
 
 
@@ -2714,7 +2950,8 @@ Load = TypeAliasType(
         | JointSpringLoad
         | BushingLoad
         | StopLoad
-        | FluidLoad,
+        | FluidLoad
+        | ContactLoad,
         Field(discriminator="kind"),
     ],
 )

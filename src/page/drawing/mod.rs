@@ -6,6 +6,7 @@ mod joints;
 mod labels;
 mod names;
 mod picture;
+mod surfaces;
 
 use super::canvas::Point;
 use crate::scene::{Resolved, Scene};
@@ -58,7 +59,8 @@ fn bounds(resolved: &Resolved<'_>) -> [Point; 2] {
         .bodies
         .iter()
         .flat_map(|body| bodies::outline(*body, resolved.scene.dimension));
-    for point in outlines.chain(joints).chain(loads) {
+    let surfaces = surfaces::outlines(resolved);
+    for point in outlines.chain(joints).chain(loads).chain(surfaces) {
         let point = picture::seen(resolved.scene.dimension, point);
         for axis in 0..2 {
             low[axis] = low[axis].min(point[axis]);
@@ -75,6 +77,7 @@ fn bounds(resolved: &Resolved<'_>) -> [Point; 2] {
 impl Picture<'_> {
     /// The finished image.
     fn draw(mut self) -> String {
+        self.surfaces();
         for body in &self.resolved.bodies {
             self.body(*body);
         }

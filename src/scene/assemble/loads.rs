@@ -24,6 +24,7 @@ impl<const D: usize> Builder<'_, D> {
                 LoadKind::Stop { on, sizes, limits } => self.stop(on, *sizes, *limits),
                 LoadKind::Bushing(bushing) => self.bushing(bushing),
                 LoadKind::Fluid(fluid) => self.fluid(fluid, &format!("loads[{index}]"))?,
+                LoadKind::Contact(contact) => self.contact(contact),
             };
             self.parts.loads.push(built);
         }

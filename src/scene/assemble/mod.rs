@@ -3,6 +3,7 @@
 mod axes;
 mod axial;
 mod bodies;
+mod contact;
 mod coordinates;
 mod fluids;
 mod initial;

@@ -175,6 +175,12 @@ pub struct Material {
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub damping_time: f64,
+    /// In place of `damping_time`: damping ratio of the first mode of the scene, about its start, in which at least half of the energy is
+    /// strain of this body. Packaging makes of it the `damping_time` with which the body gives the mode this ratio; a mode of twice the
+    /// frequency has about twice the ratio.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub damping_ratio: Option<f64>,
 }
 
 /// Strain measures by name; they agree only for small strains.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CoordinateKind, Keys, Kind, LoadValue, Value, Vector};
+use super::{CoordinateKind, Keys, Kind, LoadValue, Surface, Value, Vector};
 
 /// A load that is known in the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -13,7 +13,7 @@ pub struct Load {
     pub name: String,
     /// What acts.
     pub kind: LoadKind,
-    /// `force`, `moment`: where it acts, `body.marker`.
+    /// `force`, `moment`: where it acts, `body.marker`; `contact`: what touches, where it is no `body`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
     /// `torque`: name of the revolute joint or hinge that it acts in; `joint_spring`, `stop`: of a joint with a coordinate.
@@ -22,7 +22,8 @@ pub struct Load {
     /// `joint_spring`, `stop`: which coordinate of the joint; the displacement, if it has one, by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coordinate: Option<CoordinateKind>,
-    /// `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam.
+    /// `distributed`, `fluid`: name of the cable, rod or beam that it acts on; `distributed_moment`: of the rod or beam. `contact`: of the cable,
+    /// rod or beam whose line touches, whatever its thickness, where it is no `marker`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// `spring_damper`, `bushing`: its ends, `ground` or `body.marker`, then `body.marker`.
@@ -41,12 +42,13 @@ pub struct Load {
     /// takes expressions in `s` too, its material coordinate: 0 at the first end, 1 at the last.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<LoadValue>,
-    /// `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle.
+    /// `spring_damper`: stiffness, N/m; `joint_spring`, `stop`: N/m along a displacement, N m/rad about an angle;
+    /// `contact`: N/m of a marker, N/m per reference length of a body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub stiffness: Option<f64>,
-    /// `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`: `a` in the force `k d (1 + a d')` of a stop
-    /// that is passed by `d`, s/m or s/rad; 0 by default.
+    /// `spring_damper`: damping, N s/m; `joint_spring`: N s/m or N m s/rad. `stop`, `contact`: `a` in the force `k d (1 + a d')`
+    /// where a stop is passed by `d`, or a point is so deep below a surface, s/m or s/rad; 0 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0))]
     pub damping: Option<f64>,
@@ -107,6 +109,18 @@ pub struct Load {
     /// `fluid`: whether the weight of the displaced fluid lifts the body; true by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub buoyancy: Option<bool>,
+    /// `contact`: what is touched.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<Surface>,
+    /// `contact`: Coulomb's coefficient of friction; 0 by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub friction: Option<f64>,
+    /// `contact` with friction: `w` in the friction `mu N v / sqrt(v^2 + w^2)` at the velocity `v` along the surface, m/s. What would
+    /// stick creeps at a fraction of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub slip_velocity: Option<f64>,
 }
 
 /// Loads by name.
@@ -138,6 +152,9 @@ pub enum LoadKind {
     /// A fluid that streams past a cable, rod or beam: drag, added mass, inertia of the fluid and buoyancy per reference length (Morison
     /// and others 1950). The added mass counts in all directions alike.
     Fluid,
+    /// Contact of a marker, or of the line of a cable, rod or beam, with a surface of the ground: a one-sided spring and damper along the
+    /// normal (Hunt and Crossley 1975) and friction along the surface, which is none at rest, so that an equilibrium has none.
+    Contact,
 }
 
 /// A load that the master sets.
@@ -225,6 +242,16 @@ impl Kind for LoadKind {
                     "buoyancy",
                 ],
             )],
+            Self::Contact => &[
+                (
+                    &["marker", "surface", "stiffness"],
+                    &["damping", "friction", "slip_velocity"],
+                ),
+                (
+                    &["body", "surface", "stiffness"],
+                    &["damping", "friction", "slip_velocity"],
+                ),
+            ],
             Self::SpringDamper => &[(&["markers"], &["point", "stiffness", "damping", "length"])],
         }
     }
@@ -334,7 +361,7 @@ macro_rules! actions {
         }
     )*};
 }
-actions!(LoadKind but SpringDamper | JointSpring | Stop | Bushing | Fluid, InputKind but RestLength | Release | Current);
+actions!(LoadKind but SpringDamper | JointSpring | Stop | Contact | Bushing | Fluid, InputKind but RestLength | Release | Current);
 
 impl Input {
     /// Number of components.

@@ -15,6 +15,7 @@ mod rotation;
 mod section;
 mod solid;
 mod strict;
+mod surface;
 mod torsion;
 mod value;
 mod vector;
@@ -41,6 +42,7 @@ pub use rotation::{Inertia, Orientation};
 pub use section::{Profile, Section, SectionNumbers, Station};
 pub use solid::Solid;
 pub use strict::Strict;
+pub use surface::Surface;
 pub use value::{Interpolation, LoadValue, MotionValue, Table, Value};
 pub use vector::{Spin, Vector};
 
@@ -143,6 +145,12 @@ impl Scene {
         } = &self.accuracy;
         let is_error_alone = error.is_some() && relative_tolerance.is_none();
         is_error_alone || cables.any(|cable| cable.elements.is_none())
+    }
+
+    /// Whether bodies have damping ratios that have not become times.
+    pub fn has_ratios(&self) -> bool {
+        let mut cables = self.bodies.iter().filter_map(Body::cable);
+        cables.any(|cable| cable.material.damping_ratio.is_some())
     }
 
     /// Error wanted of outputs where it is planned for: as given, or 1e-3.

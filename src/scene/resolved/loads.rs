@@ -1,9 +1,9 @@
-//! Loads of a resolved scene: forces and moments, springs, dampers and stops.
+//! Loads of a resolved scene: forces and moments, springs, dampers, stops and contacts.
 
 use std::f64::consts::PI;
 
 use super::{Cable, Ends, JointCoordinate, Marker, Pivot};
-use crate::scene::description::{ActionKind, SectionNumbers, Value};
+use crate::scene::description::{ActionKind, SectionNumbers, Surface, Value};
 use crate::system::Signal;
 
 /// A load that the scene knows.
@@ -49,6 +49,8 @@ pub enum LoadKind<'a> {
     },
     /// A fluid along a body.
     Fluid(Fluid<'a>),
+    /// Contact with a surface of the ground.
+    Contact(Contact<'a>),
 }
 
 /// A fluid along a body.
@@ -94,6 +96,40 @@ impl Fluid<'_> {
     }
 }
 
+/// Contact with a surface of the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact<'a> {
+    /// What touches it.
+    pub by: By<'a>,
+    /// What is touched.
+    pub surface: Surface,
+    /// Stiffness (N/m, of a body N/m per length) and damping (s/m).
+    pub sizes: [f64; 2],
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Speed of slip below which friction is smooth, m/s, if there is one.
+    pub slip_velocity: Option<f64>,
+}
+
+/// What touches a surface.
+#[derive(Clone, Copy, Debug)]
+pub enum By<'a> {
+    /// A marker.
+    Marker(Marker<'a>),
+    /// A cable along its line.
+    Cable(Cable<'a>),
+}
+
+impl<'a> By<'a> {
+    /// The marker, if it is one.
+    pub fn marker(self) -> Option<Marker<'a>> {
+        match self {
+            Self::Marker(marker) => Some(marker),
+            Self::Cable(_) => None,
+        }
+    }
+}
+
 /// Springs and dampers along and about the axes of the first end's body.
 #[derive(Clone, Copy, Debug)]
 pub struct Bushing<'a> {
@@ -111,17 +147,20 @@ impl<'a> LoadKind<'a> {
         match self {
             Self::Spring(spring) => Some(spring.ends),
             Self::Bushing(bushing) => Some(bushing.ends),
-            Self::Action { .. } | Self::JointSpring { .. } | Self::Stop { .. } | Self::Fluid(_) => {
-                None
-            }
+            Self::Action { .. }
+            | Self::JointSpring { .. }
+            | Self::Stop { .. }
+            | Self::Fluid(_)
+            | Self::Contact(_) => None,
         }
     }
 
-    /// Its largest stiffness against ways (N/m) and against turns (N m/rad).
+    /// Its largest stiffness against ways (N/m, of contacts of bodies N/m per length) and against turns (N m/rad).
     pub fn stiffness(&self) -> [f64; 2] {
         match self {
             Self::Action { .. } | Self::Fluid(_) => [0.0; 2],
             Self::Spring(spring) => [spring.stiffness, 0.0],
+            Self::Contact(contact) => [contact.sizes[0], 0.0],
             Self::Bushing(bushing) => bushing
                 .stiffness
                 .map(|axes| axes.into_iter().fold(0.0, f64::max)),

@@ -75,6 +75,13 @@ impl CableBody {
         }
         self.validate_material(path)?;
         not_negative(&at("material.damping_time"), "s", material.damping_time)?;
+        if let Some(ratio) = material.damping_ratio {
+            let place = at("material.damping_ratio");
+            not_negative(&place, "1", ratio)?;
+            if material.damping_time > 0.0 {
+                return Err(expected(&place, "nothing beside a `damping_time`", ratio));
+            }
+        }
         self.shape.validate(&at("shape"), dimension)?;
         self.validate_model(&at("model"), dimension)?;
         let found = self.section_at(0.5).second_moments[0];

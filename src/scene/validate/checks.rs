@@ -48,11 +48,12 @@ pub fn quoted(text: &str) -> String {
 pub type Key = (&'static str, bool, &'static str);
 
 /// Checks that the keys of a kind are there, and no others; of several alternatives the first of which anything is
-/// there, or the last.
+/// there that not all of them have, or the last.
 pub fn keys(path: &str, of: &str, all: &[Key], alternatives: &[Keys]) -> Result<(), Error> {
     let is_meant = |(must, _): &&Keys| {
         let mut given = all.iter().filter(|(_, is_given, _)| *is_given);
-        given.any(|(key, ..)| must.contains(key))
+        let is_own = |key: &str| alternatives.iter().any(|(must, _)| !must.contains(&key));
+        given.any(|(key, ..)| must.contains(key) && is_own(key))
     };
     let meant = alternatives.iter().find(is_meant).or(alternatives.last());
     let (must, may) = meant.copied().unwrap_or_default();
@@ -103,6 +104,16 @@ pub fn vector(path: &str, dimension: usize, value: &Vector) -> Result<(), Error>
         Some((k, component)) => finite(&format!("{path}[{k}]"), *component),
         None => Ok(()),
     }
+}
+
+/// The same of a direction, which is not zero.
+pub fn direction(path: &str, dimension: usize, value: &Vector) -> Result<(), Error> {
+    vector(path, dimension, value)?;
+    if value.full() != [0.0; 3] {
+        return Ok(());
+    }
+    let found = format!("{:?}", value.given());
+    Err(expected(path, "a direction that is not zero", found))
 }
 
 /// The components of a force or a position, of which there are as many as dimensions.

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::checks::{
-    Key, expected, finite, keys, not_zero, planar, positive, quoted, spring_damper, vector,
+    Key, direction, expected, finite, keys, not_zero, planar, positive, quoted, spring_damper,
 };
 use crate::scene::description::{Condition, Declaration, Joint, Kind as _};
 use crate::scene::marker::GROUND;
@@ -77,15 +77,9 @@ impl Joint {
             ("direction", self.direction),
             ("second_direction", self.second_direction),
         ];
-        for (key, direction) in directions {
-            let Some(direction) = direction else {
-                continue;
-            };
-            vector(&at(key), dimension, &direction)?;
-            if direction.full() == [0.0; 3] {
-                let wanted = "a direction that is not zero";
-                let found = format!("{:?}", direction.given());
-                return Err(expected(&at(key), wanted, found));
+        for (key, given) in directions {
+            if let Some(given) = given {
+                direction(&at(key), dimension, &given)?;
             }
         }
         if let (Some(a), Some(b)) = (self.direction, self.second_direction) {

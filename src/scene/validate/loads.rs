@@ -10,7 +10,7 @@ use crate::system::Signal;
 
 impl Load {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 26] = [
+        let all: [Key; 29] = [
             ("marker", self.marker.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
             ("body", self.body.is_some(), "a name"),
@@ -61,6 +61,9 @@ impl Load {
                 self.rotational_damping.is_some(),
                 "three dampings",
             ),
+            ("surface", self.surface.is_some(), "a surface"),
+            ("friction", self.friction.is_some(), "a coefficient"),
+            ("slip_velocity", self.slip_velocity.is_some(), "a speed"),
         ];
         keys(path, "load", &all, self.kind.keys())
     }

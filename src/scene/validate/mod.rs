@@ -2,6 +2,7 @@
 
 mod bodies;
 mod checks;
+mod contact;
 mod fluids;
 mod gears;
 mod inputs;

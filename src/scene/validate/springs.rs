@@ -16,6 +16,7 @@ impl<'a> Resolved<'a> {
             Given::JointSpring => self.joint_spring(path, load),
             Given::Stop => self.stop(path, load),
             Given::Fluid => self.fluid(path, load).map(LoadKind::Fluid),
+            Given::Contact => self.contact(path, load).map(LoadKind::Contact),
             Given::Bushing => self.bushing(path, load).map(LoadKind::Bushing),
             _ => self.spring(path, load).map(LoadKind::Spring),
         }

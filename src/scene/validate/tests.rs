@@ -1,6 +1,7 @@
 //! What scenes may say, and refusals, one line each: where, what stands there instead, and how the
 //! message begins.
 
+mod contacts;
 mod fluids;
 mod planar_beams;
 mod releases;
@@ -137,7 +138,9 @@ fn types_and_keys_keep_their_places() {
         /bodies/0/section | [1e-3, 1e-8] | bodies[0].section: expected an object { ... }, found a list
         /bodies/0/shape | {"line": {}, "arc": {}} | bodies[0].shape: expected an object with one of "line" or "arc" or "helix", found {"arc", "line"}
         /bodies/0/section/area | "wide" | bodies[0].section.area: expected a number, found "wide"
-        /bodies/0/material/colour | 1 | bodies[0].material.colour: expected one of the keys youngs_modulus, shear_modulus, density, damping_time, found "colour"
+        /bodies/0/material/damping_ratio | -1 | bodies[0].material.damping_ratio: expected zero or a positive number (1), found -1
+        /bodies/0/material | {"youngs_modulus": 7e5, "density": 5540, "damping_time": 0.1, "damping_ratio": 0.02} | bodies[0].material.damping_ratio: expected nothing beside a `damping_time`, found 0.02
+        /bodies/0/material/colour | 1 | bodies[0].material.colour: expected one of the keys youngs_modulus, shear_modulus, density, damping_time, damping_ratio, found "colour"
         /bodies/0/section | {"area": 1} | bodies[0].section.second_moment: expected a value, found nothing
         /bodies/2/elements | 3 | bodies[2].elements: expected one of the keys name, mass
         /bodies/2/markers/a | [1, 2, 3] | bodies[2].markers.a

@@ -4,6 +4,7 @@
 //! a planned scene is a scene with plain numbers.
 
 mod account;
+mod damping;
 mod experiment;
 mod ladder;
 mod outputs;
@@ -13,6 +14,8 @@ mod settled;
 mod shear;
 mod time;
 
+pub use damping::Damped;
+pub(super) use damping::damp;
 pub use experiment::courses;
 pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settled, Settles};
 
@@ -28,21 +31,28 @@ pub type Progress<'a> = &'a mut dyn FnMut(usize, u32, f64);
 pub struct Planned {
     /// Elements that were chosen, of bodies of `"element": "auto"`.
     pub elements: Vec<Chosen>,
+    /// Damping times that were made of damping ratios.
+    pub damping: Vec<Damped>,
     /// Numbers of elements and a tolerance; nothing where none are left to the planner.
     pub numbers: Option<Plan>,
 }
 
-/// A scene with elements, numbers of them and a tolerance, and where they come from; as it is where nothing is left to the
+/// A scene with damping times, elements, numbers of them and a tolerance, and where they come from; as it is where nothing is left to the
 /// planner.
 ///
 /// # Errors
-/// A name in `accuracy` that the scene does not have; an experiment that cannot be run with any mesh.
+/// A body with a damping ratio that has no mode; a name in `accuracy` that the scene does not have; an experiment that cannot be run with any mesh.
 pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), Error> {
+    let (scene, damping) = damp(scene)?;
     let mut elements = scene.choose_elements()?;
     let plain = scene.with_elements(&elements);
     if !plain.is_to_be_planned() {
-        let numbers = None;
-        return Ok((plain, Planned { elements, numbers }));
+        let planned = Planned {
+            elements,
+            damping,
+            numbers: None,
+        };
+        return Ok((plain, planned));
     }
     let beams = Beam::all(&plain, &elements)?;
     let mut search = Search::new(&plain, beams, &mut *progress)?;
@@ -60,5 +70,10 @@ pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), E
         plan.runs_cost *= 1.0 + work / search.work.max(f64::MIN_POSITIVE);
     }
     let numbers = Some(plan);
-    Ok((planned, Planned { elements, numbers }))
+    let account = Planned {
+        elements,
+        damping,
+        numbers,
+    };
+    Ok((planned, account))
 }

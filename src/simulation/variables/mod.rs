@@ -97,7 +97,7 @@ pub enum Parameter {
     HingeStiffness(usize),
     /// Damping of a hinge.
     HingeDamping(usize),
-    /// Stiffness of a spring-damper.
+    /// Stiffness of a spring-damper or of a contact of a marker.
     SpringStiffness(usize),
     /// Damping of a spring-damper.
     SpringDamping(usize),
@@ -105,10 +105,14 @@ pub enum Parameter {
     TorsionStiffness(usize),
     /// Damping of a spring about the axis of a joint, N m s/rad.
     TorsionDamping(usize),
-    /// Damping of a stop of a displacement, s/m.
+    /// Damping of a stop of a displacement or of a contact, s/m.
     StopDamping(usize),
     /// Damping of a stop of an angle, s/rad.
     TorsionStopDamping(usize),
+    /// Stiffness of a contact of a body, N/m per length.
+    SpreadStiffness(usize),
+    /// Coefficient of friction of a contact.
+    Friction(usize),
     /// Stiffness of a bushing along an axis (0 to 2), N/m.
     BushingStiffness(usize, usize),
     /// Damping of a bushing along an axis (0 to 2), N s/m.

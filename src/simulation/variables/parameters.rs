@@ -4,7 +4,8 @@ use super::unit::*;
 use super::{AXES, List, Parameter, Source, Unit, component};
 use crate::math::space::spins;
 use crate::scene::{
-    BodyReference, Bushing, Cable, Fluid, Inertia, LoadKind, PortKind, Resolved, Rigid, Scene,
+    BodyReference, Bushing, By, Cable, Contact, Fluid, Inertia, LoadKind, PortKind, Resolved,
+    Rigid, Scene,
 };
 
 /// Key, meaning, unit, what it stands for, start value.
@@ -227,7 +228,24 @@ fn add_fluid(list: &mut List, (i, of): (usize, &str), fluid: &Fluid<'_>) {
     list.parameters(of, "of", &rows);
 }
 
-/// Times at which joints let go; stiffness and damping of hinges, springs, bushings, stops and couplings.
+/// Stiffness, damping and friction of a contact.
+fn add_contact(list: &mut List, (i, of): (usize, &str), contact: &Contact<'_>) {
+    use Parameter::*;
+    let (stiffness, unit) = match contact.by {
+        By::Marker(_) => (SpringStiffness(i), NEWTON_PER_METRE),
+        By::Cable(_) => (SpreadStiffness(i), NEWTON_PER_SQUARE_METRE),
+    };
+    let parameters = [stiffness, StopDamping(i)];
+    list.damper(of, [unit, SECOND_PER_METRE], parameters, contact.sizes);
+    // Without a speed of slip there can be none.
+    if contact.slip_velocity.is_some() {
+        let what = "Coefficient of friction";
+        let row = ("friction", what, None, Friction(i), contact.friction);
+        list.parameters(of, "of", &[row]);
+    }
+}
+
+/// Times at which joints let go; stiffness and damping of hinges, springs, bushings, stops, contacts and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
     for (i, joint) in resolved.joints.iter().enumerate() {
@@ -253,6 +271,10 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
             }
             LoadKind::Bushing(bushing) => {
                 add_bushing(list, (i, load.name), bushing);
+                continue;
+            }
+            LoadKind::Contact(contact) => {
+                add_contact(list, (i, load.name), contact);
                 continue;
             }
             LoadKind::Spring(spring) => {
@@ -374,10 +396,13 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
         ReleaseTime(i) => scene.joints[i].release_time = Some(value),
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
         HingeDamping(i) => scene.joints[i].damping = Some(value),
-        SpringStiffness(i) | TorsionStiffness(i) => scene.loads[i].stiffness = Some(value),
+        SpringStiffness(i) | TorsionStiffness(i) | SpreadStiffness(i) => {
+            scene.loads[i].stiffness = Some(value);
+        }
         SpringDamping(i) | TorsionDamping(i) | StopDamping(i) | TorsionStopDamping(i) => {
             scene.loads[i].damping = Some(value);
         }
+        Friction(i) => scene.loads[i].friction = Some(value),
         BushingStiffness(i, axis) => {
             let Scene { loads, .. } = scene;
             loads[i].translational_stiffness.get_or_insert_default()[axis] = value;

@@ -35,6 +35,7 @@ pub(super) const KILOGRAM: Unit = unit("kg", 1, 0, 0, 0);
 pub(super) const INERTIA: Unit = unit("kg.m2", 1, 2, 0, 0);
 pub(super) const NEWTON: Unit = unit("N", 1, 1, -2, 0);
 pub(super) const NEWTON_PER_METRE: Unit = unit("N/m", 1, 0, -2, 0);
+pub(super) const NEWTON_PER_SQUARE_METRE: Unit = unit("N/m2", 1, -1, -2, 0);
 pub(super) const NEWTON_SECOND: Unit = unit("N.s", 1, 1, -1, 0);
 pub(super) const NEWTON_SECOND_PER_METRE: Unit = unit("N.s/m", 1, 0, -1, 0);
 pub(super) const NEWTON_METRE: Unit = unit("N.m", 1, 2, -2, 0);

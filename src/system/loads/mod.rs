@@ -2,6 +2,7 @@
 //! [`Signal`]: a function of time or an input.
 
 mod bushing;
+mod contact;
 mod couple;
 mod density;
 mod distributed;
@@ -16,6 +17,7 @@ mod spring;
 mod stop;
 
 pub use bushing::{Bushing, RotationalBushing};
+pub use contact::{Contact, Place, Surface};
 pub use couple::Couple;
 pub use density::{Density, Values};
 pub(in crate::system) use distributed::weights;
@@ -62,6 +64,8 @@ pub enum Load<const D: usize = 2> {
     JointSpring(JointSpring<D>),
     /// Stops of a coordinate of a joint.
     Stop(Stop<D>),
+    /// Contact of a marker or a body with a surface.
+    Contact(Box<Contact<D>>),
     /// Springs with dampers along and about three axes.
     SixBushing(Box<SixBushing<D>>),
     /// A spring with a damper from a marker to a point that moves.
@@ -79,6 +83,7 @@ impl<const D: usize> Load<D> {
             Self::Distributed(load) => load.add_force(at, f),
             Self::DistributedMoment(load) => load.add_force(at, f),
             Self::Fluid(load) => load.add_force(at, f),
+            Self::Contact(load) => load.add_force(at, f),
             _ => self.act(at, |end, [position, direction]| {
                 end.add_force(position, direction, f);
             }),
@@ -100,10 +105,32 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => load.act(at, call),
             Self::JointSpring(load) => load.act(at, call),
             Self::Stop(load) => load.act(at, call),
+            Self::Contact(load) => load.act(at, call),
             Self::SixBushing(load) => load.act(at, call),
             Self::Bushing(load) => load.act(at, call),
             Self::RotationalBushing(load) => load.act(at, call),
             Self::OrientationBushing(load) => load.act(at, call),
+        }
+    }
+
+    /// What it exerts along the body with this first node that changes along it, at the Gauss points of a stretch, N/m; none of
+    /// another load.
+    pub(in crate::system) fn changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        (first, stretch): (usize, usize),
+    ) -> Option<Values<D, N>> {
+        match self {
+            Self::Distributed(load) => (load.density.changes()
+                && load.first_node(at.chains) == first)
+                .then(|| load.changing(at, stretch)),
+            Self::Contact(load) => {
+                (load.is_spread() && load.first_node() == first).then(|| load.changing(at, stretch))
+            }
+            Self::Fluid(load) => {
+                (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
+            }
+            _ => None,
         }
     }
 
@@ -119,6 +146,7 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
             Self::JointSpring(load) => load.add_tangent(at, stiffness, damping),
             Self::Stop(load) => load.add_tangent(at, stiffness, damping),
+            Self::Contact(load) => load.add_tangent(at, stiffness, damping),
             Self::SixBushing(load) => load.add_tangent(at, stiffness, damping),
             Self::Bushing(load) => load.add_tangent(stiffness, damping),
             Self::RotationalBushing(load) => load.add_tangent(at, stiffness, damping),
@@ -139,6 +167,7 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => load.power(at),
             Self::JointSpring(load) => [none, load.dissipation(at)],
             Self::Stop(load) => [none, load.dissipation(at)],
+            Self::Contact(load) => [none, load.dissipation(at)],
             Self::SixBushing(load) => [none, load.dissipation(at)],
             Self::Bushing(load) => load.power(at),
             Self::RotationalBushing(load) => load.power(at),
@@ -152,6 +181,7 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => load.energy(at),
             Self::JointSpring(load) => load.energy(at),
             Self::Stop(load) => load.energy(at),
+            Self::Contact(load) => load.energy(at),
             Self::SixBushing(load) => load.energy(at),
             Self::Bushing(load) => load.energy(at),
             Self::RotationalBushing(load) => load.energy(at),
@@ -173,9 +203,11 @@ impl<const D: usize> Load<D> {
             Self::Bushing(load) => load.work(before, after),
             Self::RotationalBushing(load) => load.work(before, after),
             Self::OrientationBushing(load) => load.work(before, after),
-            Self::Spring(_) | Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {
-                self.energy(before) - self.energy(after)
-            }
+            Self::Spring(_)
+            | Self::JointSpring(_)
+            | Self::Stop(_)
+            | Self::Contact(_)
+            | Self::SixBushing(_) => self.energy(before) - self.energy(after),
         }
     }
 
@@ -199,6 +231,8 @@ impl<const D: usize> Load<D> {
             Self::DistributedMoment(load) => load.density.hold(at, fraction),
             Self::Fluid(load) => load.hold(at, fraction),
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
+            // At rest there is none.
+            Self::Contact(load) => load.friction = 0.0,
             Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {}
             Self::Bushing(load) => {
                 hold(&mut load.position, 1.0);
@@ -223,6 +257,7 @@ impl<const D: usize> Load<D> {
             Self::Couple(load) => load.is_torque,
             Self::DistributedMoment(_) => false,
             Self::Fluid(load) => !load.streams(),
+            Self::Contact(load) => load.friction == 0.0,
             _ => true,
         }
     }
@@ -242,13 +277,14 @@ impl<const D: usize> Load<D> {
             | Self::Distributed(_)
             | Self::Fluid(_)
             | Self::Spring(_)
+            | Self::Contact(_)
             | Self::Bushing(_) => false,
         }
     }
 
     /// Whether its force has a kink at a time that the state decides.
     pub fn has_contact(&self) -> bool {
-        matches!(self, Self::Stop(_))
+        matches!(self, Self::Stop(_) | Self::Contact(_))
     }
 
     /// Whether it dissipates.
@@ -258,6 +294,7 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => load.damping > 0.0,
             Self::JointSpring(load) => load.damping > 0.0,
             Self::Stop(load) => load.damping > 0.0,
+            Self::Contact(load) => load.damping > 0.0 || load.friction > 0.0,
             Self::SixBushing(load) => load.is_damped(),
             Self::Bushing(load) => load.damping > 0.0,
             Self::RotationalBushing(load) => load.damping > 0.0,
@@ -276,9 +313,11 @@ impl<const D: usize> Load<D> {
             Self::Fluid(load) => (&load.current.uniform, &[]),
             Self::Moment(load) => (one(&load.size), &[]),
             Self::Spring(load) => (one(&load.length), &[]),
-            Self::Couple(_) | Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {
-                (&[], &[])
-            }
+            Self::Couple(_)
+            | Self::JointSpring(_)
+            | Self::Stop(_)
+            | Self::Contact(_)
+            | Self::SixBushing(_) => (&[], &[]),
             Self::Bushing(load) => (&load.position, &load.velocity),
             Self::RotationalBushing(load) => (one(&load.angle), one(&load.velocity)),
             Self::OrientationBushing(load) => (&load.quaternion, &load.velocity),
@@ -307,6 +346,7 @@ impl<const D: usize> Load<D> {
                 let elements = 0..rod.count();
                 elements.map(|j| rod.all_nodes(j).to_vec()).collect()
             }
+            Self::Contact(load) => load.parts(),
             _ => vec![self.ends().iter().flat_map(End::nodes).collect()],
         }
     }
@@ -316,6 +356,7 @@ impl<const D: usize> Load<D> {
         match self {
             Self::DistributedMoment(load) => load.add_force_on(at, part, f),
             Self::Fluid(load) => load.add_force_on(at, part, f),
+            Self::Contact(load) => load.add_part(at, part, f),
             _ => self.add_force(at, f),
         }
     }
@@ -331,6 +372,9 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => load.ends.to_vec(),
             Self::JointSpring(load) => load.coordinate.ends().to_vec(),
             Self::Stop(load) => load.coordinate.ends().to_vec(),
+            // Elements couple their nodes already.
+            Self::Contact(load) if load.is_spread() => vec![],
+            Self::Contact(load) => vec![End::Body(load.places[0].marker)],
             Self::SixBushing(load) => load.ends().to_vec(),
             Self::Bushing(load) => vec![End::Body(load.marker)],
             Self::RotationalBushing(load) => vec![End::Body(load.marker)],

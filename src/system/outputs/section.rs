@@ -18,7 +18,7 @@ use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::{GAUSS_3, GAUSS_5, Point, integrals_to};
 use crate::math::space::{Vector, carried, components, moment, vector as vector_of};
-use crate::system::loads::{self, Distributed, Fluid, Load, Values};
+use crate::system::loads::{self, Load, Values};
 use crate::system::{CableChain, System};
 
 impl<const D: usize, N: Number> Evaluation<D, N> {
@@ -176,8 +176,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub(super) fn distributed(&self, system: &System<D>, first: usize) -> Vector<D, N> {
         let at = self.instant(system);
         let mut sum = Vector::zeros();
-        for load in forces_along(system, first) {
-            sum += load.uniform(at);
+        for load in &system.loads {
+            if let Load::Distributed(load) = load
+                && load.first_node(&system.chains) == first
+            {
+                sum += load.uniform(at);
+            }
         }
         sum
     }
@@ -190,17 +194,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     ) -> Option<Values<D, N>> {
         let at = self.instant(system);
         let mut sum: Option<Values<D, N>> = None;
-        for load in forces_along(system, first).filter(|load| load.density.changes()) {
-            let values = load.changing(at, stretch);
+        for load in &system.loads {
+            let Some(values) = load.changing(at, (first, stretch)) else {
+                continue;
+            };
             let sum = sum.get_or_insert([Vector::zeros(); GAUSS_5.len()]);
             sum.iter_mut()
                 .zip(values)
-                .for_each(|(sum, value)| *sum += value);
-        }
-        for load in fluids_along(system, first) {
-            let sum = sum.get_or_insert([Vector::zeros(); GAUSS_5.len()]);
-            sum.iter_mut()
-                .zip(load.values(at, stretch))
                 .for_each(|(sum, value)| *sum += value);
         }
         sum
@@ -226,28 +226,6 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         }
         sum
     }
-}
-
-/// Forces distributed along the body with this first node.
-fn forces_along<const D: usize>(
-    system: &System<D>,
-    first: usize,
-) -> impl Iterator<Item = &Distributed<D>> {
-    system.loads.iter().filter_map(move |load| match load {
-        Load::Distributed(load) if load.first_node(&system.chains) == first => Some(load),
-        _ => None,
-    })
-}
-
-/// Fluids that stream past the body with this first node.
-fn fluids_along<const D: usize>(
-    system: &System<D>,
-    first: usize,
-) -> impl Iterator<Item = &Fluid<D>> {
-    system.loads.iter().filter_map(move |load| match load {
-        Load::Fluid(load) if load.first_node(&system.chains) == first => Some(&**load),
-        _ => None,
-    })
 }
 
 /// The integral up to a place in [0, 1] of what has these values at the Gauss points.

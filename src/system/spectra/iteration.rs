@@ -9,9 +9,10 @@ use std::f64::consts::PI;
 
 use nalgebra::Complex;
 
-use super::dense::{ROUNDOFF, quadratic, roots, sort};
+use super::dense::{quadratic, roots, sort};
 use super::frequencies::largest_eigenvalue;
 use super::linearization::Linearization;
+use super::modes::{Mode, in_basis};
 use crate::math::krylov::{Krylov, Ritz};
 use crate::math::row_space::RowSpace;
 use crate::system::{System, Work};
@@ -24,7 +25,7 @@ const APART: f64 = 1e-6;
 const BASIS: usize = 160;
 const TIMES: usize = 6;
 /// Part of the largest eigenvalue in a basis below which one may be nothing but roundoff.
-const SLOW: f64 = 1e-6;
+pub(super) const SLOW: f64 = 1e-6;
 /// Steps from one look at the values to the next.
 const STEPS: usize = 8;
 /// Decades that a search for a scale goes through, and factors of 10 for a shift below all values.
@@ -44,13 +45,14 @@ pub(super) enum NotFound {
     Missing(usize),
 }
 
-/// Lowest eigenvalues of the symmetric `K`, which is assembled in `work` as well, ascending; so many or more.
+/// Lowest modes of the symmetric `K`, which is assembled in `work` as well, ascending; so many or more. They are found anew in the whole
+/// basis, free of the roundoff of its sparse form.
 pub(super) fn lowest<const D: usize>(
     system: &System<D>,
     work: &mut Work<D>,
     linear: &Linearization<'_, D>,
     count: usize,
-) -> Result<Vec<f64>, NotFound> {
+) -> Result<Vec<Mode>, NotFound> {
     let modes = linear.modes();
     let scale = scale(system, work, count)?;
     let missing = NotFound::Missing(count);
@@ -94,7 +96,7 @@ pub(super) fn lowest<const D: usize>(
             None => {}
             Some((at, number)) => match below(system, work, at) {
                 Some(present) if present == number && linear.holds(krylov.basis()) => {
-                    return refined(linear, &krylov);
+                    return in_basis(linear, krylov.basis()).ok_or(NotFound::NotFinite);
                 }
                 // A multiple eigenvalue has so far been seen less often than it is there.
                 Some(present) if present > number => krylov.start(),
@@ -103,39 +105,6 @@ pub(super) fn lowest<const D: usize>(
         }
     }
     Err(missing)
-}
-
-/// Eigenvalues of `K` in the whole basis, free of the roundoff of its sparse form; what is roundoff still is zero.
-fn refined<const D: usize>(
-    linear: &Linearization<'_, D>,
-    krylov: &Krylov,
-) -> Result<Vec<f64>, NotFound> {
-    let basis = krylov.basis();
-    let [stiffness, _] = linear.project(basis);
-    let symmetric = (&stiffness + stiffness.transpose()) * 0.5;
-    let eigen = symmetric.try_symmetric_eigen(f64::EPSILON, 100 * basis.len());
-    let eigen = eigen.ok_or(NotFound::NotFinite)?;
-    let largest = eigen.eigenvalues.amax();
-    let value = |i: usize| {
-        let value = eigen.eigenvalues[i];
-        if value.abs() > SLOW * largest {
-            return value;
-        }
-        let mut vector = vec![0.0; basis[0].len()];
-        for (column, factor) in basis.iter().zip(eigen.eigenvectors.column(i).iter()) {
-            vector
-                .iter_mut()
-                .zip(column)
-                .for_each(|(x, c)| *x += factor * c);
-        }
-        if value.abs() > ROUNDOFF * (linear.size(&vector) + largest) {
-            return value;
-        }
-        0.0
-    };
-    let mut values: Vec<f64> = (0..basis.len()).map(value).collect();
-    values.sort_by(f64::total_cmp);
-    Ok(values)
 }
 
 /// The leading values that have converged.
@@ -219,7 +188,8 @@ pub(super) fn slowest_conservative<const D: usize>(
     let zero = -SLOW * scale(system, work, count.min(linear.modes()))?;
     let unstable = below(system, work, zero).ok_or(NotFound::Missing(count))?;
     let wanted = linear.modes().min(count + unstable);
-    let mut squares = lowest(system, work, linear, wanted)?;
+    let modes = lowest(system, work, linear, wanted)?;
+    let mut squares: Vec<f64> = modes.iter().map(|mode| mode.square).collect();
     squares.truncate(wanted);
     squares.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     Ok(roots(

@@ -4,6 +4,7 @@ mod dense;
 pub(in crate::system) mod frequencies;
 mod iteration;
 pub(in crate::system) mod linearization;
+pub(in crate::system) mod modes;
 mod probe;
 mod rods;
 mod shifted;

@@ -13,7 +13,7 @@ use crate::system::{Dynamics, Model, State, System, Work};
 /// Free coordinates up to which all eigenvalues are computed, with dense matrices; and up to which they are
 /// where this many times the number that is wanted exceeds them.
 const SMALL: usize = 64;
-const MIDDLE: usize = 400;
+pub(super) const MIDDLE: usize = 400;
 const SHARE: usize = 3;
 /// An eigenvalue `s = -decay_rate + i frequency`, or a pair of conjugate ones: `x = c e^(s t)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,18 +107,7 @@ pub fn natural_frequencies<const D: usize>(
     state: &State,
     count: usize,
 ) -> Result<Vec<f64>, SpectrumError> {
-    let rest = vec![0.0; state.rates.len()];
-    Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
-    let linear = system.linearization(state.time, work, true);
-    if let Some(load) = linear.follower {
-        let parts = system.loads[load].parts(&system.chains, &system.rod_chains);
-        let acted: Vec<usize> = parts.into_iter().flatten().collect();
-        let mut bodies = system.bodies.iter();
-        let body = bodies.position(|nodes| acted.iter().any(|node| nodes.contains(node)));
-        return Err(SpectrumError::NotConservative(body.unwrap_or(0)));
-    }
-    refuse_turning(system, &linear, state)?;
-    linear.hand_over(work);
+    let linear = at_rest(system, inputs, work, state)?;
     let modes = linear.modes();
     if count > modes {
         return Err(SpectrumError::Count(count, modes));
@@ -133,7 +122,7 @@ pub fn natural_frequencies<const D: usize>(
                 Err(NotFound::Missing(_)) if linear.elimination.coordinates() <= MIDDLE => {
                     symmetric(&linear.dense().1[0]).ok_or(SpectrumError::NotFinite)?
                 }
-                found => found?,
+                found => found?.iter().map(|mode| mode.square).collect(),
             },
             linear => {
                 let found = iteration::slowest(system, work, linear, count)?;
@@ -292,7 +281,32 @@ fn spin(vectors: impl Iterator<Item = [Vector3<f64>; 2]>) -> Vector3<f64> {
     solved.unwrap_or_else(|_| Vector3::zeros())
 }
 
-fn is_small<const D: usize>(linear: &Linearization<'_, D>, count: usize) -> bool {
+/// The equations linearized at rest, assembled in `work` too.
+///
+/// # Errors
+/// Loads that follow, cables that turn as a whole.
+pub(super) fn at_rest<'a, const D: usize>(
+    system: &'a System<D>,
+    inputs: &[f64],
+    work: &mut Work<D>,
+    state: &State,
+) -> Result<Linearization<'a, D>, SpectrumError> {
+    let rest = vec![0.0; state.rates.len()];
+    Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
+    let linear = system.linearization(state.time, work, true);
+    if let Some(load) = linear.follower {
+        let parts = system.loads[load].parts(&system.chains, &system.rod_chains);
+        let acted: Vec<usize> = parts.into_iter().flatten().collect();
+        let mut bodies = system.bodies.iter();
+        let body = bodies.position(|nodes| acted.iter().any(|node| nodes.contains(node)));
+        return Err(SpectrumError::NotConservative(body.unwrap_or(0)));
+    }
+    refuse_turning(system, &linear, state)?;
+    linear.hand_over(work);
+    Ok(linear)
+}
+
+pub(super) fn is_small<const D: usize>(linear: &Linearization<'_, D>, count: usize) -> bool {
     let n = linear.elimination.coordinates();
     n <= SMALL || (n <= MIDDLE && SHARE * count > n)
 }

@@ -65,12 +65,17 @@ export class Marks {
   constructor(motion, layer, project) {
     Object.assign(this, { motion, project, layer });
     this.groups = {};
-    for (const name of ['paths', 'joints', 'loads', 'reactions', 'markers', 'names']) {
+    for (const name of ['surfaces', 'paths', 'joints', 'loads', 'reactions', 'markers', 'names']) {
       this.groups[name] = element(layer, 'g', { class: name });
     }
     this.paths = motion.markers.map((marker) => element(this.groups.paths, 'path', {
       fill: 'none', stroke: colourOf(marker.body ?? 0), 'stroke-width': 1.2, 'stroke-opacity': 0.55,
     }));
+    this.surfaces = (motion.surfaces ?? []).map((surface) => {
+      const path = element(this.groups.surfaces, 'path', { fill: 'none', stroke: FAINT, 'stroke-width': 1 });
+      element(path, 'title', {}, surface.name);
+      return path;
+    });
     this.ways = this.wayOfMarkers();
     this.joints = motion.joints.map((joint) => this.jointParts(joint));
     this.springs = motion.springs.map(() => element(this.groups.joints, 'path', { fill: 'none', stroke: SPRING, 'stroke-width': 1.7 }));
@@ -162,8 +167,12 @@ export class Marks {
     return named.sort((a, b) => a.rank - b.rank);
   }
 
-  /** Draws paths anew: after the view has changed. */
+  /** Draws anew what stands still: after the view has changed. */
   updatePaths() {
+    this.surfaces.forEach((path, number) => {
+      const lines = this.motion.surfaces[number].lines.map((line) => through(line.map((point) => this.project(new Vector3(...point)))));
+      set(path, { d: lines.join('') });
+    });
     this.ways.forEach((way, number) => {
       const points = [];
       for (const place of way) {

@@ -3,8 +3,10 @@
 
 mod bushings;
 mod cables;
+mod contacts;
 mod coordinates;
 mod coupled;
+mod damping;
 mod fluids;
 mod frames;
 mod initial;
@@ -65,7 +67,9 @@ pub fn all() -> Vec<Specimen> {
         space_bodies::all(),
         space_joints::all(),
         space_modes::all(),
+        contacts::all(),
         coordinates::all(),
+        damping::all(),
         bushings::all(),
         space_ports::all(),
         space_driven::all(),

@@ -1,0 +1,44 @@
+//! Surfaces of the ground that bodies touch.
+
+use super::bodies::outline;
+use super::picture::{FAINT, Picture};
+use crate::page::canvas::{Point, Style};
+use crate::scene::{LoadKind, Resolved, Surface};
+
+/// Everything of all surfaces that is told by points around the bodies, m.
+fn each(
+    resolved: &Resolved<'_>,
+    of: impl Fn(&Surface, &[[f64; 3]]) -> Vec<Vec<[f64; 3]>>,
+) -> Vec<Vec<[f64; 3]>> {
+    let bodies = resolved.bodies.iter();
+    let near = bodies.flat_map(|body| outline(*body, resolved.scene.dimension));
+    let near: Vec<[f64; 3]> = near.collect();
+    let loads = resolved.loads.iter();
+    let found = loads.filter_map(|load| match &load.kind {
+        LoadKind::Contact(contact) => Some(of(&contact.surface, &near)),
+        _ => None,
+    });
+    found.flatten().collect()
+}
+
+/// Points of surfaces that the image has to have room for, m.
+pub(super) fn outlines(resolved: &Resolved<'_>) -> Vec<[f64; 3]> {
+    each(resolved, |surface, near| vec![surface.outline(near)]).concat()
+}
+
+impl Picture<'_> {
+    pub(super) fn surfaces(&mut self) {
+        let style = Style {
+            stroke: FAINT,
+            width: 0.05 * self.unit,
+            fill: "none",
+        };
+        let dimension = self.scene.dimension;
+        for line in each(self.resolved, |surface, near| {
+            surface.lines(dimension, near)
+        }) {
+            let points: Vec<Point> = line.into_iter().map(|point| self.at(point)).collect();
+            self.canvas.polyline(&points, false, style);
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! Contacts of markers and of bodies with surfaces.
+
+use super::{Builder, unit};
+use crate::body::Marker;
+use crate::elements::Element;
+use crate::math::quadrature::GAUSS_5;
+use crate::math::space::vector;
+use crate::scene::description::Surface;
+use crate::scene::resolved::{By, Cable, Contact, Form};
+use crate::system::Rod;
+use crate::system::loads::{self, Load, PANELS, Place};
+
+impl<const D: usize> Builder<'_, D> {
+    pub(super) fn contact(&self, contact: &Contact<'_>) -> Load<D> {
+        let places = match contact.by {
+            By::Marker(marker) => vec![Place {
+                marker: self.marker(marker),
+                weight: 1.0,
+            }],
+            By::Cable(cable) => self.places(cable),
+        };
+        let [stiffness, damping] = contact.sizes;
+        Load::Contact(Box::new(loads::Contact {
+            places,
+            surface: surface(&contact.surface),
+            stiffness,
+            damping,
+            friction: contact.friction,
+            slip_velocity: contact.slip_velocity.unwrap_or_default(),
+        }))
+    }
+
+    /// The Gauss points of the elements of a cable, or of even parts of one that does not bend.
+    fn places(&self, cable: Cable<'_>) -> Vec<Place> {
+        let body = cable.id.body;
+        match cable.id.form {
+            Form::Chain(chain) => {
+                let chain = &self.parts.chains[chain];
+                let elements = chain.elements().iter().enumerate();
+                let places = elements.flat_map(|(j, element)| {
+                    GAUSS_5.map(|point| Place {
+                        marker: Marker::within(body, chain, j, point.at),
+                        weight: point.weight * element.length(),
+                    })
+                });
+                places.collect()
+            }
+            Form::Rod(rod) => {
+                let Rod { node, length, .. } = self.parts.rods[rod];
+                let part = length / PANELS as f64;
+                let places = (0..PANELS).flat_map(|panel| {
+                    GAUSS_5.map(|point| {
+                        let arm = (panel as f64 + point.at) * part - 0.5 * length;
+                        Place {
+                            marker: Marker::rigid(body, node, [arm, 0.0]),
+                            weight: point.weight * part,
+                        }
+                    })
+                });
+                places.collect()
+            }
+        }
+    }
+}
+
+fn surface<const D: usize>(of: &Surface) -> loads::Surface<D> {
+    match of {
+        Surface::Plane { point, normal } => loads::Surface::Plane {
+            point: vector(point.full()),
+            normal: unit(normal.full()),
+        },
+        Surface::Circle { center, radius } | Surface::Sphere { center, radius } => {
+            loads::Surface::Round {
+                center: vector(center.full()),
+                axis: None,
+                radius: *radius,
+            }
+        }
+        Surface::Cylinder {
+            point,
+            axis,
+            radius,
+        } => loads::Surface::Round {
+            center: vector(point.full()),
+            axis: Some(unit(axis.full())),
+            radius: *radius,
+        },
+    }
+}

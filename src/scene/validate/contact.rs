@@ -1,0 +1,83 @@
+//! Checks of contacts.
+
+use super::checks::{direction, expected, needed, not_negative, positive, vector};
+use crate::scene::Error;
+use crate::scene::description::{Load, Surface};
+use crate::scene::resolved::{By, Contact, Resolved};
+
+impl Surface {
+    fn validate(&self, path: &str, dimension: usize) -> Result<(), Error> {
+        let kind = format!("{path}.{}", self.name());
+        let at = |key: &str| format!("{kind}.{key}");
+        let fits = match self {
+            Self::Plane { .. } => true,
+            Self::Circle { .. } => dimension == 2,
+            Self::Sphere { .. } | Self::Cylinder { .. } => dimension == 3,
+        };
+        if !fits {
+            let wanted = match dimension {
+                2 => "plane or circle in the plane",
+                _ => "plane, sphere or cylinder in space",
+            };
+            return Err(expected(path, wanted, self.name()));
+        }
+        match self {
+            Self::Plane { point, normal } => {
+                vector(&at("point"), dimension, point)?;
+                direction(&at("normal"), dimension, normal)
+            }
+            Self::Circle { center, radius } | Self::Sphere { center, radius } => {
+                vector(&at("center"), dimension, center)?;
+                positive(&at("radius"), "m", *radius)
+            }
+            Self::Cylinder {
+                point,
+                axis,
+                radius,
+            } => {
+                vector(&at("point"), dimension, point)?;
+                direction(&at("axis"), dimension, axis)?;
+                positive(&at("radius"), "m", *radius)
+            }
+        }
+    }
+}
+
+impl<'a> Resolved<'a> {
+    pub(super) fn contact(&self, path: &str, load: &'a Load) -> Result<Contact<'a>, Error> {
+        let at = |key: &str| format!("{path}.{key}");
+        let by = match (&load.marker, &load.body) {
+            (Some(marker), _) => By::Marker(self.require_marker(&at("marker"), marker)?),
+            (None, body) => {
+                let body = needed(path, "body", "a name", body.as_deref())?;
+                By::Cable(self.require_cable(&at("body"), body)?)
+            }
+        };
+        let surface = needed(path, "surface", "a surface", load.surface)?;
+        surface.validate(&at("surface"), self.scene.dimension)?;
+        let unit = match by {
+            By::Marker(_) => "N/m",
+            By::Cable(_) => "N/m^2",
+        };
+        let stiffness = needed(path, "stiffness", "a stiffness", load.stiffness)?;
+        positive(&at("stiffness"), unit, stiffness)?;
+        let damping = load.damping.unwrap_or(0.0);
+        not_negative(&at("damping"), "s/m", damping)?;
+        let friction = load.friction.unwrap_or(0.0);
+        not_negative(&at("friction"), "1", friction)?;
+        if friction > 0.0 {
+            needed(path, "slip_velocity", "a speed", load.slip_velocity)?;
+        }
+        if let Some(slip_velocity) = load.slip_velocity {
+            needed(path, "friction", "a coefficient", load.friction)?;
+            positive(&at("slip_velocity"), "m/s", slip_velocity)?;
+        }
+        Ok(Contact {
+            by,
+            surface,
+            sizes: [stiffness, damping],
+            friction,
+            slip_velocity: load.slip_velocity,
+        })
+    }
+}

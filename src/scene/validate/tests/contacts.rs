@@ -1,0 +1,50 @@
+//! What may touch what, and how contacts are told.
+
+use serde_json::{Value, json};
+
+use super::check;
+
+fn scene(dimension: usize) -> Value {
+    let place = |x: f64| vec![x, 0.0, 0.0][..dimension].to_vec();
+    json!({"name": "contact", "dimension": dimension,
+        "bodies": [{"name": "rod", "element": "cable", "elements": 8,
+                    "material": {"youngs_modulus": 7e5, "density": 5540}, "section": {"area": 1.8e-3, "second_moment": 0.0},
+                    "shape": {"line": {"from": place(0.0), "to": place(1.0)}}, "markers": {"tip": 1}},
+                   {"name": "ball", "element": "rigid", "mass": 1, "inertia": 1, "position": place(2.0),
+                    "markers": {"c": place(0.0)}}],
+        "loads": [{}]})
+}
+
+#[test]
+fn markers_and_bodies_touch_surfaces_of_their_dimension() {
+    check(
+        || scene(2),
+        r#"
+        /loads/0 | {"name": "l", "kind": "contact", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected a name, found nothing
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "body": "rod", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected nothing for this kind of load, found a name
+        /loads/0 | {"name": "l", "kind": "contact", "body": "ball", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected the name of a cable of this scene, found "ball"
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"plane": {"point": [0, 0], "normal": [0, 0]}}, "stiffness": 5} | loads[0].surface.plane.normal: expected a direction that is not zero, found [0.0, 0.0]
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"sphere": {"center": [0, 0], "radius": 1}}, "stiffness": 5} | loads[0].surface: expected plane or circle in the plane, found sphere
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"circle": {"center": [0, 0], "radius": 1}}} | loads[0].stiffness: expected a stiffness, found nothing
+        /loads/0 | {"name": "l", "kind": "contact", "body": "rod", "surface": {"circle": {"center": [0, 0], "radius": 1}}, "stiffness": 0} | loads[0].stiffness: expected a positive number (N/m^2), found 0
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"circle": {"center": [0, 0], "radius": 1}}, "stiffness": 5, "damping": -1} | loads[0].damping: expected zero or a positive number (s/m), found -1
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"circle": {"center": [0, 0], "radius": 1}}, "stiffness": 5, "friction": 0.3} | loads[0].slip_velocity: expected a speed, found nothing
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"circle": {"center": [0, 0], "radius": 1}}, "stiffness": 5, "slip_velocity": 0.1} | loads[0].friction: expected a coefficient, found nothing
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"circle": {"center": [0, 0], "radius": 1}}, "stiffness": 5, "friction": 0.3, "slip_velocity": 0} | loads[0].slip_velocity: expected a positive number (m/s), found 0
+        "#,
+    );
+    check(
+        || {
+            let mut scene = scene(3);
+            scene["bodies"][1]["inertia"] = json!([1, 1, 1]);
+            scene
+        },
+        r#"
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "ball.c", "surface": {"circle": {"center": [0, 0, 0], "radius": 1}}, "stiffness": 5} | loads[0].surface: expected plane, sphere or cylinder in space, found circle
+        /loads/0 | {"name": "l", "kind": "contact", "body": "rod", "surface": {"sphere": {"center": [0, 0], "radius": 1}}, "stiffness": 5} | loads[0].surface.sphere.center: expected 3 components [x, y, z], found 2
+        /loads/0 | {"name": "l", "kind": "contact", "body": "rod", "surface": {"sphere": {"center": [0, 0, 0], "radius": 0}}, "stiffness": 5} | loads[0].surface.sphere.radius: expected a positive number (m), found 0
+        /loads/0 | {"name": "l", "kind": "contact", "body": "rod", "surface": {"cylinder": {"point": [0, 0, 0], "axis": [0, 0, 0], "radius": 1}}, "stiffness": 5} | loads[0].surface.cylinder.axis: expected a direction that is not zero, found [0.0, 0.0, 0.0]
+        /loads/0 | {"name": "l", "kind": "contact", "body": "rod", "surface": {"cylinder": {"point": [0, 0, 0], "axis": [0, 0, 1], "radius": 1}}, "stiffness": 5} | accepted
+        "#,
+    );
+}

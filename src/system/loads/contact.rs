@@ -1,0 +1,296 @@
+//! Contact of a marker, or of the line of a body, with a fixed surface. Where a point is below the surface by `d`, the surface
+//! pushes along its normal with `k d (1 + a d')`, as a stop does; where the bracket is negative it pushes no more: nothing sticks.
+//! Friction is `-mu N v / sqrt(v^2 + w^2)`, `v` the velocity along the surface, `w` the speed of slip: smooth, and none at rest.
+//! Along a body all of this is per reference length and counts at the Gauss points of its stretches.
+//!
+//! Source: K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, Journal of Applied
+//! Mechanics 42 (1975) 440-445, with a force that is linear in `d`; P. Wriggers, Computational Contact Mechanics, 2nd ed. (2006),
+//! section 5.2 (Coulomb's law with a square root in place of its corner).
+
+use nalgebra::SMatrix;
+
+use super::density::Values;
+use super::{Add, Instant};
+use crate::body::{Marker, Node};
+use crate::math::jet::Number;
+use crate::math::quadrature::GAUSS_5;
+use crate::math::space::Vector;
+use crate::system::end::{End, between};
+
+/// What is touched; it stands still in the frame of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface<const D: usize = 2> {
+    /// All that is below a point along a unit vector.
+    Plane {
+        /// The point, m.
+        point: Vector<D>,
+        /// The unit vector.
+        normal: Vector<D>,
+    },
+    /// A circle or a sphere; a cylinder where there is an axis.
+    Round {
+        /// A point in the middle, m.
+        center: Vector<D>,
+        /// Unit vector along the axis.
+        axis: Option<Vector<D>>,
+        /// Radius, m.
+        radius: f64,
+    },
+}
+
+/// Where contact counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The point.
+    pub marker: Marker,
+    /// The reference length that it stands for, m; 1 of a single marker.
+    pub weight: f64,
+}
+
+/// Contact with a surface.
+#[derive(Clone, Debug)]
+pub struct Contact<const D: usize = 2> {
+    /// A single marker, or the Gauss points of all stretches of a body in turn: of the elements of a chain, of the panels of a rod.
+    pub places: Vec<Place>,
+    /// What is touched.
+    pub surface: Surface<D>,
+    /// Stiffness, N/m; along a body N/m per reference length.
+    pub stiffness: f64,
+    /// Damping relative to the stiffness, s/m.
+    pub damping: f64,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Speed of slip at which friction has `1 / sqrt(2)` of its size, m/s; positive where there is friction.
+    pub slip_velocity: f64,
+}
+
+/// How a point touches.
+struct Touch<const D: usize, N> {
+    /// How far it is below the surface, m.
+    depth: N,
+    /// Unit vector out of the surface.
+    normal: Vector<D, N>,
+    /// The bracket of the force: 0 where the point leaves too fast.
+    damped: N,
+    /// Velocity along the surface, m/s.
+    slip: Vector<D, N>,
+    /// Its size, with the speed at which friction is smooth, m/s.
+    speed: N,
+    /// How fast it goes deeper, m/s.
+    rate: N,
+}
+
+impl<const D: usize> Surface<D> {
+    /// How far a point is below, m, and the unit vector out of the surface there; none in the middle of what is round.
+    fn under<N: Number>(&self, at: &Vector<D, N>) -> Option<(N, Vector<D, N>)> {
+        match self {
+            Self::Plane { point, normal } => {
+                let normal = normal.map(N::of);
+                Some((normal.dot(&(point.map(N::of) - at)), normal))
+            }
+            Self::Round {
+                center,
+                axis,
+                radius,
+            } => {
+                let mut arm = at - center.map(N::of);
+                if let Some(axis) = axis.map(|axis| axis.map(N::of)) {
+                    arm -= axis * axis.dot(&arm);
+                }
+                let square = arm.norm_squared();
+                (square.plain() > 0.0).then(|| {
+                    let distance = square.sqrt();
+                    (N::of(*radius) - distance, arm / distance)
+                })
+            }
+        }
+    }
+
+    /// How the unit vector out of the surface turns with the point, 1/m.
+    fn curvature(&self, depth: f64, normal: &Vector<D>) -> SMatrix<f64, D, D> {
+        match self {
+            Self::Plane { .. } => SMatrix::zeros(),
+            Self::Round { axis, radius, .. } => {
+                let mut across = SMatrix::identity() - normal * normal.transpose();
+                if let Some(axis) = axis {
+                    across -= axis * axis.transpose();
+                }
+                across / (radius - depth)
+            }
+        }
+    }
+}
+
+impl<const D: usize> Contact<D> {
+    /// How a point touches; none above the surface.
+    #[inline(always)]
+    fn touch<N: Number>(&self, marker: &Marker<N>, at: Instant<'_, D, N>) -> Option<Touch<D, N>> {
+        let (depth, normal) = self.surface.under(&marker.position(at.x))?;
+        if depth.plain() <= 0.0 {
+            return None;
+        }
+        let velocity: Vector<D, N> = marker.position(at.v);
+        let rate = -normal.dot(&velocity);
+        let slip = velocity + normal * rate;
+        let bracket = N::of(1.0) + N::of(self.damping) * rate;
+        let is_pushing = bracket.plain() > 0.0;
+        Some(Touch {
+            depth,
+            normal,
+            damped: if is_pushing { bracket } else { N::of(0.0) },
+            slip,
+            speed: (slip.norm_squared() + N::of(self.slip_velocity * self.slip_velocity)).sqrt(),
+            rate,
+        })
+    }
+
+    /// Force along the normal, N or N/m.
+    fn push<N: Number>(&self, touch: &Touch<D, N>) -> N {
+        N::of(self.stiffness) * touch.depth * touch.damped
+    }
+
+    /// Force on a point, N or N/m.
+    fn force<N: Number>(&self, marker: &Marker<N>, at: Instant<'_, D, N>) -> Vector<D, N> {
+        let Some(touch) = self.touch(marker, at) else {
+            return Vector::zeros();
+        };
+        let push = self.push(&touch);
+        if self.friction == 0.0 {
+            return touch.normal * push;
+        }
+        touch.normal * push - touch.slip * (N::of(self.friction) * push / touch.speed)
+    }
+
+    /// Whether it is that of a body, not of a marker.
+    pub(in crate::system) fn is_spread(&self) -> bool {
+        self.places.len() > 1
+    }
+
+    /// First node of the body or marker that it acts on.
+    pub(in crate::system) fn first_node(&self) -> usize {
+        self.places[0].marker.nodes[0]
+    }
+
+    /// Force per reference length at the Gauss points of a stretch of a body, N/m.
+    pub(in crate::system) fn changing<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        stretch: usize,
+    ) -> Values<D, N> {
+        let places = &self.places[stretch * GAUSS_5.len()..];
+        std::array::from_fn(|k| self.force(&places[k].marker.lift(), at))
+    }
+
+    /// Nodes of the stretches of a body, or of the marker.
+    pub(super) fn parts(&self) -> Vec<Vec<usize>> {
+        let stretches = self.places.chunks(GAUSS_5.len());
+        let nodes = stretches.map(|places| places[0].marker.nodes.to_vec());
+        nodes.collect()
+    }
+
+    /// Adds the forces of one of these.
+    pub(super) fn add_part<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        part: usize,
+        f: &mut [Node<D, N>],
+    ) {
+        let first = part * GAUSS_5.len();
+        let last = self.places.len().min(first + GAUSS_5.len());
+        self.each_force(at, first..last, |end, [position, direction]| {
+            end.add_force(position, direction, f);
+        });
+    }
+
+    fn each_force<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        places: std::ops::Range<usize>,
+        mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
+        for place in &self.places[places] {
+            let marker = place.marker.lift();
+            let force = self.force(&marker, at) * N::of(place.weight);
+            call(&End::Body(marker), [force, Vector::zeros()]);
+        }
+    }
+
+    pub(super) fn add_force<N: Number>(&self, at: Instant<'_, D, N>, f: &mut [Node<D, N>]) {
+        self.each_force(at, 0..self.places.len(), |end, [position, direction]| {
+            end.add_force(position, direction, f);
+        });
+    }
+
+    /// Calls with the marker and its force; not along a body.
+    pub(super) fn act<N: Number>(
+        &self,
+        at: Instant<'_, D, N>,
+        call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
+    ) {
+        if !self.is_spread() {
+            self.each_force(at, 0..1, call);
+        }
+    }
+
+    /// Without how friction follows from the depth: that part is not symmetric, and acts one way, from the normal to
+    /// the way along, so that iterations find it.
+    pub(super) fn add_tangent(
+        &self,
+        at: Instant<'_, D>,
+        stiffness: Add<'_, D>,
+        damping: Add<'_, D>,
+    ) {
+        for place in &self.places {
+            let Some(touch) = self.touch(&place.marker, at) else {
+                continue;
+            };
+            let ends = [End::Ground(Vector::zeros()), End::Body(place.marker)];
+            let (push, normal) = (self.push(&touch), &touch.normal);
+            let along: SMatrix<f64, D, D> = normal * normal.transpose();
+            // What is round pushes aside.
+            let turning = self.surface.curvature(touch.depth, normal) * push;
+            let stiff = along * (self.stiffness * touch.damped) - turning;
+            between(&ends, stiff * place.weight, 0, &mut *stiffness);
+            let mut damped = match touch.damped > 0.0 {
+                true => along * (self.stiffness * self.damping * touch.depth),
+                false => SMatrix::zeros(),
+            };
+            if self.friction > 0.0 {
+                let way = touch.slip / touch.speed;
+                let across = SMatrix::identity() - along - way * way.transpose();
+                damped += across * (self.friction * push / touch.speed);
+            }
+            between(&ends, damped * place.weight, 0, &mut *damping);
+        }
+    }
+
+    /// The sum over all points of what touching takes or holds there, by their weights.
+    fn sum<N: Number>(&self, at: Instant<'_, D, N>, of: impl Fn(&Touch<D, N>) -> N) -> N {
+        let mut sum = N::of(0.0);
+        for place in &self.places {
+            if let Some(touch) = self.touch(&place.marker.lift(), at) {
+                sum += of(&touch) * N::of(place.weight);
+            }
+        }
+        sum
+    }
+
+    /// Where it no longer pushes, what it has stored is lost.
+    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.sum(at, |touch| {
+            let beyond = touch.damped - N::of(1.0);
+            let pushed = N::of(self.stiffness) * touch.depth * beyond * touch.rate;
+            if self.friction == 0.0 {
+                return pushed;
+            }
+            let rubbed = N::of(self.friction) * self.push(touch) / touch.speed;
+            pushed + rubbed * touch.slip.norm_squared()
+        })
+    }
+
+    pub(super) fn energy<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        self.sum(at, |touch| {
+            N::of(0.5 * self.stiffness) * touch.depth * touch.depth
+        })
+    }
+}
