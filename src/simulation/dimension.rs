@@ -53,6 +53,7 @@ handed_on! {
     fn change([&mut] self, quantity: Quantity, state: &State) -> f64;
     fn markers([&mut] self, state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
     fn outlines([&mut] self, state: &State, inputs: &Inputs, parts: &dyn Fn(usize) -> u32) -> Outlines;
+    fn pull([&mut] self, load: usize, state: &State, inputs: &Inputs) -> [f64; 3];
     fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
 }
 

@@ -9,6 +9,7 @@ use super::{Error, Quantity, Report, Source, Spectra, StepFailure, Variable, met
 use crate::body::Node;
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
+use crate::math::space::components;
 use crate::scene::{Assembled, Holder, InitialState, Resolved, Timed};
 use crate::system::equilibrium::{self, Failure, NotFound};
 use crate::system::{
@@ -345,6 +346,13 @@ impl<const D: usize> Engine<D> {
     pub(super) fn nodes(&mut self, state: &State, inputs: &Inputs) -> (&Assembled<D>, &[Node<D>]) {
         self.evaluate(Evaluated::Kinematics, state, inputs);
         (&self.assembled, &self.evaluation.x)
+    }
+
+    /// What a spring of the scene does to its second end: [`Evaluation::pull`].
+    pub(super) fn pull(&mut self, load: usize, state: &State, inputs: &Inputs) -> [f64; 3] {
+        self.evaluate(Evaluated::Kinematics, state, inputs);
+        let system = &self.assembled.system;
+        components(&self.evaluation.pull(system, self.assembled.load(load)))
     }
 
     /// Derivative in time, of order 1 or 2, of an output while inputs go on as they do.

@@ -62,9 +62,6 @@ pub enum Quantity {
     Reaction(HolderId, usize, Along),
     /// Component of the moment of a joint or motion; in the plane the third.
     ReactionMoment(HolderId, usize, Along),
-    /// Component of the force (N) of a spring of the scene on its second end, by its place among the loads; of one about an axis the
-    /// moment (N m) about it, first.
-    Pull(usize, usize),
     /// Displacement of a joint along a line.
     Displacement(HolderId),
     /// Its rate.
@@ -160,7 +157,6 @@ pub(super) fn value<const D: usize, N: Number>(
         Stress(id) => values.stress(system, assembled.point(id)),
         TorsionStress(id) => values.torsion_stress(system, assembled.point(id)),
         ConnectivityForce(id, axis) => values.connectivity_force(system, at(id))[axis],
-        Pull(load, axis) => values.pull(system, assembled.load(load))[axis],
         Travel(slide) => values.travel[slide.index()],
         Reaction(joint, ..) | ReactionMoment(joint, ..) => {
             transmitted(quantity, values, assembled, joint)
@@ -325,12 +321,9 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         AngularVelocity(..) | JointVelocity(_) => (Kinematics, |by| Some(by.rate)),
         AngularAcceleration(..) | JointAcceleration(_) => (Dynamics, |by| Some(by.rate * by.rate)),
         Strain(_) | Curvature(_) => (Kinematics, |_| Some(0.0)),
-        AxialForce(_)
-        | ConnectivityForce(..)
-        | Pull(..)
-        | Reaction(..)
-        | MotionForce(..)
-        | GearForce(_) => (Dynamics, |by| Some(by.force)),
+        AxialForce(_) | ConnectivityForce(..) | Reaction(..) | MotionForce(..) | GearForce(_) => {
+            (Dynamics, |by| Some(by.force))
+        }
         BendingMoment(..) | Torque(_) | ReactionMoment(..) | MotionMoment(..) | GearTorque(_) => {
             (Dynamics, |by| Some(by.force * by.size))
         }

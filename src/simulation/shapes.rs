@@ -99,13 +99,9 @@ impl Simulation {
     /// The initial state cannot be computed.
     pub fn pull(&mut self, load: usize) -> Result<[f64; 3], Error> {
         self.refresh()?;
-        let mut force = [0.0; 3];
-        if let Some(engine) = &mut self.engine {
-            for (axis, part) in force.iter_mut().enumerate().take(self.scene.dimension) {
-                *part = engine.output(Quantity::Pull(load, axis), &self.state, &self.inputs);
-            }
-        }
-        Ok(force)
+        let engine = self.engine.as_mut();
+        let force = engine.map(|engine| engine.pull(load, &self.state, &self.inputs));
+        Ok(force.unwrap_or_default())
     }
 
     /// Numbers that the master sets, in the order of [`crate::scene::Resolved::numbers`].
