@@ -350,6 +350,13 @@ impl<const D: usize> Engine<D> {
         (&self.assembled, &self.evaluation.x)
     }
 
+    /// What a spring of the scene does to its second end: [`Evaluation::pull`].
+    pub(super) fn pull(&mut self, load: usize, state: &State, inputs: &Inputs) -> [f64; 3] {
+        self.evaluate(Evaluated::Kinematics, state, inputs);
+        let system = &self.assembled.system;
+        components(&self.evaluation.pull(system, self.assembled.load(load)))
+    }
+
     /// Derivative in time, of order 1 or 2, of an output while inputs go on as they do.
     pub(super) fn derivative(
         &mut self,
