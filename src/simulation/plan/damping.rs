@@ -6,7 +6,7 @@
 //! stiffness).
 
 use super::search::fewest;
-use crate::scene::{Error, Scene};
+use crate::scene::{Accuracy, Error, Scene};
 use crate::simulation::dimension::AnyEngine;
 use crate::simulation::variables::{start_inputs, variables};
 
@@ -47,33 +47,26 @@ pub(in crate::simulation) fn damp(scene: &Scene) -> Result<(Scene, Vec<Damped>),
         let ratio = body
             .cable_mut()
             .and_then(|of| of.material.damping_ratio.take());
-        asked.extend(ratio.map(|ratio| (index, ratio)));
+        asked.extend(
+            ratio
+                .filter(|ratio| *ratio > 0.0)
+                .map(|ratio| (index, ratio)),
+        );
     }
-    let open: Vec<usize> = asked
-        .iter()
-        .filter(|of| of.1 > 0.0)
-        .map(|of| of.0)
-        .collect();
-    let found = match open.is_empty() {
-        true => Vec::new(),
-        false => modes_of(&damped, &open)?,
-    };
+    if asked.is_empty() {
+        return Ok((damped, Vec::new()));
+    }
+    let open: Vec<usize> = asked.iter().map(|(index, _)| *index).collect();
     let mut account = Vec::new();
-    let mut found = found.into_iter();
-    for (index, ratio) in asked {
-        if ratio == 0.0 {
-            continue;
-        }
-        let Some((frequency, stiffness)) = found.next() else {
-            continue;
-        };
+    for ((index, ratio), (frequency, stiffness)) in asked.into_iter().zip(modes_of(&damped, &open)?)
+    {
         let time = 2.0 * ratio * frequency / stiffness;
-        let name = damped.bodies[index].name().to_owned();
-        if let Some(line) = damped.bodies[index].cable_mut() {
+        let body = &mut damped.bodies[index];
+        if let Some(line) = body.cable_mut() {
             line.material.damping_time = time;
         }
         account.push(Damped {
-            name,
+            name: body.name().to_owned(),
             ratio,
             frequency,
             share: stiffness / (frequency * frequency),
@@ -87,12 +80,15 @@ pub(in crate::simulation) fn damp(scene: &Scene) -> Result<(Scene, Vec<Damped>),
 fn swinging(scene: &Scene) -> Result<Scene, Error> {
     let mut scene = scene.clone().plain();
     scene.outputs.clear();
-    scene.accuracy.relative_tolerance.get_or_insert(1e-6);
     let fewest = fewest(&scene)?;
     let lines = scene.bodies.iter_mut().filter_map(|body| body.cable_mut());
     for (line, fewest) in lines.zip(fewest) {
         line.elements.get_or_insert(fewest.max(ELEMENTS));
     }
+    scene.accuracy = Accuracy {
+        relative_tolerance: Some(scene.relative_tolerance()),
+        ..Accuracy::default()
+    };
     Ok(scene)
 }
 
