@@ -153,6 +153,12 @@ impl Scene {
         cables.any(|cable| cable.material.damping_ratio.is_some())
     }
 
+    /// The scene with nothing that is read.
+    pub fn without_outputs(mut self) -> Self {
+        self.outputs.clear();
+        self
+    }
+
     /// Error wanted of outputs where it is planned for: as given, or 1e-3.
     pub fn error(&self) -> f64 {
         self.accuracy.error.unwrap_or(1e-3)

@@ -79,8 +79,7 @@ pub(in crate::simulation) fn damp(scene: &Scene) -> Result<(Scene, Vec<Damped>),
 
 /// The scene as it swings: with meshes where they are open, and with nothing that is read.
 fn swinging(scene: &Scene) -> Result<Scene, Error> {
-    let mut scene = scene.clone().plain();
-    scene.outputs.clear();
+    let mut scene = scene.clone().plain().without_outputs();
     let fewest = fewest(&scene)?;
     let lines = scene.bodies.iter_mut().filter_map(|body| body.cable_mut());
     for (line, fewest) in lines.zip(fewest) {
