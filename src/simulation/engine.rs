@@ -337,13 +337,6 @@ impl<const D: usize> Engine<D> {
         value(quantity, &self.evaluation, &self.assembled, work)
     }
 
-    /// Force of a spring of the scene on its second end, N; of one about an axis the moment about it, first, N m.
-    pub(super) fn pull(&mut self, load: usize, state: &State, inputs: &Inputs) -> [f64; 3] {
-        self.evaluate(Evaluated::Dynamics, state, inputs);
-        let place = self.assembled.load(load);
-        components(&self.evaluation.pull(&self.assembled.system, place))
-    }
-
     /// The system, and its nodes in a state.
     pub(super) fn nodes(&mut self, state: &State, inputs: &Inputs) -> (&Assembled<D>, &[Node<D>]) {
         self.evaluate(Evaluated::Kinematics, state, inputs);

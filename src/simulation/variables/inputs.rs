@@ -95,6 +95,11 @@ fn add_orientation(
     }
 }
 
+/// What the components of a force are along that turns with a marker in the plane.
+const ALONG: [&str; 2] = [
+    "along the direction there",
+    "across, to the left of the direction",
+];
 /// What an input means that releases a joint.
 const LETS_GO: &str = "Makes a joint let go, for good, where it is above 0 as a step begins:";
 
@@ -117,10 +122,6 @@ fn words(
         "along their first axes",
         "along their second axes",
         "along their third axes",
-    ];
-    const ALONG: [&str; 2] = [
-        "along the direction there",
-        "across, to the left of the direction",
     ];
     let action = match &input.kind {
         InputKind::Action(action) => action,

@@ -25,6 +25,13 @@ pub(super) fn add(list: &mut List, resolved: &Resolved<'_>) {
         let row = ("mass", what, Some(KILOGRAM), parameter, mass.mass);
         list.parameters(mass.marker.name, "at", &[row]);
     }
+    for (i, joint) in resolved.joints.iter().enumerate() {
+        if let Some(time) = joint.release.and_then(|release| release.time) {
+            let (what, parameter) = ("Time of the release", Parameter::ReleaseTime(i));
+            let row = ("release_time", what, Some(SECOND), parameter, time);
+            list.parameters(joint.name, "of", &[row]);
+        }
+    }
     add_dampers(list, resolved);
     let scene = resolved.scene;
     for axis in 0..scene.dimension {
@@ -245,15 +252,10 @@ fn add_contact(list: &mut List, (i, of): (usize, &str), contact: &Contact<'_>) {
     }
 }
 
-/// Times at which joints let go; stiffness and damping of hinges, springs, bushings, stops, contacts and couplings.
+/// Stiffness and damping of hinges, springs, bushings, stops, contacts and couplings.
 fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
     use Parameter::*;
     for (i, joint) in resolved.joints.iter().enumerate() {
-        if let Some(time) = joint.release.and_then(|release| release.time) {
-            let key = format!("{}.release_time", joint.name);
-            let what = format!("Time at which {} lets go", joint.name);
-            list.parameter(key, what, Some(SECOND), ReleaseTime(i), time);
-        }
         if let Some(starts) = joint.spring() {
             let units = [NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN];
             let parameters = [HingeStiffness(i), HingeDamping(i)];
@@ -361,6 +363,7 @@ fn set_inertia(inertia: &mut Inertia, axis: usize, value: f64) {
 /// Puts the value of a parameter into the scene that it came from.
 pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
     use Parameter::*;
+    let set = |of: &mut Option<[f64; 3]>, axis: usize| of.get_or_insert_default()[axis] = value;
     match parameter {
         YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = Some(value),
         Density(id) => scene.cable_mut(id).material.density = Some(value),
@@ -403,19 +406,10 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
             scene.loads[i].damping = Some(value);
         }
         Friction(i) => scene.loads[i].friction = Some(value),
-        BushingStiffness(i, axis) => {
-            let Scene { loads, .. } = scene;
-            loads[i].translational_stiffness.get_or_insert_default()[axis] = value;
-        }
-        BushingDamping(i, axis) => {
-            scene.loads[i].translational_damping.get_or_insert_default()[axis] = value;
-        }
-        BushingTurningStiffness(i, axis) => {
-            scene.loads[i].rotational_stiffness.get_or_insert_default()[axis] = value;
-        }
-        BushingTurningDamping(i, axis) => {
-            scene.loads[i].rotational_damping.get_or_insert_default()[axis] = value;
-        }
+        BushingStiffness(i, axis) => set(&mut scene.loads[i].translational_stiffness, axis),
+        BushingDamping(i, axis) => set(&mut scene.loads[i].translational_damping, axis),
+        BushingTurningStiffness(i, axis) => set(&mut scene.loads[i].rotational_stiffness, axis),
+        BushingTurningDamping(i, axis) => set(&mut scene.loads[i].rotational_damping, axis),
         FluidDensity(i) => scene.loads[i].density = Some(value),
         Drag(i) => scene.loads[i].drag = Some(value),
         TangentialDrag(i) => scene.loads[i].tangential_drag = Some(value),
