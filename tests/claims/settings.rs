@@ -170,7 +170,7 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 94] = [
+const INPUTS: [(&str, &str); 96] = [
     ("inputs.release", ""),
     ("inputs.distributed_moment[1]", "N.m/m"),
     ("inputs.distributed_moment[2]", "N.m/m"),
@@ -205,6 +205,8 @@ const INPUTS: [(&str, &str); 94] = [
     ("inputs.distributed_force[1]", "N/m"),
     ("inputs.distributed_force[2]", "N/m"),
     ("inputs.rest_length", "m"),
+    ("inputs.current[1]", "m/s"),
+    ("inputs.current[2]", "m/s"),
     ("motions.position[1]", "m"),
     ("motions.position[2]", "m"),
     ("motions.velocity[1]", "m/s"),

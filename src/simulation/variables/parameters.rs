@@ -352,8 +352,8 @@ impl List {
 }
 
 /// Sets the number of an inertia, or its moment about an axis.
-fn set_inertia(inertia: &mut Inertia, axis: usize, value: f64) {
-    match inertia {
+fn set_inertia(inertia: &mut Option<Inertia>, axis: usize, value: f64) {
+    match inertia.get_or_insert_default() {
         Inertia::Number(number) => *number = value,
         Inertia::Moments(moments) => moments[axis] = value,
         Inertia::Tensor(rows) => rows[axis][axis] = value,
@@ -363,7 +363,6 @@ fn set_inertia(inertia: &mut Inertia, axis: usize, value: f64) {
 /// Puts the value of a parameter into the scene that it came from.
 pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Parameter, value: f64) {
     use Parameter::*;
-    let set = |of: &mut Option<[f64; 3]>, axis: usize| of.get_or_insert_default()[axis] = value;
     match parameter {
         YoungsModulus(id) => scene.cable_mut(id).material.youngs_modulus = Some(value),
         Density(id) => scene.cable_mut(id).material.density = Some(value),
@@ -391,10 +390,7 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
                 *length = value;
             }
         }
-        Inertia(id, axis) => {
-            let inertia = &mut scene.rigid_mut(id).inertia;
-            set_inertia(inertia.get_or_insert_default(), axis, value);
-        }
+        Inertia(id, axis) => set_inertia(&mut scene.rigid_mut(id).inertia, axis, value),
         LumpedMass(i) => scene.masses[i].mass = value,
         ReleaseTime(i) => scene.joints[i].release_time = Some(value),
         HingeStiffness(i) => scene.joints[i].stiffness = Some(value),
@@ -406,10 +402,19 @@ pub(in crate::simulation) fn set_parameter(scene: &mut Scene, parameter: Paramet
             scene.loads[i].damping = Some(value);
         }
         Friction(i) => scene.loads[i].friction = Some(value),
-        BushingStiffness(i, axis) => set(&mut scene.loads[i].translational_stiffness, axis),
-        BushingDamping(i, axis) => set(&mut scene.loads[i].translational_damping, axis),
-        BushingTurningStiffness(i, axis) => set(&mut scene.loads[i].rotational_stiffness, axis),
-        BushingTurningDamping(i, axis) => set(&mut scene.loads[i].rotational_damping, axis),
+        BushingStiffness(i, axis) => {
+            let Scene { loads, .. } = scene;
+            loads[i].translational_stiffness.get_or_insert_default()[axis] = value;
+        }
+        BushingDamping(i, axis) => {
+            scene.loads[i].translational_damping.get_or_insert_default()[axis] = value;
+        }
+        BushingTurningStiffness(i, axis) => {
+            scene.loads[i].rotational_stiffness.get_or_insert_default()[axis] = value;
+        }
+        BushingTurningDamping(i, axis) => {
+            scene.loads[i].rotational_damping.get_or_insert_default()[axis] = value;
+        }
         FluidDensity(i) => scene.loads[i].density = Some(value),
         Drag(i) => scene.loads[i].drag = Some(value),
         TangentialDrag(i) => scene.loads[i].tangential_drag = Some(value),
