@@ -52,6 +52,8 @@ fn flung(name: &'static str, keys: Value, due: f64, told: f64) -> Specimen {
     }
     if by_input && due > 0.0 {
         specimen = specimen
+            // It holds at 0 and below.
+            .set("pin.release", -0.02)
             .at(told)
             .vector_within("bob.c.position", "m", held(told), 1e-8)
             .set("pin.release", 1.0);
