@@ -55,6 +55,7 @@ pub struct Joint {
     /// Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     /// same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub release_time: Option<f64>,
 }
 

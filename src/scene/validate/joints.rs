@@ -97,7 +97,7 @@ impl Joint {
             positive(&at("length"), "m", length)?;
         }
         if let Some(time) = self.release_time {
-            finite(&at("release_time"), time)?;
+            not_negative(&at("release_time"), "s", time)?;
         }
         if let Some(pitch) = self.pitch {
             not_zero(&at("pitch"), "m", pitch)?;

@@ -18,6 +18,7 @@ fn a_joint_lets_go_where_nothing_acts_on_its_coordinates() {
         r#"
         /name | "free" | accepted
         /joints/0/release_time | null | accepted
+        /joints/0/release_time | -1 | joints[0].release_time
         /joints/0 | {"name": "pin", "kind": "hinge", "markers": ["ground", "bob.p"], "stiffness": 1} | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found a spring of its own
         /loads | [{"name": "motor", "kind": "torque", "joint": "pin", "value": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "motor"
         /loads | [{"name": "end", "kind": "stop", "joint": "pin", "stiffness": 1, "upper": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "end"
