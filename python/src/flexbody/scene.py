@@ -434,7 +434,7 @@ class OrientationJoint(Part):
     `weld`, `orientation`, `prismatic`: direction of the second marker less that of the first (of ground: 0),
     rad; as at the start by default, and in space always. `hinge`: the same at rest; in space the angle from the start on.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -456,7 +456,7 @@ class AlongJoint(Part):
     What it joins: `ground` or `body.marker`, then `body.marker`. `along`: the name of a cable,
     then `body.marker`.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -1774,7 +1774,7 @@ class Revolute(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -1800,7 +1800,7 @@ class Spherical(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -1838,7 +1838,7 @@ class Universal(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -1869,7 +1869,7 @@ class Weld(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -1903,7 +1903,7 @@ class Slider(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -1937,7 +1937,7 @@ class Cylindrical(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -1975,7 +1975,7 @@ class Screw(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -2014,7 +2014,7 @@ class Prismatic(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -2048,7 +2048,7 @@ class Planar(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -2078,7 +2078,7 @@ class Distance(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -2121,7 +2121,7 @@ class Hinge(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.
@@ -2156,7 +2156,7 @@ class Generic(Part):
     """
     With `ground` only: where on the ground, m; where the second marker is at the start by default.
     """
-    release_time: StrictFloat | None = None
+    release_time: Annotated[StrictFloat | None, Field(ge=0.0)] = None
     """
     Time at which it lets go, for good, s; of all joints but `hinge`, where nothing else acts on their coordinates. An input of kind `release` does the
     same. Nothing is struck by it: positions and velocities go on, reactions are zero from then on.

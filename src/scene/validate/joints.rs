@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 
 use super::checks::{
-    Key, direction, expected, finite, keys, not_zero, planar, positive, quoted, spring_damper,
+    Key, direction, expected, finite, keys, not_negative, not_zero, planar, positive, quoted,
+    spring_damper,
 };
 use crate::scene::description::{Condition, Declaration, Joint, Kind as _};
 use crate::scene::marker::GROUND;
