@@ -193,6 +193,9 @@ fn scenes() -> Vec<String> {
         }
     }
     scenes.extend(in_space());
+    // Points and a cable that touch.
+    scenes.push(include_str!("cases/contact/slide.json").into());
+    scenes.push(include_str!("../scenes/mooring_line.json").into());
     scenes
 }
 
