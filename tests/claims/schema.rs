@@ -185,7 +185,8 @@ impl Schema {
         match kind(node) {
             "number" => vec![json!(0.37)],
             "integer" => vec![json!(2)],
-            "boolean" => vec![json!(true), json!(false)],
+            // What it is not where nothing is said.
+            "boolean" => vec![json!(node["default"] != json!(true))],
             "string" => vec![json!("0.37+0.1*t"), json!("0.37")],
             "array" if length(node).is_none() => match kind(self.resolve(&node["items"])) {
                 "number" => vec![

@@ -2251,7 +2251,7 @@ class FluidLoad(Part):
     """
     `fluid`: area of the section that displaces fluid, m^2; that of the circle of `diameter` by default.
     """
-    buoyancy: StrictBool | None = None
+    buoyancy: StrictBool | None = True
     """
     `fluid`: whether the weight of the displaced fluid lifts the body; true by default.
     """

@@ -108,6 +108,7 @@ pub struct Load {
     pub area: Option<f64>,
     /// `fluid`: whether the weight of the displaced fluid lifts the body; true by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = true))]
     pub buoyancy: Option<bool>,
     /// `contact`: what is touched.
     #[serde(default, skip_serializing_if = "Option::is_none")]

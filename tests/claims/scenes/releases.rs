@@ -11,7 +11,8 @@ pub fn all() -> Vec<Specimen> {
         flung("flung_by_input", json!({}), 0.5, 0.5),
         flung("flung_at_once", json!({}), 0.0, 0.0),
         spun_off(),
-        dropped(),
+        all_go(),
+        all_go_in_space(),
     ]
 }
 
@@ -33,7 +34,7 @@ fn flung(name: &'static str, keys: Value, due: f64, told: f64) -> Specimen {
         "bodies": [{"element": "rigid", "name": "bob", "mass": mass, "inertia": 0.3, "position": [1.0, 0.1],
                     "motion": {"velocity": [0.0, r * spin], "spin": spin},
                     "markers": {"c": [0.0, 0.0], "p": [-r, 0.0]}}, extra()],
-        "joints": [joint], "inputs": inputs,
+        "joints": [joint, {"name": "other", "kind": "weld", "markers": ["ground", "extra.a"]}], "inputs": inputs,
         "outputs": [{"kind": "position", "marker": "bob.c"}, {"kind": "angular_velocity", "marker": "bob.c"},
                     {"kind": "reaction", "joint": "pin"}],
         "accuracy": {"relative_tolerance": 1e-10}});
@@ -103,24 +104,134 @@ fn spun_off() -> Specimen {
         .claim_within("a.c.angular_velocity[3]", "rad/s", spin, 1e-8)
 }
 
-/// A stiff rod that hangs from a weld falls freely once that has let go.
-fn dropped() -> Specimen {
-    let (g, due, weight) = (9.81, 0.1, 1000.0 * 1e-4 * 0.5 * 9.81);
-    let scene = json!({
-        "name": "dropped", "dimension": 3, "gravity": [0.0, 0.0, -g], "initial": "static_equilibrium",
-        "bodies": [{"element": "rod", "name": "rod", "elements": 2,
-                    "material": {"youngs_modulus": 1e11, "shear_modulus": 4e10, "density": 1000.0},
-                    "section": {"area": 1e-4, "second_moments": [1e-9, 1e-9], "torsion_constant": 2e-9},
-                    "shape": {"line": {"from": [0.0, 0.0, 0.0], "to": [0.0, 0.0, -0.5]}},
-                    "markers": {"top": 0.0, "end": 1.0}}],
-        "joints": [{"name": "grip", "kind": "weld", "markers": ["ground", "rod.top"], "release_time": due}],
-        "outputs": [{"kind": "position", "marker": "rod.end"}, {"kind": "reaction", "joint": "grip"}]});
-    let fall = 0.5 * g * (0.4_f64 - due).powi(2);
-    Specimen::new("dropped", scene)
-        .claim_within("grip.reaction[3]", "N", weight, 1e-6)
-        .at(0.05)
-        .claim_within("rod.end.position[3]", "m", -0.5, 1e-6)
-        .at(0.4)
-        .claim_within("rod.end.position[3]", "m", -0.5 - fall, 1e-6)
-        .claim("grip.reaction[3]", "N", 0.0)
+/// A joint of a kind on the ground at the centre of mass of a body at a place, with more keys.
+fn on_ground(name: &str, kind: &str, keys: &Value) -> Value {
+    let marker = format!("{name}_body.c");
+    let mut joint = json!({"name": name, "kind": kind, "markers": ["ground", marker]});
+    for (key, value) in keys.as_object().into_iter().flatten() {
+        joint[key] = value.clone();
+    }
+    joint
+}
+
+/// Joints of all kinds in the plane: some let go at once, and what they would hold falls and turns; others hold.
+fn all_go() -> Specimen {
+    let (g, moment, mass, inertia) = (9.81, 0.7, 1.4, 0.3);
+    let kinds = [
+        ("weld", json!({})),
+        ("slider", json!({"direction": [1.0, 0.0]})),
+        ("prismatic", json!({"direction": [1.0, 0.0]})),
+        ("orientation", json!({})),
+        ("distance", json!({})),
+        ("along", json!({"markers": ["rope", "along_body.c"]})),
+    ];
+    let mut bodies = vec![
+        json!({"element": "cable", "name": "rope", "elements": 2, "material": {"youngs_modulus": 1e7, "density": 1000.0},
+               "section": {"area": 1e-3, "second_moment": 1e-7},
+               "shape": {"line": {"from": [9.5, 0.0], "to": [10.5, 0.0]}}, "markers": {"left": 0.0, "right": 1.0}}),
+    ];
+    let fix = |name: &str, marker: &str| json!({"name": name, "kind": "weld", "markers": ["ground", marker]});
+    let mut joints = vec![fix("left", "rope.left"), fix("right", "rope.right")];
+    let (mut loads, mut outputs) = (Vec::new(), Vec::new());
+    let mut put = |name: &str, kind: &str, keys: &Value, place: [f64; 2]| {
+        let (body, marker) = (format!("{name}_body"), format!("{name}_body.c"));
+        bodies.push(json!({"element": "rigid", "name": body, "mass": mass, "inertia": inertia, "position": place,
+                           "motion": {"velocity": [0.0, 0.0]}, "markers": {"c": [0.0, 0.0]}}));
+        joints.push(on_ground(name, kind, keys));
+        loads.push(json!({"name": format!("{name}_moment"), "kind": "moment", "marker": marker, "value": moment}));
+        for output in ["acceleration", "angular_acceleration", "position", "angle"] {
+            outputs.push(json!({"kind": output, "marker": marker}));
+        }
+    };
+    for (k, (kind, keys)) in kinds.iter().enumerate() {
+        let mut at_once = keys.clone();
+        at_once["release_time"] = json!(0.0);
+        if *kind == "distance" {
+            at_once["point"] = json!([2.0 * k as f64, 1.0]);
+        }
+        put(kind, kind, &at_once, [2.0 * k as f64, 0.0]);
+        if *kind != "along" {
+            let mut keys = keys.clone();
+            if *kind == "distance" {
+                keys["point"] = json!([2.0 * k as f64, 5.0]);
+            }
+            put(&format!("{kind}_stays"), kind, &keys, [2.0 * k as f64, 4.0]);
+        }
+    }
+    let scene = json!({"name": "all_go", "dimension": 2, "gravity": [0.0, -g], "bodies": bodies, "joints": joints,
+                       "loads": loads, "outputs": outputs});
+    let mut specimen = Specimen::new("all_go", scene);
+    for (kind, _) in &kinds {
+        let of = format!("{kind}_body.c");
+        specimen = specimen
+            .vector(&format!("{of}.acceleration"), "m/s2", [0.0, -g])
+            .claim(
+                &format!("{of}.angular_acceleration"),
+                "rad/s2",
+                moment / inertia,
+            );
+    }
+    specimen = specimen.at(0.5);
+    for (kind, _) in kinds.iter().filter(|(kind, _)| *kind != "along") {
+        let of = format!("{kind}_stays_body.c");
+        specimen = match *kind {
+            "orientation" => specimen.claim_within(&format!("{of}.angle"), "rad", 0.0, 1e-8),
+            _ => specimen.claim_within(&format!("{of}.position[2]"), "m", 4.0, 1e-8),
+        };
+    }
+    specimen
+}
+
+/// The same of joints of space.
+fn all_go_in_space() -> Specimen {
+    let (g, moment, inertia) = (9.81, [0.6, -0.4, 0.5], [0.3, 0.4, 0.5]);
+    let kinds = [
+        ("spherical", json!({})),
+        (
+            "universal",
+            json!({"direction": [1.0, 0.0, 0.0], "second_direction": [0.0, 1.0, 0.0]}),
+        ),
+        ("cylindrical", json!({"direction": [1.0, 0.0, 0.0]})),
+        ("screw", json!({"direction": [1.0, 0.0, 0.0], "pitch": 0.2})),
+        ("planar", json!({"direction": [0.0, 0.0, 1.0]})),
+        ("generic", json!({"free": ["x"]})),
+    ];
+    let (mut bodies, mut joints, mut outputs, mut loads) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut put = |name: &str, kind: &str, keys: &Value, place: [f64; 3]| {
+        let (body, marker) = (format!("{name}_body"), format!("{name}_body.c"));
+        bodies.push(json!({"element": "rigid", "name": body, "mass": 1.4, "inertia": inertia, "position": place,
+                           "motion": {"velocity": [0.0, 0.0, 0.0]}, "markers": {"c": [0.0, 0.0, 0.0]}}));
+        joints.push(on_ground(name, kind, keys));
+        for output in ["acceleration", "angular_acceleration", "position"] {
+            outputs.push(json!({"kind": output, "marker": marker}));
+        }
+        marker
+    };
+    for (k, (kind, keys)) in kinds.iter().enumerate() {
+        let x = 2.0 * k as f64;
+        let mut at_once = keys.clone();
+        at_once["release_time"] = json!(0.0);
+        let marker = put(kind, kind, &at_once, [x, 0.0, 0.0]);
+        loads.push(json!({"name": format!("{kind}_moment"), "kind": "moment", "marker": marker, "value": moment}));
+        put(&format!("{kind}_stays"), kind, keys, [x, 4.0, 0.0]);
+    }
+    let scene = json!({"name": "all_go_in_space", "dimension": 3, "gravity": [0.0, 0.0, -g], "bodies": bodies,
+                       "joints": joints, "loads": loads, "outputs": outputs});
+    let mut specimen = Specimen::new("all_go_in_space", scene);
+    for (kind, _) in &kinds {
+        let of = format!("{kind}_body.c");
+        for (axis, free) in [0.0, 0.0, -g].into_iter().enumerate() {
+            let (turn, k) = (moment[axis] / inertia[axis], axis + 1);
+            specimen = specimen
+                .claim(&format!("{of}.acceleration[{k}]"), "m/s2", free)
+                .claim(&format!("{of}.angular_acceleration[{k}]"), "rad/s2", turn);
+        }
+    }
+    specimen = specimen.at(0.5);
+    for (kind, _) in &kinds {
+        let of = format!("{kind}_stays_body.c.position[3]");
+        specimen = specimen.claim_within(&of, "m", 0.0, 1e-8);
+    }
+    specimen
 }

@@ -98,6 +98,9 @@ fn along() -> Specimen {
         .claim_within("ring2.travel", "m", 0.5, 1e-6)
         .vector_within("ring.reaction", "N", [0.0, m * g], 1e-6)
         .vector_within("ring2.reaction", "N", [0.0, 0.9 * g], 1e-6)
+        // It stays.
+        .at(0.5)
+        .vector_within("ring.reaction", "N", [0.0, m * g], 1e-6)
 }
 
 /// Beads that coast along straight cables: the second slide is where the second bead is.
