@@ -191,7 +191,7 @@ impl<const D: usize> Constraint<D> {
 
     /// `g`.
     pub fn value<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        if self.is_released(view) {
+        if self.is_released(view.released) {
             return N::of(0.0);
         }
         let value = each!(self, c => c.value(view));
@@ -204,7 +204,7 @@ impl<const D: usize> Constraint<D> {
         view: &View<'_, D, N>,
         mut call: impl FnMut(&Gradient<D, N>),
     ) {
-        if self.is_released(view) {
+        if self.is_released(view.released) {
             return;
         }
         // Called in one place for what joins two ends, so that it can be compiled into its caller.
@@ -254,7 +254,7 @@ impl<const D: usize> Constraint<D> {
     /// Derivative of `g` by time alone, 1/s.
     pub fn rate<N: Number>(&self, view: &View<'_, D, N>) -> N {
         match &self.kind {
-            _ if self.is_released(view) => N::of(0.0),
+            _ if self.is_released(view.released) => N::of(0.0),
             ConstraintKind::AngleBetween(c) => c.rate(view),
             ConstraintKind::HeldRow(c) => c.rate(view),
             ConstraintKind::DrivenTurn(c) => c.rate(view),
@@ -266,7 +266,7 @@ impl<const D: usize> Constraint<D> {
 
     /// `d^2 g / dt^2` without the part of accelerations, 1/s^2.
     pub fn bias<N: Number>(&self, view: &View<'_, D, N>) -> N {
-        match self.is_released(view) {
+        match self.is_released(view.released) {
             true => N::of(0.0),
             false => each!(self, c => c.bias(view)),
         }
@@ -275,7 +275,7 @@ impl<const D: usize> Constraint<D> {
     /// Second derivatives times the multiplier, block by block of nodes.
     pub fn stiffness(&self, lambda: f64, view: &View<'_, D>, add: Add<'_, D>) {
         match &self.kind {
-            _ if self.is_released(view) => {}
+            _ if self.is_released(view.released) => {}
             ConstraintKind::UnitLength(c) => c.stiffness(lambda, add),
             ConstraintKind::AngleBetween(c) => c.stiffness(lambda, view, add),
             ConstraintKind::Distance(c) => c.stiffness(lambda, add),

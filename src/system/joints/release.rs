@@ -1,7 +1,7 @@
 //! Joints that let go: from a time on, or from the first step on that begins with an input above zero. What they hold keeps multipliers; once
 //! they have let go their conditions are zero identically and count no more. Nothing is struck: positions and velocities go on.
 
-use super::{Constraint, View};
+use super::Constraint;
 use crate::math::switches::grain;
 use crate::system::{State, Work};
 
@@ -22,9 +22,9 @@ impl Release {
 }
 
 impl<const D: usize> Constraint<D> {
-    /// Whether its joint has let go.
-    pub(super) fn is_released<N>(&self, view: &View<'_, D, N>) -> bool {
-        self.release.is_some_and(|place| view.released[place])
+    /// Whether its joint is among those that have let go.
+    pub(in crate::system) fn is_released(&self, released: &[bool]) -> bool {
+        self.release.is_some_and(|place| released[place])
     }
 }
 

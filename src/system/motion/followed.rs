@@ -32,7 +32,7 @@ impl<const D: usize> Model<'_, D> {
                 continue;
             };
             let length = system.chains[along.chain].length();
-            let is_released = (constraint.release).is_some_and(|at| self.work.released[at]);
+            let is_released = constraint.is_released(&self.work.released);
             if !is_released && !(-1e-9 * length..=length * (1.0 + 1e-9)).contains(travel) {
                 let joint = constraint.joint.unwrap_or(0);
                 state.copy_from(&self.work.before);

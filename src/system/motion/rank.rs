@@ -93,8 +93,7 @@ impl<const D: usize> System<D> {
             return;
         }
         for row in 0..self.constraints.len() {
-            let release = self.constraints[row].release;
-            let is_released = release.is_some_and(|place| work.released[place]);
+            let is_released = self.constraints[row].is_released(&work.released);
             let is_told = watch.words[row] != Word::None || jacobian.is_independent(row);
             if is_told || is_released {
                 continue;
@@ -137,7 +136,7 @@ impl<const D: usize> System<D> {
         // What is left of rows, orthonormal: a row that others give together with one of these is none of them.
         let mut basis: Vec<Vec<f64>> = Vec::new();
         let (mut exactly, mut nearly) = (Vec::new(), Vec::new());
-        let is_held = |row: &usize| !self.has_let_go(*row, work);
+        let is_held = |row: &usize| !self.constraints[*row].is_released(&work.released);
         let dependent: Vec<usize> = dependent.into_iter().filter(is_held).collect();
         for row in dependent {
             let mut left = work.jacobian.part_left(row, &mut rest);
@@ -185,16 +184,12 @@ impl<const D: usize> System<D> {
             .collect()
     }
 
-    /// Whether the joint of a constraint has let go.
-    fn has_let_go(&self, row: usize, work: &Work<D>) -> bool {
-        let release = self.constraints[row].release;
-        release.is_some_and(|place| work.released[place])
-    }
-
     /// Number of constraints whose joints have let go.
     fn released_rows(&self, work: &Work<D>) -> usize {
-        let rows = 0..self.constraints.len();
-        rows.filter(|row| self.has_let_go(*row, work)).count()
+        let constraints = self.constraints.iter();
+        constraints
+            .filter(|of| of.is_released(&work.released))
+            .count()
     }
 
     /// What constraints belong to.
