@@ -94,7 +94,9 @@ fn kernels_of<const D: usize>(
     let nodes = bench.system.reference().to_vec();
     let (rest, mut force) = (vec![no_node(); nodes.len()], vec![no_node(); nodes.len()]);
     group.bench_function("force", |b| {
-        b.iter(|| bench.system.chains()[0].add_force(black_box(&nodes), &rest, &mut force));
+        b.iter(|| {
+            bench.system.chains()[0].add_force((black_box(&nodes), &rest), [1.0, 0.0], &mut force)
+        });
     });
     let elimination = bench.system.elimination();
     let (mut x, mut y) = (nodes.clone(), vec![0.0; elimination.scratch()]);

@@ -204,6 +204,7 @@ fn whole(
                 method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
             }
             Accepted::RanOff(joint) => return Err(Stop::RanOff(joint)),
+            Accepted::TakenIn(drive) => return Err(Stop::TakenIn(drive)),
             Accepted::Overbent(rod, place) => return Err(Stop::Overbent(rod, place)),
             Accepted::Broken => return Err(Stop::Broken),
             Accepted::Jumped(drive) => return Err(Stop::Jumped(drive)),

@@ -170,7 +170,8 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         Nodal::from_column_slice(x[node..node + 2].as_flattened().as_flattened())
     }
 
-    fn add_to<N: Number>(&self, j: usize, f: &Nodal<D, N>, force: &mut [Node<D, N>]) {
+    /// Adds forces on the coordinates of element `j`.
+    pub fn add_to<N: Number>(&self, j: usize, f: &Nodal<D, N>, force: &mut [Node<D, N>]) {
         let node = self.first + j;
         let force = force[node..node + 2].as_flattened_mut();
         for (sum, f) in force.as_flattened_mut().iter_mut().zip(f.as_slice()) {
@@ -178,48 +179,68 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         }
     }
 
-    /// Adds elastic and damping forces. The power that damping takes out, W.
-    pub fn add_force(&self, x: &[Node<D>], rate: &[Node<D>], force: &mut [Node<D>]) -> f64 {
+    /// Adds elastic and damping forces of a chain that is longer than its reference length `L_0`: `longer` tells `L_0 / L` and `L' / L`
+    /// (1/s) of the length `L` now. The power that damping takes out, W.
+    pub fn add_force(
+        &self,
+        (x, rate): (&[Node<D>], &[Node<D>]),
+        longer: [f64; 2],
+        force: &mut [Node<D>],
+    ) -> f64 {
         let (chain, mut power) = (self, 0.0);
         vectorized(AddForce {
             chain,
             x,
             rate,
+            longer,
             force,
             power: &mut power,
         });
-        power
+        power / longer[0]
     }
 
-    /// Adds elastic and damping forces of numbers of any kind, element by element.
+    /// The same of numbers of any kind, element by element.
     pub fn add_force_of<N: Number>(
         &self,
-        x: &[Node<D, N>],
-        rate: &[Node<D, N>],
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        longer: [N; 2],
         force: &mut [Node<D, N>],
     ) {
-        for (j, element) in self.elements.iter().enumerate() {
-            let f = element.force(&self.element(j, x), &self.element(j, rate));
+        for j in 0..self.elements.len() {
+            let (f, _) = self.force_of(j, motion, longer);
             self.add_to(j, &f, force);
         }
     }
 
-    /// Strain energy, J.
-    pub fn strain_energy<N: Number>(&self, x: &[Node<D, N>]) -> N {
+    /// Elastic and damping force of element `j` on its coordinates, N and N m, and the power that damping takes out, W.
+    pub fn force_of<N: Number>(
+        &self,
+        j: usize,
+        (x, rate): (&[Node<D, N>], &[Node<D, N>]),
+        [by, growth]: [N; 2],
+    ) -> (Nodal<D, N>, N) {
+        let e = self.element(j, x);
+        let rate = self.element(j, rate) - e * growth;
+        self.elements[j].force_by((&e, &rate), by)
+    }
+
+    /// Strain energy, J; `by` is the reference length over the length now.
+    pub fn strain_energy<N: Number>(&self, x: &[Node<D, N>], by: N) -> N {
         let elements = self.elements.iter().enumerate();
-        let energies = elements.map(|(j, e)| e.energy(&self.element(j, x)));
+        let energies = elements.map(|(j, e)| e.energy_by(&self.element(j, x), by));
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
 
-    /// Power that damping takes out, W.
-    pub fn dissipation<N: Number>(&self, x: &[Node<D, N>], rate: &[Node<D, N>]) -> N {
+    /// Power that damping takes out, W, as of [`Chain::add_force`].
+    pub fn dissipation<N: Number>(
+        &self,
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        longer: [N; 2],
+    ) -> N {
         if !self.is_damped {
             return N::of(0.0);
         }
-        let power = |(j, element): (usize, &E)| {
-            element.dissipation(&self.element(j, x), &self.element(j, rate))
-        };
-        let powers = self.elements.iter().enumerate().map(power);
+        let powers = (0..self.elements.len()).map(|j| self.force_of(j, motion, longer).1);
         powers.fold(N::of(0.0), |sum, power| sum + power)
     }
 
@@ -261,33 +282,56 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
         }
     }
 
-    /// Adds the tangent stiffness, and damping where there is any.
+    /// Adds the tangent stiffness, and damping where there is any, of a chain as of [`Chain::add_force`]: over its coordinates times
+    /// the root of its reference length over the length now.
     pub fn add_tangent(
         &self,
         (x, rate): (&[Node<D>], &[Node<D>]),
+        longer: [f64; 2],
         assembly: &Assembly<D>,
-        stiffness: &mut Matrix<f64>,
-        damping: &mut Matrix<f64>,
+        matrices: (&mut Matrix<f64>, &mut Matrix<f64>),
     ) {
-        let (chain, matrices) = (self, (stiffness, damping));
+        let chain = self;
         vectorized(AddTangent {
             chain,
             x,
             rate,
+            longer,
             assembly,
             matrices,
         });
     }
 
-    /// Copies coordinates of the nodes of a pack, or rates.
+    /// Copies coordinates of the nodes of a pack, or rates, times a factor.
     #[inline(always)]
-    fn read(&self, pack: &Pack<E::Pack>, x: &[Node<D>], e: &mut NodePack<D>) {
+    fn read(&self, pack: &Pack<E::Pack>, x: &[Node<D>], by: f64, e: &mut NodePack<D>) {
         let first = self.first + pack.elements.start;
         let nodes = &x[first..][..=pack.elements.len().min(PACK)];
         for (lane, node) in nodes.iter().enumerate() {
             for p in 0..2 {
                 for d in 0..D {
-                    e[p][d][lane] = node[p][d];
+                    e[p][d][lane] = node[p][d] * by;
+                }
+            }
+        }
+    }
+
+    /// Copies rates of the nodes of a pack without what lengthening by itself adds, times a factor.
+    #[inline(always)]
+    fn read_rates(
+        &self,
+        pack: &Pack<E::Pack>,
+        (x, rate): (&[Node<D>], &[Node<D>]),
+        [by, growth]: [f64; 2],
+        v: &mut NodePack<D>,
+    ) {
+        let first = self.first + pack.elements.start;
+        let nodes = first..=first + pack.elements.len().min(PACK);
+        let nodes = x[nodes.clone()].iter().zip(&rate[nodes]);
+        for (lane, (x, rate)) in nodes.enumerate() {
+            for p in 0..2 {
+                for d in 0..D {
+                    v[p][d][lane] = (rate[p][d] - growth * x[p][d]) * by;
                 }
             }
         }
@@ -297,7 +341,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
     fn add_blocks(
         &self,
         pack: &Pack<E::Pack>,
-        blocks: &BlockPack<D>,
+        (blocks, factor): (&BlockPack<D>, f64),
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
@@ -308,7 +352,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
                 for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     for r in 0..D {
                         for c in 0..D {
-                            block[p][r][q][c] = blocks[part][p][q][r][c][lane];
+                            block[p][r][q][c] = blocks[part][p][q][r][c][lane] * factor;
                         }
                     }
                 }
@@ -323,6 +367,7 @@ struct AddForce<'a, E: Element<D>, const D: usize> {
     chain: &'a Chain<E, D>,
     x: &'a [Node<D>],
     rate: &'a [Node<D>],
+    longer: [f64; 2],
     force: &'a mut [Node<D>],
     /// Power that damping takes out, W.
     power: &'a mut f64,
@@ -331,17 +376,17 @@ struct AddForce<'a, E: Element<D>, const D: usize> {
 impl<E: Element<D>, const D: usize> Work for AddForce<'_, E, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let chain = self.chain;
+        let (chain, [by, growth]) = (self.chain, self.longer);
         let (mut e, mut v) = (rest(), rest());
         let mut f = [[[0.0; PACK]; D]; 4];
         for pack in &chain.packs {
-            chain.read(pack, self.x, &mut e);
+            chain.read(pack, self.x, by, &mut e);
             if chain.is_damped {
-                chain.read(pack, self.rate, &mut v);
-                *self.power +=
-                    E::pack_force(simd, &pack.kernel, (ends(&e), Some(ends(&v))), &mut f);
+                chain.read_rates(pack, (self.x, self.rate), [by, growth], &mut v);
+                let motion = (ends(&e), Some(ends(&v)));
+                *self.power += E::pack_force(simd, &pack.kernel, motion, by, &mut f);
             } else {
-                E::pack_force(simd, &pack.kernel, (ends(&e), None), &mut f);
+                E::pack_force(simd, &pack.kernel, (ends(&e), None), by, &mut f);
             }
             let first = chain.first + pack.elements.start;
             let count = pack.elements.len().min(PACK);
@@ -372,6 +417,7 @@ struct AddTangent<'a, E: Element<D>, const D: usize> {
     chain: &'a Chain<E, D>,
     x: &'a [Node<D>],
     rate: &'a [Node<D>],
+    longer: [f64; 2],
     assembly: &'a Assembly<D>,
     /// Stiffness and damping.
     matrices: (&'a mut Matrix<f64>, &'a mut Matrix<f64>),
@@ -381,19 +427,23 @@ impl<E: Element<D>, const D: usize> Work for AddTangent<'_, E, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (chain, (stiffness, damping)) = (self.chain, self.matrices);
+        // Once for the coordinates that the kernel sees, once for the roots.
+        let [by, growth] = self.longer;
+        let factor = by * by;
         let (mut e, mut v) = (rest(), rest());
         let mut blocks = [[[[[[0.0; PACK]; D]; D]; 2]; 2]; 3];
         for pack in &chain.packs {
-            chain.read(pack, self.x, &mut e);
+            chain.read(pack, self.x, by, &mut e);
             if chain.is_damped {
-                chain.read(pack, self.rate, &mut v);
-                E::pack_stiffness(simd, &pack.kernel, (ends(&e), Some(ends(&v))), &mut blocks);
-                chain.add_blocks(pack, &blocks, self.assembly, stiffness);
-                E::pack_damping(simd, &pack.kernel, ends(&e), &mut blocks);
-                chain.add_blocks(pack, &blocks, self.assembly, damping);
+                chain.read_rates(pack, (self.x, self.rate), [by, growth], &mut v);
+                let motion = (ends(&e), Some(ends(&v)));
+                E::pack_stiffness(simd, &pack.kernel, motion, by, &mut blocks);
+                chain.add_blocks(pack, (&blocks, factor), self.assembly, stiffness);
+                E::pack_damping(simd, &pack.kernel, ends(&e), by, &mut blocks);
+                chain.add_blocks(pack, (&blocks, factor), self.assembly, damping);
             } else {
-                E::pack_stiffness(simd, &pack.kernel, (ends(&e), None), &mut blocks);
-                chain.add_blocks(pack, &blocks, self.assembly, stiffness);
+                E::pack_stiffness(simd, &pack.kernel, (ends(&e), None), by, &mut blocks);
+                chain.add_blocks(pack, (&blocks, factor), self.assembly, stiffness);
             }
         }
     }

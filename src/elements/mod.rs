@@ -71,11 +71,19 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     /// integral of the shape functions.
     fn weight(&self) -> SVector<f64, 4>;
     /// Strain energy, J.
-    fn energy<N: Number>(&self, e: &Nodal<D, N>) -> N;
+    fn energy<N: Number>(&self, e: &Nodal<D, N>) -> N {
+        self.energy_by(e, N::of(1.0))
+    }
     /// Elastic and damping force on the coordinates, `-dU/de - R(e) de/dt`, N and N m.
-    fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N>;
-    /// Power that damping takes out, W.
-    fn dissipation<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> N;
+    fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N> {
+        self.force_by((e, rate), N::of(1.0)).0
+    }
+    /// [`Self::energy`] where the element is longer than its reference length; `by` is that length over the one now. Coordinates
+    /// stay those by the reference length.
+    fn energy_by<N: Number>(&self, e: &Nodal<D, N>, by: N) -> N;
+    /// [`Self::force`] where the element is longer than its reference length, and the power that damping takes out, W; rates are those
+    /// without what lengthening by itself adds.
+    fn force_by<N: Number>(&self, motion: (&Nodal<D, N>, &Nodal<D, N>), by: N) -> (Nodal<D, N>, N);
     /// Tangent stiffness `-d force / de`, symmetric; with damping its symmetric part that matters,
     /// the rate of strain taken as given.
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D>;
@@ -90,31 +98,40 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
     /// Axial strain and curvature (1/m) of the position field at `xi` in [0, 1], in the strain measure of the element.
     fn strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> (N, N);
     /// Axial strain at `xi` in [0, 1] as it balances loads: of a higher order than that of the position
-    /// field.
-    fn recovered_strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> N;
+    /// field. With rates it counts what damping adds.
+    fn recovered_strain<N: Number>(
+        &self,
+        e: &Nodal<D, N>,
+        rate: Option<&Nodal<D, N>>,
+        xi: f64,
+    ) -> N;
     /// Whether this element and another can be in one pack.
     fn goes_with(&self, other: &Self) -> bool;
     /// Up to [`PACK`] elements, for the calls below; entries beyond the number of elements do not count.
     fn pack(elements: &[Self]) -> Self::Pack;
-    /// [`Self::force`] of a pack; with rates where it is damped. [`Self::dissipation`] of all its elements.
+    /// [`Self::force_by`] of a pack; with rates where it is damped. Coordinates and rates are given times `by`. The power that damping
+    /// takes out of all its elements, by the reference length, W.
     fn pack_force<S: Simd>(
         simd: S,
         pack: &Self::Pack,
         motion: (NodalView<'_, D>, Option<NodalView<'_, D>>),
+        by: f64,
         out: &mut NodalPack<D>,
     ) -> f64;
-    /// [`Self::stiffness`] of a pack; with rates where it is damped.
+    /// [`Self::stiffness`] of a pack, by coordinates as they are given; with rates where it is damped.
     fn pack_stiffness<S: Simd>(
         simd: S,
         pack: &Self::Pack,
         motion: (NodalView<'_, D>, Option<NodalView<'_, D>>),
+        by: f64,
         out: &mut BlockPack<D>,
     );
-    /// [`Self::damping`] of a pack.
+    /// [`Self::damping`] of a pack, by rates as they are given.
     fn pack_damping<S: Simd>(
         simd: S,
         pack: &Self::Pack,
         e: NodalView<'_, D>,
+        by: f64,
         out: &mut BlockPack<D>,
     );
 }

@@ -163,6 +163,8 @@ pub enum Stop {
     TooMuchWork,
     /// A slide has left its cable; the joint.
     RanOff(usize),
+    /// A winch has taken in its whole cable; its driven coordinate.
+    TakenIn(usize),
     /// A rod is bent or twisted beyond what its frames hold: which one, and where.
     Overbent(usize, usize),
     /// Constraints cannot be kept.
@@ -395,6 +397,7 @@ fn outcome(accepted: Accepted) -> Result<bool, Stop> {
         Accepted::AsIs => Ok(false),
         Accepted::Moved => Ok(true),
         Accepted::RanOff(joint) => Err(Stop::RanOff(joint)),
+        Accepted::TakenIn(drive) => Err(Stop::TakenIn(drive)),
         Accepted::Overbent(rod, place) => Err(Stop::Overbent(rod, place)),
         Accepted::Broken => Err(Stop::Broken),
         Accepted::Jumped(drive) => Err(Stop::Jumped(drive)),

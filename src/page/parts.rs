@@ -213,6 +213,7 @@ fn driven(motion: &Motion<'_>) -> &'static str {
         MotionKind::Position(..) => "the position of",
         MotionKind::Orientation(..) => "the orientation of",
         MotionKind::Displacement(..) => "the way along",
+        MotionKind::Winch(..) => "the length paid out at",
     }
 }
 

@@ -442,7 +442,9 @@ impl<'a> MotionKind<'a> {
     pub fn of(&self) -> &'a str {
         match self {
             Self::Angle(turning, _) => turning.name(),
-            Self::Position(marker, _) | Self::Orientation(marker, _) => marker.name,
+            Self::Position(marker, _) | Self::Orientation(marker, _) | Self::Winch(marker, _) => {
+                marker.name
+            }
             Self::Displacement(slider, _) => slider.name,
         }
     }
@@ -451,7 +453,9 @@ impl<'a> MotionKind<'a> {
     pub fn marker(&self) -> Marker<'a> {
         match self {
             Self::Angle(turning, _) => turning.marker(),
-            Self::Position(marker, _) | Self::Orientation(marker, _) => *marker,
+            Self::Position(marker, _) | Self::Orientation(marker, _) | Self::Winch(marker, _) => {
+                *marker
+            }
             Self::Displacement(slider, _) => slider.ends.second,
         }
     }
@@ -459,7 +463,9 @@ impl<'a> MotionKind<'a> {
     /// The course of every coordinate.
     pub fn drives(&self) -> &[Drive] {
         match self {
-            Self::Angle(_, drive) | Self::Displacement(_, drive) => std::slice::from_ref(drive),
+            Self::Angle(_, drive) | Self::Displacement(_, drive) | Self::Winch(_, drive) => {
+                std::slice::from_ref(drive)
+            }
             Self::Position(_, drives) | Self::Orientation(_, drives) => drives,
         }
     }
@@ -477,6 +483,7 @@ impl<'a> MotionKind<'a> {
             Self::Position(marker, drives) => marker.position[..drives.len()].to_vec(),
             Self::Orientation(marker, _) => marker.place.quaternion().to_vec(),
             Self::Displacement(slider, _) => vec![slider.start()],
+            Self::Winch(..) => vec![0.0],
         }
     }
 }

@@ -59,11 +59,23 @@ impl<'a> Resolved<'a> {
     }
 
     fn loaded_markers(&self) -> Vec<Marker<'a>> {
+        let mut found = self.acted_on();
+        found.extend(self.outputs.iter().filter_map(|output| match output.of {
+            Of::Marker(marker) if output.kind.read_at() == ReadAt::Node => Some(marker),
+            _ => None,
+        }));
+        found
+    }
+
+    /// Markers where joints, motions, loads, inputs, ports and masses act.
+    pub(super) fn acted_on(&self) -> Vec<Marker<'a>> {
         let mut found: Vec<Marker<'a>> = self.masses.iter().map(|mass| mass.marker).collect();
         found.extend(self.ports.iter().map(|port| port.marker));
         found.extend(self.joints.iter().flat_map(|joint| joint.ends.markers()));
         found.extend(self.motions.iter().filter_map(|motion| match motion.kind {
-            MotionKind::Position(marker, _) | MotionKind::Orientation(marker, _) => Some(marker),
+            MotionKind::Position(marker, _)
+            | MotionKind::Orientation(marker, _)
+            | MotionKind::Winch(marker, _) => Some(marker),
             MotionKind::Angle(Turning::Marker(marker), _) => Some(marker),
             // The joint has its nodes.
             MotionKind::Angle(Turning::Pivot(_), _) | MotionKind::Displacement(..) => None,
@@ -83,10 +95,6 @@ impl<'a> Resolved<'a> {
         found.extend(actions.into_iter().filter_map(|action| match action.on {
             On::Marker(marker) => Some(marker),
             On::Joint(_) | On::Cable(_) => None,
-        }));
-        found.extend(self.outputs.iter().filter_map(|output| match output.of {
-            Of::Marker(marker) if output.kind.read_at() == ReadAt::Node => Some(marker),
-            _ => None,
         }));
         found
     }

@@ -292,6 +292,8 @@ pub enum MotionKind<'a> {
     Orientation(Marker<'a>, Vec<Drive>),
     /// The way along a line, m.
     Displacement(Slider<'a>, Drive),
+    /// The length that is paid out at the end of a cable, m.
+    Winch(Marker<'a>, Drive),
 }
 
 /// An input.

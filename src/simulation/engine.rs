@@ -150,6 +150,14 @@ impl<const D: usize> Engine<D> {
         } = &self.assembled;
         let misfits = system.misfits((time, values), nodes, MISFIT, &mut self.work);
         self.remarks = Remarks::default();
+        if let Some((drive, travel)) = system.begun(&self.work) {
+            let joint = system.driven_joint(drive);
+            let name = joint.map_or("", |joint| self.name(joint));
+            return Err(Error::Begun(format!(
+                "expected a winch `{name}` that has paid out nothing at the start, found {travel} m: the cable is as long \
+                 as its shape then"
+            )));
+        }
         let described = (&nodes[..], &rates[..]);
         let state = match self.start.take() {
             Some((start, state)) if time == 0.0 && start == *values => Ok(state),

@@ -59,6 +59,9 @@ pub enum Error {
     /// No steady motion.
     #[error("initial: {0}")]
     Steady(#[from] crate::system::NotSteady),
+    /// A winch that has paid out cable before the start.
+    #[error("motions: {0}")]
+    Begun(String),
     /// No natural frequencies or eigenvalues, or not so many.
     #[error("outputs: {0}")]
     Spectrum(String),

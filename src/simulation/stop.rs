@@ -61,6 +61,11 @@ impl<const D: usize> Engine<D> {
             }
             Stop::Overbent(body, element) => self.overbent((body, element), ""),
             Stop::RanOff(joint) => format!("slider `{}` has left its cable", self.name(joint)),
+            Stop::TakenIn(drive) => {
+                let joint = self.assembled.system.driven_joint(drive);
+                let name = joint.map_or("", |joint| self.name(joint));
+                format!("expected cable left to take in, found winch `{name}` at its end")
+            }
             Stop::Broken => format!(
                 "{method}: constraints cannot be kept: expected joints and motions that can hold together from \
                  here on, found a linkage at the end of its reach or motions that contradict each other"

@@ -9,11 +9,11 @@ use nalgebra::SMatrix;
 
 use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Primitive, Target, View};
-use super::loads::Load;
+use super::loads::{Load, Transport};
 use super::motion::forces::add_mass;
 use super::motion::tree::Tree;
 use super::signal::Drive;
-use super::{CableChain, DrivenRow, Rod, System};
+use super::{CableChain, DrivenRow, Rod, System, Winch};
 use crate::body::{
     Assembly, Carried, Dependent, Elimination, Frame, Frames, Marker, Node, NodeKind, RodChain,
     Row, add_node, no_block, no_node, product,
@@ -69,6 +69,8 @@ pub struct Parts<const D: usize = 2> {
     pub joints: Vec<Joint<D>>,
     /// Driven coordinates.
     pub drives: Vec<Drive>,
+    /// Cables that winches pay out: of each the chain, whether the winch is at its last end, and the driven coordinate.
+    pub winches: Vec<(usize, bool, usize)>,
     /// Loads.
     pub loads: Vec<Load<D>>,
     /// Loads that act only where the initial state is looked for.
@@ -99,6 +101,7 @@ impl<const D: usize> System<D> {
     /// Motions that contradict other constraints; bodies without mass.
     pub fn new(mut parts: Parts<D>) -> Result<Self, BuildError> {
         free_ends(&mut parts);
+        let winches = winches(&mut parts);
         let (linear, nonlinear) = constraints(&parts);
         let is_clamp = |joint: usize| parts.joints[joint].clamp().is_some();
         let (clamped, nonlinear) =
@@ -127,6 +130,7 @@ impl<const D: usize> System<D> {
             needs_rates: loads_damped
                 || parts.rotation != [0.0; 3]
                 || parts.tracks_work
+                || !winches.is_empty()
                 || !frames.is_empty(),
             frames,
             reach: 0.0,
@@ -152,6 +156,7 @@ impl<const D: usize> System<D> {
             angles: parts.angles,
             releases,
             slides: Vec::new(),
+            winches,
             gravity: parts.gravity,
             weight: Vec::new(),
             rotation: parts.rotation,
@@ -409,6 +414,19 @@ fn redundant<const D: usize>(
     Ok(redundant)
 }
 
+/// Winches, each with what its cable does as it passes through its mesh among the loads.
+fn winches<const D: usize>(parts: &mut Parts<D>) -> Vec<Winch<D>> {
+    let gravity = parts.gravity;
+    let of = |(chain, at_last, drive): &(usize, bool, usize)| {
+        Winch::new((*chain, &parts.chains[*chain]), (*at_last, *drive), gravity)
+    };
+    let winches: Vec<Winch<D>> = parts.winches.iter().map(of).collect();
+    let transports = winches.iter().cloned();
+    let transports = transports.map(|winch| Load::Transport(Box::new(Transport { winch })));
+    parts.loads.extend(transports);
+    winches
+}
+
 fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64> {
     let mut mass = Matrix::zeros(assembly.pattern());
     let linear = (&parts.chains[..], &parts.lumped_masses[..]);
@@ -464,7 +482,11 @@ fn grounded<const D: usize>(parts: &Parts<D>, nonlinear: &[Constraint<D>]) -> Ve
     if parts.rotation != [0.0; 3] {
         return parts.bodies.iter().map(|nodes| nodes.start).collect();
     }
-    let mut nodes = Vec::new();
+    // Coordinates of a cable that is paid out are not moved alike by a translation of all.
+    let paid_out = parts.winches.iter();
+    let mut nodes: Vec<usize> = paid_out
+        .map(|(chain, ..)| parts.chains[*chain].nodes(0)[0])
+        .collect();
     for load in &parts.loads {
         let is_grounded = match load {
             Load::Spring(spring) => spring.ends.iter().any(|end| end.marker().is_none()),

@@ -13,6 +13,8 @@ pub struct Instant<'a, const D: usize, N = f64> {
     pub inputs: &'a [N],
     /// Their rates.
     pub input_rates: &'a [N],
+    /// Driven coordinates with two derivatives.
+    pub drives: &'a [[N; 3]],
     /// Nodal coordinates.
     pub x: &'a [Node<D, N>],
     /// Their rates.

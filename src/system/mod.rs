@@ -17,6 +17,7 @@ mod signal;
 mod spectra;
 mod start;
 mod state;
+mod winch;
 mod work;
 
 pub use attitude::Attitude;
@@ -44,10 +45,12 @@ pub use start::equilibrium;
 pub use start::placement::{Gap, NotAssembled};
 pub use start::steady::{NotSteady, Steady};
 pub use state::{DenseStep, Pace, State};
+pub use winch::Winch;
 pub use work::Work;
 
 use std::ops::Range;
 
+use crate::math::jet::Number;
 use crate::math::rotation::NO_TURN;
 use crate::math::space::Vector;
 
@@ -57,6 +60,7 @@ pub use joints::Release;
 use joints::{Constraint, Joint, Linear};
 use loads::Load;
 use motion::tree::Tree;
+use winch::Length;
 
 /// Flexible bodies of a system.
 pub type CableChain<const D: usize = 2> = Chain<Cable<D>, D>;
@@ -104,6 +108,8 @@ pub struct System<const D: usize = 2> {
     releases: Vec<Release>,
     /// For every slide, its constraint.
     slides: Vec<usize>,
+    /// Cables that are paid out.
+    winches: Vec<Winch<D>>,
     gravity: Vector<D>,
     /// Forces of gravity on the nodes, N.
     weight: Vec<Node<D>>,
@@ -226,6 +232,34 @@ impl<const D: usize> System<D> {
         self.rotation != [0.0; 3]
     }
 
+    /// Cables that are paid out.
+    pub(in crate::system) fn winches(&self) -> &[Winch<D>] {
+        &self.winches
+    }
+
+    /// How long a chain is.
+    #[inline(always)]
+    pub(in crate::system) fn length_now<N: Number>(
+        &self,
+        chain: &CableChain<D>,
+        drives: &[[N; 3]],
+    ) -> Length<N> {
+        let paid_out = self.paid_out(chain, drives);
+        paid_out.map_or_else(Length::same, |(_, now)| now)
+    }
+
+    /// The winch that pays out a chain, and how long that is.
+    #[inline(always)]
+    pub(in crate::system) fn paid_out<N: Number>(
+        &self,
+        chain: &CableChain<D>,
+        drives: &[[N; 3]],
+    ) -> Option<(&Winch<D>, Length<N>)> {
+        let is_own = |winch: &&Winch<D>| winch.nodes[0] == chain.nodes(0)[0];
+        let winch = self.winches.iter().find(is_own)?;
+        Some((winch, winch.now(drives)))
+    }
+
     /// Number of non-linear constraints.
     pub fn constraints(&self) -> usize {
         self.constraints.len()
@@ -299,6 +333,24 @@ impl<const D: usize> System<D> {
         for chain in &self.chains {
             chain.add_inertia(s, a, f);
         }
+        self.add_rigid_inertia(s, a, f);
+    }
+
+    /// `f += M a` with cables as long as they are.
+    pub(in crate::system) fn add_inertia_now(
+        &self,
+        drives: &[[f64; 3]],
+        a: &[Node<D>],
+        f: &mut [Node<D>],
+    ) {
+        for chain in &self.chains {
+            chain.add_inertia(1.0 / self.length_now(chain, drives).by, a, f);
+        }
+        self.add_rigid_inertia(1.0, a, f);
+    }
+
+    /// `f += s M a` of all but cables.
+    fn add_rigid_inertia(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
         for lump in &self.lumped_masses {
             let at: Vector<D> = lump.marker.position(a) * (s * lump.moved());
             let on = lump.marker.direction(a) * (s * lump.inertia);

@@ -95,7 +95,12 @@ fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = Action<'a>>
         ];
         (joint.name, joint.holder, joint.ends.second.id, holds)
     });
-    let motions = resolved.motions.iter().map(|motion| {
+    let is_winch = |kind: &MotionKind<'_>| matches!(kind, MotionKind::Winch(..));
+    let motions = resolved
+        .motions
+        .iter()
+        .filter(move |motion| !is_winch(&motion.kind));
+    let motions = motions.map(|motion| {
         let turns = matches!(
             motion.kind,
             MotionKind::Angle(..) | MotionKind::Orientation(..)

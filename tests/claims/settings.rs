@@ -170,7 +170,7 @@ keys! {
 }
 
 /// What the master sets, by list of the scene, and its unit.
-const INPUTS: [(&str, &str); 96] = [
+const INPUTS: [(&str, &str); 97] = [
     ("inputs.release", ""),
     ("inputs.distributed_moment[1]", "N.m/m"),
     ("inputs.distributed_moment[2]", "N.m/m"),
@@ -217,6 +217,7 @@ const INPUTS: [(&str, &str); 96] = [
     ("motions.angular_velocity", "rad/s"),
     ("motions.angular_acceleration", "rad/s2"),
     ("motions.displacement", "m"),
+    ("motions.travel", "m"),
     ("motions.velocity", "m/s"),
     ("motions.acceleration", "m/s2"),
     ("ports.force[1]", "N"),

@@ -192,6 +192,7 @@ impl Mechanism {
             rigid,
             joints,
             drives,
+            winches: Vec::new(),
             loads,
             initial_loads: Vec::new(),
             angles,

@@ -182,6 +182,7 @@ impl Chain {
             rigid: Vec::new(),
             joints: joints.map(|held| self.joint(held)).collect(),
             drives: Vec::new(),
+            winches: Vec::new(),
             loads: Vec::new(),
             initial_loads: Vec::new(),
             angles: Vec::new(),

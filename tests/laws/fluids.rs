@@ -48,6 +48,7 @@ fn at<'a>(frame: &'a Frame, x: &'a [Node], v: &'a [Node], none: &'a Frames) -> I
         time: T,
         inputs: &[],
         input_rates: &[],
+        drives: &[],
         x,
         v,
         chains: &frame.chains,

@@ -439,6 +439,7 @@ impl Mechanism {
             rigid: Vec::new(),
             joints: self.joints.iter().map(|joint| self.joint(joint)).collect(),
             drives: Vec::new(),
+            winches: Vec::new(),
             loads: Vec::new(),
             initial_loads: Vec::new(),
             angles: Vec::new(),

@@ -311,7 +311,7 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
         tangent.clear();
         let assembly = &elimination.assembly;
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);
-        body.add_tangent((&x, &rate), assembly, k, r);
+        body.add_tangent((&x, &rate), [1.0, 0.0], assembly, (k, r));
         for (c, column) in reduced_stiffness(&mut tangent, elimination)
             .iter()
             .enumerate()

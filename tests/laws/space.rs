@@ -168,7 +168,7 @@ impl Case {
         tangent.clear();
         let (k, r) = (&mut tangent.stiffness, &mut tangent.damping);
         self.chain
-            .add_tangent((x, x), &self.elimination.assembly, k, r);
+            .add_tangent((x, x), [1.0, 0.0], &self.elimination.assembly, (k, r));
         tangent.stages.set_base(x);
         tangent
     }

@@ -70,6 +70,7 @@ fn product(cables: &[Cable<2>]) -> Outcome<DVector<f64>> {
         rigid: Vec::new(),
         joints: vec![pin],
         drives: Vec::new(),
+        winches: Vec::new(),
         loads: Vec::new(),
         initial_loads: Vec::new(),
         angles: Vec::new(),

@@ -95,7 +95,7 @@ impl Rod {
         f.copy_from_slice(&self.weight);
         match self.connected {
             true => {
-                self.chain.add_force(x, x, f);
+                self.chain.add_force((x, x), [1.0, 0.0], f);
             }
             false => vectorized(AddForce { rod: self, x, f }),
         }
@@ -147,6 +147,7 @@ impl Work for AddForce<'_> {
                 simd,
                 pack,
                 (e.each_ref().map(|v| v.each_ref()), None),
+                1.0,
                 &mut f,
             );
             for (lane, ends) in force.as_chunks_mut::<2>().0.iter_mut().enumerate() {

@@ -3004,7 +3004,7 @@ class AngleMotion(Part):
     """
     marker: StrictStr | None = None
     """
-    `position`, `angle`, `orientation`: the driven `body.marker`.
+    `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
     """
 
 
@@ -3024,7 +3024,7 @@ class PositionMotion(Part):
     """
     marker: StrictStr
     """
-    `position`, `angle`, `orientation`: the driven `body.marker`.
+    `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
     """
 
 
@@ -3045,7 +3045,7 @@ class OrientationMotion(Part):
     """
     marker: StrictStr
     """
-    `position`, `angle`, `orientation`: the driven `body.marker`.
+    `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
     """
 
 
@@ -3070,10 +3070,31 @@ class DisplacementMotion(Part):
     """
 
 
+class WinchMotion(Part):
+    """
+    Length that a winch at a marker, an end of a cable, has paid out since the start, m; negative where it has taken in. The mass of the
+    cable changes with it. What is on the winch has no part in the scene; nothing acts on the cable but gravity and what is at its ends.
+    """
+
+    name: StrictStr
+    """
+    Name: a letter or `_`, then letters, digits and `_`; at most 100.
+    """
+    kind: Literal["winch"] = "winch"
+    value: MotionValue
+    """
+    Its course in time: m or rad; of `orientation` the four parts of a quaternion.
+    """
+    marker: StrictStr
+    """
+    `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
+    """
+
+
 Motion = TypeAliasType(
     "Motion",
     Annotated[
-        AngleMotion | PositionMotion | OrientationMotion | DisplacementMotion,
+        AngleMotion | PositionMotion | OrientationMotion | DisplacementMotion | WinchMotion,
         Field(discriminator="kind"),
     ],
 )

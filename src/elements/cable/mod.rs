@@ -308,27 +308,30 @@ impl<const D: usize> Element<D> for Cable<D> {
         }
     }
 
-    fn energy<N: Number>(&self, e: &Nodal<D, N>) -> N {
-        self.kernel.lift().energy(&e.data.0)
+    fn energy_by<N: Number>(&self, e: &Nodal<D, N>, by: N) -> N {
+        let kernel = self.kernel.lift::<N>().shortened(by);
+        kernel.energy(&(e * by).data.0) / by
     }
 
-    fn force<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> Nodal<D, N> {
-        let rate = self.kernel.is_damped.then_some(&rate.data.0);
-        Nodal::from(self.kernel.lift().force(&e.data.0, rate).0)
-    }
-
-    fn dissipation<N: Number>(&self, e: &Nodal<D, N>, rate: &Nodal<D, N>) -> N {
-        self.kernel.lift().force(&e.data.0, Some(&rate.data.0)).1
+    fn force_by<N: Number>(
+        &self,
+        (e, rate): (&Nodal<D, N>, &Nodal<D, N>),
+        by: N,
+    ) -> (Nodal<D, N>, N) {
+        let kernel = self.kernel.lift::<N>().shortened(by);
+        let rate = self.kernel.is_damped.then(|| (rate * by).data.0);
+        let (force, power) = kernel.force(&(e * by).data.0, rate.as_ref());
+        (Nodal::from(force), power / by)
     }
 
     fn stiffness(&self, e: &Nodal<D>, rate: &Nodal<D>) -> Blocks<D> {
         let rate = self.kernel.is_damped.then_some(&rate.data.0);
-        let sum = self.kernel.tangent(&e.data.0, rate, elastic(1.0));
+        let sum = self.kernel.tangent(&e.data.0, rate, Factors::elastic(1.0));
         whole(&self.kernel.ends(&sum))
     }
 
     fn damping(&self, e: &Nodal<D>) -> Blocks<D> {
-        let factors = damped(0.0, &self.kernel);
+        let factors = Factors::damped(0.0, &self.kernel);
         let sum = self.kernel.tangent(&e.data.0, None, factors);
         whole(&self.kernel.ends(&sum))
     }
@@ -354,9 +357,15 @@ impl<const D: usize> Element<D> for Cable<D> {
         )
     }
 
-    fn recovered_strain<N: Number>(&self, e: &Nodal<D, N>, xi: f64) -> N {
+    fn recovered_strain<N: Number>(
+        &self,
+        e: &Nodal<D, N>,
+        rate: Option<&Nodal<D, N>>,
+        xi: f64,
+    ) -> N {
         let kernel = self.kernel.lift::<N>();
-        kernel.recover(kernel.axial_samples(&e.data.0, None), xi)
+        let rate = rate.map(|rate| &rate.data.0);
+        kernel.recover(kernel.axial_samples(&e.data.0, rate), xi)
     }
 
     fn goes_with(&self, other: &Self) -> bool {
@@ -398,11 +407,12 @@ impl<const D: usize> Element<D> for Cable<D> {
         simd: S,
         pack: &Pack,
         (e, rate): (NodalView<'_, D>, Option<NodalView<'_, D>>),
+        by: f64,
         out: &mut NodalPack<D>,
     ) -> f64 {
         let mut powers = [0.0; PACK];
         for group in 0..pack.groups::<S>() {
-            let kernel = pack.kernel.group(simd, group);
+            let kernel = pack.kernel.group(simd, group, by);
             let e = read(simd, e, group);
             let (f, power) = match rate {
                 Some(rate) => kernel.force(&e, Some(&read(simd, rate, group))),
@@ -429,50 +439,37 @@ impl<const D: usize> Element<D> for Cable<D> {
         simd: S,
         pack: &Pack,
         (e, rate): (NodalView<'_, D>, Option<NodalView<'_, D>>),
+        by: f64,
         out: &mut BlockPack<D>,
     ) {
         for group in 0..pack.groups::<S>() {
-            let kernel = pack.kernel.group(simd, group);
+            let kernel = pack.kernel.group(simd, group, by);
             let e = read(simd, e, group);
             let one = kernel.length.constant(1.0);
             let sum = match rate {
-                Some(rate) => kernel.tangent(&e, Some(&read(simd, rate, group)), elastic(one)),
-                None => kernel.tangent(&e, None, elastic(one)),
+                Some(rate) => {
+                    kernel.tangent(&e, Some(&read(simd, rate, group)), Factors::elastic(one))
+                }
+                None => kernel.tangent(&e, None, Factors::elastic(one)),
             };
             write(&kernel.ends(&sum), out, group);
         }
     }
 
     #[inline(always)]
-    fn pack_damping<S: Simd>(simd: S, pack: &Pack, e: NodalView<'_, D>, out: &mut BlockPack<D>) {
+    fn pack_damping<S: Simd>(
+        simd: S,
+        pack: &Pack,
+        e: NodalView<'_, D>,
+        by: f64,
+        out: &mut BlockPack<D>,
+    ) {
         for group in 0..pack.groups::<S>() {
-            let kernel = pack.kernel.group(simd, group);
+            let kernel = pack.kernel.group(simd, group, by);
             let e = read(simd, e, group);
-            let factors = damped(kernel.length.constant(0.0), &kernel);
+            let factors = Factors::damped(kernel.length.constant(0.0), &kernel);
             write(&kernel.ends(&kernel.tangent(&e, None, factors)), out, group);
         }
-    }
-}
-
-/// What the stiffness is made of.
-#[inline(always)]
-fn elastic<N: Copy>(one: N) -> Factors<N> {
-    Factors {
-        stress: one,
-        axial: one,
-        bending: one,
-        of_size: false,
-    }
-}
-
-/// What the damping matrix is made of.
-#[inline(always)]
-fn damped<N: Copy>(zero: N, kernel: &Kernel<N>) -> Factors<N> {
-    Factors {
-        stress: zero,
-        axial: kernel.axial_damping_time,
-        bending: kernel.bending_damping_time,
-        of_size: true,
     }
 }
 

@@ -179,7 +179,7 @@ impl Picture<'_> {
             let at = self.at(motion.kind.marker().position);
             let unit = self.unit;
             match &motion.kind {
-                MotionKind::Angle(..) | MotionKind::Orientation(..) => {
+                MotionKind::Angle(..) | MotionKind::Orientation(..) | MotionKind::Winch(..) => {
                     symbols::turn(&mut self.canvas, at, unit, symbols::MOTION);
                 }
                 MotionKind::Position(..) => self.ways(at),

@@ -63,7 +63,7 @@ impl Resolved<'_> {
             match &motion.kind {
                 MotionKind::Position(marker, _) => hold(*marker),
                 MotionKind::Displacement(slider, _) => ends_of(slider.ends, &mut hold),
-                MotionKind::Angle(..) | MotionKind::Orientation(..) => {}
+                MotionKind::Angle(..) | MotionKind::Orientation(..) | MotionKind::Winch(..) => {}
             }
         }
         held

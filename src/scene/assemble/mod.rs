@@ -192,6 +192,7 @@ impl Resolved<'_> {
             rigid: Vec::new(),
             joints: Vec::new(),
             drives: Vec::new(),
+            winches: Vec::new(),
             loads: Vec::new(),
             initial_loads: Vec::new(),
             angles: Vec::new(),

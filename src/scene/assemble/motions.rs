@@ -1,7 +1,7 @@
 //! Driven motions: those of the scene, then those of ports.
 
 use super::{Builder, unit};
-use crate::scene::resolved::{MotionKind, PortKind};
+use crate::scene::resolved::{Form, MotionKind, Place, PortKind};
 use crate::system::joints::{DrivenTurn, Primitive, Related};
 use crate::system::{Coordinate, Drive};
 
@@ -38,6 +38,15 @@ impl<const D: usize> Builder<'_, D> {
                 let drives = std::array::from_fn(|k| self.drive(&drives[k]));
                 let driven = Primitive::DrivenOrientation(axes, drives);
                 self.hold(driven, self.on_marker(*marker));
+            }
+            MotionKind::Winch(marker, drive) => {
+                let drive = self.drive(drive);
+                self.hold(Primitive::PaidOut(drive), self.on_marker(*marker));
+                if let Place::Along(cable, at) = marker.place
+                    && let Form::Chain(chain) = cable.id.form
+                {
+                    self.parts.winches.push((chain, at > 0.5, drive));
+                }
             }
             MotionKind::Displacement(slider, drive) => {
                 let (ends, drive) = (self.ends(slider.ends), self.drive(drive));

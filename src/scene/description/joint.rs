@@ -265,7 +265,7 @@ pub struct Motion {
     pub name: String,
     /// What is driven.
     pub kind: MotionKind,
-    /// `position`, `angle`, `orientation`: the driven `body.marker`.
+    /// `position`, `angle`, `orientation`: the driven `body.marker`; `winch`: the end of the cable.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
     /// `angle`: name of the driven revolute joint or hinge; `displacement`: of the slider or of another joint along a line.
@@ -290,6 +290,9 @@ pub enum MotionKind {
     /// Way along the line of a slider, a prismatic, a cylindrical joint or a screw from its first marker or its point, m; not where
     /// that line belongs to a cable.
     Displacement,
+    /// Length that a winch at a marker, an end of a cable, has paid out since the start, m; negative where it has taken in. The mass of the
+    /// cable changes with it. What is on the winch has no part in the scene; nothing acts on the cable but gravity and what is at its ends.
+    Winch,
 }
 
 impl Kind for MotionKind {
@@ -297,7 +300,7 @@ impl Kind for MotionKind {
 
     fn keys(&self) -> &'static [Keys] {
         match self {
-            Self::Position | Self::Orientation => &[(&["marker"], &[])],
+            Self::Position | Self::Orientation | Self::Winch => &[(&["marker"], &[])],
             Self::Angle => &[(&["joint"], &[]), (&["marker"], &[])],
             Self::Displacement => &[(&["joint"], &[])],
         }

@@ -19,6 +19,7 @@ mod springs;
 mod stress;
 #[cfg(test)]
 mod tests;
+mod winches;
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
@@ -65,6 +66,7 @@ impl Scene {
         resolved.resolve_ports()?;
         resolved.resolve_initial()?;
         resolved.check_releases()?;
+        resolved.check_winches()?;
         self.validate_accuracy()?;
         positive("experiment.stop_time", "s", self.experiment.stop_time)?;
         positive("experiment.step", "s", self.experiment.step)?;

@@ -72,6 +72,10 @@ impl<'a> Resolved<'a> {
                 let turning = Turning::Pivot(self.require_pivot(&at_joint, joint)?);
                 Kind::Angle(turning, self.one_drive(&at_value, &motion.value)?)
             }
+            (MotionKind::Winch, _) => {
+                let marker = self.require_paid_out(&at_marker, marker()?)?;
+                Kind::Winch(marker, self.one_drive(&at_value, &motion.value)?)
+            }
             (MotionKind::Displacement, _) => {
                 let slider = self.require_slider(&at_joint, joint()?)?;
                 Kind::Displacement(slider, self.one_drive(&at_value, &motion.value)?)

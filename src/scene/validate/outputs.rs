@@ -211,6 +211,10 @@ impl<'a> Resolved<'a> {
         let Some(motion) = self.motions.iter().find(|motion| motion.name == name) else {
             return Err(expected(path, "a motion of this scene", quoted(name)));
         };
+        if let MotionKind::Winch(marker, _) = motion.kind {
+            let wanted = "a motion other than a winch, whose force is `axial_force` of its marker";
+            return Err(expected(path, wanted, quoted(marker.name)));
+        }
         let turns = matches!(
             motion.kind,
             MotionKind::Angle(..) | MotionKind::Orientation(..)

@@ -60,7 +60,9 @@ impl<'a> Resolved<'a> {
             MotionKind::Angle(Turning::Marker(marker), _) | MotionKind::Orientation(marker, _) => {
                 Some((true, marker.name))
             }
-            MotionKind::Angle(Turning::Pivot(_), _) | MotionKind::Displacement(..) => None,
+            MotionKind::Angle(Turning::Pivot(_), _)
+            | MotionKind::Displacement(..)
+            | MotionKind::Winch(..) => None,
         });
         let mut driven: BTreeSet<(bool, &str)> = driven.collect();
         for (index, port) in self.scene.ports.iter().enumerate() {

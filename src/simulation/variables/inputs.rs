@@ -218,9 +218,10 @@ const TURNING: [(&str, &str, Unit); 3] = [
 fn orders(kind: &MotionKind<'_>) -> [(&'static str, &'static str, Unit); 3] {
     match kind {
         MotionKind::Angle(..) | MotionKind::Orientation(..) => TURNING,
-        MotionKind::Position(..) | MotionKind::Displacement(..) => [
+        MotionKind::Position(..) | MotionKind::Displacement(..) | MotionKind::Winch(..) => [
             match kind {
                 MotionKind::Position(..) => ("position", "Position", METRE),
+                MotionKind::Winch(..) => ("travel", "Length paid out", METRE),
                 _ => ("displacement", "Displacement", METRE),
             },
             ("velocity", "Velocity", METRE_PER_SECOND),

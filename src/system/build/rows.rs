@@ -139,7 +139,7 @@ pub(super) fn unplaced<const D: usize>([center, _]: &Node<D>) -> Node<D> {
 }
 
 /// Rows that hold axes of rigid bodies in space, which are no coordinates, keep multipliers instead of being eliminated. So
-/// do those of joints that let go, and pins that would tie many rigid bodies together: what is tied together is dense.
+/// do those of joints that let go, those that hold cables which are paid out, and pins that would tie many rigid bodies together: what is tied together is dense.
 fn release_rows<const D: usize>(
     parts: &Parts<D>,
     linear: &mut Vec<Linear<D>>,
@@ -147,9 +147,11 @@ fn release_rows<const D: usize>(
 ) {
     let rows: Vec<&Row<D>> = linear.iter().map(|linear| &linear.row).collect();
     let tied = tied_with(parts.nodes.len(), &rows);
+    let paid_out = paid_out(parts);
     let is_released = |index: usize| {
         let joint = &parts.joints[index];
-        if joint.release.is_some() || joint.ends.iter().any(End::is_framed) {
+        let is_held = |end: &End<D>| end.is_framed() || end.nodes().any(|node| paid_out[node]);
+        if joint.release.is_some() || joint.ends.iter().any(is_held) {
             return true;
         }
         let joins = joint.ends.iter().all(|end| end.is_rigid());
@@ -164,7 +166,9 @@ fn release_rows<const D: usize>(
         let Some(index) = linear.joint.filter(|index| released[*index]) else {
             return true;
         };
-        let row = HeldRow::new(linear, parts.joints[index].ends);
+        let mut row = HeldRow::new(linear, parts.joints[index].ends);
+        let nodes = parts.joints[index].ends.iter().flat_map(End::nodes);
+        row.is_constant &= !nodes.into_iter().any(|node| paid_out[node]);
         nonlinear.push(Constraint::of(index, ConstraintKind::HeldRow(row)));
         false
     });
@@ -172,6 +176,16 @@ fn release_rows<const D: usize>(
         // What belongs to one joint stands together.
         nonlinear.sort_by_key(|constraint| constraint.joint);
     }
+}
+
+/// For every node, whether its cable is paid out.
+fn paid_out<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
+    let mut paid_out = vec![false; parts.nodes.len()];
+    for (chain, ..) in &parts.winches {
+        let chain = &parts.chains[*chain];
+        paid_out[chain.nodes(0)[0]..][..chain.node_count()].fill(true);
+    }
+    paid_out
 }
 
 /// What the elements of a rod couple. Planar sections have their inertia at nodes.

@@ -73,6 +73,8 @@ pub enum Primitive<const D: usize = 2> {
     DrivenPosition([usize; D]),
     /// The position along this unit vector is at a driven distance from the first end (ground).
     DrivenDistance(Vector<D>, usize),
+    /// The cable of the second end is paid out there by a driven length: no condition, but it follows that coordinate.
+    PaidOut(usize),
 }
 
 /// A joint or a motion.
@@ -369,6 +371,7 @@ impl<const D: usize> Joint<D> {
             .flat_map(|primitive| match primitive {
                 Primitive::DrivenDirection(drive)
                 | Primitive::DrivenDistance(_, drive)
+                | Primitive::PaidOut(drive)
                 | Primitive::DrivenTurn(DrivenTurn { drive, .. }) => std::slice::from_ref(drive),
                 Primitive::DrivenPosition(drives) => drives,
                 Primitive::DrivenOrientation(_, drives) => drives,
@@ -451,6 +454,7 @@ impl<const D: usize> Joint<D> {
                     None
                 }
                 Primitive::Related(related) => Some(ConstraintKind::Related(related.clone())),
+                Primitive::PaidOut(_) => None,
                 Primitive::DrivenPosition(drives) => motion::position(&mut rows, *drives),
                 Primitive::DrivenDistance(along, drive) => {
                     motion::distance(&mut rows, *along, *drive)

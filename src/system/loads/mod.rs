@@ -15,6 +15,7 @@ mod orientation_bushing;
 mod six_bushing;
 mod spring;
 mod stop;
+mod transport;
 
 pub use bushing::{Bushing, RotationalBushing};
 pub use contact::{Contact, Place, Surface};
@@ -31,6 +32,7 @@ pub use orientation_bushing::OrientationBushing;
 pub use six_bushing::SixBushing;
 pub use spring::Spring;
 pub use stop::Stop;
+pub use transport::Transport;
 
 use super::end::{Add, End};
 use super::instant::Instant;
@@ -74,6 +76,8 @@ pub enum Load<const D: usize = 2> {
     RotationalBushing(RotationalBushing),
     /// The same in space, between a rigid body and an orientation.
     OrientationBushing(Box<OrientationBushing>),
+    /// A cable that a winch pays out.
+    Transport(Box<Transport<D>>),
 }
 
 impl<const D: usize> Load<D> {
@@ -84,6 +88,7 @@ impl<const D: usize> Load<D> {
             Self::DistributedMoment(load) => load.add_force(at, f),
             Self::Fluid(load) => load.add_force(at, f),
             Self::Contact(load) => load.add_force(at, f),
+            Self::Transport(load) => load.add_force(at, f),
             _ => self.act(at, |end, [position, direction]| {
                 end.add_force(position, direction, f);
             }),
@@ -101,7 +106,10 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => load.act(at, call),
             Self::Moment(load) => load.act(at, call),
             Self::Couple(load) => load.act(at, call),
-            Self::Distributed(_) | Self::DistributedMoment(_) | Self::Fluid(_) => {}
+            Self::Distributed(_)
+            | Self::DistributedMoment(_)
+            | Self::Fluid(_)
+            | Self::Transport(_) => {}
             Self::Spring(load) => load.act(at, call),
             Self::JointSpring(load) => load.act(at, call),
             Self::Stop(load) => load.act(at, call),
@@ -130,6 +138,7 @@ impl<const D: usize> Load<D> {
             Self::Fluid(load) => {
                 (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
             }
+            Self::Transport(load) => (load.first_node() == first).then(|| load.values(at, stretch)),
             _ => None,
         }
     }
@@ -142,6 +151,8 @@ impl<const D: usize> Load<D> {
             Self::Moment(load) => load.add_stiffness(at, stiffness),
             // What it adds to the stiffness where bodies turn is not symmetric, and small beside inertia.
             Self::Couple(_) | Self::Distributed(_) | Self::DistributedMoment(_) => {}
+            // The same: rope is paid out slowly beside its waves.
+            Self::Transport(_) => {}
             Self::Fluid(load) => load.add_damping(at, damping),
             Self::Spring(load) => load.add_tangent(at, stiffness, damping),
             Self::JointSpring(load) => load.add_tangent(at, stiffness, damping),
@@ -172,6 +183,7 @@ impl<const D: usize> Load<D> {
             Self::Bushing(load) => load.power(at),
             Self::RotationalBushing(load) => load.power(at),
             Self::OrientationBushing(load) => load.power(at),
+            Self::Transport(load) => [load.power(at), none],
         }
     }
 
@@ -203,6 +215,8 @@ impl<const D: usize> Load<D> {
             Self::Bushing(load) => load.work(before, after),
             Self::RotationalBushing(load) => load.work(before, after),
             Self::OrientationBushing(load) => load.work(before, after),
+            // Where equilibria are sought winches stand.
+            Self::Transport(_) => 0.0,
             Self::Spring(_)
             | Self::JointSpring(_)
             | Self::Stop(_)
@@ -233,7 +247,7 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => hold(std::slice::from_mut(&mut load.length), 1.0),
             // At rest there is none.
             Self::Contact(load) => load.friction = 0.0,
-            Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) => {}
+            Self::JointSpring(_) | Self::Stop(_) | Self::SixBushing(_) | Self::Transport(_) => {}
             Self::Bushing(load) => {
                 hold(&mut load.position, 1.0);
                 hold(&mut load.velocity, 1.0);
@@ -278,7 +292,8 @@ impl<const D: usize> Load<D> {
             | Self::Fluid(_)
             | Self::Spring(_)
             | Self::Contact(_)
-            | Self::Bushing(_) => false,
+            | Self::Bushing(_)
+            | Self::Transport(_) => false,
         }
     }
 
@@ -317,7 +332,8 @@ impl<const D: usize> Load<D> {
             | Self::JointSpring(_)
             | Self::Stop(_)
             | Self::Contact(_)
-            | Self::SixBushing(_) => (&[], &[]),
+            | Self::SixBushing(_)
+            | Self::Transport(_) => (&[], &[]),
             Self::Bushing(load) => (&load.position, &load.velocity),
             Self::RotationalBushing(load) => (one(&load.angle), one(&load.velocity)),
             Self::OrientationBushing(load) => (&load.quaternion, &load.velocity),
@@ -347,6 +363,7 @@ impl<const D: usize> Load<D> {
                 elements.map(|j| rod.all_nodes(j).to_vec()).collect()
             }
             Self::Contact(load) => load.parts(),
+            Self::Transport(load) => load.parts(chains),
             _ => vec![self.ends().iter().flat_map(End::nodes).collect()],
         }
     }
@@ -357,6 +374,7 @@ impl<const D: usize> Load<D> {
             Self::DistributedMoment(load) => load.add_force_on(at, part, f),
             Self::Fluid(load) => load.add_force_on(at, part, f),
             Self::Contact(load) => load.add_part(at, part, f),
+            Self::Transport(load) => load.add_part(at, part, f),
             _ => self.add_force(at, f),
         }
     }
@@ -367,7 +385,7 @@ impl<const D: usize> Load<D> {
             Self::Force(load) => vec![End::Body(load.marker)],
             Self::Moment(load) => load.ends.to_vec(),
             Self::Couple(load) => load.ends.to_vec(),
-            Self::Distributed(_) | Self::Fluid(_) => vec![],
+            Self::Distributed(_) | Self::Fluid(_) | Self::Transport(_) => vec![],
             Self::DistributedMoment(load) => vec![End::Body(load.end)],
             Self::Spring(load) => load.ends.to_vec(),
             Self::JointSpring(load) => load.coordinate.ends().to_vec(),

@@ -152,8 +152,12 @@ impl<const D: usize> Model<'_, D> {
         let rates = Some(&state.rates[..]);
         self.work.stretch = Some([before, before]);
         system.forward_kinematics(time, &state.coordinates, rates, self.work);
-        let energy = system.kinetic(&self.work.x, &self.work.v);
+        let motion = (&self.work.x[..], &self.work.v[..]);
+        let energy = system.kinetic(&self.work.drives, motion);
         let mut old = std::mem::take(&mut self.work.v);
+        // Material keeps its velocity, not the mesh that it passes through.
+        let mut passing = vec![no_node(); old.len()];
+        system.add_passing(&self.work.drives, 1.0, &self.work.x, &mut passing);
         self.work.stretch = Some([after, after]);
         system.forward_kinematics(time, &state.coordinates, None, self.work);
         self.work.supply.fill(no_node());
@@ -161,13 +165,14 @@ impl<const D: usize> Model<'_, D> {
         for (rate, driven) in old.iter_mut().zip(&self.work.supply) {
             add_node(rate, -1.0, driven);
         }
-        system.coordinates_of(&old, self.work, &mut state.rates);
+        system.rates_of((&mut old, passing), self.work, &mut state.rates);
         self.work.v = old;
         let kept = self.project(state);
         system.forward_kinematics(time, &state.coordinates, Some(&state.rates), self.work);
         if system.tracks_work {
             // Drives alone do work: the other impulses act where velocities have no part before or after.
-            state.work[0] += system.kinetic(&self.work.x, &self.work.v) - energy;
+            let motion = (&self.work.x[..], &self.work.v[..]);
+            state.work[0] += system.kinetic(&self.work.drives, motion) - energy;
         }
         self.work.stretch = None;
         match kept {

@@ -88,6 +88,8 @@ pub enum Accepted {
     Moved,
     /// A slide would have left its cable; the joint. The state is that before the step.
     RanOff(usize),
+    /// A winch has taken in its whole cable; its driven coordinate.
+    TakenIn(usize),
     /// An element of a rod is bent or twisted beyond what its frames hold: the rod, among the bodies, and the element.
     Overbent(usize, usize),
     /// It is off the constraints and cannot be brought back.

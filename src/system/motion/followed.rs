@@ -14,6 +14,9 @@ impl<const D: usize> Model<'_, D> {
         for (driven, course) in state.driven.iter_mut().zip(&self.work.trajectories) {
             *driven = course.orders(state.time);
         }
+        if let Some(drive) = system.taken_in(self.work) {
+            return Accepted::TakenIn(drive);
+        }
         if state.angles.is_empty() && state.travel.is_empty() && system.rod_chains().is_empty() {
             return Accepted::AsIs;
         }

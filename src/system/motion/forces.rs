@@ -43,6 +43,7 @@ impl<const D: usize> System<D> {
         self.elimination
             .expand_from(&self.reference, q, &mut work.y, &mut work.x);
         self.add_driven(&work.targets, 0, &mut work.x);
+        self.lengthen(work);
         let turns = (&mut work.turns[..], &mut work.carries[..]);
         (self.frames).place(&work.frames, turns, &mut work.x);
         self.find_travel(&work.x, &mut work.travel);
@@ -64,6 +65,7 @@ impl<const D: usize> System<D> {
     pub(in crate::system) fn rate_kinematics(&self, v: &[f64], work: &mut Work<D>) {
         self.elimination.expand(v, &mut work.y, &mut work.v);
         self.add_driven(&work.targets, 1, &mut work.v);
+        self.lengthen_rates(work);
         let turns = (&mut work.turns[..], &mut work.carries[..]);
         (self.frames).place_rates(&work.x, turns, &mut work.v);
     }
@@ -89,6 +91,7 @@ impl<const D: usize> System<D> {
             time: self.clock(time, work),
             inputs: &work.inputs,
             input_rates: &work.input_rates,
+            drives: &work.drives,
             x: &work.x,
             v: &work.v,
             chains: &self.chains,
@@ -102,8 +105,12 @@ impl<const D: usize> System<D> {
         let mut force = std::mem::take(&mut work.f);
         force.copy_from_slice(&self.weight);
         work.dissipated = 0.0;
+        if !self.winches.is_empty() {
+            self.add_lengthening(work, &mut force);
+        }
         for chain in &self.chains {
-            work.dissipated += chain.add_force(&work.x, &work.v, &mut force);
+            let longer = self.length_now(chain, &work.drives).longer();
+            work.dissipated += chain.add_force((&work.x, &work.v), longer, &mut force);
         }
         if !self.rod_chains().is_empty() {
             work.torques.fill([0.0; 3]);
@@ -138,10 +145,11 @@ impl<const D: usize> System<D> {
             }
         };
         change(-1.0, work);
-        if self.has_no_frames() {
+        if self.has_no_frames() && self.winches.is_empty() {
             self.elimination.reduce(&work.f, &mut work.y, a);
         } else {
             work.other.copy_from_slice(&work.f);
+            self.shorten(&work.drives, &mut work.other);
             (self.frames).pull_all((&work.x, Some(&work.v)), &mut work.other);
             let motion = (&work.x[..], &work.v[..]);
             self.add_rod_forces(motion, &work.torques, &mut work.other);
@@ -163,7 +171,9 @@ impl<const D: usize> System<D> {
         tangent.clear();
         let (stiffness, damping) = (&mut tangent.stiffness, &mut tangent.damping);
         for chain in &self.chains {
-            chain.add_tangent((x, v), assembly, stiffness, damping);
+            let longer = self.length_now(chain, drives).longer();
+            let matrices = (&mut *stiffness, &mut *damping);
+            chain.add_tangent((x, v), longer, assembly, matrices);
         }
         for chain in self.rod_chains() {
             let matrices = [&mut *stiffness, &mut *damping];
@@ -173,6 +183,7 @@ impl<const D: usize> System<D> {
             time: clock,
             inputs: &work.inputs,
             input_rates: &work.input_rates,
+            drives,
             x,
             v,
             chains: &self.chains,
@@ -182,8 +193,8 @@ impl<const D: usize> System<D> {
         for load in &self.loads {
             load.add_tangent(
                 at,
-                &mut |a, b, block| self.add_block((a, b), block, x, stiffness),
-                &mut |a, b, block| self.add_block((a, b), block, x, damping),
+                &mut |a, b, block| self.add_block((a, b), block, (x, drives), stiffness),
+                &mut |a, b, block| self.add_block((a, b), block, (x, drives), damping),
             );
         }
         if self.is_turning() {
@@ -200,7 +211,7 @@ impl<const D: usize> System<D> {
         };
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
             constraint.stiffness(*lambda, &view, &mut |a, b, block| {
-                self.add_block((a, b), block, x, &mut tangent.stiffness);
+                self.add_block((a, b), block, (x, drives), &mut tangent.stiffness);
             });
         }
         for frame in self.frames.list() {
@@ -223,10 +234,18 @@ impl<const D: usize> System<D> {
         &self,
         (a, b): (usize, usize),
         block: &NodeBlock<D>,
-        x: &[Node<D>],
+        (x, drives): (&[Node<D>], &[[f64; 3]]),
         matrix: &mut Matrix<f64>,
     ) {
         let assembly = &self.elimination.assembly;
+        let shortened;
+        let block = match self.winches.is_empty() {
+            true => block,
+            false => {
+                shortened = self.shorten_block((a, b), drives, block);
+                &shortened
+            }
+        };
         if self.has_no_frames() {
             return assembly.add(a, b, block, matrix);
         }
@@ -252,13 +271,15 @@ impl<const D: usize> System<D> {
     /// `M x'' - f + J^T lambda`; nodal accelerations into `work.other`.
     pub(in crate::system) fn supply(&self, a: &[f64], work: &mut Work<D>) {
         self.elimination.expand(a, &mut work.y, &mut work.other);
+        self.shorten(&work.drives, &mut work.other);
         self.frames.place_changes(&work.x, &mut work.other);
         (self.frames).add_centripetal((&work.x, &work.v), &mut work.other);
         self.add_driven(&work.targets, 2, &mut work.other);
+        self.add_lengthened(&work.drives, (&work.x, &work.v), &mut work.other);
         for (supply, f) in work.supply.iter_mut().zip(&work.f) {
             *supply = map_node(f, |f| -f);
         }
-        self.add_inertia(1.0, &work.other, &mut work.supply);
+        self.add_inertia_now(&work.drives, &work.other, &mut work.supply);
         let mut supply = std::mem::take(&mut work.supply);
         let view = self.view(work);
         for (constraint, lambda) in self.constraints.iter().zip(&work.lambda) {
@@ -327,7 +348,7 @@ impl<const D: usize> System<D> {
             for (r, c) in (0..D).flat_map(|r| (0..D).map(move |c| (r, c))) {
                 block[part][r][part][c] = mass * axes[(r, c)];
             }
-            self.add_block((node, node), &block, x, matrix);
+            self.add_block((node, node), &block, (x, &[]), matrix);
         }
     }
 
@@ -342,20 +363,31 @@ impl<const D: usize> System<D> {
     }
 
     /// Kinetic energy at coordinates `x` and rates `v`, J.
-    pub(in crate::system) fn kinetic<N: Number>(&self, x: &[Node<D, N>], v: &[Node<D, N>]) -> N {
+    pub(in crate::system) fn kinetic<N: Number>(
+        &self,
+        drives: &[[N; 3]],
+        (x, v): (&[Node<D, N>], &[Node<D, N>]),
+    ) -> N {
         let spins = self.rod_chains().iter();
         let spins = spins.map(|chain| chain.spin_energy((x, v), &self.frames));
-        spins.fold(self.quadratic(v, |v| v), |sum, energy| sum + energy)
+        let paid_out = self.winches.iter().map(|winch| {
+            let chain = &self.chains[winch.chain];
+            winch.kinetic(chain, (x, v), &winch.now(drives))
+        });
+        let others = spins.chain(paid_out);
+        others.fold(self.quadratic(v, |v| v), |sum, energy| sum + energy)
     }
 
-    /// `x^T M x / 2` of vectors that are mapped one by one.
+    /// `x^T M x / 2` of vectors that are mapped one by one; without cables that are paid out.
     fn quadratic<N: Number>(
         &self,
         x: &[Node<D, N>],
         map: impl Fn(Vector<D, N>) -> Vector<D, N>,
     ) -> N {
         let mut sum = N::of(0.0);
-        for chain in &self.chains {
+        let is_paid_out = |chain: usize| self.winches.iter().any(|winch| winch.chain == chain);
+        let chains = self.chains.iter().enumerate();
+        for (_, chain) in chains.filter(|(index, _)| !is_paid_out(*index)) {
             for (j, element) in chain.elements().iter().enumerate() {
                 let e: Nodal<D, N> = chain.element(j, x);
                 let e = Nodal::from_columns(&[0, 1, 2, 3].map(|k| map(e.column(k).into())));

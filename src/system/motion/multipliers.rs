@@ -11,7 +11,7 @@
 //! Geometric Numerical Integration, 2nd ed., section IV.4; minimum norm in singular configurations:
 //! F. E. Udwadia, R. E. Kalaba, Analytical Dynamics (1996).
 
-use crate::body::{Jacobian, Node, SparseRows, no_node};
+use crate::body::{Jacobian, Node, SparseRows, map_node, no_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::joints::{Constraint, View};
@@ -80,9 +80,21 @@ impl<const D: usize> System<D> {
                 continue;
             }
             (work.jacobian).fill(&self.elimination, row, |tell| {
-                constraint.for_each_pulled((&view, &self.frames), |node, term| tell(node, term));
+                constraint.for_each_pulled((&view, &self.frames), |node, term| {
+                    tell(node, &self.shortened(node, &view, term));
+                });
             });
         }
+    }
+
+    /// What a constraint's derivative by a node is by its coordinates.
+    #[inline(always)]
+    fn shortened(&self, node: usize, view: &View<'_, D>, term: &Node<D>) -> Node<D> {
+        if self.winches.is_empty() {
+            return *term;
+        }
+        let root = self.root_at(node, view.drives);
+        map_node(term, |x| root * x)
     }
 
     /// Shows every non-linear constraint at a time, coordinates and, where its rate is read, rates.
@@ -136,7 +148,8 @@ impl<const D: usize> System<D> {
         {
             assembly.add_corner(*index, 1.0, matrix);
             constraint.for_each_pulled((view, &self.frames), |node, term| {
-                assembly.add_gradient((*index, node), term, matrix);
+                let term = self.shortened(node, view, term);
+                assembly.add_gradient((*index, node), &term, matrix);
             });
         }
     }
@@ -165,10 +178,12 @@ impl<const D: usize> System<D> {
     /// What constraints ask of accelerations, into `work.right`.
     pub(in crate::system) fn ask_accelerations(&self, work: &mut Work<D>) {
         // Accelerations that do not follow from the coordinates': of what is driven, and of axes that turn.
-        let is_driven = !(self.driven.is_empty() && self.has_no_frames());
+        let is_still = self.driven.is_empty() && self.winches.is_empty();
+        let is_driven = !(is_still && self.has_no_frames());
         if is_driven {
             self.driven_acceleration(&work.targets, &mut work.other);
             (self.frames).add_centripetal((&work.x, &work.v), &mut work.other);
+            self.add_lengthened(&work.drives, (&work.x, &work.v), &mut work.other);
         }
         let mut right = std::mem::take(&mut work.right);
         let view = self.view(work);

@@ -22,20 +22,20 @@ pub struct Derivatives<const D: usize> {
     /// The evaluation: derivatives in time, or the first one along a direction of the inputs.
     pub values: Evaluation<D, Jet>,
     /// Forces on the nodes, but for constraints.
-    f: Vec<Node<D, Jet>>,
+    pub(super) f: Vec<Node<D, Jet>>,
     /// The same on centres of mass and about axes of rigid bodies in space; angular accelerations of these.
-    pulled: Vec<Node<D, Jet>>,
+    pub(super) pulled: Vec<Node<D, Jet>>,
     spin_rates: Vec<Vector3<Jet>>,
     /// Torques of rods, and angular accelerations about the tangents of their carried frames.
     torques: Vec<[Jet; 3]>,
     carried_rates: Vec<[Jet; 3]>,
     /// Nodal accelerations of what is driven, and of axes that turn.
-    driven: Vec<Node<D, Jet>>,
+    pub(super) driven: Vec<Node<D, Jet>>,
     /// First and second derivative of generalized accelerations.
     q: [Vec<f64>; 2],
     /// One derivative of a nodal vector, and another one.
     one: Vec<Node<D>>,
-    other: Vec<Node<D>>,
+    pub(super) other: Vec<Node<D>>,
     /// Nodal accelerations of the free coordinates and their derivatives.
     moved: [Vec<Node<D>>; 2],
     /// What constraints ask for.
@@ -201,11 +201,13 @@ impl<const D: usize> Derivatives<D> {
         for (f, weight) in self.f.iter_mut().zip(&system.weight) {
             *f = map_node(weight, Jet::from_re);
         }
+        self.lengthen(system);
         let values = &self.values;
         self.torques.fill([Jet::from_re(0.0); 3]);
         if elastic {
             for chain in &system.chains {
-                chain.add_force_of(&values.x, &values.v, &mut self.f);
+                let longer = system.length_now(chain, &values.drives).longer();
+                chain.add_force_of((&values.x, &values.v), longer, &mut self.f);
             }
             for chain in &system.rod_chains {
                 let motion = (&values.x[..], &values.v[..]);
@@ -259,6 +261,7 @@ impl<const D: usize> Derivatives<D> {
         }
         let (x, v) = (&self.values.x, &self.values.v);
         system.frames.add_centripetal((x, v), &mut self.driven);
+        system.add_lengthened(&self.values.drives, (x, v), &mut self.driven);
         if !system.constraints.is_empty() {
             self.turn_constraints(system, k, work);
         }
@@ -275,6 +278,7 @@ impl<const D: usize> Derivatives<D> {
         }
         let (elimination, q) = (&system.elimination, &self.q[k - 1]);
         elimination.expand(q, &mut work.y, &mut self.other);
+        self.lengthen_accelerations(system, plain, k);
         let accelerations = self.values.acceleration.iter_mut().zip(&plain.acceleration);
         for ((a, plain), (moved, driven)) in accelerations.zip(self.other.iter().zip(&self.driven))
         {
@@ -289,10 +293,11 @@ impl<const D: usize> Derivatives<D> {
 
     /// Derivative `k` of forces on the nodes; of moments on rigid bodies of space, along their axes.
     fn pull(&mut self, system: &System<D>, k: usize, work: &mut Work<D>) {
-        if system.frames.is_empty() {
+        if system.frames.is_empty() && system.winches().is_empty() {
             return take(&self.f, k, &mut self.one);
         }
         self.pulled.copy_from_slice(&self.f);
+        system.shorten(&self.values.drives, &mut self.pulled);
         let (x, v) = (&self.values.x, &self.values.v);
         system.frames.pull_all((x, Some(v)), &mut self.pulled);
         system.add_rod_forces((x, v), &self.torques, &mut self.pulled);
@@ -370,9 +375,10 @@ impl<const D: usize> Derivatives<D> {
             right -= part(constraint.along(&view, &self.driven), k);
             constraint.for_each_pulled((&view, &system.frames), |node, term| {
                 // Derivatives of a product: of the Jacobian by the order, of the other factor by the rest.
+                let term = Self::shortened(system, (node, view.drives), term);
                 for order in 1..=k {
                     let times = if (k, order) == (2, 1) { 2.0 } else { 1.0 };
-                    let term = map_node(term, |term| part(term, order));
+                    let term = map_node(&term, |term| part(term, order));
                     right -= times * product(&term, &self.moved[k - order][node]);
                     let force = times * self.lambda[k - order][row];
                     add_node(&mut self.one[node], -force, &term);
@@ -393,6 +399,7 @@ impl<const D: usize> Derivatives<D> {
             system.add_inertia(1.0, &self.one, &mut self.other);
             add_order(&self.other, k, &mut self.values.supply);
         }
+        self.lengthen_supply(system);
         let mut supply = std::mem::take(&mut self.values.supply);
         let view = self.values.view(system);
         for (constraint, lambda) in system.constraints.iter().zip(&self.values.lambda) {

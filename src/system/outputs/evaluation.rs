@@ -128,9 +128,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn strain(&self, system: &System<D>, marker: &Marker) -> (N, N) {
         let at = system.element_after(marker);
         at.map_or((N::of(0.0), N::of(0.0)), |(chain, j, xi)| {
-            let e = chain.element(j, &self.x);
+            let by = system.length_now(chain, &self.drives).by;
+            let e = chain.element(j, &self.x) * by;
             let element = &chain.elements()[j];
-            (element.recovered_strain(&e, xi), element.strain(&e, xi).1)
+            let curvature = element.strain(&e, xi).1 * by;
+            (element.recovered_strain(&e, None, xi), curvature)
         })
     }
 
@@ -263,6 +265,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             time: self.time,
             inputs: &self.inputs,
             input_rates: &self.input_rates,
+            drives: &self.drives,
             x: &self.x,
             v: &self.v,
             chains: &system.chains,
@@ -287,7 +290,10 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     pub fn power(&self, system: &System<D>) -> [N; 2] {
         let multiplied = system.constraints.iter().zip(self.lambda.iter().copied());
         let (at, view) = (self.instant(system), self.view(system));
-        let powers = (system.chains.iter()).map(|chain| chain.dissipation(&self.x, &self.v));
+        let powers = (system.chains.iter()).map(|chain| {
+            let longer = system.length_now(chain, &self.drives).longer();
+            chain.dissipation((&self.x, &self.v), longer)
+        });
         let by_rods = system.rod_chains().iter();
         let motion = (&self.x[..], &self.v[..]);
         let by_rods = by_rods.map(|chain| chain.dissipation(motion, &system.frames));
@@ -313,7 +319,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Kinetic energy, J.
     pub fn kinetic_energy(&self, system: &System<D>) -> N {
-        system.kinetic(&self.x, &self.v)
+        system.kinetic(&self.drives, (&self.x, &self.v))
     }
 
     /// Strain energy, J.
@@ -321,7 +327,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let energies = system
             .chains
             .iter()
-            .map(|chain| chain.strain_energy(&self.x))
+            .map(|chain| chain.strain_energy(&self.x, system.length_now(chain, &self.drives).by))
             .chain((system.rod_chains().iter()).map(|chain| chain.strain_energy(&self.x)));
         energies.fold(N::of(0.0), |sum, energy| sum + energy)
     }
@@ -337,7 +343,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     /// J.
     pub fn gravity_energy(&self, system: &System<D>) -> N {
         let falls = system.weight.iter().zip(&self.x);
-        let fall = falls.fold(N::of(0.0), |sum, (w, x)| sum + weighted(w, x));
+        let mut fall = falls.fold(N::of(0.0), |sum, (w, x)| sum + weighted(w, x));
+        for winch in system.winches() {
+            let more = N::of(1.0) / winch.now(&self.drives).by - N::of(1.0);
+            let sum = self.sum_of(&system.chains[winch.chain]);
+            fall += sum.dot(&system.gravity.map(N::of)) * more;
+        }
         if !system.is_turning() {
             return -fall;
         }
@@ -354,9 +365,13 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             angular += Vector3::from(moment(&x, &p));
         };
         for chain in &system.chains {
+            let paid_out = system.paid_out(chain, &self.drives);
             for (j, element) in chain.elements().iter().enumerate() {
                 let x: Nodal<D, N> = chain.element(j, &self.x);
-                let p = chain.element(j, &self.v) * element.mass().map(N::of);
+                let mut p = chain.element(j, &self.v) * element.mass().map(N::of);
+                if let Some((winch, now)) = &paid_out {
+                    p = p / now.by + winch.passing_momentum(chain, j, &self.x, now);
+                }
                 for k in 0..4 {
                     add(x.column(k).into(), p.column(k).into(), k % 2 == 0);
                 }
@@ -388,11 +403,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 
     /// Center of mass, m.
     pub fn center_of_mass(&self, system: &System<D>) -> Vector<D, N> {
-        let mut sum = Vector::zeros();
+        let (mut sum, mut mass) = (Vector::zeros(), N::of(system.mass()));
         for chain in &system.chains {
-            for (j, element) in chain.elements().iter().enumerate() {
-                sum += chain.element(j, &self.x) * element.weight().map(N::of);
-            }
+            let longer = N::of(1.0) / system.length_now(chain, &self.drives).by;
+            sum += self.sum_of(chain) * longer;
+            mass += (longer - N::of(1.0)) * N::of(chain.mass());
         }
         for lump in &system.lumped_masses {
             sum += lump.marker.lift().position(&self.x) * N::of(lump.mass);
@@ -400,7 +415,16 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         for frame in system.frames.list() {
             sum += Vector::from(self.x[frame.node][0]) * N::of(frame.mass);
         }
-        sum / N::of(system.mass())
+        sum / mass
+    }
+
+    /// Sum of the positions of a chain of its reference length, each times its mass, kg m.
+    fn sum_of(&self, chain: &CableChain<D>) -> Vector<D, N> {
+        let mut sum = Vector::zeros();
+        for (j, element) in chain.elements().iter().enumerate() {
+            sum += chain.element(j, &self.x) * element.weight().map(N::of);
+        }
+        sum
     }
 }
 

@@ -98,11 +98,12 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (e, inertia) = (chain.element(j, &self.x), self.inertia(system, (chain, j)));
         let load = self.distributed(system, chain.nodes(0)[0]);
         let changing = self.changing(system, (chain.nodes(0)[0], j));
+        let longer = N::of(1.0) / system.length_now(chain, &self.drives).by;
         let force = |xi: f64| {
             let (weight, moved) = (part.weight_before(xi), part.moved_before(xi));
             let gravity = system.gravity * (weight[0] + weight[2]);
-            let mut force =
-                first - load * N::of(xi * l) - gravity.map(N::of) + inertia * moved.map(N::of);
+            let mut force = first - load * N::of(xi * l)
+                + (inertia * moved.map(N::of) - gravity.map(N::of)) * longer;
             if let Some(values) = &changing {
                 force -= integral(values, xi) * N::of(l);
             }
@@ -133,11 +134,11 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         system: &System<D>,
         (chain, j): (&CableChain<D>, usize),
     ) -> (Nodal<D, N>, [Vector3<N>; 2]) {
-        let (e, v) = (chain.element(j, &self.x), chain.element(j, &self.v));
         let part = &chain.elements()[j];
-        let mut lack: Nodal<D, N> = part.force(&e, &v);
-        lack += (system.gravity * part.weight().transpose()).map(N::of);
-        lack -= self.inertia(system, (chain, j)) * part.mass().map(N::of);
+        let now = system.length_now(chain, &self.drives);
+        let (mut lack, _) = chain.force_of(j, (&self.x, &self.v), now.longer());
+        let weight = (system.gravity * part.weight().transpose()).map(N::of);
+        lack += (weight - self.inertia(system, (chain, j)) * part.mass().map(N::of)) / now.by;
         let weights = shape::integrals(N::of(1.0), part.length());
         lack += self.distributed(system, chain.nodes(0)[0]) * weights.transpose();
         if let Some(values) = self.changing(system, (chain.nodes(0)[0], j)) {

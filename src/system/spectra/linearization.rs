@@ -188,6 +188,12 @@ impl<const D: usize> System<D> {
         let lift = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::from_re(*x)).collect() };
         let [inputs, input_rates, angles] =
             [&work.inputs, &work.input_rates, &work.angles].map(|x| lift(x));
+        // What is driven stands still at rest.
+        let drive = |[p, v, a]: &[f64; 3]| match at_rest {
+            true => [*p, 0.0, 0.0].map(Jet::from_re),
+            false => [*p, *v, *a].map(Jet::from_re),
+        };
+        let drives: Vec<[Jet; 3]> = work.drives.iter().map(drive).collect();
         let mut none = |_: usize, _: usize, _: f64| {};
         let mut following: Option<General<f64>> = None;
         for (index, load) in self.loads.iter().enumerate() {
@@ -201,6 +207,7 @@ impl<const D: usize> System<D> {
                         time: Jet::from_re(time),
                         inputs: &inputs,
                         input_rates: &input_rates,
+                        drives: &drives,
                         x,
                         v,
                         chains: &self.chains,

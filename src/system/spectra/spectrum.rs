@@ -45,6 +45,11 @@ pub enum SpectrumError {
          frame that turns with them (\"rotation\")"
     )]
     Spins(f64),
+    /// The cable of this body has been paid out by a length, m, at a rate, m/s.
+    #[error(
+        "expected winches that stand with cables as long as at the start, found {1} m of body {0} paid out, at {2} m/s"
+    )]
+    PaidOut(usize, f64, f64),
     /// Numbers that are not finite.
     #[error("expected a linearization of finite numbers, found others")]
     NotFinite,
@@ -170,6 +175,7 @@ pub fn eigenvalues<const D: usize>(
     count: usize,
 ) -> Result<Vec<Eigenvalue>, SpectrumError> {
     let linear = at(system, inputs, work, state);
+    refuse_paid_out(system, work, false)?;
     // How a thin rod turns about itself nobody knows.
     let thin = system.frames.list().iter().filter(|frame| frame.is_thin());
     let spins = thin.map(|frame| frame.spin(&work.x, &work.v).norm());
@@ -224,6 +230,24 @@ fn all<const D: usize>(linear: &Linearization<'_, D>) -> Result<Vec<Complex<f64>
     let squares = general(&stiffness).ok_or(SpectrumError::NotFinite)?;
     let noise = noise(squares.iter().map(|k| k.norm()), terms);
     Ok(roots(squares.into_iter(), noise))
+}
+
+/// Refuses cables of another length than that of reference, over whose coordinates nothing is linearized, and such that are paid out,
+/// whose equations change in time.
+fn refuse_paid_out<const D: usize>(
+    system: &System<D>,
+    work: &Work<D>,
+    at_rest: bool,
+) -> Result<(), SpectrumError> {
+    for winch in system.winches() {
+        let [travel, rate, _] = work.drives[winch.drive];
+        if travel.abs() > 1e-9 * winch.length || !(at_rest || rate == 0.0) {
+            let mut bodies = system.bodies.iter();
+            let body = bodies.position(|nodes| nodes.contains(&winch.nodes[0]));
+            return Err(SpectrumError::PaidOut(body.unwrap_or(0), travel, rate));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses cables that turn as a whole and as fast as they please: their stiffness turns with them, so nothing is an
@@ -293,6 +317,7 @@ pub(super) fn at_rest<'a, const D: usize>(
 ) -> Result<Linearization<'a, D>, SpectrumError> {
     let rest = vec![0.0; state.rates.len()];
     Model::new(system, inputs, work, state).linearize(state.time, &state.coordinates, &rest);
+    refuse_paid_out(system, work, true)?;
     let linear = system.linearization(state.time, work, true);
     if let Some(load) = linear.follower {
         let parts = system.loads[load].parts(&system.chains, &system.rod_chains);

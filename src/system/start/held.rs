@@ -44,6 +44,7 @@ impl<const D: usize> System<D> {
                 time: 0.0,
                 inputs: &work.inputs,
                 input_rates: &work.input_rates,
+                drives: &work.drives,
                 x: &work.x,
                 v: &work.v,
                 chains: &self.chains,

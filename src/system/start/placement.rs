@@ -113,9 +113,10 @@ impl<const D: usize> System<D> {
         let mut start = work.other.clone();
         start.fill(no_node());
         self.add_driven(&work.targets, 1, &mut start);
-        let missing = difference(rates, &start);
+        let mut missing = difference(rates, &start);
         let mut v = std::mem::take(&mut state.rates);
-        self.coordinates_of(&missing, work, &mut v);
+        let none = vec![no_node(); rates.len()];
+        self.rates_of((&mut missing, none), work, &mut v);
         state.rates = v;
         let mut model = Model::new(self, inputs, work, state);
         let holds = model.project(state);
@@ -244,6 +245,29 @@ impl<const D: usize> System<D> {
         self.to_rotations(work, q);
     }
 
+    /// Rates of coordinates that come closest to those of nodes, without what is driven, and to the momentum of material that passed through
+    /// the mesh of cables before, both in the mass norm.
+    pub(in crate::system) fn rates_of(
+        &self,
+        (v, mut momentum): (&mut [Node<D>], Vec<Node<D>>),
+        work: &mut Work<D>,
+        rates: &mut [f64],
+    ) {
+        self.shorten_rates(work, v);
+        self.coordinates_of(v, work, rates);
+        if self.winches.is_empty() {
+            return;
+        }
+        self.add_passing(&work.drives, -1.0, &work.x, &mut momentum);
+        self.shorten(&work.drives, &mut momentum);
+        let mut more = vec![0.0; rates.len()];
+        self.elimination.reduce(&momentum, &mut work.y, &mut more);
+        rates
+            .iter_mut()
+            .zip(more)
+            .for_each(|(rate, more)| *rate += more);
+    }
+
     /// Motions that inputs drive start where the inputs say.
     fn start_courses(&self, state: &mut State, inputs: &[f64]) {
         for (driven, given) in state.driven.iter_mut().zip(self.trajectories()) {
@@ -284,6 +308,7 @@ impl<const D: usize> System<D> {
                     time: self.now(state.time),
                     inputs,
                     input_rates: &[],
+                    drives: &[],
                     x,
                     v: x,
                     chains: &self.chains,

@@ -37,6 +37,7 @@ mod spread;
 mod stress;
 mod tables;
 mod tapers;
+mod winches;
 
 use serde_json::{Value, json};
 
@@ -80,6 +81,7 @@ pub fn all() -> Vec<Specimen> {
         section_joints::all(),
         shapes::all(),
         tapers::all(),
+        winches::all(),
     ];
     parts.into_iter().flatten().collect()
 }

@@ -130,9 +130,9 @@ impl Kernel<f64> {
 }
 
 impl Kernel<[f64; PACK]> {
-    /// A group of the elements of a pack.
+    /// A group of the elements of a pack, [shortened](Kernel::shortened).
     #[inline(always)]
-    pub fn group<S: Simd>(&self, simd: S, group: usize) -> Kernel<Lanes<S>> {
+    pub fn group<S: Simd>(&self, simd: S, group: usize, by: f64) -> Kernel<Lanes<S>> {
         let read = |numbers: &[f64; PACK]| Lanes::read(simd, numbers, group);
         let length = read(&self.length);
         let (mut axial_stiffness, mut bending_stiffness) = ([length; 3], [length; 3]);
@@ -161,10 +161,22 @@ impl Kernel<[f64; PACK]> {
             is_damped: self.is_damped,
             bends: self.bends,
         }
+        .shortened(length.constant(by))
     }
 }
 
 impl<N: Real> Kernel<N> {
+    /// Parameters with which coordinates times `by` give the strain energy times `by` of an element as long as its reference length
+    /// over `by`, and its forces: strain is that of the coordinates times `by`, curvature times `by`.
+    #[inline(always)]
+    pub fn shortened(mut self, by: N) -> Self {
+        let square = by * by;
+        for stiffness in &mut self.bending_stiffness {
+            *stiffness = *stiffness * square;
+        }
+        self
+    }
+
     #[inline(always)]
     fn number(&self, value: f64) -> N {
         self.length.constant(value)

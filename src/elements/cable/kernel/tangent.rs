@@ -22,6 +22,30 @@ pub(in crate::elements::cable) struct Factors<N> {
     pub of_size: bool,
 }
 
+impl<N: Copy> Factors<N> {
+    /// What the stiffness is made of.
+    #[inline(always)]
+    pub fn elastic(one: N) -> Self {
+        Self {
+            stress: one,
+            axial: one,
+            bending: one,
+            of_size: false,
+        }
+    }
+
+    /// What the damping matrix is made of.
+    #[inline(always)]
+    pub fn damped(zero: N, kernel: &Kernel<N>) -> Self {
+        Self {
+            stress: zero,
+            axial: kernel.axial_damping_time,
+            bending: kernel.bending_damping_time,
+            of_size: true,
+        }
+    }
+}
+
 /// A matrix over the three vectors that grows, lower triangle: products of vectors, and multiples of 1.
 struct Sum<N, const D: usize> {
     products: [[Square<N, D>; 3]; 3],

@@ -137,6 +137,7 @@ fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
     let (inputs, rates) = (jets(&work.inputs), jets(&work.input_rates));
     let angles = jets(&work.angles);
     let zero = Jet::from_re(0.0);
+    let drives: Vec<[Jet; 3]> = work.drives.iter().map(|d| d.map(Jet::from_re)).collect();
     let pairs = work.x.iter().zip(&work.other);
     let x: Vec<Node<D, Jet>> = pairs.map(|(x, dx)| moving(x, dx)).collect();
     let v = vec![[[zero; D]; 2]; x.len()];
@@ -145,6 +146,7 @@ fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
         time,
         inputs: &inputs,
         input_rates: &rates,
+        drives: &drives,
         x: &x,
         v: &v,
         chains: &system.chains,

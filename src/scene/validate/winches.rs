@@ -1,0 +1,129 @@
+//! Checks of cables that winches pay out.
+
+use super::checks::{expected, quoted};
+use crate::scene::description::{InitialState, Sections, Shape, Strain};
+use crate::scene::resolved::{
+    By, Cable, First, Hold, InputKind, LoadKind, Marker, MotionKind, On, Place, Resolved,
+};
+use crate::scene::{Error, Model};
+
+impl<'a> Resolved<'a> {
+    /// The marker at which a winch may pay out its cable.
+    pub(super) fn require_paid_out(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
+        let marker = self.require_marker(path, name)?;
+        let wanted = "a marker at an end of a cable that bends and stretches";
+        let Place::Along(cable, at) = marker.place else {
+            return Err(expected(path, wanted, quoted(name)));
+        };
+        let body = cable.body;
+        if body.sections != Sections::None || body.model == Model::Rigid {
+            return Err(expected(path, wanted, quoted(name)));
+        }
+        if ![0.0, 1.0].contains(&at) {
+            let found = format!("one at {at} of its length");
+            return Err(expected(path, wanted, found));
+        }
+        let bends = body.section.numbers().second_moments[0] > 0.0;
+        let found = match () {
+            () if !body.stations.is_empty() => "`stations`",
+            () if body.strain != Strain::ThetaPrime => "another `strain` than theta_prime",
+            () if bends && !matches!(body.shape, Shape::Line { .. }) => {
+                "a curved `shape` that bends"
+            }
+            () => return Ok(marker),
+        };
+        let wanted = "a cable that is the same all along, in strains of kind theta_prime, straight or without bending \
+                      stiffness";
+        Err(expected(path, wanted, found))
+    }
+
+    /// What acts on a cable that is paid out acts at its ends.
+    pub(super) fn check_winches(&self) -> Result<(), Error> {
+        let mut cables: Vec<(usize, Cable<'a>)> = Vec::new();
+        for (index, motion) in self.motions.iter().enumerate() {
+            let MotionKind::Winch(marker, _) = motion.kind else {
+                continue;
+            };
+            let Place::Along(cable, _) = marker.place else {
+                continue;
+            };
+            let path = format!("motions[{index}]");
+            if cables.iter().any(|(_, other)| other.id == cable.id) {
+                return Err(expected(&path, "one winch for a cable", "two"));
+            }
+            if self.scene.turns() {
+                return Err(expected(
+                    &path,
+                    "a frame that stands still beside a winch",
+                    "`rotation`",
+                ));
+            }
+            if self.scene.initial.state() == InitialState::Steady {
+                return Err(expected(
+                    &path,
+                    "no steady motion at the start beside a winch",
+                    "one",
+                ));
+            }
+            cables.push((index, cable));
+        }
+        for (index, cable) in cables {
+            if let Some(name) = self.acts_along(cable) {
+                let wanted = "a cable on which nothing acts between its ends but gravity, since a winch pays it out";
+                return Err(expected(&format!("motions[{index}]"), wanted, quoted(name)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Name of what acts on a cable between its ends, if anything does.
+    fn acts_along(&self, cable: Cable<'a>) -> Option<&'a str> {
+        let is_inside = |marker: &Marker<'a>| match marker.place {
+            Place::Along(of, at) => of.id == cable.id && ![0.0, 1.0].contains(&at),
+            Place::Point(..) => false,
+        };
+        if let Some(marker) = self.acted_on().into_iter().find(is_inside) {
+            return Some(marker.name);
+        }
+        let on_it =
+            |marker: &Marker<'a>| matches!(marker.place, Place::Along(of, _) if of.id == cable.id);
+        if let Some(mass) = self.masses.iter().find(|mass| on_it(&mass.marker)) {
+            return Some(mass.marker.name);
+        }
+        for joint in &self.joints {
+            let slides = joint
+                .holds
+                .iter()
+                .any(|hold| matches!(hold, Hold::Curve(..)));
+            if slides && matches!(joint.ends.first, First::Cable(of) if of.id == cable.id) {
+                return Some(joint.name);
+            }
+        }
+        for load in &self.loads {
+            let on = match &load.kind {
+                LoadKind::Fluid(fluid) => Some(fluid.on),
+                LoadKind::Action { action, .. } => match action.on {
+                    On::Cable(on) => Some(on),
+                    On::Marker(_) | On::Joint(_) => None,
+                },
+                LoadKind::Contact(contact) => match contact.by {
+                    By::Cable(on) => Some(on),
+                    By::Marker(_) => None,
+                },
+                _ => None,
+            };
+            if on.is_some_and(|on| on.id == cable.id) {
+                return Some(load.name);
+            }
+        }
+        for input in &self.inputs {
+            if let InputKind::Action(action) = &input.kind
+                && let On::Cable(on) = action.on
+                && on.id == cable.id
+            {
+                return Some(action.kind.words()[0]);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,158 @@
+//! What a cable that is paid out adds to the motion of its nodes ([`Winch`](crate::system::Winch)): coordinates `u` with
+//! `x = x_ref + s u`, `s = sqrt(L_0 / L)`, so `x' = s u' + s' u` and `x'' = s u'' + 2 s' u' + s'' u`; forces on `u` are `s` times those on
+//! `x`.
+
+use crate::body::{Node, NodeBlock};
+use crate::elements::Nodal;
+use crate::math::jet::Number;
+use crate::system::winch::Length;
+use crate::system::{System, Winch, Work};
+
+/// Part of the reference length below which a cable cannot be taken in.
+const SHORTEST: f64 = 1e-3;
+/// Part of the reference length that may have been paid out at the start: roundoff.
+const BEGUN: f64 = 1e-9;
+
+/// Changes numbers of one node by those of others.
+fn change<const D: usize, N: Number>(to: &mut Node<D, N>, by: &Node<D, N>, of: impl Fn(N, N) -> N) {
+    let by = by.as_flattened().iter();
+    for (to, by) in to.as_flattened_mut().iter_mut().zip(by) {
+        *to = of(*to, *by);
+    }
+}
+
+impl<const D: usize> System<D> {
+    /// Nodes of cables that are paid out, and how long these are.
+    fn lengthened<'a, N: Number>(
+        &'a self,
+        drives: &[[N; 3]],
+    ) -> impl Iterator<Item = (&'a Winch<D>, usize, Length<N>)> {
+        self.winches.iter().flat_map(move |winch| {
+            let now = winch.now(drives);
+            winch.range().map(move |node| (winch, node, now))
+        })
+    }
+
+    /// `s` of a node, 1 where it belongs to no cable that is paid out.
+    pub(in crate::system) fn root_at<N: Number>(&self, node: usize, drives: &[[N; 3]]) -> N {
+        let winch = self
+            .winches
+            .iter()
+            .find(|winch| winch.range().contains(&node));
+        winch.map_or(N::of(1.0), |winch| winch.now(drives).root[0])
+    }
+
+    /// Takes positions for `x_ref + u` to `x_ref + s u`.
+    pub(super) fn lengthen(&self, work: &mut Work<D>) {
+        for (_, node, now) in self.lengthened(&work.drives) {
+            let root = now.root[0];
+            change(&mut work.x[node], &self.reference[node], |x, from| {
+                from + root * (x - from)
+            });
+        }
+    }
+
+    /// Takes rates from `u'` to `s u' + s' u` at the positions in `work`.
+    pub(super) fn lengthen_rates(&self, work: &mut Work<D>) {
+        for (_, node, now) in self.lengthened(&work.drives) {
+            let ([root, rate, _], from) = (now.root, &self.reference[node]);
+            let mut way = work.x[node];
+            change(&mut way, from, |x, from| (x - from) / root);
+            change(&mut work.v[node], &way, |v, u| root * v + rate * u);
+        }
+    }
+
+    /// Takes rates of nodes for `u'` back from `x'` at the positions in `work`.
+    pub(in crate::system) fn shorten_rates(&self, work: &Work<D>, v: &mut [Node<D>]) {
+        for (_, node, now) in self.lengthened(&work.drives) {
+            let ([root, rate, _], from) = (now.root, &self.reference[node]);
+            let mut way = work.x[node];
+            change(&mut way, from, |x, from| (x - from) / root);
+            change(&mut v[node], &way, |v, u| (v - rate * u) / root);
+        }
+    }
+
+    /// Adds the accelerations of nodes that do not follow from those of coordinates, `2 s' u' + s'' u`.
+    pub(in crate::system) fn add_lengthened<N: Number>(
+        &self,
+        drives: &[[N; 3]],
+        (x, v): (&[Node<D, N>], &[Node<D, N>]),
+        out: &mut [Node<D, N>],
+    ) {
+        for (_, node, now) in self.lengthened(drives) {
+            let ([root, rate, second], mut way) = (now.root, x[node]);
+            let from = self.reference[node].map(|part| part.map(N::of));
+            change(&mut way, &from, |x, from| (x - from) / root);
+            let twice = N::of(2.0) * rate / root;
+            change(&mut out[node], &way, |sum, u| {
+                sum + (second - twice * rate) * u
+            });
+            change(&mut out[node], &v[node], |sum, v| sum + twice * v);
+        }
+    }
+
+    /// Takes forces on nodes to those on `u`, or second derivatives of `u` to what they are in those of the nodes.
+    pub(in crate::system) fn shorten<N: Number>(&self, drives: &[[N; 3]], of: &mut [Node<D, N>]) {
+        for (_, node, now) in self.lengthened(drives) {
+            for number in of[node].as_flattened_mut() {
+                *number *= now.root[0];
+            }
+        }
+    }
+
+    /// Takes a block over two nodes to one over their coordinates.
+    pub(super) fn shorten_block(
+        &self,
+        (a, b): (usize, usize),
+        drives: &[[f64; 3]],
+        block: &NodeBlock<D>,
+    ) -> NodeBlock<D> {
+        let factor = self.root_at(a, drives) * self.root_at(b, drives);
+        let scaled = |numbers: [[f64; D]; 2]| numbers.map(|part| part.map(|x| factor * x));
+        block.map(|rows| rows.map(scaled))
+    }
+
+    /// Adds what a cable that is paid out has more of than its reference: weight, and inertia forces of the accelerations that do not
+    /// follow from those of coordinates.
+    pub(super) fn add_lengthening(&self, work: &mut Work<D>, force: &mut [Node<D>]) {
+        work.other.fill([[0.0; D]; 2]);
+        self.add_lengthened(&work.drives, (&work.x, &work.v), &mut work.other);
+        for winch in &self.winches {
+            let (chain, more) = (&self.chains[winch.chain], 1.0 / winch.now(&work.drives).by);
+            chain.add_weight(&(winch.gravity * (more - 1.0)), force);
+            chain.add_inertia(-more, &work.other, force);
+        }
+    }
+
+    /// The driven coordinate of a winch that has taken in its whole cable at the configuration in `work`.
+    pub(super) fn taken_in(&self, work: &Work<D>) -> Option<usize> {
+        let shortest =
+            |winch: &&Winch<D>| work.drives[winch.drive][0] <= (SHORTEST - 1.0) * winch.length;
+        self.winches.iter().find(shortest).map(|winch| winch.drive)
+    }
+
+    /// The driven coordinate of a winch that has paid out cable at the configuration in `work`, and how much, m.
+    pub fn begun(&self, work: &Work<D>) -> Option<(usize, f64)> {
+        self.winches.iter().find_map(|winch| {
+            let [travel, ..] = work.drives[winch.drive];
+            (travel.abs() > BEGUN * winch.length).then_some((winch.drive, travel))
+        })
+    }
+
+    /// Adds the momentum of material that passes through cables that are paid out, times a factor, to forces on nodes, kg m/s.
+    pub(in crate::system) fn add_passing(
+        &self,
+        drives: &[[f64; 3]],
+        factor: f64,
+        x: &[Node<D>],
+        f: &mut [Node<D>],
+    ) {
+        for winch in &self.winches {
+            let (chain, now) = (&self.chains[winch.chain], winch.now(drives));
+            for j in 0..chain.elements().len() {
+                let momentum: Nodal<D> = winch.passing_momentum(chain, j, x, &now) * factor;
+                chain.add_to(j, &momentum, f);
+            }
+        }
+    }
+}
