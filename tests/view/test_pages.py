@@ -3,8 +3,10 @@
 import io
 import json
 
+from time import monotonic, sleep
+
 import pytest
-from conftest import ready_scenes
+from conftest import PATIENCE, ready_scenes
 from PIL import Image, ImageChops
 from project import xtask
 from selenium.webdriver.common.by import By
@@ -66,11 +68,10 @@ def test_it_plays_by_itself_and_stops(browser, pages):
     time = "return flexbody.motion.time"
     browser.run("if (!flexbody.isPlaying) document.querySelector('.play').click()")
     first = browser.run(time)
-    browser.driver.implicitly_wait(0)
-    for _ in range(200):
-        if browser.run(time) != first:
-            break
-    assert browser.run(time) != first
+    end = monotonic() + PATIENCE
+    while browser.run(time) == first:
+        assert monotonic() < end, "the picture stands still"
+        sleep(0.02)
     browser.driver.find_element(By.CSS_SELECTOR, ".play").click()
     still = browser.run(time)
     picture(browser)
