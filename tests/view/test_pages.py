@@ -2,7 +2,6 @@
 
 import io
 import json
-
 from time import monotonic, sleep
 
 import pytest
