@@ -16,12 +16,10 @@ use crate::system::Drive;
 pub(super) fn difference(to: [f64; 3], from: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| to[k] - from[k])
 }
-
 /// Length of a vector.
 pub(super) fn length(of: [f64; 3]) -> f64 {
     norm(&of)
 }
-
 /// What stands for the ground where a marker is named.
 pub(super) const GROUND: &str = "ground";
 

@@ -9,11 +9,11 @@ use nalgebra::SMatrix;
 
 use super::end::{Angle, End};
 use super::joints::{Constraint, ConstraintKind, Joint, Linear, Primitive, Target, View};
-use super::loads::{Load, Transport};
+use super::loads::Load;
 use super::motion::forces::add_mass;
 use super::motion::tree::Tree;
 use super::signal::Drive;
-use super::{CableChain, DrivenRow, Rod, System, Winch};
+use super::{CableChain, DrivenRow, Rod, System};
 use crate::body::{
     Assembly, Carried, Dependent, Elimination, Frame, Frames, Marker, Node, NodeKind, RodChain,
     Row, add_node, no_block, no_node, product,
@@ -21,7 +21,7 @@ use crate::body::{
 use crate::math::function::Function;
 use crate::math::space::Vector;
 use crate::math::sparse::Matrix;
-use rows::{constraints, free_ends, links, releases, unplaced, unplaced_rod};
+use rows::{constraints, free_ends, links, releases, unplaced, unplaced_rod, winches};
 
 /// Part of a gradient that counts as none.
 const NOTHING: f64 = 1e-12;
@@ -412,19 +412,6 @@ fn redundant<const D: usize>(
     redundant.sort_unstable();
     redundant.dedup();
     Ok(redundant)
-}
-
-/// Winches, each with what its cable does as it passes through its mesh among the loads.
-fn winches<const D: usize>(parts: &mut Parts<D>) -> Vec<Winch<D>> {
-    let gravity = parts.gravity;
-    let of = |(chain, at_last, drive): &(usize, bool, usize)| {
-        Winch::new((*chain, &parts.chains[*chain]), (*at_last, *drive), gravity)
-    };
-    let winches: Vec<Winch<D>> = parts.winches.iter().map(of).collect();
-    let transports = winches.iter().cloned();
-    let transports = transports.map(|winch| Load::Transport(Box::new(Transport { winch })));
-    parts.loads.extend(transports);
-    winches
 }
 
 fn mass<const D: usize>(parts: &Parts<D>, assembly: &Assembly<D>) -> Matrix<f64> {

@@ -3,11 +3,12 @@
 use super::Parts;
 use crate::body::{Frame, Links, Node, RodChain, Row, no_node, tied_with, untwisted};
 use crate::math::space::Vector;
+use crate::system::Winch;
 use crate::system::end::End;
 use crate::system::joints::{
     Constraint, ConstraintKind, HeldRow, Linear, Release, Target, UnitLength,
 };
-use crate::system::loads::Load;
+use crate::system::loads::{Load, Transport};
 
 /// Most nodes that pins tie together and are eliminated with (docs/decisions/0029-constraints-at-linear-cost.md).
 const TIED: usize = 8;
@@ -186,6 +187,19 @@ fn paid_out<const D: usize>(parts: &Parts<D>) -> Vec<bool> {
         paid_out[chain.nodes(0)[0]..][..chain.node_count()].fill(true);
     }
     paid_out
+}
+
+/// Winches, each with what its cable does as it passes through its mesh among the loads.
+pub(super) fn winches<const D: usize>(parts: &mut Parts<D>) -> Vec<Winch<D>> {
+    let gravity = parts.gravity;
+    let of = |(chain, at_last, drive): &(usize, bool, usize)| {
+        Winch::new((*chain, &parts.chains[*chain]), (*at_last, *drive), gravity)
+    };
+    let winches: Vec<Winch<D>> = parts.winches.iter().map(of).collect();
+    let transports = winches.iter().cloned();
+    let transports = transports.map(|winch| Load::Transport(Box::new(Transport { winch })));
+    parts.loads.extend(transports);
+    winches
 }
 
 /// What the elements of a rod couple. Planar sections have their inertia at nodes.
