@@ -245,17 +245,19 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
     }
 
     /// `f += s M a`.
-    pub fn add_inertia(&self, s: f64, a: &[Node<D>], f: &mut [Node<D>]) {
+    pub fn add_inertia<N: Number>(&self, s: N, a: &[Node<D, N>], f: &mut [Node<D, N>]) {
         for (j, element) in self.elements.iter().enumerate() {
-            self.add_to(j, &(self.element(j, a) * element.mass() * s), f);
+            let mass = element.mass().map(N::of);
+            self.add_to(j, &(self.element(j, a) * mass * s), f);
         }
     }
 
     /// Adds the forces of an acceleration of space that is the same everywhere, or of any other load
     /// in proportion to mass.
-    pub fn add_weight(&self, acceleration: &SMatrix<f64, D, 1>, force: &mut [Node<D>]) {
+    pub fn add_weight<N: Number>(&self, acceleration: &SMatrix<N, D, 1>, force: &mut [Node<D, N>]) {
         for (j, element) in self.elements.iter().enumerate() {
-            self.add_to(j, &(acceleration * element.weight().transpose()), force);
+            let weight = element.weight().transpose().map(N::of);
+            self.add_to(j, &(acceleration * weight), force);
         }
     }
 

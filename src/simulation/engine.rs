@@ -151,8 +151,7 @@ impl<const D: usize> Engine<D> {
         let misfits = system.misfits((time, values), nodes, MISFIT, &mut self.work);
         self.remarks = Remarks::default();
         if let Some((drive, travel)) = system.begun(&self.work) {
-            let joint = system.driven_joint(drive);
-            let name = joint.map_or("", |joint| self.name(joint));
+            let name = self.driven_name(drive);
             return Err(Error::Begun(format!(
                 "expected a winch `{name}` that has paid out nothing at the start, found {travel} m: the cable is as long \
                  as its shape then"
@@ -266,6 +265,12 @@ impl<const D: usize> Engine<D> {
     /// Name of a joint, motion or port that holds something in the system.
     pub(super) fn name(&self, index: usize) -> &str {
         &self.holders[index].1
+    }
+
+    /// Name of the motion or port that a driven coordinate belongs to.
+    pub(super) fn driven_name(&self, drive: usize) -> &str {
+        let joint = self.assembled.system.driven_joint(drive);
+        joint.map_or("", |joint| self.name(joint))
     }
 
     /// Advances the state to `until`, moving inputs with it; what it did is told of a failure as well.

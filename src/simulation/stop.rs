@@ -62,8 +62,7 @@ impl<const D: usize> Engine<D> {
             Stop::Overbent(body, element) => self.overbent((body, element), ""),
             Stop::RanOff(joint) => format!("slider `{}` has left its cable", self.name(joint)),
             Stop::TakenIn(drive) => {
-                let joint = self.assembled.system.driven_joint(drive);
-                let name = joint.map_or("", |joint| self.name(joint));
+                let name = self.driven_name(drive);
                 format!("expected cable left to take in, found winch `{name}` at its end")
             }
             Stop::Broken => format!(
@@ -71,8 +70,7 @@ impl<const D: usize> Engine<D> {
                  here on, found a linkage at the end of its reach or motions that contradict each other"
             ),
             Stop::Jumped(drive) => {
-                let joint = self.assembled.system.driven_joint(drive);
-                let name = joint.map_or("", |joint| self.name(joint));
+                let name = self.driven_name(drive);
                 format!("expected a motion without jumps, found one of `{name}`")
             }
         }

@@ -104,21 +104,19 @@ impl<const D: usize> System<D> {
         let winches = winches(&mut parts);
         let (linear, nonlinear) = constraints(&parts);
         let is_clamp = |joint: usize| parts.joints[joint].clamp().is_some();
-        let (clamped, nonlinear) =
+        let (clamped, nonlinear): (_, Vec<Constraint<D>>) =
             (nonlinear.into_iter()).partition(|constraint| constraint.joint.is_some_and(is_clamp));
-        let nonlinear: Vec<Constraint<D>> = nonlinear;
         let rows: Vec<Row<D>> = linear.iter().map(|linear| linear.row.clone()).collect();
-        let (count, links) = (parts.nodes.len(), links(&parts, &nonlinear));
-        let (assembly, dependent) = Assembly::new(count, &rows, &links);
+        let links = links(&parts, &nonlinear);
+        let (assembly, dependent) = Assembly::new(parts.nodes.len(), &rows, &links);
         let (redundant, mass) = (redundant(&linear, &dependent)?, mass(&parts, &assembly));
         let elimination = Elimination::new(assembly, mass).ok_or(BuildError::Massless)?;
-        let rods_damped = parts.rod_chains.iter().any(RodChain::is_damped);
-        let chains_damped = rods_damped || parts.chains.iter().any(CableChain::is_damped);
+        let chains_damped = parts.rod_chains.iter().any(RodChain::is_damped)
+            || parts.chains.iter().any(CableChain::is_damped);
         let loads_damped = parts.loads.iter().any(Load::is_damped);
         let releases = releases(&parts).map(|(_, release)| release).collect();
         let (grounded, takes_moments) = (grounded(&parts, &nonlinear), takes_moments(&parts));
-        let frames = take_frames(&mut parts);
-        let described = parts.nodes.clone();
+        let (frames, described) = (take_frames(&mut parts), parts.nodes.clone());
         unplace(&mut parts, &frames);
         let mut system = Self {
             reference: parts.nodes,
@@ -130,7 +128,6 @@ impl<const D: usize> System<D> {
             needs_rates: loads_damped
                 || parts.rotation != [0.0; 3]
                 || parts.tracks_work
-                || !winches.is_empty()
                 || !frames.is_empty(),
             frames,
             reach: 0.0,
@@ -168,7 +165,7 @@ impl<const D: usize> System<D> {
         system.reach = system.find_reach();
         system.find_weight();
         system.keep(nonlinear, &described);
-        system.needs_rates |= !system.constraints.is_empty();
+        system.needs_rates |= !(system.constraints.is_empty() && system.winches.is_empty());
         Ok(system)
     }
 

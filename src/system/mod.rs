@@ -255,9 +255,15 @@ impl<const D: usize> System<D> {
         chain: &CableChain<D>,
         drives: &[[N; 3]],
     ) -> Option<(&Winch<D>, Length<N>)> {
-        let is_own = |winch: &&Winch<D>| winch.nodes[0] == chain.nodes(0)[0];
-        let winch = self.winches.iter().find(is_own)?;
+        let winch = self.winch_of(chain)?;
         Some((winch, winch.now(drives)))
+    }
+
+    /// The winch that pays out a chain.
+    #[inline(always)]
+    pub(in crate::system) fn winch_of(&self, chain: &CableChain<D>) -> Option<&Winch<D>> {
+        let is_own = |winch: &&Winch<D>| winch.nodes[0] == chain.nodes(0)[0];
+        self.winches.iter().find(is_own)
     }
 
     /// Number of non-linear constraints.
@@ -344,7 +350,7 @@ impl<const D: usize> System<D> {
         f: &mut [Node<D>],
     ) {
         for chain in &self.chains {
-            chain.add_inertia(1.0 / self.length_now(chain, drives).by, a, f);
+            chain.add_inertia(self.length_now(chain, drives).longer_by(), a, f);
         }
         self.add_rigid_inertia(1.0, a, f);
     }

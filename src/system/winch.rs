@@ -19,7 +19,7 @@ use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
-use crate::system::loads::{Values, weights};
+use crate::system::loads::{Values, on_coordinates};
 
 /// A cable that is paid out.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ pub struct Winch<const D: usize = 2> {
     pub nodes: [usize; 2],
     /// Reference length, m.
     pub length: f64,
-    /// Where elements begin, from the first end over the reference length.
+    /// Where elements begin, from the first end by the reference length, m.
     pub starts: Vec<f64>,
     /// Mass per length, kg/m.
     pub density: f64,
@@ -61,6 +61,11 @@ impl<N: Number> Length<N> {
         [self.by, self.rate]
     }
 
+    /// `g`, the length now over the reference length.
+    pub fn longer_by(&self) -> N {
+        N::of(1.0) / self.by
+    }
+
     /// Of a cable that is as long as its reference length.
     pub fn same() -> Self {
         let [zero, one] = [0.0, 1.0].map(N::of);
@@ -83,7 +88,7 @@ impl<const D: usize> Winch<D> {
         let length = chain.length();
         let mut at = 0.0;
         let starts = chain.elements().iter().map(|element| {
-            let start = at / length;
+            let start = at;
             at += element.length();
             start
         });
@@ -126,7 +131,7 @@ impl<const D: usize> Winch<D> {
 
     /// `xi L_0` at a place in an element, m; negative where the way from the winch leads to the first end.
     fn way(&self, chain: &CableChain<D>, element: usize, at: f64) -> f64 {
-        let place = self.starts[element] * self.length + at * chain.element_length(element);
+        let place = self.starts[element] + at * chain.element_length(element);
         match self.at_last {
             true => -place,
             false => self.length - place,
@@ -144,8 +149,9 @@ impl<const D: usize> Winch<D> {
         slope * (now.rate * N::of(self.way(chain, j, xi)))
     }
 
-    /// Accelerations of the material that follow from positions and rates of the mesh, at the Gauss points of an element, m/s^2.
-    fn convective<N: Number>(
+    /// Inertia forces of the accelerations of the material that follow from positions and rates of the mesh, at the Gauss points of an
+    /// element per reference length, N/m.
+    pub fn transport<N: Number>(
         &self,
         chain: &CableChain<D>,
         j: usize,
@@ -155,26 +161,16 @@ impl<const D: usize> Winch<D> {
         let l = chain.element_length(j);
         let [e, rates] = [x, v].map(|of| chain.element(j, of));
         let twice = now.second - now.rate * now.rate * N::of(2.0);
+        let density = N::of(-self.density) / now.by;
         GAUSS_5.map(|point| {
             let xi = N::of(point.at);
             let way = N::of(self.way(chain, j, point.at));
             let (slopes, passed) = (shape::slopes(xi, l), way * now.rate);
-            rates * slopes * (passed * N::of(2.0))
+            let acceleration = rates * slopes * (passed * N::of(2.0))
                 + e * shape::curvatures(xi, l) * (passed * passed)
-                + e * slopes * (way * twice)
+                + e * slopes * (way * twice);
+            acceleration * density
         })
-    }
-
-    /// Inertia forces of these per reference length, N/m.
-    pub fn transport<N: Number>(
-        &self,
-        chain: &CableChain<D>,
-        j: usize,
-        motion: (&[Node<D, N>], &[Node<D, N>]),
-        now: &Length<N>,
-    ) -> Values<D, N> {
-        let density = N::of(-self.density) / now.by;
-        (self.convective(chain, j, motion, now)).map(|a| a * density)
     }
 
     /// Momentum of the material that passes through the mesh, over the coordinates of an element, kg m/s and kg m^2/s.
@@ -185,13 +181,9 @@ impl<const D: usize> Winch<D> {
         x: &[Node<D, N>],
         now: &Length<N>,
     ) -> Nodal<D, N> {
-        let (e, mut sum) = (chain.element(j, x), Nodal::zeros());
-        let points = GAUSS_5.iter().zip(weights(chain.element_length(j)));
-        for (point, weights) in points {
-            let passing = self.passing((chain, j, point.at), &e, now);
-            sum += passing * (nalgebra::RowVector4::from(weights) * self.density).map(N::of);
-        }
-        sum / now.by
+        let (e, density) = (chain.element(j, x), N::of(self.density) / now.by);
+        let passing = GAUSS_5.map(|point| self.passing((chain, j, point.at), &e, now) * density);
+        on_coordinates(&passing, chain.element_length(j))
     }
 
     /// Kinetic energy of the cable, J.

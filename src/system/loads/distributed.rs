@@ -1,9 +1,11 @@
 //! A dead force per reference length of a cable or a rod.
 
+use nalgebra::RowVector4;
+
 use super::density::{Density, Values};
 use super::{Instant, PANELS};
 use crate::body::Node;
-use crate::elements::{Element, shape};
+use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
@@ -29,8 +31,19 @@ pub struct Distributed<const D: usize = 2> {
 
 /// Weights at the Gauss points, m, of a vector per length of an element of this length (m) on its coordinates: position and slope at both
 /// ends.
-pub(in crate::system) fn weights(length: f64) -> [[f64; 4]; GAUSS_5.len()] {
+fn weights(length: f64) -> [[f64; 4]; GAUSS_5.len()] {
     GAUSS_5.map(|point| (shape::values(point.at, length) * (point.weight * length)).into())
+}
+
+/// Forces on the coordinates of an element of this length (m) of what has these values per length at the Gauss points.
+pub(in crate::system) fn on_coordinates<const D: usize, N: Number>(
+    values: &Values<D, N>,
+    length: f64,
+) -> Nodal<D, N> {
+    let terms = values.iter().zip(weights(length));
+    terms.fold(Nodal::zeros(), |sum, (value, weights)| {
+        sum + value * RowVector4::from(weights).map(N::of)
+    })
 }
 
 impl<const D: usize> Distributed<D> {

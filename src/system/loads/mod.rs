@@ -21,7 +21,7 @@ pub use bushing::{Bushing, RotationalBushing};
 pub use contact::{Contact, Place, Surface};
 pub use couple::Couple;
 pub use density::{Density, Values};
-pub(in crate::system) use distributed::weights;
+pub(in crate::system) use distributed::on_coordinates;
 pub use distributed::{Distributed, Line};
 pub use distributed_moment::DistributedMoment;
 pub use fluid::{Fluid, Strip};

@@ -3,10 +3,9 @@
 
 use super::{Instant, Values};
 use crate::body::Node;
-use crate::elements::Element;
 use crate::math::jet::Number;
 use crate::system::CableChain;
-use crate::system::loads::weights;
+use crate::system::loads::on_coordinates;
 use crate::system::winch::Winch;
 
 /// What a winch does to its cable.
@@ -54,13 +53,9 @@ impl<const D: usize> Transport<D> {
         f: &mut [Node<D, N>],
     ) {
         let chain = &at.chains[self.winch.chain];
-        let (nodes, length) = (chain.nodes(element), chain.elements()[element].length());
-        for (value, weights) in self.values(at, element).iter().zip(weights(length)) {
-            for (k, weight) in weights.into_iter().enumerate() {
-                let sum = f[nodes[k / 2]][k % 2].iter_mut();
-                (sum.zip(value)).for_each(|(sum, value)| *sum += *value * N::of(weight));
-            }
-        }
+        let values = self.values(at, element);
+        let forces = on_coordinates(&values, chain.element_length(element));
+        chain.add_to(element, &forces, f);
     }
 
     /// Power that comes in, W.

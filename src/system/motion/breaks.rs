@@ -156,8 +156,11 @@ impl<const D: usize> Model<'_, D> {
         let energy = system.kinetic(&self.work.drives, motion);
         let mut old = std::mem::take(&mut self.work.v);
         // Material keeps its velocity, not the mesh that it passes through.
-        let mut passing = vec![no_node(); old.len()];
-        system.add_passing(&self.work.drives, 1.0, &self.work.x, &mut passing);
+        self.work.other.fill(no_node());
+        let Work {
+            drives, x, other, ..
+        } = &mut *self.work;
+        system.add_passing(drives, 1.0, x, other);
         self.work.stretch = Some([after, after]);
         system.forward_kinematics(time, &state.coordinates, None, self.work);
         self.work.supply.fill(no_node());
@@ -165,7 +168,7 @@ impl<const D: usize> Model<'_, D> {
         for (rate, driven) in old.iter_mut().zip(&self.work.supply) {
             add_node(rate, -1.0, driven);
         }
-        system.rates_of((&mut old, passing), self.work, &mut state.rates);
+        system.rates_of(&mut old, self.work, &mut state.rates);
         self.work.v = old;
         let kept = self.project(state);
         system.forward_kinematics(time, &state.coordinates, Some(&state.rates), self.work);

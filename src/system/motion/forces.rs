@@ -106,7 +106,8 @@ impl<const D: usize> System<D> {
         force.copy_from_slice(&self.weight);
         work.dissipated = 0.0;
         if !self.winches.is_empty() {
-            self.add_lengthening(work, &mut force);
+            let motion = (&work.x[..], &work.v[..]);
+            self.add_lengthening(&work.drives, motion, &mut work.other, &mut force);
         }
         for chain in &self.chains {
             let longer = self.length_now(chain, &work.drives).longer();
@@ -385,9 +386,8 @@ impl<const D: usize> System<D> {
         map: impl Fn(Vector<D, N>) -> Vector<D, N>,
     ) -> N {
         let mut sum = N::of(0.0);
-        let is_paid_out = |chain: usize| self.winches.iter().any(|winch| winch.chain == chain);
-        let chains = self.chains.iter().enumerate();
-        for (_, chain) in chains.filter(|(index, _)| !is_paid_out(*index)) {
+        let chains = self.chains.iter();
+        for chain in chains.filter(|chain| self.winch_of(chain).is_none()) {
             for (j, element) in chain.elements().iter().enumerate() {
                 let e: Nodal<D, N> = chain.element(j, x);
                 let e = Nodal::from_columns(&[0, 1, 2, 3].map(|k| map(e.column(k).into())));

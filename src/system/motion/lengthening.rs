@@ -2,7 +2,7 @@
 //! `x = x_ref + s u`, `s = sqrt(L_0 / L)`, so `x' = s u' + s' u` and `x'' = s u'' + 2 s' u' + s'' u`; forces on `u` are `s` times those on
 //! `x`.
 
-use crate::body::{Node, NodeBlock};
+use crate::body::{Node, NodeBlock, map_node};
 use crate::elements::Nodal;
 use crate::math::jet::Number;
 use crate::system::winch::Length;
@@ -42,6 +42,13 @@ impl<const D: usize> System<D> {
         winch.map_or(N::of(1.0), |winch| winch.now(drives).root[0])
     }
 
+    /// `u` of a node of a cable that is paid out.
+    fn way<N: Number>(&self, node: usize, x: &[Node<D, N>], now: &Length<N>) -> Node<D, N> {
+        let (mut way, from) = (x[node], map_node(&self.reference[node], N::of));
+        change(&mut way, &from, |x, from| (x - from) / now.root[0]);
+        way
+    }
+
     /// Takes positions for `x_ref + u` to `x_ref + s u`.
     pub(super) fn lengthen(&self, work: &mut Work<D>) {
         for (_, node, now) in self.lengthened(&work.drives) {
@@ -55,9 +62,7 @@ impl<const D: usize> System<D> {
     /// Takes rates from `u'` to `s u' + s' u` at the positions in `work`.
     pub(super) fn lengthen_rates(&self, work: &mut Work<D>) {
         for (_, node, now) in self.lengthened(&work.drives) {
-            let ([root, rate, _], from) = (now.root, &self.reference[node]);
-            let mut way = work.x[node];
-            change(&mut way, from, |x, from| (x - from) / root);
+            let ([root, rate, _], way) = (now.root, self.way(node, &work.x, &now));
             change(&mut work.v[node], &way, |v, u| root * v + rate * u);
         }
     }
@@ -65,9 +70,7 @@ impl<const D: usize> System<D> {
     /// Takes rates of nodes for `u'` back from `x'` at the positions in `work`.
     pub(in crate::system) fn shorten_rates(&self, work: &Work<D>, v: &mut [Node<D>]) {
         for (_, node, now) in self.lengthened(&work.drives) {
-            let ([root, rate, _], from) = (now.root, &self.reference[node]);
-            let mut way = work.x[node];
-            change(&mut way, from, |x, from| (x - from) / root);
+            let ([root, rate, _], way) = (now.root, self.way(node, &work.x, &now));
             change(&mut v[node], &way, |v, u| (v - rate * u) / root);
         }
     }
@@ -80,9 +83,7 @@ impl<const D: usize> System<D> {
         out: &mut [Node<D, N>],
     ) {
         for (_, node, now) in self.lengthened(drives) {
-            let ([root, rate, second], mut way) = (now.root, x[node]);
-            let from = self.reference[node].map(|part| part.map(N::of));
-            change(&mut way, &from, |x, from| (x - from) / root);
+            let ([root, rate, second], way) = (now.root, self.way(node, x, &now));
             let twice = N::of(2.0) * rate / root;
             change(&mut out[node], &way, |sum, u| {
                 sum + (second - twice * rate) * u
@@ -94,10 +95,23 @@ impl<const D: usize> System<D> {
     /// Takes forces on nodes to those on `u`, or second derivatives of `u` to what they are in those of the nodes.
     pub(in crate::system) fn shorten<N: Number>(&self, drives: &[[N; 3]], of: &mut [Node<D, N>]) {
         for (_, node, now) in self.lengthened(drives) {
-            for number in of[node].as_flattened_mut() {
-                *number *= now.root[0];
-            }
+            of[node] = map_node(&of[node], |number| number * now.root[0]);
         }
+    }
+
+    /// The force on one node as that on its coordinates.
+    #[inline(always)]
+    pub(in crate::system) fn shortened<N: Number>(
+        &self,
+        node: usize,
+        drives: &[[N; 3]],
+        force: &Node<D, N>,
+    ) -> Node<D, N> {
+        if self.winches.is_empty() {
+            return *force;
+        }
+        let root = self.root_at(node, drives);
+        map_node(force, |number| number * root)
     }
 
     /// Takes a block over two nodes to one over their coordinates.
@@ -108,19 +122,24 @@ impl<const D: usize> System<D> {
         block: &NodeBlock<D>,
     ) -> NodeBlock<D> {
         let factor = self.root_at(a, drives) * self.root_at(b, drives);
-        let scaled = |numbers: [[f64; D]; 2]| numbers.map(|part| part.map(|x| factor * x));
-        block.map(|rows| rows.map(scaled))
+        block.map(|rows| rows.map(|row| map_node(&row, |number| factor * number)))
     }
 
-    /// Adds what a cable that is paid out has more of than its reference: weight, and inertia forces of the accelerations that do not
-    /// follow from those of coordinates.
-    pub(super) fn add_lengthening(&self, work: &mut Work<D>, force: &mut [Node<D>]) {
-        work.other.fill([[0.0; D]; 2]);
-        self.add_lengthened(&work.drives, (&work.x, &work.v), &mut work.other);
+    /// Adds what a cable that is paid out has more of than its reference to forces on nodes: weight, and inertia forces of the
+    /// accelerations that do not follow from those of coordinates. These are left in `moved`.
+    pub(in crate::system) fn add_lengthening<N: Number>(
+        &self,
+        drives: &[[N; 3]],
+        motion: (&[Node<D, N>], &[Node<D, N>]),
+        moved: &mut [Node<D, N>],
+        force: &mut [Node<D, N>],
+    ) {
+        moved.fill([[N::of(0.0); D]; 2]);
+        self.add_lengthened(drives, motion, moved);
         for winch in &self.winches {
-            let (chain, more) = (&self.chains[winch.chain], 1.0 / winch.now(&work.drives).by);
-            chain.add_weight(&(winch.gravity * (more - 1.0)), force);
-            chain.add_inertia(-more, &work.other, force);
+            let (chain, longer) = (&self.chains[winch.chain], winch.now(drives).longer_by());
+            chain.add_weight(&(winch.gravity.map(N::of) * (longer - N::of(1.0))), force);
+            chain.add_inertia(-longer, moved, force);
         }
     }
 

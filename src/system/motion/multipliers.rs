@@ -11,7 +11,7 @@
 //! Geometric Numerical Integration, 2nd ed., section IV.4; minimum norm in singular configurations:
 //! F. E. Udwadia, R. E. Kalaba, Analytical Dynamics (1996).
 
-use crate::body::{Jacobian, Node, SparseRows, map_node, no_node};
+use crate::body::{Jacobian, Node, SparseRows, no_node};
 use crate::math::jet::Number;
 use crate::math::sparse::Matrix;
 use crate::system::joints::{Constraint, View};
@@ -81,20 +81,10 @@ impl<const D: usize> System<D> {
             }
             (work.jacobian).fill(&self.elimination, row, |tell| {
                 constraint.for_each_pulled((&view, &self.frames), |node, term| {
-                    tell(node, &self.shortened(node, &view, term));
+                    tell(node, &self.shortened(node, view.drives, term));
                 });
             });
         }
-    }
-
-    /// What a constraint's derivative by a node is by its coordinates.
-    #[inline(always)]
-    fn shortened(&self, node: usize, view: &View<'_, D>, term: &Node<D>) -> Node<D> {
-        if self.winches.is_empty() {
-            return *term;
-        }
-        let root = self.root_at(node, view.drives);
-        map_node(term, |x| root * x)
     }
 
     /// Shows every non-linear constraint at a time, coordinates and, where its rate is read, rates.
@@ -148,7 +138,7 @@ impl<const D: usize> System<D> {
         {
             assembly.add_corner(*index, 1.0, matrix);
             constraint.for_each_pulled((view, &self.frames), |node, term| {
-                let term = self.shortened(node, view, term);
+                let term = self.shortened(node, view.drives, term);
                 assembly.add_gradient((*index, node), &term, matrix);
             });
         }

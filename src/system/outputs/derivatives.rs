@@ -22,9 +22,9 @@ pub struct Derivatives<const D: usize> {
     /// The evaluation: derivatives in time, or the first one along a direction of the inputs.
     pub values: Evaluation<D, Jet>,
     /// Forces on the nodes, but for constraints.
-    pub(super) f: Vec<Node<D, Jet>>,
+    f: Vec<Node<D, Jet>>,
     /// The same on centres of mass and about axes of rigid bodies in space; angular accelerations of these.
-    pub(super) pulled: Vec<Node<D, Jet>>,
+    pulled: Vec<Node<D, Jet>>,
     spin_rates: Vec<Vector3<Jet>>,
     /// Torques of rods, and angular accelerations about the tangents of their carried frames.
     torques: Vec<[Jet; 3]>,
@@ -201,8 +201,11 @@ impl<const D: usize> Derivatives<D> {
         for (f, weight) in self.f.iter_mut().zip(&system.weight) {
             *f = map_node(weight, Jet::from_re);
         }
-        self.lengthen(system);
         let values = &self.values;
+        if !system.winches().is_empty() {
+            let (motion, out) = ((&values.x[..], &values.v[..]), &mut self.f);
+            system.add_lengthening(&values.drives, motion, &mut self.pulled, out);
+        }
         self.torques.fill([Jet::from_re(0.0); 3]);
         if elastic {
             for chain in &system.chains {
@@ -375,7 +378,7 @@ impl<const D: usize> Derivatives<D> {
             right -= part(constraint.along(&view, &self.driven), k);
             constraint.for_each_pulled((&view, &system.frames), |node, term| {
                 // Derivatives of a product: of the Jacobian by the order, of the other factor by the rest.
-                let term = Self::shortened(system, (node, view.drives), term);
+                let term = system.shortened(node, view.drives, term);
                 for order in 1..=k {
                     let times = if (k, order) == (2, 1) { 2.0 } else { 1.0 };
                     let term = map_node(&term, |term| part(term, order));

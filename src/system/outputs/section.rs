@@ -10,7 +10,7 @@
 //! J. T. Oden, J. N. Reddy, An Introduction to the Mathematical Theory of Finite Elements (1976), on forces at nodes
 //! from the balance of elements.
 
-use nalgebra::{RowVector4, Vector3};
+use nalgebra::Vector3;
 
 use super::evaluation::Evaluation;
 use crate::body::Marker;
@@ -142,9 +142,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let weights = shape::integrals(N::of(1.0), part.length());
         lack += self.distributed(system, chain.nodes(0)[0]) * weights.transpose();
         if let Some(values) = self.changing(system, (chain.nodes(0)[0], j)) {
-            for (value, weights) in values.iter().zip(loads::weights(part.length())) {
-                lack += value * RowVector4::from(weights).map(N::of);
-            }
+            lack += loads::on_coordinates(&values, part.length());
         }
         let mut torques = [Vector3::zeros(); 2];
         if let Some(sections) = system.sections(chain) {

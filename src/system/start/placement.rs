@@ -115,8 +115,8 @@ impl<const D: usize> System<D> {
         self.add_driven(&work.targets, 1, &mut start);
         let mut missing = difference(rates, &start);
         let mut v = std::mem::take(&mut state.rates);
-        let none = vec![no_node(); rates.len()];
-        self.rates_of((&mut missing, none), work, &mut v);
+        work.other.fill(no_node());
+        self.rates_of(&mut missing, work, &mut v);
         state.rates = v;
         let mut model = Model::new(self, inputs, work, state);
         let holds = model.project(state);
@@ -245,27 +245,25 @@ impl<const D: usize> System<D> {
         self.to_rotations(work, q);
     }
 
-    /// Rates of coordinates that come closest to those of nodes, without what is driven, and to the momentum of material that passed through
-    /// the mesh of cables before, both in the mass norm.
+    /// Rates of coordinates that come closest to those of nodes, without what is driven, and to the momentum in `work.other` of material that
+    /// passed through the mesh of cables before, both in the mass norm.
     pub(in crate::system) fn rates_of(
         &self,
-        (v, mut momentum): (&mut [Node<D>], Vec<Node<D>>),
+        v: &mut [Node<D>],
         work: &mut Work<D>,
         rates: &mut [f64],
     ) {
-        self.shorten_rates(work, v);
-        self.coordinates_of(v, work, rates);
-        if self.winches.is_empty() {
-            return;
+        // Before `coordinates_of`, which needs the same scratch.
+        if !self.winches.is_empty() {
+            self.add_passing(&work.drives, -1.0, &work.x, &mut work.other);
+            self.shorten(&work.drives, &mut work.other);
+            (self.elimination).reduce(&work.other, &mut work.y, &mut work.a);
+            self.shorten_rates(work, v);
         }
-        self.add_passing(&work.drives, -1.0, &work.x, &mut momentum);
-        self.shorten(&work.drives, &mut momentum);
-        let mut more = vec![0.0; rates.len()];
-        self.elimination.reduce(&momentum, &mut work.y, &mut more);
-        rates
-            .iter_mut()
-            .zip(more)
-            .for_each(|(rate, more)| *rate += more);
+        self.coordinates_of(v, work, rates);
+        if !self.winches.is_empty() {
+            (rates.iter_mut().zip(&work.a)).for_each(|(rate, more)| *rate += more);
+        }
     }
 
     /// Motions that inputs drive start where the inputs say.

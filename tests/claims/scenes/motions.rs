@@ -53,9 +53,9 @@ fn outputs(kinds: &[&str], of: &str) -> Vec<Value> {
 }
 
 const TURNS: [&str; 3] = ["angle", "angular_velocity", "angular_acceleration"];
-const MOVES: [&str; 3] = ["position", "velocity", "acceleration"];
+pub(super) const MOVES: [&str; 3] = ["position", "velocity", "acceleration"];
 const RAD: [&str; 3] = ["rad", "rad/s", "rad/s2"];
-const METRES: [&str; 3] = ["m", "m/s", "m/s2"];
+pub(super) const METRES: [&str; 3] = ["m", "m/s", "m/s2"];
 
 /// Directions of markers, and of pins between two wheels at their centres of mass.
 fn angles() -> Specimen {
@@ -295,24 +295,27 @@ fn described() -> Specimen {
     specimen
 }
 
+/// What is wanted at the end of a step of length `h`, of motions with 0, 1 and 2 derivatives that are set, as far as they are given.
+pub(super) fn ends([value, rate, second]: [f64; 3], h: f64) -> [[f64; 3]; 3] {
+    [
+        [value, 0.0, 0.0],
+        [value + h * rate, rate, 0.0],
+        [
+            value + h * rate + 0.5 * h * h * second,
+            rate + h * second,
+            second,
+        ],
+    ]
+}
+
 /// Set at communication points: a value alone is reached at the end of the step, with derivatives their
 /// Taylor polynomial is.
 fn steps() -> Specimen {
     let (first, h, second) = ([0.6, 0.2, 0.5], 0.1, [0.65, 0.4, -0.8]);
     let specimen = set(Specimen::new("steps", mastered_scene("steps")), first).at(h);
     let specimen = set(specimen, second).at(2.0 * h);
-    // What is wanted at the end of the step, as far as it is given.
-    let ends = [
-        [second[0], 0.0, 0.0],
-        [second[0] + h * second[1], second[1], 0.0],
-        [
-            second[0] + h * second[1] + 0.5 * h * h * second[2],
-            second[1] + h * second[2],
-            second[2],
-        ],
-    ];
     let mut specimen = specimen;
-    for (n, end) in ends.into_iter().enumerate() {
+    for (n, end) in ends(second, h).into_iter().enumerate() {
         specimen = claimed(specimen, n, end, n);
     }
     specimen

@@ -3,6 +3,7 @@
 
 use serde_json::{Value, json};
 
+use super::motions::{METRES, MOVES, ends};
 use super::{dot, sum, times};
 use crate::specimen::Specimen;
 
@@ -24,9 +25,6 @@ fn rope(name: &str, place: [f64; 2]) -> Value {
            "motion": {"velocity": VELOCITY}, "markers": {"first": 0.0, "inside": 0.25, "last": 1.0}})
 }
 
-const MOVES: [&str; 3] = ["position", "velocity", "acceleration"];
-const METRES: [&str; 3] = ["m", "m/s", "m/s2"];
-
 /// Where the end of a rope that began at a place falls to, with two derivatives.
 fn fallen(place: [f64; 2], t: f64) -> [[f64; 2]; 3] {
     let way = sum(times(t, VELOCITY), times(0.5 * t * t, GRAVITY));
@@ -43,96 +41,90 @@ fn spline(t: f64) -> [f64; 3] {
     ]
 }
 
-fn paid_out() -> Specimen {
-    let t = 0.2;
-    let courses = [
+/// Name of a rope, what its winch is told, the end that it is at, and the length paid out with two derivatives.
+type Course = (&'static str, Value, &'static str, [f64; 3]);
+
+fn courses(t: f64) -> [Course; 5] {
+    let wave = [0.5 * t + 0.9 * t * t, 0.5 + 1.8 * t, 1.8];
+    let taken = [-2.0 * t * t, -4.0 * t, -4.0];
+    let table = json!({"table": [[0.0, 0.0], [0.8, 0.4]]});
+    let kinked = json!("0.5*max(0,t-0.1)");
+    [
         ("still", json!(0.0), "first", [0.0; 3]),
-        (
-            "first",
-            json!("0.5*t+0.9*t^2"),
-            "first",
-            [0.5 * t + 0.9 * t * t, 0.5 + 1.8 * t, 1.8],
-        ),
-        (
-            "last",
-            json!({"table": [[0.0, 0.0], [0.8, 0.4]]}),
-            "last",
-            spline(t),
-        ),
-        (
-            "taken",
-            json!("-2*t^2"),
-            "last",
-            [-2.0 * t * t, -4.0 * t, -4.0],
-        ),
-    ];
+        ("first", json!("0.5*t+0.9*t^2"), "first", wave),
+        ("last", table, "last", spline(t)),
+        ("kinked", kinked, "first", [0.5 * (t - 0.1), 0.5, 0.0]),
+        ("taken", json!("-2*t^2"), "last", taken),
+    ]
+}
+
+/// Where the first end of a rope is at the start.
+fn place(n: usize) -> [f64; 2] {
+    [2.0 * n as f64, 0.1]
+}
+
+fn scene(courses: &[Course]) -> Value {
     let (mut bodies, mut motions, mut read) = (Vec::new(), Vec::new(), Vec::new());
-    let place = |n: usize| [2.0 * n as f64, 0.1];
     for (n, (name, value, end, _)) in courses.iter().enumerate() {
         bodies.push(rope(name, place(n)));
         motions.push(json!({"name": format!("winch{n}"), "kind": "winch", "marker": format!("{name}.{end}"), "value": value}));
         for marker in ["first", "inside", "last"] {
-            read.extend(
-                MOVES.map(|kind| json!({"kind": kind, "marker": format!("{name}.{marker}")})),
-            );
+            let marker = format!("{name}.{marker}");
+            read.extend(MOVES.map(|kind| json!({"kind": kind, "marker": marker})));
         }
         read.push(json!({"kind": "axial_force", "marker": format!("{name}.inside")}));
     }
     read.extend(["momentum", "center_of_mass", "energy", "work"].map(|kind| json!({"kind": kind})));
-    let scene = json!({"name": "paid_out", "dimension": 2, "gravity": GRAVITY, "bodies": bodies, "motions": motions,
-                       "outputs": read, "accuracy": {"relative_tolerance": 1e-10}});
-    let mut specimen = Specimen::new("paid_out", scene).at(t);
-    let (mut mass, mut turn, mut energy) = (0.0, [0.0; 2], [0.0; 3]);
+    json!({"name": "paid_out", "dimension": 2, "gravity": GRAVITY, "bodies": bodies, "motions": motions, "outputs": read,
+           "accuracy": {"relative_tolerance": 1e-10}})
+}
+
+fn paid_out() -> Specimen {
+    let t = 0.2;
+    let courses = courses(t);
+    let mut specimen = Specimen::new("paid_out", scene(&courses)).at(t);
+    let velocity = fallen([0.0; 2], t)[1];
+    let (mut mass, mut turn, mut kinetic, mut gravity, mut start) = (0.0, [0.0; 2], 0.0, 0.0, 0.0);
     for (n, (name, _, end, travel)) in courses.into_iter().enumerate() {
-        let ends = [place(n), sum(place(n), times(LENGTH, TANGENT))];
-        let at_last = end == "last";
-        // From the other end on the winch's goes away from it.
-        let away = times(if at_last { 1.0 } else { -1.0 }, TANGENT);
-        let moved = |start: [f64; 2], share: f64| {
-            let mut moves = fallen(start, t);
+        // The end at the winch goes away from the other one.
+        let (away, at_last) = match end {
+            "last" => (TANGENT, true),
+            _ => (times(-1.0, TANGENT), false),
+        };
+        let along = |share: f64| sum(place(n), times(share * LENGTH, TANGENT));
+        let moved = |share: f64| {
+            let (mut moves, paid) = (
+                fallen(along(share), t),
+                if at_last { share } else { 1.0 - share },
+            );
             for (k, travel) in travel.into_iter().enumerate() {
-                moves[k] = sum(moves[k], times(share * travel, away));
+                moves[k] = sum(moves[k], times(paid * travel, away));
             }
             moves
         };
-        let inside = sum(ends[0], times(0.25 * LENGTH, TANGENT));
-        let markers = [
-            ("first", moved(ends[0], if at_last { 0.0 } else { 1.0 })),
-            ("inside", moved(inside, if at_last { 0.25 } else { 0.75 })),
-            ("last", moved(ends[1], if at_last { 1.0 } else { 0.0 })),
-        ];
-        let middle = times(0.5, sum(markers[0].1[0], markers[2].1[0]));
-        for (marker, moves) in markers {
-            for k in 0..3 {
-                let of = format!("{name}.{marker}.{}", MOVES[k]);
-                specimen = specimen.vector(&of, METRES[k], moves[k]);
+        for (marker, share) in [("first", 0.0), ("inside", 0.25), ("last", 1.0)] {
+            for (k, value) in moved(share).into_iter().enumerate() {
+                specimen =
+                    specimen.vector(&format!("{name}.{marker}.{}", MOVES[k]), METRES[k], value);
             }
         }
         specimen = specimen.claim_within(&format!("{name}.inside.axial_force"), "N", 0.0, 1e-6);
-        let own = LINE * (LENGTH + travel[0]);
+        let (own, middle) = (LINE * (LENGTH + travel[0]), moved(0.5)[0]);
         mass += own;
         turn = sum(turn, times(own, middle));
-        let velocity = fallen([0.0; 2], t)[1];
-        energy[0] += 0.5 * own * dot(velocity, velocity);
-        energy[1] -= own * dot(GRAVITY, middle);
-        let before = LINE * LENGTH;
-        let start = sum(ends[0], times(0.5 * LENGTH, TANGENT));
-        energy[2] += 0.5 * own * dot(velocity, velocity)
-            - own * dot(GRAVITY, middle)
-            - 0.5 * before * dot(VELOCITY, VELOCITY)
-            + before * dot(GRAVITY, start);
+        kinetic += 0.5 * own * dot(velocity, velocity);
+        gravity -= own * dot(GRAVITY, middle);
+        start += LINE * LENGTH * (0.5 * dot(VELOCITY, VELOCITY) - dot(GRAVITY, along(0.5)));
     }
-    let velocity = fallen([0.0; 2], t)[1];
-    let momentum = times(mass, velocity);
     let about = turn[0] * velocity[1] - turn[1] * velocity[0];
     specimen
-        .vector("momentum", "N.s", momentum)
+        .vector("momentum", "N.s", times(mass, velocity))
         .claim("angular_momentum", "N.m.s", about)
         .vector("center_of_mass", "m", times(1.0 / mass, turn))
-        .claim("energy.kinetic", "J", energy[0])
-        .claim("energy.gravity", "J", energy[1])
+        .claim("energy.kinetic", "J", kinetic)
+        .claim("energy.gravity", "J", gravity)
         .claim_within("energy.strain", "J", 0.0, 1e-9)
-        .claim_within("energy.input", "J", energy[2], 1e-7)
+        .claim_within("energy.input", "J", kinetic + gravity - start, 1e-7)
 }
 
 /// The master sets the length, with 0, 1 and 2 derivatives; at the start nothing has been paid out.
@@ -171,16 +163,7 @@ fn mastered() -> Specimen {
         }
     }
     specimen = set(specimen.at(h), 0, second).at(2.0 * h);
-    let ends = [
-        [second[0], 0.0, 0.0],
-        [second[0] + h * second[1], second[1], 0.0],
-        [
-            second[0] + h * second[1] + 0.5 * h * h * second[2],
-            second[1] + h * second[2],
-            second[2],
-        ],
-    ];
-    for (n, end) in ends.into_iter().enumerate() {
+    for (n, end) in ends(second, h).into_iter().enumerate() {
         for k in 0..=n {
             let of = format!("rope{n}.first.{}", MOVES[k]);
             let start = match k {
