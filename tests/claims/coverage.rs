@@ -12,8 +12,9 @@ use crate::schema::{Place, Schema, Sort};
 use crate::specimen::{Outcome, Specimen, units};
 
 /// Keys of which one value only is accepted: the others are refused, and say so.
-const SINGLE: [&str; 3] = [
+const SINGLE: [&str; 4] = [
     "dimension",
+    "motions{winch}.value#number",
     "outputs{natural_frequency}.body",
     "outputs{eigenvalue}.body",
 ];

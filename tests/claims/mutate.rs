@@ -128,7 +128,13 @@ pub fn changes(scene: &Value, place: &Place) -> Vec<Mutant> {
         }
         Sort::Text if place.key.ends_with("#expression") || place.key.contains(".deformation") => {
             let text = found.as_str().expect("an expression");
-            vec![plain(json!(format!("({text})*1.05+0.01")))]
+            // What a winch has paid out begins at nothing.
+            let shift = if place.key.starts_with("motions{winch}") {
+                ""
+            } else {
+                "+0.01"
+            };
+            vec![plain(json!(format!("({text})*1.05{shift}")))]
         }
         Sort::Text => {
             let others = names(scene)

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::checks::{Key, components, expected, keys, needed, quoted, shape, value};
 use crate::scene::Error;
-use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue};
+use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue, Value};
 use crate::scene::resolved::{self, Resolved, Turning};
 use crate::system::{Attitude, Drive};
 
@@ -74,6 +74,12 @@ impl<'a> Resolved<'a> {
             }
             (MotionKind::Winch, _) => {
                 let marker = self.require_paid_out(&at_marker, marker()?)?;
+                if let MotionValue::One(Value::Number(number)) = &motion.value
+                    && *number != 0.0
+                {
+                    let wanted = "a length that begins at 0, since the cable is as long as its shape at the start";
+                    return Err(expected(&at_value, wanted, number));
+                }
                 Kind::Winch(marker, self.one_drive(&at_value, &motion.value)?)
             }
             (MotionKind::Displacement, _) => {
