@@ -18,6 +18,7 @@ mod elements;
 mod fluids;
 mod frames;
 mod least;
+mod lengthened;
 mod linkage;
 mod links;
 mod mechanics;
