@@ -152,9 +152,11 @@ fn courses(simulation: &Simulation) -> Vec<(usize, [f64; 3])> {
         let below = [
             (".velocity", ".position", 1),
             (".velocity", ".displacement", 1),
+            (".velocity", ".travel", 1),
             (".angular_velocity", ".angle", 1),
             (".acceleration", ".position", 2),
             (".acceleration", ".displacement", 2),
+            (".acceleration", ".travel", 2),
             (".angular_acceleration", ".angle", 2),
         ];
         let of = below.into_iter().find_map(|(suffix, below, order)| {

@@ -201,9 +201,10 @@ pub(super) fn columns<'a>(
 }
 
 /// Words for a driven coordinate and its derivatives in the names of inputs.
-const RATES: [[&str; 3]; 3] = [
+const RATES: [[&str; 3]; 4] = [
     [".position", ".velocity", ".acceleration"],
     [".displacement", ".velocity", ".acceleration"],
+    [".travel", ".velocity", ".acceleration"],
     [".angle", ".angular_velocity", ".angular_acceleration"],
 ];
 
