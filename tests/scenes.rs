@@ -338,3 +338,33 @@ fn shipped_scenes_run_without_a_struggle() {
     }
     assert!(count >= 11, "expected the shipped scenes, found {count}");
 }
+
+/// A rope on its own with a winch at one end.
+fn wound(value: &str) -> Simulation {
+    let scene = json!({"name": "wound", "dimension": 2, "accuracy": {"relative_tolerance": 1e-6},
+        "bodies": [{"name": "rope", "element": "cable", "elements": 2, "material": {"youngs_modulus": 1e6, "density": 1e3},
+                    "section": {"area": 1e-3, "second_moment": 0}, "shape": {"line": {"from": [0, 0], "to": [1.5, 0]}},
+                    "markers": {"drum": 0}}],
+        "motions": [{"name": "winch", "kind": "winch", "marker": "rope.drum", "value": value}],
+        "outputs": [{"kind": "position", "marker": "rope.drum"}, {"kind": "natural_frequency", "count": 1}]});
+    Simulation::new(Scene::from_json(&scene.to_string()).expect("a scene"))
+}
+
+#[test]
+fn a_winch_begins_at_nothing_and_ends_with_its_cable() {
+    let told = wound("0.1+t")
+        .initialize(0.0)
+        .expect_err("begun")
+        .to_string();
+    let wanted =
+        "motions: expected a winch `winch` that has paid out nothing at the start, found 0.1 m";
+    assert!(told.starts_with(wanted), "{told}");
+    let mut simulation = wound("-t");
+    simulation.initialize(0.0).expect("a start");
+    simulation.start().expect("a start");
+    simulation.step(1.4).expect("a step");
+    let failure = simulation.step(2.0).expect_err("the end of the cable");
+    let wanted = "expected cable left to take in, found winch `winch` at its end";
+    assert!(failure.reason.contains(wanted), "{failure}");
+    assert!((1.4..1.5).contains(&failure.time), "{failure}");
+}

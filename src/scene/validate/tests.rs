@@ -8,6 +8,7 @@ mod releases;
 mod schema;
 mod space;
 mod stress;
+mod winches;
 
 use serde_json::{Value, json};
 

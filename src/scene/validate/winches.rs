@@ -26,13 +26,13 @@ impl<'a> Resolved<'a> {
         let bends = body.section.numbers().second_moments[0] > 0.0;
         let found = match () {
             () if !body.stations.is_empty() => "`stations`",
-            () if body.strain != Strain::ThetaPrime => "another `strain` than theta_prime",
+            () if body.strain != Strain::ThetaPrime => "another `strain` than thetaPrime",
             () if bends && !matches!(body.shape, Shape::Line { .. }) => {
                 "a curved `shape` that bends"
             }
             () => return Ok(marker),
         };
-        let wanted = "a cable that is the same all along, in strains of kind theta_prime, straight or without bending \
+        let wanted = "a cable that is the same all along, in strains of kind thetaPrime, straight or without bending \
                       stiffness";
         Err(expected(path, wanted, found))
     }
