@@ -119,7 +119,7 @@ fn is_one_of_that_length<const D: usize>() {
         let wanted = by_length(&product(&assembly, &wanted, &by_length(&along)));
         // Coordinates are those of the nodes over the root of `by`.
         let wanted: Vec<Node<D>> = wanted.iter().map(|n| map_node(n, |x| by * x)).collect();
-        let size = largest(&wanted, &vec![no_node(); COUNT + 1]);
+        let size = largest(&wanted, &[no_node(); COUNT + 1]);
         assert!(size > 1.0 && largest(&found, &wanted) < 1e-12 * size);
     }
 }
