@@ -343,7 +343,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
     fn add_blocks(
         &self,
         pack: &Pack<E::Pack>,
-        (blocks, factor): (&BlockPack<D>, f64),
+        blocks: &BlockPack<D>,
         assembly: &Assembly<D>,
         matrix: &mut Matrix<f64>,
     ) {
@@ -354,7 +354,7 @@ impl<E: Element<D>, const D: usize> Chain<E, D> {
                 for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     for r in 0..D {
                         for c in 0..D {
-                            block[p][r][q][c] = blocks[part][p][q][r][c][lane] * factor;
+                            block[p][r][q][c] = blocks[part][p][q][r][c][lane];
                         }
                     }
                 }
@@ -429,9 +429,7 @@ impl<E: Element<D>, const D: usize> Work for AddTangent<'_, E, D> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let (chain, (stiffness, damping)) = (self.chain, self.matrices);
-        // Once for the coordinates that the kernel sees, once for the roots.
         let [by, growth] = self.longer;
-        let factor = by * by;
         let (mut e, mut v) = (rest(), rest());
         let mut blocks = [[[[[[0.0; PACK]; D]; D]; 2]; 2]; 3];
         for pack in &chain.packs {
@@ -440,12 +438,12 @@ impl<E: Element<D>, const D: usize> Work for AddTangent<'_, E, D> {
                 chain.read_rates(pack, (self.x, self.rate), [by, growth], &mut v);
                 let motion = (ends(&e), Some(ends(&v)));
                 E::pack_stiffness(simd, &pack.kernel, motion, by, &mut blocks);
-                chain.add_blocks(pack, (&blocks, factor), self.assembly, stiffness);
+                chain.add_blocks(pack, &blocks, self.assembly, stiffness);
                 E::pack_damping(simd, &pack.kernel, ends(&e), by, &mut blocks);
-                chain.add_blocks(pack, (&blocks, factor), self.assembly, damping);
+                chain.add_blocks(pack, &blocks, self.assembly, damping);
             } else {
                 E::pack_stiffness(simd, &pack.kernel, (ends(&e), None), by, &mut blocks);
-                chain.add_blocks(pack, (&blocks, factor), self.assembly, stiffness);
+                chain.add_blocks(pack, &blocks, self.assembly, stiffness);
             }
         }
     }

@@ -118,7 +118,7 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
         by: f64,
         out: &mut NodalPack<D>,
     ) -> f64;
-    /// [`Self::stiffness`] of a pack, by coordinates as they are given; with rates where it is damped.
+    /// [`Self::stiffness`] of a pack over its coordinates times the root of `by`; with rates where it is damped.
     fn pack_stiffness<S: Simd>(
         simd: S,
         pack: &Self::Pack,
@@ -126,7 +126,7 @@ pub trait Element<const D: usize>: Clone + Send + Sync {
         by: f64,
         out: &mut BlockPack<D>,
     );
-    /// [`Self::damping`] of a pack, by rates as they are given.
+    /// [`Self::damping`] of a pack over the same coordinates.
     fn pack_damping<S: Simd>(
         simd: S,
         pack: &Self::Pack,

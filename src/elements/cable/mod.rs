@@ -443,7 +443,7 @@ impl<const D: usize> Element<D> for Cable<D> {
         out: &mut BlockPack<D>,
     ) {
         for group in 0..pack.groups::<S>() {
-            let kernel = pack.kernel.group(simd, group, by);
+            let kernel = pack.kernel.group(simd, group, by).by_roots(by);
             let e = read(simd, e, group);
             let one = kernel.length.constant(1.0);
             let sum = match rate {
@@ -465,7 +465,7 @@ impl<const D: usize> Element<D> for Cable<D> {
         out: &mut BlockPack<D>,
     ) {
         for group in 0..pack.groups::<S>() {
-            let kernel = pack.kernel.group(simd, group, by);
+            let kernel = pack.kernel.group(simd, group, by).by_roots(by);
             let e = read(simd, e, group);
             let factors = Factors::damped(kernel.length.constant(0.0), &kernel);
             write(&kernel.ends(&kernel.tangent(&e, None, factors)), out, group);

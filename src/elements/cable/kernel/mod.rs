@@ -177,6 +177,18 @@ impl<N: Real> Kernel<N> {
         self
     }
 
+    /// Parameters whose tangents are over coordinates times the root of `by`: once for those that forces are derived by, once for the
+    /// roots.
+    #[inline(always)]
+    pub fn by_roots(mut self, by: f64) -> Self {
+        let factor = self.number(by * by);
+        for i in 0..3 {
+            self.axial_stiffness[i] = self.axial_stiffness[i] * factor;
+            self.bending_stiffness[i] = self.bending_stiffness[i] * factor;
+        }
+        self
+    }
+
     #[inline(always)]
     fn number(&self, value: f64) -> N {
         self.length.constant(value)
