@@ -30,9 +30,9 @@ pub use elements::Chosen;
 pub use resolved::{
     Action, AngleId, BodyReference, Bushing, By, Cable, CableId, Contact, Coupling, CouplingId,
     Ends, First, Fluid, Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint,
-    JointCoordinate, Load, LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On, Output,
-    Pivot, Place, PointId, Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId, Slider,
-    Spring, Turning,
+    JointCoordinate, Load, LoadId, LoadKind, Marker, MarkerId, Mass, Motion, MotionKind, Of, On,
+    Output, Pivot, Place, PointId, Port, PortKind, Reaction, Resolved, Rigid, RigidId, SlideId,
+    Slider, Spring, Turning,
 };
 pub use timed::{Timed, finite_at, finite_near};
 pub use validate::{ELEMENTS, TOLERANCE};

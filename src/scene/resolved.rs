@@ -2,14 +2,14 @@
 //! what is numbered is numbered once. Values are checked while it is made (`validate/`).
 
 mod loads;
+mod outputs;
 
 use std::collections::BTreeMap;
 
-use super::description::{
-    Along, CableBody, JointKind, OutputKind, Port as GivenPort, RigidBody, Scene, Value,
-};
+use super::description::{CableBody, JointKind, Port as GivenPort, RigidBody, Scene, Value};
 use crate::system::{Drive, Release};
 pub use loads::{Action, Bushing, By, Contact, Fluid, Load, LoadKind, On, Spring};
+pub use outputs::{Of, Output, Reaction, SectionPoint};
 
 /// Numbers that are only made here, so that one list is never read with the number of another.
 macro_rules! numbers {
@@ -38,6 +38,8 @@ numbers! {
     AngleId;
     /// A point of a section whose stress is read.
     PointId;
+    /// A load.
+    LoadId;
     /// A spring and damper of a port.
     CouplingId;
     /// A rigid body, by its place among all bodies.
@@ -319,66 +321,6 @@ pub enum InputKind<'a> {
     Release(&'a str),
     /// Velocity of the fluid of this name, m/s.
     Current(&'a str),
-}
-
-/// A joint or a motion that reacts.
-#[derive(Clone, Copy, Debug)]
-pub struct Reaction<'a> {
-    /// Name.
-    pub name: &'a str,
-    /// Which one.
-    pub holder: HolderId,
-    /// Whether it is a motion.
-    pub is_motion: bool,
-}
-
-/// A quantity that the master reads.
-#[derive(Clone, Copy, Debug)]
-pub struct Output<'a> {
-    /// What is read.
-    pub kind: OutputKind,
-    /// What it is read at; which of these follows from the kind.
-    pub of: Of<'a>,
-    /// Along which axes.
-    pub along: Along,
-}
-
-/// What an output is read at.
-#[derive(Clone, Copy, Debug)]
-pub enum Of<'a> {
-    /// A marker.
-    Marker(Marker<'a>),
-    /// What turns.
-    Turning(Turning<'a>),
-    /// What turns, its angle counted on over full turns.
-    Angle(Turning<'a>, AngleId),
-    /// Points of the section at a marker: the first, and the points as described.
-    Points(Marker<'a>, PointId, &'a [Vec<f64>]),
-    /// A joint of this name, and its slide.
-    Slide(&'a str, SlideId),
-    /// A joint or a motion.
-    Reaction(Reaction<'a>),
-    /// A joint along a line.
-    Sliding(Slider<'a>),
-    /// A gear of this name.
-    Gear(&'a str, HolderId),
-    /// The scene.
-    Scene,
-    /// The spectrum of the scene: the body whose name those of the variables begin with, and how many there are.
-    Spectrum(Option<&'a str>, u32),
-}
-
-/// A point of a section whose stress is read.
-#[derive(Clone, Copy, Debug)]
-pub struct SectionPoint<'a> {
-    /// Where the section is.
-    pub marker: Marker<'a>,
-    /// The cable, rod or beam.
-    pub cable: Cable<'a>,
-    /// Its material coordinate.
-    pub at: f64,
-    /// Coordinates along the first and the second axis of the section; in the plane the way from the line to the left, and 0, m.
-    pub point: [f64; 2],
 }
 
 /// A port.

@@ -5,7 +5,7 @@ use super::inputs::Inputs;
 use super::{
     Error, Pose, Quantity, Redundant, Report, Singular, Spectra, StepFailure, Unresolved, Variable,
 };
-use crate::scene::{Error as SceneError, Resolved, Scene};
+use crate::scene::{Error as SceneError, LoadId, Resolved, Scene};
 use crate::system::{Mode, State};
 
 /// What a step did, and why it was not finished.
@@ -55,7 +55,7 @@ handed_on! {
     fn change([&mut] self, quantity: Quantity, state: &State) -> f64;
     fn markers([&mut] self, state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
     fn outlines([&mut] self, state: &State, inputs: &Inputs, parts: &dyn Fn(usize) -> u32) -> Outlines;
-    fn pull([&mut] self, load: usize, state: &State, inputs: &Inputs) -> [f64; 3];
+    fn contact([&mut] self, load: LoadId, at: &[f64], state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
     fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
 }
 

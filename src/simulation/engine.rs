@@ -11,7 +11,7 @@ use crate::body::Node;
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
 use crate::math::space::components;
-use crate::scene::{Assembled, Holder, InitialState, Resolved, Timed};
+use crate::scene::{Assembled, Holder, InitialState, LoadId, Resolved, Timed};
 use crate::system::equilibrium::{self, Failure, NotFound};
 use crate::system::{
     Derivatives, Dynamics, Evaluation, Gap, Model, NotAssembled, State, System, Work, eigenvalues,
@@ -356,11 +356,18 @@ impl<const D: usize> Engine<D> {
         (&self.assembled, &self.evaluation.x)
     }
 
-    /// What a spring of the scene does to its second end: [`Evaluation::pull`].
-    pub(super) fn pull(&mut self, load: usize, state: &State, inputs: &Inputs) -> [f64; 3] {
+    /// Force per reference length of a contact along a body, N/m.
+    pub(super) fn contact(
+        &mut self,
+        load: LoadId,
+        at: &[f64],
+        state: &State,
+        inputs: &Inputs,
+    ) -> Vec<[f64; 3]> {
         self.evaluate(Evaluated::Kinematics, state, inputs);
-        let system = &self.assembled.system;
-        components(&self.evaluation.pull(system, self.assembled.load(load)))
+        let load = self.assembled.load(load);
+        let force = |s: &f64| self.evaluation.contact(&self.assembled.system, load, *s);
+        at.iter().map(|s| components(&force(s))).collect()
     }
 
     /// Derivative in time, of order 1 or 2, of an output while inputs go on as they do.

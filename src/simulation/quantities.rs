@@ -10,7 +10,9 @@ use crate::integrators::Tolerance;
 use crate::math::jet::Number;
 use crate::math::rotation;
 use crate::math::space::{axis, components};
-use crate::scene::{Along, AngleId, Assembled, CouplingId, HolderId, MarkerId, PointId, SlideId};
+use crate::scene::{
+    Along, AngleId, Assembled, CouplingId, HolderId, LoadId, MarkerId, PointId, SlideId,
+};
 use crate::system::{End, Evaluation, System};
 
 /// Outputs.
@@ -68,6 +70,10 @@ pub enum Quantity {
     SlidingVelocity(HolderId),
     /// The rate of that.
     SlidingAcceleration(HolderId),
+    /// Component of the force of a load on its second end.
+    LoadForce(LoadId, usize),
+    /// Component of the moment of a load on its second end; in the plane the third.
+    LoadMoment(LoadId, usize),
     /// Force of a gear on the displacement of its second joint.
     GearForce(HolderId),
     /// Torque of a gear on the angle of its second joint.
@@ -125,6 +131,7 @@ pub(super) fn value<const D: usize, N: Number>(
     let at = |id: MarkerId| assembled.marker(id);
     let ends = |joint: HolderId| system.joints()[joint.index()].ends;
     let turn = |joint: HolderId| system.joints()[joint.index()].turn;
+    let exerted = |load: LoadId| values.exerted(system, assembled.load(load));
     match quantity {
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
@@ -164,6 +171,8 @@ pub(super) fn value<const D: usize, N: Number>(
         Displacement(joint) | SlidingVelocity(joint) | SlidingAcceleration(joint) => {
             sliding(quantity, values, system, joint)
         }
+        LoadForce(load, axis) => exerted(load).0[axis],
+        LoadMoment(load, axis) => exerted(load).1[axis],
         GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
         MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
         MotionMoment(joint, axis) => -values.reaction(system, joint.index()).1[axis],
@@ -328,10 +337,9 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
             (Dynamics, |by| Some(by.force * by.size))
         }
         Stress(_) | TorsionStress(_) => (Dynamics, |by| Some(by.force / (by.size * by.size))),
-        CouplingForce(..) => (Kinematics, |by| Some(by.force)),
-        CouplingMoment(..) | KineticEnergy | StrainEnergy | GravityEnergy | SpringEnergy => {
-            (Kinematics, |by| Some(by.force * by.size))
-        }
+        CouplingForce(..) | LoadForce(..) => (Kinematics, |by| Some(by.force)),
+        CouplingMoment(..) | LoadMoment(..) | KineticEnergy | StrainEnergy | GravityEnergy
+        | SpringEnergy => (Kinematics, |by| Some(by.force * by.size)),
         Momentum(_) | AngularMomentum(_) | Resolution | Residual(_) => (Kinematics, |_| None),
         Input | Dissipated => (Nothing, |_| None),
     }

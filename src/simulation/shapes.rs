@@ -6,8 +6,8 @@ use super::engine::Engine;
 use super::inputs::Inputs;
 use super::{Error, Quantity, Simulation};
 use crate::body::{Marker, Node, axes_at, combined};
-use crate::math::space::{Vector, components, spins};
-use crate::scene::{Along, Assembled, HolderId};
+use crate::math::space::{Vector, components};
+use crate::scene::{Assembled, LoadId};
 use crate::system::{CableChain, State, System};
 
 /// Where a body is: what a line or surface of it is drawn from.
@@ -58,50 +58,26 @@ impl Simulation {
         Ok(poses.unwrap_or_default())
     }
 
-    /// The force (N) of a joint or motion on its second end now, in global components, whether it is an output or not; the third is zero
-    /// in the plane.
+    /// The value of a quantity now, whether it is an output or not.
     ///
     /// # Errors
     /// The initial state cannot be computed.
-    pub fn reaction(&mut self, holder: HolderId) -> Result<[f64; 3], Error> {
-        self.refresh()?;
-        let mut force = [0.0; 3];
-        if let Some(engine) = &mut self.engine {
-            for (axis, part) in force.iter_mut().enumerate().take(self.scene.dimension) {
-                let quantity = Quantity::Reaction(holder, axis, Along::Global);
-                *part = engine.output(quantity, &self.state, &self.inputs);
-            }
-        }
-        Ok(force)
-    }
-
-    /// The moment (N m) of a joint or motion on its second end now, in global components, whether it is an output or not; in the plane the
-    /// third alone.
-    ///
-    /// # Errors
-    /// The initial state cannot be computed.
-    pub fn reaction_moment(&mut self, holder: HolderId) -> Result<[f64; 3], Error> {
-        self.refresh()?;
-        let mut moment = [0.0; 3];
-        if let Some(engine) = &mut self.engine {
-            for axis in spins(self.scene.dimension) {
-                let quantity = Quantity::ReactionMoment(holder, axis, Along::Global);
-                moment[axis] = engine.output(quantity, &self.state, &self.inputs);
-            }
-        }
-        Ok(moment)
-    }
-
-    /// The force (N) of a spring on its second end now, in global components, by its place among the loads; of one about the axis of a joint
-    /// the moment (N m) about that, first.
-    ///
-    /// # Errors
-    /// The initial state cannot be computed.
-    pub fn pull(&mut self, load: usize) -> Result<[f64; 3], Error> {
+    pub fn read(&mut self, quantity: Quantity) -> Result<f64, Error> {
         self.refresh()?;
         let engine = self.engine.as_mut();
-        let force = engine.map(|engine| engine.pull(load, &self.state, &self.inputs));
-        Ok(force.unwrap_or_default())
+        let value = engine.map(|engine| engine.output(quantity, &self.state, &self.inputs));
+        Ok(value.unwrap_or_default())
+    }
+
+    /// The force per reference length (N/m) of a contact along a body now at these material coordinates, in global components.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub fn contact(&mut self, load: LoadId, at: &[f64]) -> Result<Vec<[f64; 3]>, Error> {
+        self.refresh()?;
+        let engine = self.engine.as_mut();
+        let forces = engine.map(|engine| engine.contact(load, at, &self.state, &self.inputs));
+        Ok(forces.unwrap_or_default())
     }
 
     /// Numbers that the master sets, in the order of [`crate::scene::Resolved::numbers`].

@@ -3,10 +3,10 @@
 use crate::math::function::Function;
 use crate::math::space::spins;
 use crate::scene::{
-    self, HolderId, Input, InputKind, JointCoordinate, LoadKind, MarkerId, MotionKind, On,
-    PortKind, Resolved,
+    self, Along, By, Contact, HolderId, Input, InputKind, LoadId, LoadKind, MarkerId, MotionKind,
+    On, PortKind, Resolved,
 };
-use crate::simulation::{Error, Simulation};
+use crate::simulation::{Error, Quantity, Simulation};
 use crate::system::Signal;
 
 /// Arrows that stand for what acts all along a body.
@@ -44,10 +44,12 @@ pub(super) enum Where {
 enum Origin<'a> {
     /// Its components, and expressions of those that change along a body.
     Components(&'a [Signal], &'a [(usize, &'a str)]),
-    Reaction(HolderId),
-    ReactionMoment(HolderId),
-    /// A spring or a stop, by its place among the loads.
-    Spring(usize),
+    /// Of a joint or a motion, one an axis.
+    Reaction(Vec<Quantity>),
+    /// Of a spring, a stop or a contact, one an axis.
+    Load(Vec<Quantity>),
+    /// Of a contact along a body.
+    Contact(LoadId),
 }
 
 /// Everything that acts in a scene.
@@ -76,8 +78,8 @@ pub(super) fn actions<'a>(resolved: &'a Resolved<'a>) -> Vec<Action<'a>> {
         LoadKind::Fluid(fluid) => Some(of_fluid(load.name, fluid)),
         _ => None,
     });
-    let springs = resolved.loads.iter().enumerate();
-    let springs = springs.filter_map(|(place, load)| of_spring(place, load, dimension));
+    let springs = resolved.numbered_loads();
+    let springs = springs.flat_map(|(id, load)| of_spring(id, load, dimension));
     let reactions = reactions(resolved);
     (known.chain(fluids))
         .chain(springs)
@@ -109,51 +111,66 @@ fn reactions<'a>(resolved: &'a Resolved<'a>) -> impl Iterator<Item = Action<'a>>
         (motion.name, motion.holder, marker, [!turns, turns])
     });
     let of = move |(name, holder, marker, holds): (&'a str, HolderId, MarkerId, [bool; 2])| {
-        let [force, moment] = [false, true].map(|is_moment| Action {
-            name,
-            unit: if is_moment { "N m" } else { "N" },
-            is_moment,
-            follower: false,
-            components: match is_moment {
-                true => spins(dimension).len(),
-                false => dimension,
-            },
-            on: Where::Marker(marker),
-            of: match is_moment {
-                true => Origin::ReactionMoment(holder),
-                false => Origin::Reaction(holder),
-            },
-        });
-        let found = holds.into_iter().zip([force, moment]);
-        found.filter_map(|(is_there, action)| is_there.then_some(action))
+        let quantity = move |is_moment, axis| match is_moment {
+            true => Quantity::ReactionMoment(holder, axis, Along::Global),
+            false => Quantity::Reaction(holder, axis, Along::Global),
+        };
+        exerted((name, marker, dimension), holds, quantity, Origin::Reaction)
     };
     joints.chain(motions).flat_map(of)
 }
 
-/// What a spring, a bushing or a stop does to its second end; none of other loads.
-fn of_spring<'a>(place: usize, load: &'a scene::Load<'a>, dimension: usize) -> Option<Action<'a>> {
-    let (on, is_moment) = match &load.kind {
-        LoadKind::Spring(_) | LoadKind::Bushing(_) => {
-            (Where::Marker(load.kind.between()?.second.id), false)
-        }
-        LoadKind::JointSpring { on, .. } | LoadKind::Stop { on, .. } => match on {
-            JointCoordinate::Displacement(slider) => (Where::Marker(slider.ends.second.id), false),
-            JointCoordinate::Angle(pivot) => {
-                let marker = pivot.ends.second.id;
-                (Where::Joint(marker, pivot.joint.index()), true)
+/// A force and a moment on a marker, those that are there.
+fn exerted<'a>(
+    (name, marker, dimension): (&'a str, MarkerId, usize),
+    is_there: [bool; 2],
+    quantity: impl Fn(bool, usize) -> Quantity,
+    of: impl Fn(Vec<Quantity>) -> Origin<'a>,
+) -> impl Iterator<Item = Action<'a>> {
+    let both = [(is_there[0], false), (is_there[1], true)].into_iter();
+    both.filter(|(is_there, _)| *is_there)
+        .map(move |(_, is_moment)| {
+            let axes = match is_moment {
+                true => spins(dimension),
+                false => 0..dimension,
+            };
+            Action {
+                name,
+                unit: if is_moment { "N m" } else { "N" },
+                is_moment,
+                follower: false,
+                components: axes.len(),
+                on: Where::Marker(marker),
+                of: of(axes.map(|axis| quantity(is_moment, axis)).collect()),
             }
-        },
-        LoadKind::Action { .. } | LoadKind::Fluid(_) | LoadKind::Contact(_) => return None,
+        })
+}
+
+/// What a spring, a bushing or a stop does to its second end, a contact to its marker or along its body; nothing of other loads.
+fn of_spring<'a>(id: LoadId, load: &'a scene::Load<'a>, dimension: usize) -> Vec<Action<'a>> {
+    let quantity = move |is_moment, axis| match is_moment {
+        true => Quantity::LoadMoment(id, axis),
+        false => Quantity::LoadForce(id, axis),
     };
-    Some(Action {
+    if let Some(marker) = load.kind.exerts_on() {
+        let at = (load.name, marker.id, dimension);
+        return exerted(at, load.kind.exerts(), quantity, Origin::Load).collect();
+    }
+    let LoadKind::Contact(Contact {
+        by: By::Cable(on), ..
+    }) = &load.kind
+    else {
+        return Vec::new();
+    };
+    vec![Action {
         name: load.name,
-        unit: if is_moment { "N m" } else { "N" },
-        is_moment,
+        unit: "N/m",
+        is_moment: false,
         follower: false,
-        components: if is_moment { 1 } else { dimension },
-        on,
-        of: Origin::Spring(place),
-    })
+        components: dimension,
+        on: Where::Body(on.id.body_index()),
+        of: Origin::Contact(id),
+    }]
 }
 
 /// The current of a fluid.
@@ -185,25 +202,30 @@ fn of_action<'a>(name: &'a str, action: &'a scene::Action<'a>, dimension: usize)
     }
 }
 
+/// Material coordinates of the arrows along a body.
+fn places() -> Vec<f64> {
+    let arrows = 0..ARROWS;
+    let place = |arrow| (f64::from(arrow) + 0.5) / f64::from(ARROWS);
+    arrows.map(place).collect()
+}
+
 impl Action<'_> {
     /// Whether it is a force or moment of a joint or motion.
     pub fn is_reaction(&self) -> bool {
-        matches!(self.of, Origin::Reaction(_) | Origin::ReactionMoment(_))
+        matches!(self.of, Origin::Reaction(_))
     }
 
     /// Its components now, arrow by arrow.
     pub fn values(&self, simulation: &mut Simulation) -> Result<Vec<f64>, Error> {
-        let (components, along) = match self.of {
-            Origin::Reaction(holder) => {
-                let force = simulation.reaction(holder)?;
-                return Ok(force[..self.components].to_vec());
+        let (components, along) = match &self.of {
+            Origin::Reaction(quantities) | Origin::Load(quantities) => {
+                let values = quantities.iter().map(|of| simulation.read(*of));
+                return values.collect();
             }
-            Origin::ReactionMoment(holder) => {
-                let moment = simulation.reaction_moment(holder)?;
-                return Ok(moment[3 - self.components..].to_vec());
-            }
-            Origin::Spring(place) => {
-                return Ok(simulation.pull(place)?[..self.components].to_vec());
+            Origin::Contact(load) => {
+                let forces = simulation.contact(*load, &places())?;
+                let forces = forces.iter().flat_map(|force| &force[..self.components]);
+                return Ok(forces.copied().collect());
             }
             Origin::Components(components, along) => (components, along),
         };
@@ -218,10 +240,9 @@ impl Action<'_> {
             return Ok(same);
         }
         let mut values = Vec::new();
-        for arrow in 0..ARROWS {
-            let s = (f64::from(arrow) + 0.5) / f64::from(ARROWS);
+        for s in places() {
             let mut at = same.clone();
-            for (axis, text) in along {
+            for (axis, text) in *along {
                 let function = Function::along(text, s);
                 at[*axis] = function.map_or(0.0, |function| function.value(time));
             }

@@ -41,6 +41,8 @@ named! { label, LABELS, Quantity:
     ConnectivityForce(_, 0) => "connectivity force x", ConnectivityForce(_, 1) => "connectivity force y", ConnectivityForce(..) => "connectivity force z",
     Displacement(_) => "displacement", SlidingVelocity(_) => "sliding velocity", SlidingAcceleration(_) => "sliding acceleration",
     GearForce(_) => "gear force", GearTorque(_) => "gear torque",
+    LoadForce(_, 0) => "load force x", LoadForce(_, 1) => "load force y", LoadForce(..) => "load force z",
+    LoadMoment(_, 0) => "load moment x", LoadMoment(_, 1) => "load moment y", LoadMoment(..) => "load moment",
     Travel(_) => "travel", Reaction(_, 0, Along::Global) => "reaction x", Reaction(_, 1, Along::Global) => "reaction y", Reaction(_, _, Along::Global) => "reaction z",
     Reaction(_, 0, Along::Body) => "reaction x along the body", Reaction(_, 1, Along::Body) => "reaction y along the body", Reaction(_, _, Along::Body) => "reaction z along the body",
     ReactionMoment(_, 0, Along::Global) => "reaction moment x", ReactionMoment(_, 1, Along::Global) => "reaction moment y", ReactionMoment(_, _, Along::Global) => "reaction moment",

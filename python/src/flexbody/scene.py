@@ -1152,6 +1152,31 @@ class GearTorqueOutput(Part):
     """
 
 
+class LoadForceOutput(Part):
+    """
+    Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `joint_spring` or `stop` on a displacement; of a
+    `contact` on its marker or on the whole body.
+    """
+
+    kind: Literal["load_force"] = "load_force"
+    load: StrictStr
+    """
+    Name of a load, for its force or moment.
+    """
+
+
+class LoadMomentOutput(Part):
+    """
+    Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring` or `stop` on an angle.
+    """
+
+    kind: Literal["load_moment"] = "load_moment"
+    load: StrictStr
+    """
+    Name of a load, for its force or moment.
+    """
+
+
 class EnergyOutput(Part):
     """
     Kinetic, strain and gravitational energy, and that of springs where there are any, J.
@@ -1273,6 +1298,8 @@ Output = TypeAliasType(
         | ReactionMomentOutput
         | GearForceOutput
         | GearTorqueOutput
+        | LoadForceOutput
+        | LoadMomentOutput
         | EnergyOutput
         | WorkOutput
         | MomentumOutput

@@ -18,7 +18,7 @@ pub use initial::Motions;
 use nalgebra::{Matrix3, Vector3};
 
 use super::resolved::{
-    self, CouplingId, Ends, First, Hold, MarkerId, Place, PointId, Resolved, Turning,
+    self, CouplingId, Ends, First, Hold, LoadId, MarkerId, Place, PointId, Resolved, Turning,
 };
 use super::{Error, OutputKind, Scene};
 use crate::body::{Marker, Node};
@@ -108,9 +108,9 @@ impl<const D: usize> Assembled<D> {
         &self.points[id.index()]
     }
 
-    /// Place among the loads of the system of a load of the scene, by its place there.
-    pub fn load(&self, place: usize) -> usize {
-        self.first_load + place
+    /// Place among the loads of the system of a load of the scene.
+    pub fn load(&self, id: LoadId) -> usize {
+        self.first_load + id.index()
     }
 
     /// Place among the loads of the system of a coupling.

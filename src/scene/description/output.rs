@@ -20,6 +20,9 @@ pub struct Output {
     /// Name of a gear.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gear: Option<String>,
+    /// Name of a load, for its force or moment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<String>,
     /// Name of a motion, for what drives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<String>,
@@ -129,6 +132,11 @@ pub enum OutputKind {
     GearForce,
     /// Torque of a gear on the angle of its second joint, N m; on the coordinate of the first acts minus the ratio times that.
     GearTorque,
+    /// Force of a load on its second marker, N: of a `spring_damper`, a `bushing`, a `joint_spring` or `stop` on a displacement; of a
+    /// `contact` on its marker or on the whole body.
+    LoadForce,
+    /// Moment of a load on its second marker, N m: of a `bushing`, a `joint_spring` or `stop` on an angle.
+    LoadMoment,
     /// Kinetic, strain and gravitational energy, and that of springs where there are any, J.
     Energy,
     /// Work done by loads, inputs and motions since the start, and energy lost in dampers, J.
@@ -168,6 +176,8 @@ pub enum ReadAt {
     Sliding,
     /// A gear.
     Gear,
+    /// A load whose force or moment follows from the motion.
+    Load,
     /// A marker with a direction: of a cable, or of a rigid body that has inertia.
     Directed,
     /// A marker of a cable.
@@ -206,6 +216,7 @@ impl OutputKind {
             Self::Velocity | Self::Acceleration => ReadAt::Moving,
             Self::Displacement => ReadAt::Sliding,
             Self::GearForce | Self::GearTorque => ReadAt::Gear,
+            Self::LoadForce | Self::LoadMoment => ReadAt::Load,
             Self::Direction => ReadAt::Directed,
             Self::Orientation | Self::Quaternion | Self::RotationVector => ReadAt::Standing,
             Self::Strain | Self::Curvature => ReadAt::Flexible,
@@ -245,6 +256,7 @@ impl Kind for OutputKind {
             ReadAt::Angle | ReadAt::Moving => &[(&["joint"], &[]), (&["marker"], &[])],
             ReadAt::Turning => &[(&["joint"], &[]), (&["marker"], &["axes"])],
             ReadAt::Gear => &[(&["gear"], &[])],
+            ReadAt::Load => &[(&["load"], &[])],
             ReadAt::Slide | ReadAt::Sliding => &[(&["joint"], &[])],
             ReadAt::Force | ReadAt::Moment => &[(&["motion"], &[]), (&["joint"], &["axes"])],
             ReadAt::Scene => &[(&[], &[])],

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Cable, Ends, JointCoordinate, Marker, Pivot};
+use super::{Cable, Ends, JointCoordinate, LoadId, Marker, Pivot, Resolved};
 use crate::scene::description::{ActionKind, SectionNumbers, Surface, Value};
 use crate::system::Signal;
 
@@ -155,6 +155,29 @@ impl<'a> LoadKind<'a> {
         }
     }
 
+    /// Whether it has a force, and whether it has a moment, that follows from the motion.
+    pub fn exerts(&self) -> [bool; 2] {
+        match self {
+            Self::Action { .. } | Self::Fluid(_) => [false; 2],
+            Self::Spring(_) | Self::Contact(_) => [true, false],
+            Self::Bushing(_) => [true; 2],
+            Self::JointSpring { on, .. } | Self::Stop { on, .. } => [!on.is_angle(), on.is_angle()],
+        }
+    }
+
+    /// The marker that such a force or moment acts on; none of a contact of a body.
+    pub fn exerts_on(&self) -> Option<Marker<'a>> {
+        match self {
+            Self::Action { .. } | Self::Fluid(_) => None,
+            Self::Spring(_) | Self::Bushing(_) => self.between().map(|ends| ends.second),
+            Self::Contact(contact) => contact.by.marker(),
+            Self::JointSpring { on, .. } | Self::Stop { on, .. } => Some(match on {
+                JointCoordinate::Displacement(slider) => slider.ends.second,
+                JointCoordinate::Angle(pivot) => pivot.ends.second,
+            }),
+        }
+    }
+
     /// Its largest stiffness against ways (N/m, of contacts of bodies N/m per length) and against turns (N m/rad).
     pub fn stiffness(&self) -> [f64; 2] {
         match self {
@@ -213,4 +236,12 @@ pub enum On<'a> {
     Joint(Pivot<'a>),
     /// A cable, per reference length.
     Cable(Cable<'a>),
+}
+
+impl<'a> Resolved<'a> {
+    /// Loads with their numbers.
+    pub fn numbered_loads(&self) -> impl Iterator<Item = (LoadId, &Load<'a>)> {
+        let loads = self.loads.iter().enumerate();
+        loads.map(|(place, load)| (LoadId(place), load))
+    }
 }

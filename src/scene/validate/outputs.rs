@@ -14,10 +14,11 @@ const MOST_FREQUENCIES: u32 = 100;
 
 impl Output {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 8] = [
+        let all: [Key; 9] = [
             ("marker", self.marker.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
             ("gear", self.gear.is_some(), "a name"),
+            ("load", self.load.is_some(), "a name"),
             ("motion", self.motion.is_some(), "a name"),
             ("axes", !self.axes.is_global(), "axes"),
             ("body", self.body.is_some(), "a name"),
@@ -57,6 +58,7 @@ impl<'a> Resolved<'a> {
                 &output.marker,
                 &output.joint,
                 &output.gear,
+                &output.load,
                 &output.motion,
                 &output.body,
             ];
@@ -118,6 +120,7 @@ impl<'a> Resolved<'a> {
                 Of::Sliding(self.require_slider(&format!("{path}.joint"), name)?)
             }
             ReadAt::Gear => self.gear(path, output)?,
+            ReadAt::Load => self.exerting(path, output)?,
             ReadAt::Marker => Of::Marker(marker(Self::require_marker)?),
             ReadAt::Directed => Of::Marker(marker(Self::require_directed)?),
             ReadAt::Standing => Of::Marker(marker(Self::require_standing)?),
@@ -178,6 +181,26 @@ impl<'a> Resolved<'a> {
             return Err(expected(&path, wanted, quoted(name)));
         }
         Ok(Of::Gear(gear.name, gear.holder))
+    }
+
+    fn exerting(&self, path: &str, output: &'a Output) -> Result<Of<'a>, Error> {
+        let name = needed(path, "load", "a name", output.load.as_deref())?;
+        let path = format!("{path}.load");
+        let mut loads = self.numbered_loads();
+        let Some((id, load)) = loads.find(|(_, load)| load.name == name) else {
+            return Err(expected(&path, "a load of this scene", quoted(name)));
+        };
+        let is_moment = output.kind == OutputKind::LoadMoment;
+        if load.kind.exerts()[usize::from(is_moment)] {
+            return Ok(Of::Load(load.name, id, load.kind.exerts_on()));
+        }
+        let wanted = match is_moment {
+            false => {
+                "a spring_damper, bushing or contact, or a joint_spring or stop on a displacement"
+            }
+            true => "a bushing, or a joint_spring or stop on an angle",
+        };
+        Err(expected(&path, wanted, quoted(name)))
     }
 
     fn reaction(&self, path: &str, output: &'a Output) -> Result<Reaction<'a>, Error> {

@@ -3,8 +3,8 @@
 use super::unit::*;
 use super::{AXES, List, PARTS, Quantity, Source, Unit, component};
 use crate::scene::{
-    Along, AngleId, HolderId, InputKind, MarkerId, Of, Output, OutputKind, PointId, Port, PortKind,
-    Resolved, SlideId, Turning,
+    Along, AngleId, HolderId, InputKind, LoadId, MarkerId, Of, Output, OutputKind, PointId, Port,
+    PortKind, Resolved, SlideId, Turning,
 };
 use crate::simulation::quantities::{Evaluated, needs};
 
@@ -40,6 +40,7 @@ enum Read {
     Moving(fn(MarkerId, usize) -> Quantity, fn(HolderId) -> Quantity),
     /// One number of a joint or a gear.
     Joint(fn(HolderId) -> Quantity),
+    Load(fn(LoadId, usize) -> Quantity),
     Counted(fn(AngleId) -> Quantity),
     Points(fn(PointId) -> Quantity),
     Slide(fn(SlideId) -> Quantity),
@@ -64,6 +65,8 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         Kind::Displacement => vec![("displacement", "Displacement of {}", Some(METRE), Scalar, Read::Joint(Displacement))],
         Kind::GearForce => vec![("gear_force", "Force of {} on the displacement of its second joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
         Kind::GearTorque => vec![("gear_torque", "Torque of {} on the angle of its second joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
+        Kind::LoadForce => vec![("force", "Force of {}", Some(NEWTON), Vector, Read::Load(LoadForce))],
+        Kind::LoadMoment => vec![("moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::Load(LoadMoment))],
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
         Kind::Orientation => vec![("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation))],
         Kind::Quaternion => vec![("quaternion", "Unit quaternion of the frame at {}", None, Four, Read::Marker(Quaternion))],
@@ -213,6 +216,10 @@ fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
             (slider.name, what)
         }
         Of::Gear(gear, _) => (gear, (*gear).into()),
+        Of::Load(load, _, on) => {
+            let on = on.map_or("the body that it acts along", |marker| marker.name);
+            (load, format!("{load} on {on}"))
+        }
         Of::Reaction(reaction) => {
             let on = match reaction.is_motion {
                 true => "what it drives",
@@ -246,6 +253,7 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
             quantity(slider.joint)
         }
         (Read::Joint(quantity), Of::Gear(_, holder)) => quantity(*holder),
+        (Read::Load(quantity), Of::Load(_, load, _)) => quantity(*load, k),
         (Read::Counted(quantity), Of::Angle(_, angle)) => quantity(*angle),
         (Read::Points(quantity), Of::Points(_, first, _)) => quantity(first.after(k)),
         (Read::Slide(quantity), Of::Slide(_, slide)) => quantity(*slide),
@@ -365,12 +373,12 @@ impl List {
 
     /// An output follows at once from inputs where accelerations do, or springs that the master sets.
     fn output(&mut self, name: String, what: String, unit: Option<Unit>, source: Source) {
-        use Quantity::{CouplingForce, CouplingMoment, Input, SpringEnergy};
+        use Quantity::{CouplingForce, CouplingMoment, Input, LoadForce, SpringEnergy};
         self.add(name, what, unit, source, None);
         if let (Some(variable), Source::Output(quantity)) = (self.variables.last_mut(), source) {
             let of_springs = matches!(
                 quantity,
-                SpringEnergy | Input | CouplingForce(..) | CouplingMoment(..)
+                SpringEnergy | Input | CouplingForce(..) | CouplingMoment(..) | LoadForce(..)
             );
             variable.is_direct =
                 needs(quantity) == Evaluated::Dynamics || (self.sets_springs && of_springs);

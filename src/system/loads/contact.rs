@@ -202,6 +202,25 @@ impl<const D: usize> Contact<D> {
         });
     }
 
+    /// The whole force, N.
+    pub(in crate::system) fn whole<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
+        let mut sum = Vector::zeros();
+        self.each_force(at, 0..self.places.len(), |_, [force, _]| sum += force);
+        sum
+    }
+
+    /// Force at the point that is nearest to a material coordinate of the body, N/m; that of a marker, N.
+    pub(in crate::system) fn nearest(&self, at: Instant<'_, D>, s: f64) -> Vector<D> {
+        let length: f64 = self.places.iter().map(|place| place.weight).sum();
+        let mut before = 0.0;
+        let place = self.places.iter().find(|place| {
+            before += place.weight;
+            before >= s * length
+        });
+        let place = place.or(self.places.last());
+        place.map_or_else(Vector::zeros, |place| self.force(&place.marker, at))
+    }
+
     fn each_force<N: Number>(
         &self,
         at: Instant<'_, D, N>,

@@ -9,7 +9,6 @@ use crate::math::rotation::{NO_TURN, Quaternion};
 use crate::math::space::{Vector, axis, moment};
 use crate::system::instant::Instant;
 use crate::system::joints::View;
-use crate::system::loads::Load;
 use crate::system::motion::forces::weighted;
 use crate::system::{CableChain, End, Model, State, System, Work};
 
@@ -176,88 +175,6 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
         let (axes, second) = (axes_at(node, x), axes_at(node, a));
         let sum = (0..3).fold(Vector3::zeros(), |sum, k| sum + axes[k].cross(&second[k]));
         (sum * N::of(0.5)).into()
-    }
-
-    /// Force (N) and moment (N m), in the plane its third component, of a joint or motion on its second end.
-    pub fn reaction(&self, system: &System<D>, joint: usize) -> (Vector<D, N>, [N; 3]) {
-        if let Some(clamp) = system.joints[joint].clamp() {
-            return self.clamped(system, clamp);
-        }
-        let mut force = Vector::zeros();
-        let second = system.joints[joint].ends[1].lift();
-        let u = second.direction(&self.x);
-        let mut turning = Vector3::zeros();
-        for (row, linear) in system.linear.iter().enumerate() {
-            if linear.joint == Some(joint) {
-                let lambda = system.row_multiplier(row, &self.supply);
-                let [position, direction] = linear.on_ends[1].map(|on| on.map(N::of) * lambda);
-                force += position;
-                turning += Vector3::from(moment(&u, &direction));
-            }
-        }
-        let (at, view) = (self.instant(system), self.view(system));
-        for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
-            if constraint.joint == Some(joint) {
-                constraint.for_each_pair(&view, |pair| {
-                    let (end, [position, direction]) = pair.ends[1];
-                    let u = end.direction(&self.x);
-                    force -= position * *lambda;
-                    turning -= Vector3::from(moment(&u, &(direction * *lambda)));
-                });
-            }
-        }
-        if let Some(load) = system.joints[joint].spring
-            && let Load::JointSpring(spring) = &system.loads[load]
-        {
-            let pair = spring.coordinate.gradient(&self.x);
-            let (end, [_, direction]) = &pair.ends[1];
-            let on = direction * spring.force(at);
-            turning += Vector3::from(moment(&end.direction(&self.x), &on));
-        }
-        (force, turning.into())
-    }
-
-    /// Force (N) or torque (N m) of a gear on the coordinate of its second joint.
-    pub fn gear(&self, system: &System<D>, gear: usize) -> N {
-        let rows = system.constraints.iter().zip(&self.lambda);
-        let mut own = rows.filter(|(constraint, _)| constraint.joint == Some(gear));
-        own.next().map_or(N::of(0.0), |(_, lambda)| -*lambda)
-    }
-
-    /// Force (N) and moment (N m), in the plane its third component, of a coupling on what it couples to.
-    pub fn coupling(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
-        let (at, zero) = (self.instant(system), N::of(0.0));
-        match &system.loads[load] {
-            Load::Bushing(coupling) => (coupling.force(at), [zero; 3]),
-            Load::RotationalBushing(coupling) => {
-                (Vector::zeros(), [zero, zero, coupling.moment(at)])
-            }
-            Load::OrientationBushing(coupling) => (Vector::zeros(), coupling.moment(at).into()),
-            _ => (Vector::zeros(), [zero; 3]),
-        }
-    }
-
-    /// Force (N) of a spring on its second end; of one about an axis of a joint the moment (N m) about it, first.
-    pub fn pull(&self, system: &System<D>, load: usize) -> Vector<D, N> {
-        let (load, at) = (&system.loads[load], self.instant(system));
-        let about = |moment: N| {
-            let mut first = Vector::zeros();
-            first[0] = moment;
-            first
-        };
-        match load {
-            Load::JointSpring(spring) if spring.coordinate.is_angle() => about(spring.force(at)),
-            Load::Stop(stop) if stop.coordinate.is_angle() => about(stop.force(at)),
-            _ => {
-                let (mut sum, second) = (Vector::zeros(), load.ends().last().map(End::lift));
-                load.act(at, |end, [position, _]| {
-                    if Some(end) == second.as_ref() {
-                        sum += position;
-                    }
-                });
-                sum
-            }
-        }
     }
 
     pub(in crate::system) fn instant<'a>(&'a self, system: &'a System<D>) -> Instant<'a, D, N> {

@@ -3,6 +3,7 @@
 mod clamp;
 pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
+mod forces;
 mod lengthened;
 mod resolution;
 pub(in crate::system) mod rod;

@@ -92,18 +92,21 @@ fn on_a_plane() -> Specimen {
     let at_marker = |velocity| sum(velocity, times(spin, [-arm[1], arm[0]]));
     let (deeper, leaving, fast) = ([0.7, -0.9], [-0.4, 0.5], [0.3, 2.6]);
     let surface = json!({"plane": {"point": point, "normal": times(2.5, normal)}});
+    let mut outputs = read(&["a", "b", "c", "d"]);
+    outputs.push(json!({"kind": "load_force", "load": "of_b"}));
     let scene = json!({"name": "plane", "dimension": 2,
         "bodies": [body("a", place(0.0, 0.03), deeper, spin), body("b", place(1.0, 0.05), leaving, spin),
                    body("c", place(2.0, 0.02), fast, spin), body("d", place(3.0, -0.01), deeper, spin), extra()],
         "loads": [contact("of_a", "a.p", &surface), contact("of_b", "b.p", &surface),
                   contact("of_c", "c.p", &surface), contact("of_d", "d.p", &surface)],
-        "outputs": read(&["a", "b", "c", "d"])});
+        "outputs": outputs});
     let mut specimen = Specimen::new("on a plane", scene);
     specimen = pushed(specimen, "a", force(0.03, normal, at_marker(deeper)));
     specimen = pushed(specimen, "b", force(0.05, normal, at_marker(leaving)));
     specimen = pushed(specimen, "c", [0.0; 2]);
     specimen = pushed(specimen, "d", [0.0; 2]);
     let depths = 0.03 * 0.03 + 0.05 * 0.05 + 0.02 * 0.02;
+    specimen = specimen.vector("of_b.force", "N", force(0.05, normal, at_marker(leaving)));
     specimen.claim("energy.spring", "J", 0.5 * STIFFNESS * depths)
 }
 
@@ -158,7 +161,7 @@ fn in_space() -> Specimen {
                    particle("c", foot + axis * 0.7 + across * (radius - 0.03))],
         "loads": [contact("of_a", "a.c", &plane), contact("of_b", "b.c", &sphere), contact("of_c", "c.c", &cylinder)],
         "outputs": [{"kind": "acceleration", "marker": "a.c"}, {"kind": "acceleration", "marker": "b.c"},
-                    {"kind": "acceleration", "marker": "c.c"}, {"kind": "energy"}]});
+                    {"kind": "acceleration", "marker": "c.c"}, {"kind": "energy"}, {"kind": "load_force", "load": "of_a"}]});
     let mut specimen = Specimen::new("on surfaces in space", scene);
     for (name, force) in [
         ("a", force(0.02, normal)),
@@ -172,6 +175,7 @@ fn in_space() -> Specimen {
             force / MASS,
         );
     }
+    specimen = vector(specimen, "of_a.force", "N", force(0.02, normal));
     let depths = 0.02 * 0.02 + 0.05 * 0.05 + 0.03 * 0.03;
     specimen.claim("energy.spring", "J", 0.5 * STIFFNESS * depths)
 }
@@ -231,11 +235,13 @@ fn along_a_cable() -> Specimen {
         "loads": [{"name": "floor", "kind": "contact", "body": "rod", "stiffness": STIFFNESS, "damping": DAMPING,
                    "friction": FRICTION, "slip_velocity": SLIP,
                    "surface": {"plane": {"point": [5.0, depth], "normal": [0.0, 1.0]}}}],
-        "outputs": [{"kind": "acceleration", "marker": "rod.p"}, {"kind": "acceleration", "marker": "rod.e"}, {"kind": "energy"}]});
+        "outputs": [{"kind": "acceleration", "marker": "rod.p"}, {"kind": "acceleration", "marker": "rod.e"}, {"kind": "energy"},
+                    {"kind": "load_force", "load": "floor"}]});
     let even = times(1.0 / density, force(depth, [0.0, 1.0], velocity));
     Specimen::new("along a cable", scene)
         .vector("rod.p.acceleration", "m/s2", even)
         .vector("rod.e.acceleration", "m/s2", even)
+        .vector("floor.force", "N", force(depth, [0.0, 1.0], velocity))
         .claim("energy.spring", "J", 0.5 * STIFFNESS * depth * depth)
 }
 

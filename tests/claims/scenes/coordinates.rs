@@ -3,10 +3,10 @@
 use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 
-use super::extra;
 use super::space::{array, vector};
 use super::space_bodies::Body;
 use super::space_joints::{AXIS, axis, body};
+use super::{extra, times};
 use crate::specimen::Specimen;
 
 const FORCE: Vector3<f64> = Vector3::new(1.9, -0.8, 2.7);
@@ -60,6 +60,14 @@ fn claimed(
     specimen
 }
 
+/// What two loads exert: a force and a moment.
+fn exerted(force: &str, moment: &str) -> Vec<Value> {
+    vec![
+        json!({"kind": "load_force", "load": force}),
+        json!({"kind": "load_moment", "load": moment}),
+    ]
+}
+
 /// A body that moves along and about an axis of no symmetry through its centre of mass, from a point 0.3 m before it.
 fn on_axis(speed: f64, rate: f64) -> (Body, [f64; 3]) {
     let (mut bar, n) = (body("bar"), axis());
@@ -88,13 +96,17 @@ fn sprung() -> Specimen {
                    "stiffness": turning_k, "damping": turning_c, "rest": turning_rest},
                   {"name": "plain", "kind": "joint_spring", "joint": "guide", "stiffness": 2.0, "rest": 0.2},
                   {"name": "damper", "kind": "joint_spring", "joint": "guide", "coordinate": "angle", "damping": 0.2, "rest": 0.5}],
-        "outputs": joined([read(WAY, "guide"), read(TURN, "guide"), vec![json!({"kind": "energy"})]])});
+        "outputs": joined([read(WAY, "guide"), read(TURN, "guide"), exerted("spring", "torsion"), vec![json!({"kind": "energy"})]])});
     let force = -k * (0.3 - rest) - c * speed - 2.0 * (0.3 - 0.2);
     let torque = turning_k * turning_rest - (turning_c + 0.2) * rate;
     let inertia = n.dot(&(bar.tensor() * n));
     let mut specimen = Specimen::new("sprung", scene);
     specimen = claimed(specimen, WAY, "guide", [0.3, speed, force / bar.mass]);
     specimen = claimed(specimen, TURN, "guide", [0.0, rate, torque / inertia]);
+    let on_bar = n * (-k * (0.3 - rest) - c * speed);
+    let turning = n * (turning_k * turning_rest - turning_c * rate);
+    specimen = vector(specimen, "spring.force", "N", on_bar);
+    specimen = vector(specimen, "torsion.moment", "N.m", turning);
     let stored =
         k * (0.3 - rest) * (0.3 - rest) + 2.0 * 0.01 + turning_k * turning_rest * turning_rest;
     specimen.claim("energy.spring", "J", 0.5 * stored)
@@ -125,7 +137,7 @@ fn stopped() -> Specimen {
                   stop("pressed", json!({"lower": 0.45, "stiffness": 4.0})),
                   stop("about", json!({"coordinate": "angle", "lower": lower, "stiffness": turning_k, "damping": turning_a})),
                   stop("wide", json!({"coordinate": "angle", "upper": 1.0, "stiffness": turning_k})), far],
-        "outputs": joined([read(WAY, "other"), read(WAY, "guide"), read(TURN, "guide"), vec![json!({"kind": "energy"})]])});
+        "outputs": joined([read(WAY, "other"), read(WAY, "guide"), read(TURN, "guide"), exerted("above", "about"), vec![json!({"kind": "energy"})]])});
     let force = -k * (0.3 - upper) * (1.0 + a * speed) + 4.0 * 0.15;
     let torque = turning_k * lower * (1.0 - turning_a * rate);
     let inertia = n.dot(&(bar.tensor() * n));
@@ -133,6 +145,9 @@ fn stopped() -> Specimen {
     specimen = claimed(specimen, WAY, "other", [0.6, 0.0, 0.0]);
     specimen = claimed(specimen, WAY, "guide", [0.3, speed, force / bar.mass]);
     specimen = claimed(specimen, TURN, "guide", [0.0, rate, torque / inertia]);
+    let on_bar = n * (-k * (0.3 - upper) * (1.0 + a * speed));
+    specimen = vector(specimen, "above.force", "N", on_bar);
+    specimen = vector(specimen, "about.moment", "N.m", n * torque);
     let stored = k * 0.01 + 9.0 * 0.01 + 4.0 * 0.15 * 0.15 + turning_k * lower * lower;
     specimen.claim("energy.spring", "J", 0.5 * stored)
 }
@@ -161,7 +176,7 @@ fn in_bar() -> [f64; 2] {
 /// In the plane: springs between two free bodies, along a line of the first, and about a revolute joint.
 fn planar() -> Specimen {
     let masses = [0.8, 1.3];
-    let (mut bodies, _) = bar_and_block(masses);
+    let (mut bodies, along) = bar_and_block(masses);
     let rotor = json!({"element": "rigid", "name": "rotor", "mass": 0.7, "inertia": 0.2, "position": [3.1, 2.3],
                        "angle": 1.1, "markers": {"a": [0.1, 0.05]}});
     bodies.as_array_mut().expect("a list").push(rotor);
@@ -171,10 +186,12 @@ fn planar() -> Specimen {
                    {"name": "pin", "kind": "revolute", "markers": ["ground", "rotor.a"]}],
         "loads": [{"name": "spring", "kind": "joint_spring", "joint": "rail", "stiffness": k, "rest": rest},
                   {"name": "torsion", "kind": "joint_spring", "joint": "pin", "stiffness": 2.0, "rest": 0.3}],
-        "outputs": joined([read(WAY, "rail"), read(TURN, "pin")])});
+        "outputs": joined([read(WAY, "rail"), read(TURN, "pin"), exerted("spring", "torsion")])});
     let force = -k * (0.4 - rest);
     let relative = force / masses[0] + force / masses[1];
-    let specimen = Specimen::new("springs in the plane", scene);
+    let specimen = Specimen::new("springs in the plane", scene)
+        .vector("spring.force", "N", times(force, along))
+        .claim("torsion.moment", "N.m", -2.0 * (1.1 - 0.3));
     let specimen = claimed(specimen, WAY, "rail", [0.4, 0.0, relative]);
     let inertia = 0.2 + 0.7 * (0.01 + 0.0025);
     claimed(

@@ -181,7 +181,8 @@ fn springs() -> Specimen {
         "outputs": [{"kind": "acceleration", "marker": "a.c"}, {"kind": "acceleration", "marker": "b.c"},
                     {"kind": "acceleration", "marker": "c.c"}, {"kind": "acceleration", "marker": "d.c"},
                     {"kind": "acceleration", "marker": "e.c"}, {"kind": "acceleration", "marker": "f.c"},
-                    {"kind": "acceleration", "marker": "g.c"}, {"kind": "energy"}]});
+                    {"kind": "acceleration", "marker": "g.c"}, {"kind": "energy"},
+                    {"kind": "load_force", "load": "full"}, {"kind": "load_force", "load": "pair"}]});
     let unit = [0.6, 0.8];
     let (pull, brake) = (-k * (1.0 - rest) / 1.6, -d * dot(speed, unit) / 1.6);
     Specimen::new("springs", scene)
@@ -192,6 +193,8 @@ fn springs() -> Specimen {
         .vector("e.c.acceleration", "m/s2", [0.0, 0.0])
         .vector("f.c.acceleration", "m/s2", times(-pull - brake, unit))
         .vector("g.c.acceleration", "m/s2", times(pull + brake, unit))
+        .vector("full.force", "N", times(1.6 * (pull + brake), unit))
+        .vector("pair.force", "N", times(1.6 * (pull + brake), unit))
         .claim("energy.spring", "J", 0.5 * k * (3.0 * 0.04 + rest * rest))
 }
 

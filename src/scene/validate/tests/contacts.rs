@@ -48,3 +48,31 @@ fn markers_and_bodies_touch_surfaces_of_their_dimension() {
         "#,
     );
 }
+
+#[test]
+fn forces_and_moments_are_read_of_loads_that_follow_from_the_motion() {
+    check(
+        || {
+            let mut scene = scene(2);
+            scene["joints"] =
+                json!([{"name": "pin", "kind": "revolute", "markers": ["ground", "ball.c"]}]);
+            scene["loads"] = json!([
+                {"name": "push", "kind": "force", "marker": "ball.c", "value": [1, 0]},
+                {"name": "floor", "kind": "contact", "body": "rod", "stiffness": 5,
+                 "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}},
+                {"name": "spring", "kind": "joint_spring", "joint": "pin", "stiffness": 5}]);
+            scene["outputs"] = json!([{}]);
+            scene
+        },
+        r#"
+        /outputs/0 | {"kind": "load_force", "load": "floor"} | accepted
+        /outputs/0 | {"kind": "load_moment", "load": "spring"} | accepted
+        /outputs/0 | {"kind": "load_force"} | outputs[0].load: expected a name, found nothing
+        /outputs/0 | {"kind": "load_force", "load": "ground"} | outputs[0].load: expected a load of this scene, found "ground"
+        /outputs/0 | {"kind": "load_force", "load": "push"} | outputs[0].load: expected a spring_damper, bushing or contact, or a joint_spring or stop on a displacement, found "push"
+        /outputs/0 | {"kind": "load_force", "load": "spring"} | outputs[0].load: expected a spring_damper, bushing or contact, or a joint_spring or stop on a displacement, found "spring"
+        /outputs/0 | {"kind": "load_moment", "load": "floor"} | outputs[0].load: expected a bushing, or a joint_spring or stop on an angle, found "floor"
+        /outputs/0 | {"kind": "reaction", "joint": "pin", "load": "floor"} | outputs[0].load: expected nothing for this kind of output, found a name
+        "#,
+    );
+}

@@ -1,0 +1,66 @@
+//! What the master reads.
+
+use super::{AngleId, Cable, HolderId, LoadId, Marker, PointId, SlideId, Slider, Turning};
+use crate::scene::description::{Along, OutputKind};
+
+/// A joint or a motion that reacts.
+#[derive(Clone, Copy, Debug)]
+pub struct Reaction<'a> {
+    /// Name.
+    pub name: &'a str,
+    /// Which one.
+    pub holder: HolderId,
+    /// Whether it is a motion.
+    pub is_motion: bool,
+}
+
+/// A quantity that the master reads.
+#[derive(Clone, Copy, Debug)]
+pub struct Output<'a> {
+    /// What is read.
+    pub kind: OutputKind,
+    /// What it is read at; which of these follows from the kind.
+    pub of: Of<'a>,
+    /// Along which axes.
+    pub along: Along,
+}
+
+/// What an output is read at.
+#[derive(Clone, Copy, Debug)]
+pub enum Of<'a> {
+    /// A marker.
+    Marker(Marker<'a>),
+    /// What turns.
+    Turning(Turning<'a>),
+    /// What turns, its angle counted on over full turns.
+    Angle(Turning<'a>, AngleId),
+    /// Points of the section at a marker: the first, and the points as described.
+    Points(Marker<'a>, PointId, &'a [Vec<f64>]),
+    /// A joint of this name, and its slide.
+    Slide(&'a str, SlideId),
+    /// A joint or a motion.
+    Reaction(Reaction<'a>),
+    /// A joint along a line.
+    Sliding(Slider<'a>),
+    /// A gear of this name.
+    Gear(&'a str, HolderId),
+    /// A load of this name, and the marker that it acts on; none of a contact of a body.
+    Load(&'a str, LoadId, Option<Marker<'a>>),
+    /// The scene.
+    Scene,
+    /// The spectrum of the scene: the body whose name those of the variables begin with, and how many there are.
+    Spectrum(Option<&'a str>, u32),
+}
+
+/// A point of a section whose stress is read.
+#[derive(Clone, Copy, Debug)]
+pub struct SectionPoint<'a> {
+    /// Where the section is.
+    pub marker: Marker<'a>,
+    /// The cable, rod or beam.
+    pub cable: Cable<'a>,
+    /// Its material coordinate.
+    pub at: f64,
+    /// Coordinates along the first and the second axis of the section; in the plane the way from the line to the left, and 0, m.
+    pub point: [f64; 2],
+}

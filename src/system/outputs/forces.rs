@@ -1,0 +1,105 @@
+//! What joints, motions, gears, couplings and loads exert.
+
+use nalgebra::Vector3;
+
+use super::evaluation::Evaluation;
+use crate::math::jet::Number;
+use crate::math::space::{Vector, moment};
+use crate::system::loads::Load;
+use crate::system::{End, System};
+
+impl<const D: usize, N: Number> Evaluation<D, N> {
+    /// Force (N) and moment (N m), in the plane its third component, of a joint or motion on its second end.
+    pub fn reaction(&self, system: &System<D>, joint: usize) -> (Vector<D, N>, [N; 3]) {
+        if let Some(clamp) = system.joints[joint].clamp() {
+            return self.clamped(system, clamp);
+        }
+        let mut force = Vector::zeros();
+        let second = system.joints[joint].ends[1].lift();
+        let u = second.direction(&self.x);
+        let mut turning = Vector3::zeros();
+        for (row, linear) in system.linear.iter().enumerate() {
+            if linear.joint == Some(joint) {
+                let lambda = system.row_multiplier(row, &self.supply);
+                let [position, direction] = linear.on_ends[1].map(|on| on.map(N::of) * lambda);
+                force += position;
+                turning += Vector3::from(moment(&u, &direction));
+            }
+        }
+        let (at, view) = (self.instant(system), self.view(system));
+        for (constraint, lambda) in system.constraints.iter().zip(&self.lambda) {
+            if constraint.joint == Some(joint) {
+                constraint.for_each_pair(&view, |pair| {
+                    let (end, [position, direction]) = pair.ends[1];
+                    let u = end.direction(&self.x);
+                    force -= position * *lambda;
+                    turning -= Vector3::from(moment(&u, &(direction * *lambda)));
+                });
+            }
+        }
+        if let Some(load) = system.joints[joint].spring
+            && let Load::JointSpring(spring) = &system.loads[load]
+        {
+            let pair = spring.coordinate.gradient(&self.x);
+            let (end, [_, direction]) = &pair.ends[1];
+            let on = direction * spring.force(at);
+            turning += Vector3::from(moment(&end.direction(&self.x), &on));
+        }
+        (force, turning.into())
+    }
+
+    /// Force (N) or torque (N m) of a gear on the coordinate of its second joint.
+    pub fn gear(&self, system: &System<D>, gear: usize) -> N {
+        let rows = system.constraints.iter().zip(&self.lambda);
+        let mut own = rows.filter(|(constraint, _)| constraint.joint == Some(gear));
+        own.next().map_or(N::of(0.0), |(_, lambda)| -*lambda)
+    }
+
+    /// Force (N) and moment (N m), in the plane its third component, of a coupling on what it couples to.
+    pub fn coupling(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
+        let (at, zero) = (self.instant(system), N::of(0.0));
+        match &system.loads[load] {
+            Load::Bushing(coupling) => (coupling.force(at), [zero; 3]),
+            Load::RotationalBushing(coupling) => {
+                (Vector::zeros(), [zero, zero, coupling.moment(at)])
+            }
+            Load::OrientationBushing(coupling) => (Vector::zeros(), coupling.moment(at).into()),
+            _ => (Vector::zeros(), [zero; 3]),
+        }
+    }
+
+    /// Force (N) and moment (N m), in the plane its third component, of a load on its second end, or on the one that it has; of
+    /// contact along a body the whole force, without a moment.
+    pub fn exerted(&self, system: &System<D>, load: usize) -> (Vector<D, N>, [N; 3]) {
+        let (load, at) = (&system.loads[load], self.instant(system));
+        let (mut force, mut turning) = (Vector::zeros(), Vector3::zeros());
+        if let Load::Contact(contact) = load {
+            return (contact.whole(at), turning.into());
+        }
+        let Some(End::Body(second)) = load.ends().last().copied() else {
+            return (force, turning.into());
+        };
+        load.act(at, |end, [position, direction]| {
+            if *end == End::Body(second.lift()) {
+                force += position;
+            }
+            // Along other axes of the same body too.
+            if let End::Body(marker) = end
+                && (marker.body, marker.nodes) == (second.body, second.nodes)
+            {
+                turning += Vector3::from(moment(&end.direction(&self.x), &direction));
+            }
+        });
+        (force, turning.into())
+    }
+}
+
+impl<const D: usize> Evaluation<D> {
+    /// Force per reference length of a contact along a body at a material coordinate, N/m.
+    pub fn contact(&self, system: &System<D>, load: usize, s: f64) -> Vector<D> {
+        match &system.loads[load] {
+            Load::Contact(contact) => contact.nearest(self.instant(system), s),
+            _ => Vector::zeros(),
+        }
+    }
+}
