@@ -24,8 +24,10 @@ const TURN: [(&str, &str); 3] = [
 
 pub fn all() -> Vec<Specimen> {
     vec![
-        sprung(),
-        stopped(),
+        sprung(false),
+        sprung(true),
+        stopped(false),
+        stopped(true),
         planar(),
         driven_in_the_plane(),
         driven_in_space(),
@@ -68,6 +70,12 @@ fn exerted(force: &str, moment: &str) -> Vec<Value> {
     ]
 }
 
+/// Reads these too. A scene that does is refused, not wrong, where the coordinate of one changes.
+fn read_too(scene: &mut Value, force: &str, moment: &str) {
+    let outputs = scene["outputs"].as_array_mut().expect("a list");
+    outputs.extend(exerted(force, moment));
+}
+
 /// A body that moves along and about an axis of no symmetry through its centre of mass, from a point 0.3 m before it.
 fn on_axis(speed: f64, rate: f64) -> (Body, [f64; 3]) {
     let (mut bar, n) = (body("bar"), axis());
@@ -78,14 +86,14 @@ fn on_axis(speed: f64, rate: f64) -> (Body, [f64; 3]) {
 }
 
 /// Springs and dampers along and about the axis of a cylindrical joint.
-fn sprung() -> Specimen {
+fn sprung(is_read: bool) -> Specimen {
     let ([speed, rate], n) = ([0.7, -1.2], axis());
     let (bar, point) = on_axis(speed, rate);
     let [k, c, rest] = [5.0, 0.4, 0.1];
     let [turning_k, turning_c, turning_rest] = [2.0, 0.3, -0.2];
     // Of its joint nothing is read.
     let idle = body("idle");
-    let scene = json!({"name": "sprung", "dimension": 3, "bodies": [bar.described(Value::Null), idle.described(Value::Null)],
+    let mut scene = json!({"name": "sprung", "dimension": 3, "bodies": [bar.described(Value::Null), idle.described(Value::Null)],
         "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point},
                    {"name": "other", "kind": "cylindrical", "markers": ["ground", "idle.c"], "direction": AXIS,
                     "point": array(idle.place)}],
@@ -96,24 +104,29 @@ fn sprung() -> Specimen {
                    "stiffness": turning_k, "damping": turning_c, "rest": turning_rest},
                   {"name": "plain", "kind": "joint_spring", "joint": "guide", "stiffness": 2.0, "rest": 0.2},
                   {"name": "damper", "kind": "joint_spring", "joint": "guide", "coordinate": "angle", "damping": 0.2, "rest": 0.5}],
-        "outputs": joined([read(WAY, "guide"), read(TURN, "guide"), exerted("spring", "torsion"), vec![json!({"kind": "energy"})]])});
+        "outputs": joined([read(WAY, "guide"), read(TURN, "guide"), vec![json!({"kind": "energy"})]])});
     let force = -k * (0.3 - rest) - c * speed - 2.0 * (0.3 - 0.2);
     let torque = turning_k * turning_rest - (turning_c + 0.2) * rate;
     let inertia = n.dot(&(bar.tensor() * n));
-    let mut specimen = Specimen::new("sprung", scene);
+    if is_read {
+        read_too(&mut scene, "spring", "torsion");
+    }
+    let mut specimen = Specimen::new(if is_read { "sprung, read" } else { "sprung" }, scene);
     specimen = claimed(specimen, WAY, "guide", [0.3, speed, force / bar.mass]);
     specimen = claimed(specimen, TURN, "guide", [0.0, rate, torque / inertia]);
     let on_bar = n * (-k * (0.3 - rest) - c * speed);
     let turning = n * (turning_k * turning_rest - turning_c * rate);
-    specimen = vector(specimen, "spring.force", "N", on_bar);
-    specimen = vector(specimen, "torsion.moment", "N.m", turning);
+    if is_read {
+        specimen = vector(specimen, "spring.force", "N", on_bar);
+        specimen = vector(specimen, "torsion.moment", "N.m", turning);
+    }
     let stored =
         k * (0.3 - rest) * (0.3 - rest) + 2.0 * 0.01 + turning_k * turning_rest * turning_rest;
     specimen.claim("energy.spring", "J", 0.5 * stored)
 }
 
 /// Stops of both coordinates: `k d (1 + a d')`, two on each side; and one that is left too fast to push.
-fn stopped() -> Specimen {
+fn stopped(is_read: bool) -> Specimen {
     let ([speed, rate], n) = ([0.7, -1.2], axis());
     let (bar, point) = on_axis(speed, rate);
     let ([upper, k, a], [lower, turning_k, turning_a]) = ([0.2, 50.0, 0.6], [0.25, 3.0, 0.5]);
@@ -127,7 +140,7 @@ fn stopped() -> Specimen {
     let idle = body("idle");
     let mut far = stop("far", json!({"lower": 0.1, "stiffness": 7.0}));
     far["joint"] = json!("other");
-    let scene = json!({"name": "stopped", "dimension": 3, "bodies": [bar.described(Value::Null), idle.described(Value::Null)],
+    let mut scene = json!({"name": "stopped", "dimension": 3, "bodies": [bar.described(Value::Null), idle.described(Value::Null)],
         "joints": [{"name": "guide", "kind": "cylindrical", "markers": ["ground", "bar.c"], "direction": AXIS, "point": point},
                    {"name": "other", "kind": "cylindrical", "markers": ["ground", "idle.c"], "direction": AXIS,
                     "point": array(idle.place - n * 0.6)}],
@@ -137,17 +150,22 @@ fn stopped() -> Specimen {
                   stop("pressed", json!({"lower": 0.45, "stiffness": 4.0})),
                   stop("about", json!({"coordinate": "angle", "lower": lower, "stiffness": turning_k, "damping": turning_a})),
                   stop("wide", json!({"coordinate": "angle", "upper": 1.0, "stiffness": turning_k})), far],
-        "outputs": joined([read(WAY, "other"), read(WAY, "guide"), read(TURN, "guide"), exerted("above", "about"), vec![json!({"kind": "energy"})]])});
+        "outputs": joined([read(WAY, "other"), read(WAY, "guide"), read(TURN, "guide"), vec![json!({"kind": "energy"})]])});
     let force = -k * (0.3 - upper) * (1.0 + a * speed) + 4.0 * 0.15;
     let torque = turning_k * lower * (1.0 - turning_a * rate);
     let inertia = n.dot(&(bar.tensor() * n));
-    let mut specimen = Specimen::new("stopped", scene);
+    if is_read {
+        read_too(&mut scene, "above", "about");
+    }
+    let mut specimen = Specimen::new(if is_read { "stopped, read" } else { "stopped" }, scene);
     specimen = claimed(specimen, WAY, "other", [0.6, 0.0, 0.0]);
     specimen = claimed(specimen, WAY, "guide", [0.3, speed, force / bar.mass]);
     specimen = claimed(specimen, TURN, "guide", [0.0, rate, torque / inertia]);
     let on_bar = n * (-k * (0.3 - upper) * (1.0 + a * speed));
-    specimen = vector(specimen, "above.force", "N", on_bar);
-    specimen = vector(specimen, "about.moment", "N.m", n * torque);
+    if is_read {
+        specimen = vector(specimen, "above.force", "N", on_bar);
+        specimen = vector(specimen, "about.moment", "N.m", n * torque);
+    }
     let stored = k * 0.01 + 9.0 * 0.01 + 4.0 * 0.15 * 0.15 + turning_k * lower * lower;
     specimen.claim("energy.spring", "J", 0.5 * stored)
 }
