@@ -131,7 +131,6 @@ pub(super) fn value<const D: usize, N: Number>(
     let at = |id: MarkerId| assembled.marker(id);
     let ends = |joint: HolderId| system.joints()[joint.index()].ends;
     let turn = |joint: HolderId| system.joints()[joint.index()].turn;
-    let exerted = |load: LoadId| values.exerted(system, assembled.load(load));
     match quantity {
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
@@ -171,13 +170,9 @@ pub(super) fn value<const D: usize, N: Number>(
         Displacement(joint) | SlidingVelocity(joint) | SlidingAcceleration(joint) => {
             sliding(quantity, values, system, joint)
         }
-        LoadForce(load, axis) => exerted(load).0[axis],
-        LoadMoment(load, axis) => exerted(load).1[axis],
         GearForce(gear) | GearTorque(gear) => values.gear(system, gear.index()),
-        MotionForce(joint, axis) => -values.reaction(system, joint.index()).0[axis],
-        MotionMoment(joint, axis) => -values.reaction(system, joint.index()).1[axis],
-        CouplingForce(id, axis) => values.coupling(system, assembled.coupling(id)).0[axis],
-        CouplingMoment(id, axis) => values.coupling(system, assembled.coupling(id)).1[axis],
+        LoadForce(..) | LoadMoment(..) | MotionForce(..) | MotionMoment(..) | CouplingForce(..)
+        | CouplingMoment(..) => exerted(quantity, values, assembled),
         KineticEnergy => values.kinetic_energy(system),
         StrainEnergy => values.strain_energy(system),
         GravityEnergy => values.gravity_energy(system),
@@ -236,6 +231,28 @@ fn turning<const D: usize, N: Number>(
             component(rate, axis, along, axes)
         }
         _ => unreachable!("what else is read of a body does not turn"),
+    }
+}
+
+/// Component of the force or moment of a load on its second end, of a motion on what drives it, of a coupling on what it couples to.
+fn exerted<const D: usize, N: Number>(
+    quantity: Quantity,
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+) -> N {
+    use Quantity::*;
+    let system = &assembled.system;
+    let load = |id| values.exerted(system, assembled.load(id));
+    let motion = |joint: HolderId| values.reaction(system, joint.index());
+    let coupling = |id| values.coupling(system, assembled.coupling(id));
+    match quantity {
+        LoadForce(id, axis) => load(id).0[axis],
+        LoadMoment(id, axis) => load(id).1[axis],
+        MotionForce(joint, axis) => -motion(joint).0[axis],
+        MotionMoment(joint, axis) => -motion(joint).1[axis],
+        CouplingForce(id, axis) => coupling(id).0[axis],
+        CouplingMoment(id, axis) => coupling(id).1[axis],
+        _ => unreachable!("what else is read is exerted by no load, motion or coupling"),
     }
 }
 

@@ -63,10 +63,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Moving(Velocity, SlidingVelocity))],
         Kind::Acceleration => vec![("acceleration", "Acceleration of {}", Some(METRE_PER_SECOND_2), Vector, Read::Moving(Acceleration, SlidingAcceleration))],
         Kind::Displacement => vec![("displacement", "Displacement of {}", Some(METRE), Scalar, Read::Joint(Displacement))],
-        Kind::GearForce => vec![("gear_force", "Force of {} on the displacement of its second joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
-        Kind::GearTorque => vec![("gear_torque", "Torque of {} on the angle of its second joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
-        Kind::LoadForce => vec![("force", "Force of {}", Some(NEWTON), Vector, Read::Load(LoadForce))],
-        Kind::LoadMoment => vec![("moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::Load(LoadMoment))],
+        Kind::GearForce | Kind::GearTorque | Kind::LoadForce | Kind::LoadMoment => exerted(kind),
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
         Kind::Orientation => vec![("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation))],
         Kind::Quaternion => vec![("quaternion", "Unit quaternion of the frame at {}", None, Four, Read::Marker(Quaternion))],
@@ -123,6 +120,20 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
             ("eigenvalue.frequency", "Frequency of eigenvalue {} about the initial state, 0 of a real one",
                 Some(RADIAN_PER_SECOND), List, Read::Spectrum(|n| Source::Eigenvalue(n, 1))),
         ],
+    }
+}
+
+/// What gears and loads exert.
+#[rustfmt::skip] // a table
+fn exerted(kind: OutputKind) -> Vec<Row> {
+    use OutputKind as Kind;
+    use Quantity::*;
+    use Shape::{Scalar, Turn, Vector};
+    match kind {
+        Kind::GearForce => vec![("gear_force", "Force of {} on the displacement of its second joint", Some(NEWTON), Scalar, Read::Joint(GearForce))],
+        Kind::GearTorque => vec![("gear_torque", "Torque of {} on the angle of its second joint", Some(NEWTON_METRE), Scalar, Read::Joint(GearTorque))],
+        Kind::LoadForce => vec![("force", "Force of {}", Some(NEWTON), Vector, Read::Load(LoadForce))],
+        _ => vec![("moment", "Moment of {}", Some(NEWTON_METRE), Turn, Read::Load(LoadMoment))],
     }
 }
 
