@@ -2,7 +2,9 @@
 
 use super::CableChain;
 use super::end::Angle;
+use super::winch::{PaidOut, Winch};
 use crate::body::{Frames, Node, RodChain};
+use crate::math::jet::Number;
 
 /// Time, inputs and state as loads see them.
 #[derive(Clone, Copy)]
@@ -25,4 +27,19 @@ pub struct Instant<'a, const D: usize, N = f64> {
     pub sections: (&'a [RodChain], &'a Frames),
     /// Counted angles of the system and their current values, rad.
     pub angles: (&'a [Angle<D>], &'a [N]),
+    /// Cables that winches pay out.
+    pub winches: &'a [Winch<D>],
+}
+
+impl<'a, const D: usize, N: Number> Instant<'a, D, N> {
+    /// The body with this first node, if a winch pays it out.
+    pub fn paid_out(&self, first: usize) -> Option<PaidOut<'a, D, N>> {
+        let mut winches = self.winches.iter();
+        let winch = winches.find(|winch| winch.nodes[0] == first)?;
+        Some(PaidOut {
+            winch,
+            chain: &self.chains[winch.chain],
+            now: winch.now(self.drives),
+        })
+    }
 }

@@ -42,6 +42,35 @@ pub struct Winch<const D: usize = 2> {
     pub gravity: Vector<D>,
 }
 
+/// A cable that is paid out, at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct PaidOut<'a, const D: usize, N> {
+    /// Its winch.
+    pub winch: &'a Winch<D>,
+    /// The cable.
+    pub chain: &'a CableChain<D>,
+    /// How long it is.
+    pub now: Length<N>,
+}
+
+impl<const D: usize, N: Number> PaidOut<'_, D, N> {
+    /// Velocity at which material passes a place of the mesh, from the slope `r'` there, m/s.
+    pub fn passing(&self, (element, at): (usize, f64), slope: Vector<D, N>) -> Vector<D, N> {
+        let way = self.winch.way(self.chain, element, at);
+        slope * (self.now.rate * N::of(way))
+    }
+
+    /// Length that is paid out in time, `L'`, m/s.
+    pub fn speed(&self) -> N {
+        self.now.rate * N::of(self.winch.length) / self.now.by
+    }
+}
+
+/// The length now over the reference length; 1 of what no winch pays out.
+pub fn longer_by<const D: usize, N: Number>(paid_out: Option<&PaidOut<'_, D, N>>) -> N {
+    paid_out.map_or_else(|| N::of(1.0), |paid_out| paid_out.now.longer_by())
+}
+
 /// How long a cable is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Length<N> {
@@ -110,6 +139,15 @@ impl<const D: usize> Winch<D> {
         first..first + count
     }
 
+    /// The node at the winch.
+    pub fn end(&self) -> usize {
+        let [first, count] = self.nodes;
+        match self.at_last {
+            true => first + count - 1,
+            false => first,
+        }
+    }
+
     /// How long the cable is.
     pub fn now<N: Number>(&self, drives: &[[N; 3]]) -> Length<N> {
         let [travel, rate, second] = drives[self.drive];
@@ -146,7 +184,8 @@ impl<const D: usize> Winch<D> {
         now: &Length<N>,
     ) -> Vector<D, N> {
         let slope = e * shape::slopes(N::of(xi), chain.element_length(j));
-        slope * (now.rate * N::of(self.way(chain, j, xi)))
+        let (winch, now) = (self, *now);
+        PaidOut { winch, chain, now }.passing((j, xi), slope)
     }
 
     /// Inertia forces of the accelerations of the material that follow from positions and rates of the mesh, at the Gauss points of an

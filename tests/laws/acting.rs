@@ -45,6 +45,7 @@ impl Acted<'_> {
             chains: &self.frame.chains,
             sections: (&[], &Frames::default()),
             angles: (&self.angles, &hints),
+            winches: &[],
         };
         f(&self.load, instant)
     }
@@ -426,6 +427,7 @@ fn a_rotational_spring_counts_turns() {
                 chains: &frame.chains,
                 sections: (&[], &Frames::default()),
                 angles: (&angles, &[hint]),
+                winches: &[],
             });
             value + spring.stiffness * std::f64::consts::TAU * turns
         };
@@ -443,6 +445,7 @@ fn a_rotational_spring_counts_turns() {
             chains: &frame.chains,
             sections: (&[], &Frames::default()),
             angles: (&angles, &[0.0]),
+            winches: &[],
         };
         within("a number", (held.value(at) - 2.5).abs(), 0.0)
     });

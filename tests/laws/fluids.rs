@@ -54,6 +54,7 @@ fn at<'a>(frame: &'a Frame, x: &'a [Node], v: &'a [Node], none: &'a Frames) -> I
         chains: &frame.chains,
         sections: (&[], none),
         angles: (&[], &[]),
+        winches: &[],
     }
 }
 

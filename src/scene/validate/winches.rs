@@ -2,9 +2,7 @@
 
 use super::checks::{expected, quoted};
 use crate::scene::description::{InitialState, Sections, Shape, Strain};
-use crate::scene::resolved::{
-    By, Cable, First, Hold, InputKind, LoadKind, Marker, MotionKind, On, Place, Resolved,
-};
+use crate::scene::resolved::{Cable, First, Hold, LoadKind, Marker, MotionKind, Place, Resolved};
 use crate::scene::{Error, Model};
 
 impl<'a> Resolved<'a> {
@@ -69,9 +67,10 @@ impl<'a> Resolved<'a> {
         }
         for (index, cable) in cables {
             if let Some(name) = self.acts_along(cable) {
-                let wanted = "a cable on which nothing acts between its ends but gravity, since a winch pays it out";
+                let wanted = "a cable at whose markers between its ends nothing acts, and without masses, since a winch pays it out";
                 return Err(expected(&format!("motions[{index}]"), wanted, quoted(name)));
             }
+            self.check_fluids(cable)?;
         }
         Ok(())
     }
@@ -99,31 +98,21 @@ impl<'a> Resolved<'a> {
                 return Some(joint.name);
             }
         }
-        for load in &self.loads {
-            let on = match &load.kind {
-                LoadKind::Fluid(fluid) => Some(fluid.on),
-                LoadKind::Action { action, .. } => match action.on {
-                    On::Cable(on) => Some(on),
-                    On::Marker(_) | On::Joint(_) => None,
-                },
-                LoadKind::Contact(contact) => match contact.by {
-                    By::Cable(on) => Some(on),
-                    By::Marker(_) => None,
-                },
-                _ => None,
-            };
-            if on.is_some_and(|on| on.id == cable.id) {
-                return Some(load.name);
-            }
-        }
-        for input in &self.inputs {
-            if let InputKind::Action(action) = &input.kind
-                && let On::Cable(on) = action.on
-                && on.id == cable.id
-            {
-                return Some(action.kind.words()[0]);
-            }
-        }
         None
+    }
+
+    /// What of a fluid is not known of a cable through whose mesh material passes.
+    fn check_fluids(&self, cable: Cable<'a>) -> Result<(), Error> {
+        for (index, load) in self.loads.iter().enumerate() {
+            if let LoadKind::Fluid(fluid) = &load.kind
+                && fluid.on.id == cable.id
+                && fluid.added_mass > 0.0
+            {
+                let path = format!("loads[{index}].added_mass");
+                let wanted = "0 along a cable that a winch pays out, which slides past fluid that it does not take along";
+                return Err(expected(&path, wanted, fluid.added_mass));
+            }
+        }
+        Ok(())
     }
 }

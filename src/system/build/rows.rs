@@ -196,8 +196,13 @@ pub(super) fn winches<const D: usize>(parts: &mut Parts<D>) -> Vec<Winch<D>> {
         Winch::new((*chain, &parts.chains[*chain]), (*at_last, *drive), gravity)
     };
     let winches: Vec<Winch<D>> = parts.winches.iter().map(of).collect();
-    let transports = winches.iter().cloned();
-    let transports = transports.map(|winch| Load::Transport(Box::new(Transport { winch })));
+    let transports = winches.iter().enumerate();
+    let transports = transports.map(|(winch, of)| {
+        Load::Transport(Transport {
+            winch,
+            chain: of.chain,
+        })
+    });
     parts.loads.extend(transports);
     winches
 }

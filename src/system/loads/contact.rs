@@ -16,6 +16,7 @@ use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
 use crate::system::end::{End, between};
+use crate::system::winch::{PaidOut, longer_by};
 
 /// What is touched; it stands still in the frame of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,14 +123,30 @@ impl<const D: usize> Surface<D> {
 }
 
 impl<const D: usize> Contact<D> {
+    /// The body, if a winch pays it out.
+    fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
+        match self.is_spread() {
+            true => at.paid_out(self.first_node()),
+            false => None,
+        }
+    }
+
     /// How a point touches; none above the surface.
     #[inline(always)]
-    fn touch<N: Number>(&self, marker: &Marker<N>, at: Instant<'_, D, N>) -> Option<Touch<D, N>> {
+    fn touch<N: Number>(
+        &self,
+        marker: &Marker<N>,
+        at: Instant<'_, D, N>,
+        paid_out: Option<&PaidOut<'_, D, N>>,
+    ) -> Option<Touch<D, N>> {
         let (depth, normal) = self.surface.under(&marker.position(at.x))?;
         if depth.plain() <= 0.0 {
             return None;
         }
-        let velocity: Vector<D, N> = marker.position(at.v);
+        let mut velocity: Vector<D, N> = marker.position(at.v);
+        if let (Some(paid_out), Some(place)) = (paid_out, marker.element) {
+            velocity += paid_out.passing(place, marker.direction(at.x));
+        }
         let rate = -normal.dot(&velocity);
         let slip = velocity + normal * rate;
         let bracket = N::of(1.0) + N::of(self.damping) * rate;
@@ -150,8 +167,13 @@ impl<const D: usize> Contact<D> {
     }
 
     /// Force on a point, N or N/m.
-    fn force<N: Number>(&self, marker: &Marker<N>, at: Instant<'_, D, N>) -> Vector<D, N> {
-        let Some(touch) = self.touch(marker, at) else {
+    fn force<N: Number>(
+        &self,
+        marker: &Marker<N>,
+        at: Instant<'_, D, N>,
+        paid_out: Option<&PaidOut<'_, D, N>>,
+    ) -> Vector<D, N> {
+        let Some(touch) = self.touch(marker, at, paid_out) else {
             return Vector::zeros();
         };
         let push = self.push(&touch);
@@ -178,7 +200,11 @@ impl<const D: usize> Contact<D> {
         stretch: usize,
     ) -> Values<D, N> {
         let places = &self.places[stretch * GAUSS_5.len()..];
-        std::array::from_fn(|k| self.force(&places[k].marker.lift(), at))
+        let paid_out = self.paid_out(at);
+        let longer = longer_by(paid_out.as_ref());
+        std::array::from_fn(|k| {
+            self.force(&places[k].marker.lift(), at, paid_out.as_ref()) * longer
+        })
     }
 
     /// Nodes of the stretches of a body, or of the marker.
@@ -218,7 +244,10 @@ impl<const D: usize> Contact<D> {
             before >= s * length
         });
         let place = place.or(self.places.last());
-        place.map_or_else(Vector::zeros, |place| self.force(&place.marker, at))
+        let paid_out = self.paid_out(at);
+        place.map_or_else(Vector::zeros, |place| {
+            self.force(&place.marker, at, paid_out.as_ref())
+        })
     }
 
     fn each_force<N: Number>(
@@ -227,9 +256,12 @@ impl<const D: usize> Contact<D> {
         places: std::ops::Range<usize>,
         mut call: impl FnMut(&End<D, N>, [Vector<D, N>; 2]),
     ) {
+        let paid_out = self.paid_out(at);
+        let longer = longer_by(paid_out.as_ref());
         for place in &self.places[places] {
             let marker = place.marker.lift();
-            let force = self.force(&marker, at) * N::of(place.weight);
+            let force = self.force(&marker, at, paid_out.as_ref());
+            let force = force * (N::of(place.weight) * longer);
             call(&End::Body(marker), [force, Vector::zeros()]);
         }
     }
@@ -259,17 +291,20 @@ impl<const D: usize> Contact<D> {
         stiffness: Add<'_, D>,
         damping: Add<'_, D>,
     ) {
+        let paid_out = self.paid_out(at);
+        let longer = longer_by(paid_out.as_ref());
         for place in &self.places {
-            let Some(touch) = self.touch(&place.marker, at) else {
+            let Some(touch) = self.touch(&place.marker, at, paid_out.as_ref()) else {
                 continue;
             };
+            let weight = place.weight * longer;
             let ends = [End::Ground(Vector::zeros()), End::Body(place.marker)];
             let (push, normal) = (self.push(&touch), &touch.normal);
             let along: SMatrix<f64, D, D> = normal * normal.transpose();
             // What is round pushes aside.
             let turning = self.surface.curvature(touch.depth, normal) * push;
             let stiff = along * (self.stiffness * touch.damped) - turning;
-            between(&ends, stiff * place.weight, 0, &mut *stiffness);
+            between(&ends, stiff * weight, 0, &mut *stiffness);
             let mut damped = match touch.damped > 0.0 {
                 true => along * (self.stiffness * self.damping * touch.depth),
                 false => SMatrix::zeros(),
@@ -279,23 +314,38 @@ impl<const D: usize> Contact<D> {
                 let across = SMatrix::identity() - along - way * way.transpose();
                 damped += across * (self.friction * push / touch.speed);
             }
-            between(&ends, damped * place.weight, 0, &mut *damping);
+            between(&ends, damped * weight, 0, &mut *damping);
         }
     }
 
     /// The sum over all points of what touching takes or holds there, by their weights.
     fn sum<N: Number>(&self, at: Instant<'_, D, N>, of: impl Fn(&Touch<D, N>) -> N) -> N {
-        let mut sum = N::of(0.0);
+        let (mut sum, paid_out) = (N::of(0.0), self.paid_out(at));
         for place in &self.places {
-            if let Some(touch) = self.touch(&place.marker.lift(), at) {
+            if let Some(touch) = self.touch(&place.marker.lift(), at, paid_out.as_ref()) {
                 sum += of(&touch) * N::of(place.weight);
             }
         }
-        sum
+        sum * longer_by(paid_out.as_ref())
+    }
+
+    /// What comes in with material that touches where a winch pays it out, and what is dissipated, W.
+    pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> [N; 2] {
+        let mut comes_in = N::of(0.0);
+        if let Some(paid_out) = self.paid_out(at) {
+            let end = Vector::from(at.x[paid_out.winch.end()][0]);
+            if let Some((depth, _)) = self.surface.under(&end)
+                && depth.plain() > 0.0
+            {
+                let stored = N::of(0.5 * self.stiffness) * depth * depth;
+                comes_in = stored * paid_out.speed();
+            }
+        }
+        [comes_in, self.dissipation(at)]
     }
 
     /// Where it no longer pushes, what it has stored is lost.
-    pub(super) fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+    fn dissipation<N: Number>(&self, at: Instant<'_, D, N>) -> N {
         self.sum(at, |touch| {
             let beyond = touch.damped - N::of(1.0);
             let pushed = N::of(self.stiffness) * touch.depth * beyond * touch.rate;

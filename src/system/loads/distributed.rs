@@ -9,6 +9,7 @@ use crate::elements::{Element, Nodal, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::space::Vector;
+use crate::system::winch::{PaidOut, longer_by};
 use crate::system::{CableChain, Rod};
 
 /// What a force is distributed along.
@@ -49,7 +50,19 @@ pub(in crate::system) fn on_coordinates<const D: usize, N: Number>(
 impl<const D: usize> Distributed<D> {
     /// What is the same along the body, N/m.
     pub(in crate::system) fn uniform<N: Number>(&self, at: Instant<'_, D, N>) -> Vector<D, N> {
-        self.density.uniform(at)
+        self.density.uniform(at) * self.longer_by(at)
+    }
+
+    /// The cable, if a winch pays it out.
+    fn paid_out<'a, N: Number>(&self, at: Instant<'a, D, N>) -> Option<PaidOut<'a, D, N>> {
+        match self.on {
+            Line::Chain(_) => at.paid_out(self.first_node(at.chains)),
+            Line::Rod(_) => None,
+        }
+    }
+
+    fn longer_by<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        longer_by(self.paid_out(at).as_ref())
     }
 
     /// What changes along the body, in a stretch, N/m.
@@ -58,7 +71,8 @@ impl<const D: usize> Distributed<D> {
         at: Instant<'_, D, N>,
         stretch: usize,
     ) -> Values<D, N> {
-        self.density.changing(at, stretch)
+        let longer = self.longer_by(at);
+        self.density.changing(at, stretch).map(|load| load * longer)
     }
 
     /// First node of the body that it acts on.
@@ -146,7 +160,25 @@ impl<const D: usize> Distributed<D> {
     }
 
     pub(super) fn power<N: Number>(&self, at: Instant<'_, D, N>) -> N {
-        self.along(at, at.v)
+        self.along(at, at.v) + self.on_passing(at)
+    }
+
+    /// Power on the material that passes through the mesh of a cable that is paid out, W.
+    fn on_passing<N: Number>(&self, at: Instant<'_, D, N>) -> N {
+        let (mut sum, uniform) = (N::of(0.0), self.uniform(at));
+        let Some(paid_out) = self.paid_out(at) else {
+            return sum;
+        };
+        let chain = paid_out.chain;
+        for j in 0..chain.elements().len() {
+            let (e, l) = (chain.element(j, at.x), chain.element_length(j));
+            for (point, load) in GAUSS_5.iter().zip(self.changing(at, j)) {
+                let slope = e * shape::slopes(N::of(point.at), l);
+                let passing = paid_out.passing((j, point.at), slope);
+                sum += (uniform + load).dot(&passing) * N::of(point.weight * l);
+            }
+        }
+        sum
     }
 
     pub(super) fn work(&self, before: Instant<'_, D>, after: Instant<'_, D>) -> f64 {

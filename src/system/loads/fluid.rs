@@ -23,6 +23,7 @@ use crate::math::quadrature::GAUSS_5;
 use crate::math::space::{Vector, spun};
 use crate::system::CableChain;
 use crate::system::signal::Signal;
+use crate::system::winch::{PaidOut, longer_by};
 
 /// What a fluid does at a place along a line, per reference length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -80,6 +81,10 @@ struct Flow<const D: usize, N> {
     across: Vector<D, N>,
     /// Size of the part across.
     speed: N,
+    /// Velocity of the line, m/s.
+    velocity: Vector<D, N>,
+    /// How much of what is per reference length counts: the fraction, times the length now over that.
+    counts: N,
 }
 
 /// The length of a vector; none, without derivatives, of a vector that is zero.
@@ -181,16 +186,20 @@ impl<const D: usize> Fluid<D> {
     fn flow<N: Number>(
         &self,
         at: Instant<'_, D, N>,
-        place: &Place,
-        current: Vector<D, N>,
+        (place, (stretch, xi)): (&Place, (usize, f64)),
+        (current, paid_out): (Vector<D, N>, Option<&PaidOut<'_, D, N>>),
     ) -> Flow<D, N> {
         let (velocity, rate) = self.carried;
         let mut carried = velocity.map(N::of);
         if rate != [0.0; 3] {
             carried += spun(rate, place.sum(&place.position, at.x));
         }
-        let past = current - place.sum(&place.position, at.v) - carried;
         let slope = place.sum(&place.slope, at.x);
+        let mut velocity = place.sum(&place.position, at.v);
+        if let Some(paid_out) = paid_out {
+            velocity += paid_out.passing((stretch, xi), slope);
+        }
+        let past = current - velocity - carried;
         let tangent = slope / slope.norm();
         let along = tangent.dot(&past);
         let across = past - tangent * along;
@@ -199,6 +208,8 @@ impl<const D: usize> Fluid<D> {
             tangent,
             along,
             across,
+            velocity,
+            counts: N::of(self.fraction) * longer_by(paid_out),
         }
     }
 
@@ -211,13 +222,18 @@ impl<const D: usize> Fluid<D> {
     ) {
         let current = self.current(stretch, |signal| signal.value(at));
         let rates = self.current(stretch, |signal| signal.rate(at));
+        let paid_out = match self.on {
+            Line::Chain(_) => at.paid_out(self.first_node(at.chains)),
+            Line::Rod(_) => None,
+        };
         for (point, (current, rate)) in current.into_iter().zip(rates).enumerate() {
             let strip = &self.strips[GAUSS_5.len() * stretch + point];
             let place = self.place(at.chains, stretch, point);
-            let flow = self.flow(at, &place, current);
+            let on = (&place, (stretch, GAUSS_5[point].at));
+            let flow = self.flow(at, on, (current, paid_out.as_ref()));
             let force = flow.drag(strip.drag) + rate * N::of(strip.inert)
                 - (self.gravity * strip.buoyant).map(N::of);
-            call(&place, &flow, strip, force * N::of(self.fraction));
+            call(&place, &flow, strip, force * flow.counts);
         }
     }
 
@@ -266,7 +282,7 @@ impl<const D: usize> Fluid<D> {
             let [mut first, mut between, mut last] = [no_block(); 3];
             let mut nodes = [0; 2];
             self.each(at, stretch, |place, flow, strip, _| {
-                let matrix = flow.damping(strip.drag) * (place.weight * self.fraction);
+                let matrix = flow.damping(strip.drag) * (place.weight * flow.counts);
                 nodes = place.nodes;
                 for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     for (block, [row, column]) in [
@@ -297,8 +313,8 @@ impl<const D: usize> Fluid<D> {
             self.each(at, stretch, |place, flow, strip, force| {
                 let weight = N::of(place.weight);
                 let past = flow.across + flow.tangent * flow.along;
-                let drag = flow.drag(strip.drag) * N::of(self.fraction);
-                on_line += force.dot(&place.sum(&place.position, at.v)) * weight;
+                let drag = flow.drag(strip.drag) * flow.counts;
+                on_line += force.dot(&flow.velocity) * weight;
                 lost += drag.dot(&past) * weight;
             });
         }

@@ -77,7 +77,7 @@ pub enum Load<const D: usize = 2> {
     /// The same in space, between a rigid body and an orientation.
     OrientationBushing(Box<OrientationBushing>),
     /// A cable that a winch pays out.
-    Transport(Box<Transport<D>>),
+    Transport(Transport),
 }
 
 impl<const D: usize> Load<D> {
@@ -138,7 +138,9 @@ impl<const D: usize> Load<D> {
             Self::Fluid(load) => {
                 (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
             }
-            Self::Transport(load) => (load.first_node() == first).then(|| load.values(at, stretch)),
+            Self::Transport(load) => {
+                (load.first_node(at.chains) == first).then(|| load.values(at, stretch))
+            }
             _ => None,
         }
     }
@@ -178,7 +180,7 @@ impl<const D: usize> Load<D> {
             Self::Spring(load) => load.power(at),
             Self::JointSpring(load) => [none, load.dissipation(at)],
             Self::Stop(load) => [none, load.dissipation(at)],
-            Self::Contact(load) => [none, load.dissipation(at)],
+            Self::Contact(load) => load.power(at),
             Self::SixBushing(load) => [none, load.dissipation(at)],
             Self::Bushing(load) => load.power(at),
             Self::RotationalBushing(load) => load.power(at),

@@ -97,6 +97,7 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             sections: (&self.rod_chains, &self.frames),
             angles: (&self.angles, &work.angles),
+            winches: &self.winches,
         }
     }
 
@@ -190,6 +191,7 @@ impl<const D: usize> System<D> {
             chains: &self.chains,
             sections: (&self.rod_chains, &self.frames),
             angles: (&self.angles, angles),
+            winches: &self.winches,
         };
         for load in &self.loads {
             load.add_tangent(

@@ -188,6 +188,7 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
             chains: &system.chains,
             sections: (&system.rod_chains, &system.frames),
             angles: (&system.angles, &self.angles),
+            winches: &system.winches,
         }
     }
 

@@ -213,6 +213,7 @@ impl<const D: usize> System<D> {
                         chains: &self.chains,
                         sections: (&self.rod_chains, &self.frames),
                         angles: (&self.angles, &angles),
+                        winches: &self.winches,
                     };
                     load.add_part(at, part, f);
                 };

@@ -50,6 +50,7 @@ impl<const D: usize> System<D> {
                 chains: &self.chains,
                 sections: (&self.rod_chains, &self.frames),
                 angles: (&self.angles, &work.angles),
+                winches: &self.winches,
             };
             *load = load.held(at, fraction);
         }

@@ -312,6 +312,7 @@ impl<const D: usize> System<D> {
                     chains: &self.chains,
                     sections: (&self.rod_chains, &self.frames),
                     angles: (&self.angles, &state.angles),
+                    winches: &self.winches,
                 });
                 state.angles[turning.counted] = self.angles[turning.counted].value(x, outside);
             }

@@ -15,7 +15,7 @@ const LENGTH: f64 = 1.5;
 const LINE: f64 = 1.25;
 
 pub fn all() -> Vec<Specimen> {
-    vec![paid_out(), mastered()]
+    vec![paid_out(), loaded(), mastered()]
 }
 
 fn rope(name: &str, place: [f64; 2]) -> Value {
@@ -29,6 +29,18 @@ fn rope(name: &str, place: [f64; 2]) -> Value {
 fn fallen(place: [f64; 2], t: f64) -> [[f64; 2]; 3] {
     let way = sum(times(t, VELOCITY), times(0.5 * t * t, GRAVITY));
     [sum(place, way), sum(VELOCITY, times(t, GRAVITY)), GRAVITY]
+}
+
+/// A place of the mesh, by its share of the length, where all material moves alike: the end at the winch goes away from the other one.
+fn passed(mut moves: [[f64; 2]; 3], share: f64, (end, travel): (&str, [f64; 3])) -> [[f64; 2]; 3] {
+    let away = match end {
+        "last" => times(share, TANGENT),
+        _ => times(share - 1.0, TANGENT),
+    };
+    for (moved, travel) in moves.iter_mut().zip(travel) {
+        *moved = sum(*moved, times(travel, away));
+    }
+    moves
 }
 
 /// `3 s^2 - 2 s^3` of a table that is at rest at both ends, with two derivatives.
@@ -86,22 +98,8 @@ fn paid_out() -> Specimen {
     let velocity = fallen([0.0; 2], t)[1];
     let (mut mass, mut turn, mut kinetic, mut gravity, mut start) = (0.0, [0.0; 2], 0.0, 0.0, 0.0);
     for (n, (name, _, end, travel)) in courses.into_iter().enumerate() {
-        // The end at the winch goes away from the other one.
-        let (away, at_last) = match end {
-            "last" => (TANGENT, true),
-            _ => (times(-1.0, TANGENT), false),
-        };
         let along = |share: f64| sum(place(n), times(share * LENGTH, TANGENT));
-        let moved = |share: f64| {
-            let (mut moves, paid) = (
-                fallen(along(share), t),
-                if at_last { share } else { 1.0 - share },
-            );
-            for (k, travel) in travel.into_iter().enumerate() {
-                moves[k] = sum(moves[k], times(paid * travel, away));
-            }
-            moves
-        };
+        let moved = |share: f64| passed(fallen(along(share), t), share, (end, travel));
         for (marker, share) in [("first", 0.0), ("inside", 0.25), ("last", 1.0)] {
             for (k, value) in moved(share).into_iter().enumerate() {
                 specimen =
@@ -125,6 +123,160 @@ fn paid_out() -> Specimen {
         .claim("energy.gravity", "J", gravity)
         .claim_within("energy.strain", "J", 0.0, 1e-9)
         .claim_within("energy.input", "J", kinetic + gravity - start, 1e-7)
+}
+
+/// Motion of all material of a rope that has fallen, been pushed, dragged or pressed, along its tangent and across it (to the left):
+/// ways, velocities, and what is lost by length in time, W/m, lost already, J.
+#[derive(Clone, Copy)]
+struct Moving {
+    way: [f64; 2],
+    velocity: [f64; 2],
+    lost: f64,
+}
+
+/// Acceleration along and across at a way and a velocity, m/s^2, and what is lost by length in time, W/m.
+type Law = fn([f64; 2], [f64; 2]) -> ([f64; 2], f64);
+
+const ACROSS: [f64; 2] = [-0.8, 0.6];
+const PUSH: [f64; 2] = [0.7, -0.4];
+/// Drag by the square of the velocity, along and across, N s^2/m^3.
+const DRAG: [f64; 2] = [
+    0.5 * 0.1 * 1000.0 * std::f64::consts::PI * 0.03,
+    0.5 * 1.2 * 1000.0 * 0.03,
+];
+const DEPTH: f64 = 0.03;
+const STIFFNESS: f64 = 50.0;
+const DAMPING: f64 = 0.6;
+const FRICTION: f64 = 0.45;
+const SLIP: f64 = 0.8;
+
+fn in_axes(v: [f64; 2]) -> [f64; 2] {
+    [dot(v, TANGENT), dot(v, ACROSS)]
+}
+
+fn in_space([along, across]: [f64; 2]) -> [f64; 2] {
+    sum(times(along, TANGENT), times(across, ACROSS))
+}
+
+fn pushed(_: [f64; 2], _: [f64; 2]) -> ([f64; 2], f64) {
+    (in_axes(sum(GRAVITY, times(1.0 / LINE, PUSH))), 0.0)
+}
+
+/// In a fluid at rest in which it has no weight.
+fn dragged(_: [f64; 2], v: [f64; 2]) -> ([f64; 2], f64) {
+    let drag = [0, 1].map(|k| -DRAG[k] * v[k].abs() * v[k]);
+    (times(1.0 / LINE, drag), -dot(drag, v))
+}
+
+/// Force of the ground by length, along and across.
+fn pressure(way: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+    let push = STIFFNESS * (DEPTH - way[1]) * (1.0 - DAMPING * v[1]);
+    [-FRICTION * push * v[0] / v[0].hypot(SLIP), push]
+}
+
+fn pressed(way: [f64; 2], v: [f64; 2]) -> ([f64; 2], f64) {
+    let force = pressure(way, v);
+    let elastic = [0.0, STIFFNESS * (DEPTH - way[1])];
+    let lost = -dot(sum(force, times(-1.0, elastic)), v);
+    (sum(in_axes(GRAVITY), times(1.0 / LINE, force)), lost)
+}
+
+/// The classical method of Runge and Kutta with steps so short that they count for nothing.
+fn moving(law: Law, length: impl Fn(f64) -> f64, until: f64) -> Moving {
+    let mut now = Moving {
+        way: [0.0; 2],
+        velocity: in_axes(VELOCITY),
+        lost: 0.0,
+    };
+    let (steps, mut t) = (2000, 0.0);
+    let h = until / f64::from(steps);
+    let rate = |t: f64, at: Moving| {
+        let (acceleration, lost) = law(at.way, at.velocity);
+        Moving {
+            way: at.velocity,
+            velocity: acceleration,
+            lost: lost * length(t),
+        }
+    };
+    let ahead = |at: Moving, by: f64, rate: Moving| Moving {
+        way: sum(at.way, times(by, rate.way)),
+        velocity: sum(at.velocity, times(by, rate.velocity)),
+        lost: at.lost + by * rate.lost,
+    };
+    for _ in 0..steps {
+        let a = rate(t, now);
+        let b = rate(t + 0.5 * h, ahead(now, 0.5 * h, a));
+        let c = rate(t + 0.5 * h, ahead(now, 0.5 * h, b));
+        let d = rate(t + h, ahead(now, h, c));
+        for (part, weight) in [(a, 1.0), (b, 2.0), (c, 2.0), (d, 1.0)] {
+            now = ahead(now, weight * h / 6.0, part);
+        }
+        t += h;
+    }
+    now
+}
+
+/// What acts along ropes that are paid out acts on their material: ropes that are pushed, dragged and pressed evenly move as a whole.
+fn loaded() -> Specimen {
+    let t = 0.2;
+    let [_, first, last, _, taken] = courses(t);
+    let length_of: [fn(f64) -> f64; 3] = [
+        |t| LENGTH + 0.5 * t + 0.9 * t * t,
+        |t| LENGTH + spline(t)[0],
+        |t| LENGTH - 2.0 * t * t,
+    ];
+    let mut scene = scene(&[first.clone(), last.clone(), taken.clone()]);
+    scene["name"] = json!("paid_out_loads");
+    let ground = sum(place(2), times(DEPTH, ACROSS));
+    scene["loads"] = json!([
+        {"name": "wind", "kind": "distributed", "body": "first", "value": PUSH},
+        {"name": "sea", "kind": "fluid", "body": "last", "density": 1000.0, "area": LINE / 1000.0, "diameter": 0.03,
+         "drag": 1.2, "tangential_drag": 0.1},
+        {"name": "floor", "kind": "contact", "body": "taken", "stiffness": STIFFNESS, "damping": DAMPING, "friction": FRICTION,
+         "slip_velocity": SLIP, "surface": {"plane": {"point": ground, "normal": ACROSS}}}]);
+    let read = scene["outputs"].as_array_mut().expect("a list");
+    read.push(json!({"kind": "load_force", "load": "floor"}));
+    let mut specimen = Specimen::new("paid_out_loads", scene).at(t);
+    let laws: [Law; 3] = [pushed, dragged, pressed];
+    let (mut held, mut start, mut lost) = (0.0, 0.0, 0.0);
+    for (n, (name, _, end, travel)) in [first, last, taken].into_iter().enumerate() {
+        let now = moving(laws[n], length_of[n], t);
+        let (acceleration, _) = laws[n](now.way, now.velocity);
+        let velocity = in_space(now.velocity);
+        let along = |share: f64| sum(place(n), times(share * LENGTH, TANGENT));
+        let moved = |share: f64| {
+            let place = sum(along(share), in_space(now.way));
+            passed(
+                [place, velocity, in_space(acceleration)],
+                share,
+                (end, travel),
+            )
+        };
+        for (marker, share) in [("first", 0.0), ("inside", 0.25), ("last", 1.0)] {
+            for (k, value) in moved(share).into_iter().enumerate() {
+                let of = format!("{name}.{marker}.{}", MOVES[k]);
+                specimen = specimen.vector_within(&of, METRES[k], value, 1e-7);
+            }
+        }
+        specimen = specimen.claim_within(&format!("{name}.inside.axial_force"), "N", 0.0, 1e-6);
+        let length = LENGTH + travel[0];
+        let energy = |velocity: [f64; 2], middle: [f64; 2]| {
+            LINE * (0.5 * dot(velocity, velocity) - dot(GRAVITY, middle))
+        };
+        held += length * energy(velocity, moved(0.5)[0]);
+        start += LENGTH * energy(VELOCITY, along(0.5));
+        lost += now.lost;
+        if n == 2 {
+            let depth = DEPTH - now.way[1];
+            held += length * 0.5 * STIFFNESS * depth * depth;
+            start += LENGTH * 0.5 * STIFFNESS * DEPTH * DEPTH;
+            let force = in_space(times(length, pressure(now.way, now.velocity)));
+            specimen = specimen.vector_within("floor.force", "N", force, 1e-6);
+        }
+    }
+    specimen
+        .claim_within("energy.dissipated", "J", lost, 1e-6)
+        .claim_within("energy.input", "J", held - start + lost, 1e-6)
 }
 
 /// The master sets the length, with 0, 1 and 2 derivatives; at the start nothing has been paid out.

@@ -152,6 +152,7 @@ fn skew<const D: usize>(model: &mut Model<'_, D>, q: &[f64]) -> Vec<f64> {
         chains: &system.chains,
         sections: (&system.rod_chains, &system.frames),
         angles: (&system.angles, &angles),
+        winches: &system.winches,
     };
     let loads = || (system.loads.iter()).filter(|load| !load.is_conservative());
     loads().for_each(|load| load.add_force(at, &mut f));
