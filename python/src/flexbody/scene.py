@@ -3100,7 +3100,8 @@ class DisplacementMotion(Part):
 class WinchMotion(Part):
     """
     Length that a winch at a marker, an end of a cable, has paid out since the start, m; negative where it has taken in. The mass of the
-    cable changes with it. What is on the winch has no part in the scene; nothing acts on the cable but gravity and what is at its ends.
+    cable changes with it. What is on the winch has no part in the scene; what acts between its ends acts all along it: `distributed`
+    (where `s` is the share of the length now), `contact`, `fluid` without added mass.
     """
 
     name: StrictStr
