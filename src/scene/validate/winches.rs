@@ -35,7 +35,18 @@ impl<'a> Resolved<'a> {
         Err(expected(path, wanted, found))
     }
 
-    /// What acts on a cable that is paid out acts at its ends.
+    /// Whether a winch pays out a cable.
+    pub fn is_paid_out(&self, cable: Cable<'_>) -> bool {
+        let mut motions = self.motions.iter();
+        motions.any(|motion| match motion.kind {
+            MotionKind::Winch(marker, _) => {
+                matches!(marker.place, Place::Along(of, _) if of.id == cable.id)
+            }
+            _ => false,
+        })
+    }
+
+    /// What acts on a cable that is paid out acts at its ends or all along it.
     pub(super) fn check_winches(&self) -> Result<(), Error> {
         let mut cables: Vec<(usize, Cable<'a>)> = Vec::new();
         for (index, motion) in self.motions.iter().enumerate() {

@@ -222,8 +222,8 @@ fn add_bushing(list: &mut List, (i, of): (usize, &str), bushing: &Bushing<'_>) {
     }
 }
 
-/// Density and coefficients of a fluid.
-fn add_fluid(list: &mut List, (i, of): (usize, &str), fluid: &Fluid<'_>) {
+/// Density and coefficients of a fluid; no added mass along a cable that a winch pays out.
+fn add_fluid(list: &mut List, resolved: &Resolved<'_>, (i, of): (usize, &str), fluid: &Fluid<'_>) {
     let [across, along] = fluid.drag;
     #[rustfmt::skip] // a table
     let rows = [
@@ -232,7 +232,8 @@ fn add_fluid(list: &mut List, (i, of): (usize, &str), fluid: &Fluid<'_>) {
         ("tangential_drag", "Coefficient of drag along the line", None, Parameter::TangentialDrag(i), along),
         ("added_mass", "Coefficient of added mass", None, Parameter::AddedMass(i), fluid.added_mass),
     ];
-    list.parameters(of, "of", &rows);
+    let count = rows.len() - usize::from(resolved.is_paid_out(fluid.on));
+    list.parameters(of, "of", &rows[..count]);
 }
 
 /// Stiffness, damping and friction of a contact.
@@ -268,7 +269,7 @@ fn add_dampers(list: &mut List, resolved: &Resolved<'_>) {
         let (starts, units, parameters) = match &load.kind {
             LoadKind::Action { .. } => continue,
             LoadKind::Fluid(fluid) => {
-                add_fluid(list, (i, load.name), fluid);
+                add_fluid(list, resolved, (i, load.name), fluid);
                 continue;
             }
             LoadKind::Bushing(bushing) => {
