@@ -16,35 +16,39 @@ pub enum LocationError {
     Encoding(String),
 }
 
-/// The directory of a `file:` URI: `file:///p`, `file:/p` or `file://localhost/p`, percent-decoded.
+/// The directory of a `file:` URI: `file:///p`, `file:/p` or `file://localhost/p`, percent-decoded. On Windows also one of another
+/// machine, `file://server/share/p`, and a drive after two slashes for three, as some masters write it.
 ///
 /// # Errors
 /// Any other URI.
 pub fn directory(uri: &str) -> Result<PathBuf, LocationError> {
+    path(uri, cfg!(windows)).map(PathBuf::from)
+}
+
+fn path(uri: &str, on_windows: bool) -> Result<String, LocationError> {
     let scheme = || LocationError::Scheme(uri.into());
     let (name, rest) = uri.split_once(':').ok_or_else(scheme)?;
     if !name.eq_ignore_ascii_case("file") || !rest.starts_with('/') {
         return Err(scheme());
     }
+    let is_drive = |text: &str| on_windows && text.as_bytes().get(1) == Some(&b':');
     let path = match rest.strip_prefix("//") {
         None => rest,
+        Some(after) if is_drive(after) => after,
         Some(after) => {
             let root = after.find('/').ok_or_else(scheme)?;
             let (host, path) = after.split_at(root);
-            if !host.is_empty() && !host.eq_ignore_ascii_case("localhost") {
-                return Err(LocationError::Host(uri.into()));
+            match host.is_empty() || host.eq_ignore_ascii_case("localhost") {
+                true => path,
+                false if on_windows => rest,
+                false => return Err(LocationError::Host(uri.into())),
             }
-            path
         }
     };
     let path = decode(path).ok_or_else(|| LocationError::Encoding(uri.into()))?;
-    Ok(PathBuf::from(local(&path)))
-}
-
-/// The path without the slash that a URI puts before a Windows drive letter.
-fn local(path: &str) -> &str {
-    let drive = |rest: &&str| cfg!(windows) && rest.as_bytes().get(1) == Some(&b':');
-    path.strip_prefix('/').filter(drive).unwrap_or(path)
+    // A URI puts a slash before a drive.
+    let drive = path.strip_prefix('/').filter(|rest| is_drive(rest));
+    Ok(drive.unwrap_or(&path).to_owned())
 }
 
 fn decode(text: &str) -> Option<String> {
@@ -94,9 +98,32 @@ mod tests {
         assert!(matches!(error(""), LocationError::Scheme(_)));
         assert!(matches!(error("file:p"), LocationError::Scheme(_)));
         assert!(matches!(error("file://server"), LocationError::Scheme(_)));
-        assert!(matches!(error("file://server/p"), LocationError::Host(_)));
+        let host = path("file://server/p", false);
+        assert!(matches!(host, Err(LocationError::Host(_))));
         assert!(matches!(error("file:///a%2"), LocationError::Encoding(_)));
         assert!(matches!(error("file:///a%+1"), LocationError::Encoding(_)));
         assert!(matches!(error("file:///%FF"), LocationError::Encoding(_)));
+    }
+
+    #[test]
+    fn windows_has_drives_and_other_machines() {
+        for (uri, expected) in [
+            ("file:///C:/a%20b/resources", "C:/a b/resources"),
+            ("file:///c%3A/p", "c:/p"),
+            ("file:/C:/p", "C:/p"),
+            ("file://localhost/C:/p", "C:/p"),
+            ("file:///C:\\a b\\p", "C:\\a b\\p"),
+            ("file://C:/p", "C:/p"),
+            ("file://C:\\p", "C:\\p"),
+            ("file://server/share/a%20b", "//server/share/a b"),
+            ("file:////server/share/p", "//server/share/p"),
+        ] {
+            assert_eq!(path(uri, true).as_deref(), Ok(expected), "{uri}");
+        }
+        assert!(matches!(
+            path("file://server", true),
+            Err(LocationError::Scheme(_))
+        ));
+        assert_eq!(path("file:///C:/p", false).as_deref(), Ok("/C:/p"));
     }
 }

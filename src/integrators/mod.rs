@@ -210,6 +210,10 @@ fn advance_choosing(
     let mut given_up = f64::NEG_INFINITY;
     while result.is_ok() && state.time < until {
         let index = state.pace.index(methods.len());
+        for method in methods.iter_mut() {
+            // The rival's as well, which is measured by what it would take.
+            method.take_up(state.pace.variant());
+        }
         let rival = methods.get(1 - index).map(|method| Rival::of(&**method));
         let method = &mut *methods[index];
         if state.dense.is_under_way() {
@@ -308,7 +312,6 @@ fn begin(
     state: &mut State,
     tolerance: &Tolerance,
 ) -> bool {
-    method.take_up(state.pace.variant());
     dynamics.renew(state);
     method.begin(dynamics, state.time, &state.coordinates, &state.rates);
     if state.dense.has_ended_at(state.time) {

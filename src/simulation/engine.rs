@@ -7,7 +7,6 @@ use super::quantities::{Evaluated, needs, value};
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
 use super::{Error, Quantity, Report, Source, Spectra, StepFailure, Variable, method};
-use crate::body::Node;
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
 use crate::math::space::components;
@@ -350,10 +349,14 @@ impl<const D: usize> Engine<D> {
         value(quantity, &self.evaluation, &self.assembled, work)
     }
 
-    /// The system, and its nodes in a state.
-    pub(super) fn nodes(&mut self, state: &State, inputs: &Inputs) -> (&Assembled<D>, &[Node<D>]) {
+    /// The system, and where it is in a state.
+    pub(super) fn placed(
+        &mut self,
+        state: &State,
+        inputs: &Inputs,
+    ) -> (&Assembled<D>, &Evaluation<D>) {
         self.evaluate(Evaluated::Kinematics, state, inputs);
-        (&self.assembled, &self.evaluation.x)
+        (&self.assembled, &self.evaluation)
     }
 
     /// Force per reference length of a contact along a body, N/m.

@@ -7,7 +7,7 @@ use crate::math::jet::Number;
 use crate::scene::Assembled;
 use crate::system::{Evaluation, State};
 
-/// Part of [`crate::system::System::missed`] that positions are off by, about: mostly 0.03 to 0.6 on 22 scenes, for errors of
+/// Part of [`Evaluation::missed`] that positions are off by, about: mostly 0.03 to 0.6 on 22 scenes, for errors of
 /// 1e-6 to 1 of their sizes (docs/decisions/0036-resolution.md).
 const OFF: f64 = 0.2;
 
@@ -19,7 +19,7 @@ pub(super) fn resolution<const D: usize, N: Number>(
     let system = &assembled.system;
     let mut largest = N::of(0.0);
     for chain in system.chains() {
-        let missed = system.missed(chain, &values.x);
+        let missed = values.missed(system, chain);
         if missed > largest {
             largest = missed;
         }
@@ -83,8 +83,8 @@ impl<const D: usize> Engine<D> {
         if resolution <= 1.0 {
             return;
         }
-        let (Assembled { system, .. }, x) = self.nodes(state, inputs);
-        let missed = system.chains().iter().map(|chain| system.missed(chain, x));
+        let (Assembled { system, .. }, values) = self.placed(state, inputs);
+        let missed = (system.chains().iter()).map(|chain| values.missed(system, chain));
         let worst = missed.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         let first = worst.map(|(chain, _)| system.chains()[chain].nodes(0)[0]);
         let body = (system.bodies().iter()).position(|nodes| Some(nodes.start) == first);

@@ -8,7 +8,7 @@ use super::{Error, Quantity, Simulation};
 use crate::body::{Marker, Node, axes_at, combined};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId};
-use crate::system::{CableChain, State, System};
+use crate::system::{CableChain, Evaluation, State, System};
 
 /// Where a body is: what a line or surface of it is drawn from.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -89,7 +89,7 @@ impl Simulation {
 impl<const D: usize> Engine<D> {
     /// Where all markers are.
     pub(super) fn markers(&mut self, state: &State, inputs: &Inputs) -> Vec<[f64; 3]> {
-        let (assembled, x) = self.nodes(state, inputs);
+        let (assembled, Evaluation { x, .. }) = self.placed(state, inputs);
         let markers = assembled.markers().iter();
         markers
             .map(|marker| components(&marker.position(x)))
@@ -103,13 +103,13 @@ impl<const D: usize> Engine<D> {
         inputs: &Inputs,
         parts: &dyn Fn(usize) -> u32,
     ) -> Vec<Vec<[f64; 3]>> {
-        let (assembled, x) = self.nodes(state, inputs);
+        let (assembled, Evaluation { x, .. }) = self.placed(state, inputs);
         outlines(&assembled.system, x, parts)
     }
 
     /// How all bodies stand.
     pub(super) fn poses(&mut self, state: &State, inputs: &Inputs) -> Vec<Pose> {
-        let (assembled, x) = self.nodes(state, inputs);
+        let (assembled, Evaluation { x, .. }) = self.placed(state, inputs);
         let bodies = assembled.system.bodies().iter().enumerate();
         bodies
             .map(|(body, nodes)| pose(assembled, body, nodes.start, x))

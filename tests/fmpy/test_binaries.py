@@ -140,7 +140,11 @@ class Wine:
     resources = "file:///Z:"
 
     def __init__(self, folder):
-        zig(folder, "x86_64-windows-gnu", "-o", "foreign.exe", SOURCES / "foreign.c")
+        target = "x86_64-windows-gnu"
+        zig(folder, target, "-o", "foreign.exe", SOURCES / "foreign.c")
+        # Beside the program it is found first. Wine 8 has none, and no library of Rust loads there.
+        name = "bcryptprimitives"
+        zig(folder, target, "-shared", "-o", f"{name}.dll", SOURCES / f"{name}.c", "-ladvapi32")
         self.command = ["wine", folder / "foreign.exe"]
         self.environment = {"WINEPREFIX": str(folder / "prefix"), "WINEDEBUG": "-all"}
 

@@ -1,8 +1,7 @@
-"""The package from its sources, with a program and libraries laid out as in the wheel."""
+"""The package from its sources, with the program and the libraries of the wheel."""
 
 import json
 import os
-import shutil
 import sys
 import zipfile
 from pathlib import Path
@@ -16,7 +15,7 @@ sys.path[:0] = [str(SOURCES), str(HERE.parent / "fmpy")]
 # Processes that tests start find the package too.
 os.environ["PYTHONPATH"] = str(SOURCES)
 
-from project import package  # noqa: E402
+from project import package, xtask  # noqa: E402
 
 SWING = HERE.parent / "fmpy" / "swing.json"
 NAME = "flexbody.exe" if os.name == "nt" else "flexbody"
@@ -35,17 +34,23 @@ def fmu(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
-def product(tmp_path_factory, fmu):
-    """A folder as `flexbody/product` in the wheel; what goes into every FMU is taken from one."""
-    built = Path(os.environ.get("FLEXBODY_PROGRAM") or ROOT / "target" / "release" / NAME)
-    assert built.is_file(), f"no program: {built} does not exist (cargo build --release, or FLEXBODY_PROGRAM)"
+def wheel(tmp_path_factory):
+    """The wheel, as people install it."""
+    folder = tmp_path_factory.mktemp("wheel")
+    xtask("wheel", "--output", folder)
+    (path,) = folder.glob("*.whl")
+    return path
+
+
+@pytest.fixture(scope="session")
+def product(tmp_path_factory, wheel):
+    """The folder `flexbody/product` of the wheel."""
     folder = tmp_path_factory.mktemp("product")
-    shutil.copy2(built, folder / NAME)
-    with zipfile.ZipFile(fmu) as archive:
-        for name in archive.namelist():
-            if name.startswith(("binaries/", "documentation/licenses/")):
-                archive.extract(name, folder / "fmu")
-    return folder
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(folder)
+    product = folder / "flexbody" / "product"
+    (product / NAME).chmod(0o755)
+    return product
 
 
 @pytest.fixture

@@ -123,8 +123,7 @@ fn fmpy_tests(workspace: &Workspace) -> Result<()> {
 /// One after the other: the clusters of its tests keep all cores busy.
 fn package_tests(workspace: &Workspace) -> Result<()> {
     let python = Python::prepare_own(workspace)?;
-    let mut tests = pytest(&python, workspace, "tests/python")?;
-    run(tests.env("FLEXBODY_PROGRAM", workspace.program(PACKAGE)?))
+    run(&mut pytest(&python, workspace, "tests/python")?)
 }
 
 fn browser_tests(workspace: &Workspace) -> Result<()> {

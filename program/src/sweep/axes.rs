@@ -143,6 +143,8 @@ fn number(text: &str) -> Result<f64> {
 fn column(file: &Path, name: &str) -> Result<Vec<f64>> {
     let text =
         std::fs::read_to_string(file).with_context(|| format!("cannot read {}", file.display()))?;
+    // Spreadsheets of some systems begin a file with a mark of its encoding.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
     let header: Vec<&str> = match lines.next() {
         Some(line) => line.split(',').map(str::trim).collect(),
@@ -208,8 +210,10 @@ mod tests {
         assert_eq!(axes.names(), ["b[2]", "a", "c"]);
         assert_eq!(axes.count(), 6);
         assert_eq!(axes.values(3), [6.0, 2.0, 1.0]);
+        std::fs::write(&file, "\u{feff}a,b\r\n1,5\r\n2,6\r\n")?;
+        assert_eq!(parsed(&[&format!("a=@{at}")])?.values(1), [2.0]);
         let error = parsed(&[&format!("d=@{at}")]).err().context("no column")?;
-        assert!(format!("{error:#}").contains("expected a column d, found \"a\", b[2]"));
+        assert!(format!("{error:#}").contains("expected a column d, found a, b"));
         std::fs::remove_dir_all(&folder)?;
         Ok(())
     }

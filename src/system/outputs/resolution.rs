@@ -9,19 +9,18 @@
 //! A Practical Guide to Splines (1978), chapter IV: a cubic between nodes is off by its curvature's error times the square
 //! of their distance.
 
-use crate::body::Node;
 use crate::elements::Element;
 use crate::math::jet::Number;
-use crate::system::{CableChain, System};
+use crate::system::{CableChain, Evaluation, System};
 
-impl<const D: usize> System<D> {
+impl<const D: usize, N: Number> Evaluation<D, N> {
     /// What curvature is off times the square of the length of the element, m: the largest over the nodes between elements
     /// where nothing exerts a moment; over such ends where there are no such nodes, since there curvature vanishes.
-    pub fn missed<N: Number>(&self, chain: &CableChain<D>, x: &[Node<D, N>]) -> N {
-        let elements = chain.elements();
+    pub fn missed(&self, system: &System<D>, chain: &CableChain<D>) -> N {
+        let (elements, x) = (chain.elements(), &self.x[..]);
         let length = |j: usize| elements[j].length();
         let curvature = |j: usize, xi: f64| elements[j].curvature_change(&chain.element(j, x), xi);
-        let is_free = |j: usize, end: usize| !self.takes_moments[chain.nodes(j)[end]];
+        let is_free = |j: usize, end: usize| !system.takes_moments[chain.nodes(j)[end]];
         let (mut largest, mut tells) = (N::of(0.0), false);
         // Squares: the root of nothing has no derivatives.
         let mut take = |off: [N; 3], length: f64| {
@@ -43,8 +42,9 @@ impl<const D: usize> System<D> {
                 take(curvature(j, end as f64), length(j));
             }
         }
+        // Curvatures are those by reference length, by which elements have not become longer.
         match largest > N::of(0.0) {
-            true => largest.root(),
+            true => largest.root() * system.length_now(chain, &self.drives).longer_by(),
             false => largest,
         }
     }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
-    vec![one_element(), two_elements()]
+    vec![one_element(), two_elements(), paid_out()]
 }
 
 const LOAD: f64 = 1e-4;
@@ -63,4 +63,18 @@ fn two_elements() -> Specimen {
         resolution,
         1e-5 * resolution,
     )
+}
+
+/// A beam that was paid out to twice its length, and is at rest again: `q L^4 / (12 EI)` by the length now.
+fn paid_out() -> Specimen {
+    let (error, length) = (1e-5, 2.0_f64);
+    let accuracy = json!({"error": error, "relative_tolerance": 1e-9});
+    let mut scene = beam("paid_out_beam", 1, accuracy);
+    let material = &mut scene["bodies"][0]["material"];
+    (material["density"], material["damping_time"]) = (json!(1.0), json!(0.02));
+    scene["motions"] = json!([{"name": "drum", "kind": "winch", "marker": "beam.root",
+                              "value": {"table": [[0.0, 0.0], [0.5, length - 1.0]]}}]);
+    let resolution = OFF * LOAD * length.powi(4) / 12.0 / error;
+    let specimen = Specimen::new("paid_out_beam", scene).at(1.5);
+    specimen.claim_within("resolution", "", resolution, 1e-3 * resolution)
 }
