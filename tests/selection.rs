@@ -163,7 +163,7 @@ fn a_restored_state_goes_on_with_the_same_order() {
 
 #[test]
 fn a_restored_state_tries_the_same_order() {
-    let scene = || of(LOAD, 8, 1e-5, Integrator::Auto);
+    let scene = || of(LOAD, 4, 1e-5, Integrator::Auto);
     let step = 0.02;
     let (states, methods, _) = run_of(scene(), step);
     restores(scene(), step, (&states, &methods));
