@@ -35,27 +35,27 @@ impl<'a> Resolved<'a> {
         Err(expected(path, wanted, found))
     }
 
+    /// Cables that winches pay out, each with the index of its winch among the motions.
+    fn winches(&self) -> impl Iterator<Item = (usize, Cable<'a>)> {
+        let motions = self.motions.iter().enumerate();
+        motions.filter_map(|(index, motion)| match motion.kind {
+            MotionKind::Winch(marker, _) => match marker.place {
+                Place::Along(cable, _) => Some((index, cable)),
+                Place::Point(..) => None,
+            },
+            _ => None,
+        })
+    }
+
     /// Whether a winch pays out a cable.
     pub fn is_paid_out(&self, cable: Cable<'_>) -> bool {
-        let mut motions = self.motions.iter();
-        motions.any(|motion| match motion.kind {
-            MotionKind::Winch(marker, _) => {
-                matches!(marker.place, Place::Along(of, _) if of.id == cable.id)
-            }
-            _ => false,
-        })
+        self.winches().any(|(_, of)| of.id == cable.id)
     }
 
     /// What acts on a cable that is paid out acts at its ends or all along it.
     pub(super) fn check_winches(&self) -> Result<(), Error> {
         let mut cables: Vec<(usize, Cable<'a>)> = Vec::new();
-        for (index, motion) in self.motions.iter().enumerate() {
-            let MotionKind::Winch(marker, _) = motion.kind else {
-                continue;
-            };
-            let Place::Along(cable, _) = marker.place else {
-                continue;
-            };
+        for (index, cable) in self.winches() {
             let path = format!("motions[{index}]");
             if cables.iter().any(|(_, other)| other.id == cable.id) {
                 return Err(expected(&path, "one winch for a cable", "two"));
