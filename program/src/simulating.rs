@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow, bail};
 use flexbody::scene::Experiment;
 use flexbody::simulation::{
-    Causality, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular,
+    Causality, Doubtful, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular,
 };
 use indicatif::ProgressBar;
 use packing::bar;
@@ -60,7 +60,7 @@ struct Cost {
     /// CPU time of the steps alone.
     stopwatch: Stopwatch,
     /// Outputs that the tolerance does not reach.
-    doubtful: Vec<String>,
+    doubtful: Vec<Doubtful>,
     /// Singular positions.
     singular: Vec<Singular>,
     /// A mesh that is too coarse, in words.
@@ -111,7 +111,11 @@ impl Cost {
             list(&redundant.exactly),
             list(&redundant.nearly),
             singular.join(", "),
-            list(&self.doubtful)
+            self.doubtful
+                .iter()
+                .map(|of| quoted(&of.name))
+                .collect::<Vec<_>>()
+                .join(", ")
         )
     }
 }
@@ -251,10 +255,9 @@ impl Run {
             shapes.sink.finish()?;
         }
         bar.finish_and_clear();
-        for name in &self.cost.doubtful {
-            eprintln!(
-                "flexbody: {name}: errors of the steps may have left more than 10 times the relative tolerance"
-            );
+        self.cost.doubtful = simulation.doubtful();
+        for doubtful in &self.cost.doubtful {
+            eprintln!("flexbody: {doubtful}");
         }
         for singular in &self.cost.singular {
             eprintln!("flexbody: {singular}");
@@ -280,9 +283,6 @@ impl Run {
                 }
             })?;
             self.cost.add(simulation.report());
-            while let Some(name) = simulation.next_doubtful() {
-                self.cost.doubtful.push(name.to_owned());
-            }
             self.cost.singular.extend(simulation.next_singular());
             if let Some(unresolved) = simulation.next_unresolved() {
                 self.cost.unresolved = Some(unresolved.to_string());

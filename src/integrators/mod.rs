@@ -129,6 +129,9 @@ pub trait Method: Send {
     ) {
         error.into_iter().for_each(|error| error.fill(0.0));
     }
+    /// Lets the stiff directions of a state follow that was moved from the one of [`Method::error`] by a small part of its error: where a
+    /// body rotates, its velocities are to rotate with it, or damping and constraints answer to a deformation that is not there.
+    fn follow(&mut self, _dynamics: &mut dyn Dynamics, _state: (f64, &mut [f64], &mut [f64])) {}
     /// Work that came in and that was dissipated over the last attempt, J; zero where the method cannot tell.
     fn work(&self) -> [f64; 2] {
         [0.0; 2]

@@ -338,6 +338,10 @@ impl Method for Radau {
         self.error_left(dynamics, state, within, error);
     }
 
+    fn follow(&mut self, dynamics: &mut dyn Dynamics, state: (f64, &mut [f64], &mut [f64])) {
+        self.follow_error(dynamics, state);
+    }
+
     fn work(&self) -> [f64; 2] {
         let part = |k: usize| {
             let powers = self.powers.iter().zip(B);

@@ -2,6 +2,7 @@
 
 use super::engine::{Engine, Remarks};
 use super::inputs::Inputs;
+use super::watch::Doubtful;
 use super::{
     Error, Pose, Quantity, Redundant, Report, Singular, Spectra, StepFailure, Unresolved, Variable,
 };
@@ -38,12 +39,14 @@ handed_on! {
     fn initial_state([&mut] self, time: f64, inputs: &Inputs) -> Result<(State, Spectra), Error>;
     fn modes([&mut] self, state: &State, inputs: &[f64], count: usize) -> Result<Vec<Mode>, String>;
     fn damping_along([&mut] self, state: &State, inputs: &[f64], ways: &[Vec<f64>]) -> Vec<f64>;
+    fn slow_response([&mut] self, state: &State, asked: (&[f64], usize), rate: f64, of: &[Option<Quantity>]) -> Option<Vec<f64>>;
     fn remarks([&] self) -> &Remarks;
     fn redundant([&mut] self, state: &State) -> Redundant;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
     fn size([&] self) -> f64;
     fn natural([&] self, quantity: Quantity) -> Option<f64>;
-    fn next_doubtful([&mut] self) -> Option<&str>;
+    fn next_doubtful([&mut] self) -> Option<Doubtful>;
+    fn doubtful([&] self) -> Vec<Doubtful>;
     fn next_singular([&mut] self) -> Option<Singular>;
     fn next_unresolved([&mut] self) -> Option<Unresolved<'_>>;
     fn fits([&] self, state: &State) -> bool;
@@ -55,6 +58,8 @@ handed_on! {
     fn change([&mut] self, quantity: Quantity, state: &State) -> f64;
     fn markers([&mut] self, state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
     fn outlines([&mut] self, state: &State, inputs: &Inputs, parts: &dyn Fn(usize) -> u32) -> Outlines;
+    fn drawn_outlines([&] self, parts: &dyn Fn(usize) -> u32) -> Outlines;
+    fn drawn([&] self, quantity: Quantity) -> f64;
     fn contact([&mut] self, load: LoadId, at: &[f64], state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
     fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
 }

@@ -4,6 +4,7 @@ use super::inputs::Inputs;
 use super::mesh::MeshWatch;
 use super::modes::in_words;
 use super::quantities::{Evaluated, needs, value};
+use super::shapes::drawn;
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
 use super::{Error, Quantity, Report, Source, Spectra, StepFailure, Variable, method};
@@ -106,10 +107,14 @@ impl<const D: usize> Engine<D> {
         let outputs = variables
             .iter()
             .filter_map(|variable| match variable.source {
-                Source::Output(quantity) => Some((quantity, &variable.name[..])),
+                Source::Output(quantity) => {
+                    let drawn = drawn(quantity, &assembled);
+                    Some((quantity, &variable.name[..], drawn))
+                }
                 _ => None,
             });
-        let watch = Watch::new(outputs, system, &tolerance);
+        let wanted = resolved.scene.error_wanted();
+        let watch = Watch::new(outputs, system, &tolerance, wanted);
         Ok(Self {
             initial: resolved.scene.initial.state(),
             most_work: most_work(resolved.scene.method.work_limit),
@@ -291,7 +296,7 @@ impl<const D: usize> Engine<D> {
         let work = model.operations() * system.parts() as f64;
         inputs.advance(state.time - start);
         self.forget();
-        if result.is_ok() && counts.steps > 0 {
+        if result.is_ok() {
             self.watch(state, inputs, counts.steps, state.time - start);
         }
         state.work[0] -= self.set_energy(state, inputs);

@@ -24,8 +24,8 @@ mod watch;
 pub use dimension::check;
 pub use mesh::Unresolved;
 pub use plan::{
-    Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, Settled, Settles, courses,
-    plan,
+    Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo, Settled,
+    Settles, courses, plan,
 };
 pub use quantities::Quantity;
 pub use shapes::Pose;
@@ -33,6 +33,7 @@ pub use signals::{SignalError, Signals};
 pub use singular::{NEARLY, Redundant, Singular};
 pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Causality, Parameter, Source, Unit, Variable, variables};
+pub use watch::Doubtful;
 
 use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;

@@ -4,7 +4,8 @@ use nalgebra::Vector3;
 
 use super::engine::Engine;
 use super::inputs::Inputs;
-use super::{Error, Quantity, Simulation};
+use super::quantities::value;
+use super::{Error, Quantity, Simulation, Source, Variable};
 use crate::body::{Marker, Node, axes_at, combined};
 use crate::math::space::{Vector, components};
 use crate::scene::{Assembled, LoadId};
@@ -45,6 +46,24 @@ impl Simulation {
         let inputs = &self.inputs;
         let outlines = engine.map(|engine| engine.outlines(&self.state, inputs, &parts));
         Ok(outlines.unwrap_or_default())
+    }
+
+    /// The same where the scene draws them; nothing before [`Self::initialize`].
+    pub(super) fn drawn_outlines(&self, parts: impl Fn(usize) -> u32) -> Vec<Vec<[f64; 3]>> {
+        let engine = self.engine.as_ref();
+        engine
+            .map(|engine| engine.drawn_outlines(&parts))
+            .unwrap_or_default()
+    }
+
+    /// What computed variables are where the scene draws its bodies, in their order; 0 of what is no place, angle or direction.
+    pub(super) fn drawn(&self) -> Vec<f64> {
+        let computed = self.variables.iter().filter(|v| v.is_computed());
+        let drawn = |variable: &Variable| match (&self.engine, variable.source) {
+            (Some(engine), Source::Output(quantity)) => engine.drawn(quantity),
+            _ => 0.0,
+        };
+        computed.map(drawn).collect()
     }
 
     /// How all bodies stand now.
@@ -107,6 +126,16 @@ impl<const D: usize> Engine<D> {
         outlines(&assembled.system, x, parts)
     }
 
+    /// The same where the scene draws them.
+    pub(super) fn drawn_outlines(&self, parts: &dyn Fn(usize) -> u32) -> Vec<Vec<[f64; 3]>> {
+        outlines(&self.assembled.system, &self.assembled.nodes, parts)
+    }
+
+    /// See [`drawn`].
+    pub(super) fn drawn(&self, quantity: Quantity) -> f64 {
+        drawn(quantity, &self.assembled)
+    }
+
     /// How all bodies stand.
     pub(super) fn poses(&mut self, state: &State, inputs: &Inputs) -> Vec<Pose> {
         let (assembled, Evaluation { x, .. }) = self.placed(state, inputs);
@@ -115,6 +144,32 @@ impl<const D: usize> Engine<D> {
             .map(|(body, nodes)| pose(assembled, body, nodes.start, x))
             .collect()
     }
+}
+
+/// What a place, an angle or a direction is where the scene draws its bodies; 0 of all else.
+pub(super) fn drawn<const D: usize>(quantity: Quantity, assembled: &Assembled<D>) -> f64 {
+    use Quantity::*;
+    let is_place = matches!(
+        quantity,
+        Position(..)
+            | CenterOfMass(_)
+            | Displacement(_)
+            | Angle(_)
+            | Direction(..)
+            | Orientation(..)
+            | Quaternion(..)
+            | RotationVector(..)
+    );
+    if !is_place {
+        return 0.0;
+    }
+    let Assembled { system, nodes, .. } = assembled;
+    value(
+        quantity,
+        &Evaluation::at_rest(system, nodes),
+        assembled,
+        [0.0; 2],
+    )
 }
 
 /// How a body stands whose nodes begin at one.

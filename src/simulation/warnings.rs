@@ -1,6 +1,6 @@
 //! What there is to tell of a simulation beside its values: of its start, of its constraints and of its steps.
 
-use super::{AnyEngine, Redundant, Simulation, Singular, Unresolved};
+use super::{AnyEngine, Doubtful, Redundant, Simulation, Singular, Unresolved};
 
 impl Simulation {
     /// Gaps, in words, of joints that bodies as described do not fit by far: bodies were moved, or cables deformed, to
@@ -17,11 +17,16 @@ impl Simulation {
             .is_some_and(|engine| engine.remarks().is_unstable)
     }
 
-    /// The next output of which the steps so far may have left an error far beyond the tolerance, and that was not
-    /// told of before: `body.marker.quantity`. Stiffness and fast vibrations magnify errors that the
-    /// tolerance allows in the state.
-    pub fn next_doubtful(&mut self) -> Option<&str> {
+    /// The next output in which the steps so far may have left an error beyond the one wanted, and that was not
+    /// told of before. Stiffness and fast vibrations magnify errors that the tolerance allows in the state.
+    pub fn next_doubtful(&mut self) -> Option<Doubtful> {
         self.engine.as_mut().and_then(AnyEngine::next_doubtful)
+    }
+
+    /// All such outputs, with the errors that steps may have left until now.
+    pub fn doubtful(&self) -> Vec<Doubtful> {
+        let engine = self.engine.as_ref();
+        engine.map(AnyEngine::doubtful).unwrap_or_default()
     }
 
     /// A mesh that has become too coarse for the error wanted, told once, where the output `resolution` is asked for.
@@ -38,11 +43,8 @@ impl Simulation {
     /// Tells all that the steps so far give reason to warn of and that was not told of before, in words: outputs that the tolerance does not
     /// reach, singular positions, a mesh that is too coarse.
     pub fn tell_warnings(&mut self, mut tell: impl FnMut(std::fmt::Arguments<'_>)) {
-        while let Some(name) = self.next_doubtful() {
-            tell(format_args!(
-                "{name}: errors of the steps may have left more than 10 times the relative tolerance; \
-                 tighten it where this output counts"
-            ));
+        while let Some(doubtful) = self.next_doubtful() {
+            tell(format_args!("{doubtful}"));
         }
         if let Some(singular) = self.next_singular() {
             tell(format_args!("{singular}"));

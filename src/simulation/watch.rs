@@ -13,13 +13,14 @@ use crate::integrators::Tolerance;
 use crate::math::vector::norm;
 use crate::system::{Model, State, System};
 
-/// Errors beyond this many tolerances of an output's largest size are told of: the estimate is within a factor
-/// of three of the error on most scenes, and what is off by 30 tolerances must not stay unsaid.
-const LIMIT: f64 = 10.0;
 /// Communication points from one sample to the next; before, those whose number is a power of two are sampled.
 const EVERY: u64 = 16;
-/// Part of its natural size that an output must reach for its errors to be compared with it.
+/// Part of what like outputs of its body do that an output is held to where it hardly changes.
 const SMALLEST: f64 = 1e-3;
+/// Part of its natural size that an output must reach: what is below is roundoff.
+const NOTHING: f64 = 1e-10;
+/// Part of the error that the state is moved by, so that outputs change in proportion to it: all of it would stretch what bends.
+const PART: f64 = 1e-3;
 /// Most components of an output: those of an orientation.
 const MOST: usize = 9;
 
@@ -29,19 +30,54 @@ struct Group {
     members: Vec<Quantity>,
     /// What it is where the scene moves at its natural rate.
     natural: f64,
+    /// Where the scene draws its bodies, of places, angles and directions; else 0.
+    drawn: [f64; MOST],
     /// Values at the sampled state.
     values: [f64; MOST],
+    /// The largest change so far.
     largest: f64,
+    /// Outputs of the same kind of the same body, by their places; itself among them.
+    like: Vec<usize>,
     /// Sum of the squares of the changes that steps made.
     squares: f64,
+    /// Since when its error is beyond the one wanted, in time since the start, s.
+    beyond: Option<f64>,
     is_doubtful: bool,
     is_told: bool,
+}
+
+/// An output that the tolerance does not reach.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Doubtful {
+    /// Its name, without an index.
+    pub name: String,
+    /// What the errors of steps may have left so far, relative to its largest change.
+    pub error: f64,
+    /// The error wanted.
+    pub wanted: f64,
+}
+
+impl std::fmt::Display for Doubtful {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self {
+            name,
+            error,
+            wanted,
+        } = self;
+        write!(
+            f,
+            "{name}: errors of the steps may be {error:.0e} of its largest change, {wanted:.0e} is wanted; tighten the tolerance where \
+             this output counts"
+        )
+    }
 }
 
 /// What has been seen of the outputs so far.
 #[derive(Default)]
 pub(super) struct Watch {
     groups: Vec<Group>,
+    /// The error wanted, relative.
+    wanted: f64,
     /// The state moved by its error.
     pub shifted: State,
     points: u64,
@@ -51,34 +87,52 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// For these outputs.
+    /// For these outputs, with what they are as drawn.
     pub(super) fn new<'a, const D: usize>(
-        outputs: impl Iterator<Item = (Quantity, &'a str)>,
+        outputs: impl Iterator<Item = (Quantity, &'a str, f64)>,
         system: &System<D>,
         tolerance: &Tolerance,
+        wanted: f64,
     ) -> Self {
         let (mut groups, by) = (Vec::<Group>::new(), Scale::of(system, tolerance));
-        for (quantity, name) in outputs {
+        for (quantity, name, drawn) in outputs {
             let Some(natural) = natural(quantity, by) else {
                 continue;
             };
             let name = name.split('[').next().unwrap_or(name);
             match groups.iter_mut().find(|group| group.name == name) {
-                Some(group) if group.members.len() < MOST => group.members.push(quantity),
+                Some(group) if group.members.len() < MOST => {
+                    group.drawn[group.members.len()] = drawn;
+                    group.members.push(quantity);
+                }
                 _ => groups.push(Group {
                     name: name.to_owned(),
                     members: vec![quantity],
                     natural,
+                    drawn: std::array::from_fn(|k| if k == 0 { drawn } else { 0.0 }),
                     values: [0.0; MOST],
                     largest: 0.0,
+                    like: Vec::new(),
                     squares: 0.0,
+                    beyond: None,
                     is_doubtful: false,
                     is_told: false,
                 }),
             }
         }
+        let nature = |group: &Group| {
+            let body = group.name.split('.').next().map(str::to_owned);
+            (body, std::mem::discriminant(&group.members[0]))
+        };
+        let natures: Vec<_> = groups.iter().map(nature).collect();
+        for (group, nature) in groups.iter_mut().zip(&natures) {
+            let all = natures.iter().enumerate();
+            let like = all.filter(|(_, other)| *other == nature);
+            group.like = like.map(|(index, _)| index).collect();
+        }
         Self {
             groups,
+            wanted,
             shifted: system.blank_state(0.0),
             ..Self::default()
         }
@@ -90,7 +144,7 @@ impl Watch {
         self.steps += steps;
         self.elapsed += time;
         let is_due = self.points.is_power_of_two() || self.points.is_multiple_of(EVERY);
-        is_due && self.groups.iter().any(|group| !group.is_doubtful)
+        is_due && !self.groups.is_empty()
     }
 
     /// Takes the outputs at the state.
@@ -99,34 +153,71 @@ impl Watch {
             for (value_of, quantity) in group.values.iter_mut().zip(&group.members) {
                 *value_of = value(*quantity);
             }
-            group.largest = group.largest.max(norm(&group.values));
+            let mut change = group.values;
+            change
+                .iter_mut()
+                .zip(&group.drawn)
+                .for_each(|(now, drawn)| *now -= drawn);
+            group.largest = group.largest.max(norm(&change[..group.members.len()]));
         }
     }
 
     /// Compares them with the outputs at the shifted state.
-    pub(super) fn compare(
-        &mut self,
-        tolerance: &Tolerance,
-        mut value: impl FnMut(Quantity) -> f64,
-    ) {
+    fn compare(&mut self, mut value: impl FnMut(Quantity) -> f64) {
         let steps = std::mem::take(&mut self.steps) as f64;
         for group in &mut self.groups {
             for (now, quantity) in group.values.iter().zip(&group.members) {
-                group.squares += steps * (value(*quantity) - now).powi(2);
+                group.squares += steps * ((value(*quantity) - now) / PART).powi(2);
             }
-            let size = group.largest.max(SMALLEST * group.natural);
-            let is_beyond = group.squares.sqrt() > LIMIT * tolerance.relative * size;
-            // What starts from rest has no size yet.
-            group.is_doubtful |= is_beyond && self.elapsed >= tolerance.time;
+        }
+    }
+
+    /// Judges outputs once the scene has had the time (s) to move: what starts from rest has no size yet. What is beyond the error
+    /// wanted must be so until twice as much time has passed: changes grow.
+    fn judge(&mut self, time: f64) {
+        for index in 0..self.groups.len() {
+            let is_beyond = self.elapsed >= time && self.error(index) > self.wanted;
+            let group = &mut self.groups[index];
+            group.beyond = match is_beyond {
+                true => group.beyond.or(Some(self.elapsed)),
+                false => None,
+            };
+            let since = group.beyond.map(|since| self.elapsed >= 2.0 * since);
+            group.is_doubtful |= since == Some(true);
+        }
+    }
+
+    /// What steps may have left in an output so far, relative to its largest change.
+    fn error(&self, index: usize) -> f64 {
+        let group = &self.groups[index];
+        let others = group.like.iter().map(|other| self.groups[*other].largest);
+        let size = others.fold(0.0, f64::max);
+        match size > NOTHING * group.natural {
+            true => group.squares.sqrt() / group.largest.max(SMALLEST * size),
+            false => 0.0,
         }
     }
 
     /// The next output that has become doubtful and has not been told of.
-    pub(super) fn next(&mut self) -> Option<&str> {
-        let mut groups = self.groups.iter_mut();
-        let group = groups.find(|group| group.is_doubtful && !group.is_told)?;
-        group.is_told = true;
-        Some(&group.name)
+    pub(super) fn next(&mut self) -> Option<Doubtful> {
+        let mut groups = self.groups.iter();
+        let index = groups.position(|group| group.is_doubtful && !group.is_told)?;
+        self.groups[index].is_told = true;
+        Some(self.doubtful(index))
+    }
+
+    /// All outputs whose errors are beyond the one wanted now.
+    pub(super) fn all(&self) -> Vec<Doubtful> {
+        let doubtful = (0..self.groups.len()).filter(|index| self.groups[*index].beyond.is_some());
+        doubtful.map(|index| self.doubtful(index)).collect()
+    }
+
+    fn doubtful(&self, index: usize) -> Doubtful {
+        Doubtful {
+            name: self.groups[index].name.clone(),
+            error: self.error(index),
+            wanted: self.wanted,
+        }
     }
 }
 
@@ -136,35 +227,48 @@ impl<const D: usize> Engine<D> {
         let mut watch = std::mem::take(&mut self.watch);
         if watch.is_due(steps, time) {
             watch.take(|quantity| self.output(quantity, state, inputs));
-            let shifted = &mut watch.shifted;
-            shifted.copy_from(state);
-            let system = &self.assembled.system;
-            let model = Model::new(system, &inputs.values, &mut self.work, state);
-            let mut model = model.moving(&inputs.slopes);
-            let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
-            let at = (state.time, &state.coordinates[..], &state.rates[..]);
-            let within = state.dense.is_under_way().then_some(&state.dense);
-            let method = self.methods.at(&state.pace);
-            method.error(&mut model, at, within, [q, v]);
-            let add = |(moved, now): (&mut f64, &f64)| *moved += now;
-            q.iter_mut().zip(&state.coordinates).for_each(add);
-            v.iter_mut().zip(&state.rates).for_each(add);
-            if model.project(shifted) {
-                let shifted = std::mem::take(&mut watch.shifted);
-                self.forget();
-                let tolerance = self.tolerance;
-                watch.compare(&tolerance, |quantity| {
-                    self.output(quantity, &shifted, inputs)
-                });
-                watch.shifted = shifted;
+            if watch.steps > 0 {
+                self.sample(&mut watch, state, inputs);
             }
+            watch.judge(self.tolerance.time);
             self.forget();
         }
         self.watch = watch;
     }
 
+    /// Reads outputs at the state moved by a part of the error of the last step.
+    fn sample(&mut self, watch: &mut Watch, state: &State, inputs: &Inputs) {
+        let shifted = &mut watch.shifted;
+        shifted.copy_from(state);
+        let system = &self.assembled.system;
+        let model = Model::new(system, &inputs.values, &mut self.work, state);
+        let mut model = model.moving(&inputs.slopes);
+        let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
+        let at = (state.time, &state.coordinates[..], &state.rates[..]);
+        let within = state.dense.is_under_way().then_some(&state.dense);
+        let method = self.methods.at(&state.pace);
+        method.error(&mut model, at, within, [q, v]);
+        let add = |(moved, now): (&mut f64, &f64)| *moved = PART * *moved + now;
+        q.iter_mut().zip(&state.coordinates).for_each(add);
+        v.iter_mut().zip(&state.rates).for_each(add);
+        let is_placed = model.project(shifted);
+        let (q, v) = (&mut shifted.coordinates, &mut shifted.rates);
+        method.follow(&mut model, (state.time, q, v));
+        if is_placed && model.project(shifted) {
+            let shifted = std::mem::take(&mut watch.shifted);
+            self.forget();
+            watch.compare(|quantity| self.output(quantity, &shifted, inputs));
+            watch.shifted = shifted;
+        }
+    }
+
     /// The next output that the tolerance does not reach and that has not been told of.
-    pub(super) fn next_doubtful(&mut self) -> Option<&str> {
+    pub(super) fn next_doubtful(&mut self) -> Option<Doubtful> {
         self.watch.next()
+    }
+
+    /// All outputs that the tolerance does not reach, with what is known of them now.
+    pub(super) fn doubtful(&self) -> Vec<Doubtful> {
+        self.watch.all()
     }
 }

@@ -38,6 +38,7 @@ pub use rod::Rod;
 pub use signal::{Drive, Given, Signal, Trajectory, moved};
 pub use spectra::frequencies::fastest;
 pub use spectra::modes::{Mode, damping_along, modes};
+pub use spectra::response::slow_response;
 pub use spectra::spectrum::{
     Eigenvalue, SpectrumError, eigenvalues, linearized, natural_frequencies,
 };

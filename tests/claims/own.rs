@@ -144,8 +144,8 @@ fn outputs_that_the_tolerance_does_not_reach_are_told_of() {
         let mut names = Vec::new();
         for k in 1..=20 {
             simulation.step(0.1 * f64::from(k)).expect("a step");
-            while let Some(name) = simulation.next_doubtful() {
-                names.push(name.to_owned());
+            while let Some(doubtful) = simulation.next_doubtful() {
+                names.push(doubtful.name);
             }
         }
         names

@@ -99,16 +99,28 @@ impl Radau {
         }
         self.leave(dynamics);
         dynamics.solve(&mut self.f[0]);
-        // Filtered twice more: stiff directions follow the others, whatever was started with.
+        // Filtered once more, and once by `follow`: stiff directions follow the others, whatever was started with.
         position.copy_from_slice(&self.error_q);
         velocity.copy_from_slice(&self.error_v);
         for error in [&mut *position, &mut *velocity] {
-            for _ in 0..2 {
-                dynamics.solve(error);
-                error.iter_mut().for_each(|e| *e *= s * s);
-            }
+            dynamics.solve(error);
+            error.iter_mut().for_each(|e| *e *= s * s);
         }
         self.correct(s, (position, velocity));
+    }
+
+    /// As [`Method::follow`](crate::integrators::Method::follow).
+    pub(super) fn follow_error(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        (time, q, v): (f64, &mut [f64], &mut [f64]),
+    ) {
+        let [change, moved, _] = &mut self.f;
+        dynamics.acceleration(time, q, v, moved);
+        sum(change, &[(1.0, &moved[..]), (-1.0, &self.a[..])]);
+        dynamics.take_out_normal(change);
+        dynamics.solve(change);
+        self.correct(GAMMA / self.attempted, (q, v));
     }
 
     /// Acceleration of the stage equations' solution at the end of the step, into `stage_v`.

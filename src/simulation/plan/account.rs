@@ -1,11 +1,10 @@
 //! The account of a search: what was chosen, and why.
 
-use super::experiment::{Run, columns};
+use super::experiment::Run;
 use super::ladder::Choice;
-use super::outputs::{Difference, scale};
+use super::outputs::{Difference, RelativeTo};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
 use super::search::Search;
-use crate::simulation::Causality;
 
 impl Search<'_, '_> {
     /// The plan of a choice, from what doubling and a tenth of the tolerance change.
@@ -21,7 +20,7 @@ impl Search<'_, '_> {
         self.refine(&mut double);
         let cheaper = self.cheaper(choice);
         let chosen = self.known(choice);
-        let outputs = self.outputs(chosen, in_space, in_time);
+        let outputs = self.estimated(chosen, in_space, in_time);
         let largest = outputs.iter().map(|output| output.error).reduce(f64::max);
         let cost = chosen.map_or(0.0, |run| run.work);
         let method = chosen.map_or("", |run| run.method);
@@ -31,7 +30,8 @@ impl Search<'_, '_> {
             bodies: self.bodies(choice, in_space),
             tolerance: choice.tolerance,
             method,
-            held: self.held(),
+            held: self.experiment.held.clone(),
+            answers: self.answers(in_space),
             chosen: self.price(choice, largest),
             outputs,
             settled,
@@ -73,30 +73,30 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Inputs that keep their start values.
-    fn held(&self) -> Vec<String> {
-        let inputs = self.variables.iter();
-        let inputs = inputs.filter(|variable| Causality::of(variable) == Causality::Input);
-        let courses = columns(&self.scene.accuracy.courses, &self.variables);
-        let moves = |name: &str| courses.iter().any(|(moved, ..)| moved == name);
-        let held = inputs.filter(|variable| !moves(&variable.name));
-        held.map(|variable| variable.name.clone()).collect()
+    /// What doubling changes of the answers to inputs that are held, and of natural frequencies.
+    fn answers(&self, in_space: &[Difference]) -> Vec<(String, f64)> {
+        let still = self.outputs().len()..in_space.len();
+        still
+            .map(|index| (self.name(index), in_space[index].largest))
+            .collect()
     }
 
-    fn outputs(
+    fn estimated(
         &self,
         chosen: Option<&Run>,
         in_space: &[Difference],
         in_time: &[Difference],
     ) -> Vec<PlannedOutput> {
-        let outputs = self.groups.iter().enumerate().map(|(index, group)| {
+        let outputs = self.outputs().iter().enumerate().map(|(index, group)| {
             let parts = [in_space.get(index), in_time.get(index)];
             let error: f64 = parts.iter().flatten().map(|d| d.largest).sum();
             let until = parts.iter().flatten().filter_map(|d| d.until);
+            let scale = chosen.map_or((0.0, RelativeTo::Own), |run| run.scales[index]);
             PlannedOutput {
                 name: group.name.clone(),
                 error,
-                scale: chosen.map_or(0.0, |run| scale(group, run)),
+                scale: scale.0,
+                relative_to: scale.1,
                 skips_start: group.is_dynamic,
                 settles: match (error <= self.error, until.reduce(f64::min)) {
                     (true, _) => Settles::Yes,
@@ -114,7 +114,8 @@ impl Search<'_, '_> {
         let changes = largest.map(|(group, difference)| {
             format!(
                 "changes {} most, by {:.1e}",
-                self.groups[group].name, difference.largest
+                self.name(group),
+                difference.largest
             )
         });
         let mut counts = choice.elements.iter().enumerate();

@@ -2,8 +2,11 @@
 
 use std::f64::consts::PI;
 
+use super::motion::Motion;
+use super::outputs::RelativeTo;
+use super::response::Responses;
 use crate::scene::{Course, Error, InputCourse, Scene};
-use crate::simulation::{Causality, Signals, Simulation, Variable, variables};
+use crate::simulation::{Causality, Signals, Simulation, Source, Variable, variables};
 
 /// Communication points that are compared, about, where there are more.
 const POINTS: u64 = 10_000;
@@ -19,6 +22,15 @@ pub(super) struct Run {
     /// What these are where the scene moves by its nature, and its size, m.
     pub natural: Vec<f64>,
     pub size: f64,
+    /// What these are where the scene draws its bodies: places, angles and directions.
+    pub drawn: Vec<f64>,
+    /// Largest displacements of bodies from where they were drawn, and from a rigid motion of what was drawn, m.
+    pub moved: Vec<f64>,
+    pub deformed: Vec<f64>,
+    /// What inputs that are held would do.
+    pub responses: Responses,
+    /// What errors of every output are measured by, in its unit; filled in by the search.
+    pub scales: Vec<(f64, RelativeTo)>,
     /// Work: operations times parts.
     pub work: f64,
     /// Sub-steps.
@@ -46,6 +58,8 @@ pub(super) struct Experiment {
     stop: f64,
     /// Steps from one point that is compared to the next.
     every: u64,
+    /// Inputs that keep their start values, but for rates of others.
+    pub held: Vec<String>,
 }
 
 impl Experiment {
@@ -61,6 +75,7 @@ impl Experiment {
             step: scene.experiment.step,
             stop: scene.experiment.stop_time,
             every: steps / POINTS + 1,
+            held: held(scene),
         })
     }
 
@@ -81,19 +96,11 @@ impl Experiment {
         }
         let started = simulation.initialize(0.0).and_then(|()| simulation.start());
         started.map_err(|error| failed(error.to_string()))?;
-        let (size, natural) = simulation.natural();
+        let mut run = Run::begun(self, &mut simulation);
         let variables = simulation.variables().iter().enumerate();
         let computed = variables.filter(|(_, variable)| variable.is_computed());
         let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
-        let mut run = Run {
-            times: Vec::new(),
-            rows: Vec::new(),
-            natural,
-            size,
-            work: 0.0,
-            steps: 0,
-            method: "",
-        };
+        let mut motion = Motion::new(&simulation);
         for number in 0..=self.steps {
             let until = (number as f64 * self.step).min(self.stop);
             let middle = (until - 0.5 * self.step).max(0.0);
@@ -121,12 +128,69 @@ impl Experiment {
             }
             let values = computed.iter().map(|index| simulation.real(*index));
             let row: Result<Vec<f64>, _> = values.collect();
+            let row = row.and_then(|row| motion.take(&mut simulation).map(|()| row));
             run.rows
                 .push(row.map_err(|error| failed(error.to_string()))?);
             run.times.push(simulation.time());
         }
+        (run.moved, run.deformed) = (motion.moved, motion.deformed);
         Ok(run)
     }
+}
+
+impl Run {
+    /// At the start of a simulation that has been initialized.
+    fn begun(experiment: &Experiment, simulation: &mut Simulation) -> Self {
+        let (size, natural) = simulation.natural();
+        let places = experiment.held.iter().filter_map(|name| {
+            let variable = simulation.variables().iter().find(|v| v.name == *name);
+            match variable.map(|variable| variable.source) {
+                Some(Source::Input(place)) => Some(place),
+                _ => None,
+            }
+        });
+        let places: Vec<usize> = places.collect();
+        let times = (experiment.stop, experiment.step);
+        let responses = match places.is_empty() {
+            true => Responses::default(),
+            false => Responses::new(simulation, &places, times),
+        };
+        Self {
+            times: Vec::new(),
+            rows: Vec::new(),
+            natural,
+            size,
+            drawn: simulation.drawn(),
+            moved: Vec::new(),
+            deformed: Vec::new(),
+            responses,
+            scales: Vec::new(),
+            work: 0.0,
+            steps: 0,
+            method: "",
+        }
+    }
+}
+
+/// Inputs that no course moves, but for the rates of driven motions.
+fn held(scene: &Scene) -> Vec<String> {
+    let variables = variables(scene);
+    let inputs = variables.iter();
+    let inputs = inputs.filter(|variable| Causality::of(variable) == Causality::Input);
+    let names: Vec<&str> = inputs.map(|variable| &variable.name[..]).collect();
+    let is_rate = |name: &str| {
+        let mut pairs = RATES.iter().flat_map(|[value, rates @ ..]| {
+            let values = rates.iter().map(move |rate| (*rate, *value));
+            values.filter(|(rate, _)| name.contains(rate))
+        });
+        pairs.any(|(rate, value)| names.contains(&&*name.replace(rate, value)))
+    };
+    let moved = columns(&scene.accuracy.courses, &variables);
+    let is_moved = |name: &str| moved.iter().any(|(moved, ..)| moved == name);
+    let held = names
+        .iter()
+        .filter(|name| !is_moved(name) && !is_rate(name));
+    held.map(|name| (*name).to_owned()).collect()
 }
 
 /// What inputs do while a scene is planned, as a CSV table with a row at every communication point; nothing where

@@ -7,8 +7,10 @@ mod account;
 mod damping;
 mod experiment;
 mod ladder;
+mod motion;
 mod outputs;
 mod report;
+mod response;
 mod search;
 mod settled;
 mod shear;
@@ -17,6 +19,7 @@ mod time;
 pub use damping::Damped;
 pub(super) use damping::damp;
 pub use experiment::courses;
+pub use outputs::RelativeTo;
 pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settled, Settles};
 
 use crate::scene::{Chosen, Error, Scene};

@@ -1,23 +1,41 @@
-//! Outputs that are compared between runs, and by what their differences are measured.
+//! Outputs that are compared between runs, and by what their differences are measured: the largest change of each.
 
 use super::experiment::Run;
 use crate::math::vector::norm;
 use crate::scene::{Error, Scene};
 use crate::simulation::quantities::{self, Evaluated};
-use crate::simulation::{Quantity, Source, Variable};
+use crate::simulation::{Quantity, Source, Unit, Variable};
 
-/// Part of its natural size that an output must reach for its differences to be measured by it.
+/// Part of what others of its body do that an output is held to where it hardly moves, and of the size of the scene where
+/// nothing moves.
 const SMALLEST: f64 = 1e-3;
+/// Part of its natural size below which what an output does is roundoff.
+const NOTHING: f64 = 1e-11;
 
-/// By what differences of an output are measured.
+/// What an output must show for its errors to be resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Measure {
-    /// The size of the scene.
-    Size,
-    /// One radian, or a unit vector.
-    Unit,
-    /// Its own largest value.
-    Largest,
+    /// Displacement from where its marker was drawn, m.
+    Displacement,
+    /// Change of an angle (rad) or of a unit vector from how it was drawn.
+    Rotation,
+    /// Its largest value: a rate, which follows from the displacement of its body.
+    Rate,
+    /// Its largest value: a force, a strain or an acceleration, which follows from how its body deforms.
+    Elastic,
+    /// Its largest value: a frequency, or what the whole scene sums up to.
+    Sum,
+}
+
+/// What the errors of an output are relative to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RelativeTo {
+    /// Its own largest change.
+    Own,
+    /// A thousandth of the largest change of like outputs of its body.
+    Body,
+    /// A thousandth of the size of the scene, or of a natural force of it: nothing changes.
+    Scene,
 }
 
 /// An output with all its components.
@@ -27,10 +45,16 @@ pub(super) struct Group {
     /// Indices of its components among the computed variables.
     pub members: Vec<usize>,
     pub measure: Measure,
+    /// Its unit; like outputs have the same.
+    unit: Option<Unit>,
+    /// Bodies that it is read at, by their places; none of what belongs to the whole scene.
+    pub bodies: Vec<usize>,
     /// Whether it follows from accelerations: those of the first instant are of loads that begin at once.
     pub is_dynamic: bool,
     /// Whether it is a force or a moment.
     pub is_force: bool,
+    /// Whether it is among the outputs that count.
+    pub counts: bool,
 }
 
 /// What an output changes from one run to another.
@@ -43,6 +67,12 @@ pub(super) struct Difference {
 }
 
 impl Difference {
+    /// No difference.
+    pub const NONE: Self = Self {
+        largest: 0.0,
+        until: None,
+    };
+
     /// The larger of two, good for the shorter time.
     pub fn worst(self, other: Self) -> Self {
         let until = [self.until, other.until].into_iter().flatten();
@@ -59,10 +89,10 @@ pub(super) fn are_kept(now: &[Difference], before: &[Difference], limits: &[f64]
     pairs.all(|((now, before), limit)| now.largest <= limit.max(before.largest))
 }
 
-/// The outputs of a scene that count.
+/// The outputs of a scene: first those that count, then all others.
 ///
 /// # Errors
-/// A name in `accuracy.of` that no output bears.
+/// A name in `accuracy.of` that no output bears; no output that counts.
 pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>, Error> {
     let wanted = &scene.accuracy.of;
     let mut groups: Vec<Group> = Vec::new();
@@ -71,17 +101,18 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>
             continue;
         };
         let name = variable.name.split('[').next().unwrap_or_default();
-        if !(wanted.iter().any(|of| of == name) || wanted.is_empty() && counts) {
-            continue;
-        }
+        let counts = wanted.iter().any(|of| of == name) || wanted.is_empty() && counts;
         match groups.iter_mut().find(|group| group.name == name) {
             Some(group) => group.members.push(index),
             None => groups.push(Group {
                 name: name.to_owned(),
                 members: vec![index],
                 measure,
+                unit: variable.unit,
+                bodies: bodies_of(scene, name),
                 is_dynamic,
                 is_force: is_force(variable.source),
+                counts,
             }),
         }
     }
@@ -92,11 +123,41 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>
             return Err(Error::new(format!("accuracy.of[{place}]"), message));
         }
     }
-    if groups.is_empty() {
+    groups.sort_by_key(|group| !group.counts);
+    if !groups.first().is_some_and(|group| group.counts) {
         let message = "expected an output to plan for, found none but energies, work and residuals";
         return Err(Error::new("outputs", message));
     }
     Ok(groups)
+}
+
+/// Places of the bodies that an output is read at.
+fn bodies_of(scene: &Scene, output: &str) -> Vec<usize> {
+    let Some((first, _)) = output.split_once('.') else {
+        return Vec::new();
+    };
+    let owner = |marker: &str| marker.split('.').next().unwrap_or_default().to_owned();
+    let joint = |name: &str| scene.joints.iter().find(|joint| joint.name == name);
+    let of_joint = |name: &str| -> Vec<String> {
+        let markers = joint(name).map(|joint| joint.markers.iter().map(|marker| owner(marker)));
+        markers.into_iter().flatten().collect()
+    };
+    let mut names = vec![first.to_owned()];
+    names.extend(of_joint(first));
+    for motion in scene.motions.iter().filter(|motion| motion.name == first) {
+        names.extend(motion.marker.iter().map(|marker| owner(marker)));
+        names.extend(motion.joint.iter().flat_map(|joint| of_joint(joint)));
+    }
+    for load in scene.loads.iter().filter(|load| load.name == first) {
+        let markers = load.markers.iter().flatten().chain(&load.marker);
+        names.extend(markers.map(|marker| owner(marker)).chain(load.body.clone()));
+        names.extend(load.joint.iter().flat_map(|joint| of_joint(joint)));
+    }
+    let ports = scene.ports.iter().filter(|port| port.name == first);
+    names.extend(ports.map(|port| owner(&port.marker)));
+    let bodies = scene.bodies.iter().enumerate();
+    let named = bodies.filter(|(_, body)| names.iter().any(|name| name == body.name()));
+    named.map(|(index, _)| index).collect()
 }
 
 /// By what an output is measured, whether it follows from accelerations, and whether it counts where none are named;
@@ -106,14 +167,21 @@ fn nature(source: Source) -> Option<(Measure, bool, bool)> {
     let quantity = match source {
         Source::Output(quantity) => quantity,
         Source::NaturalFrequency(_) | Source::Eigenvalue(..) => {
-            return Some((Measure::Largest, false, true));
+            return Some((Measure::Sum, false, true));
         }
         Source::Time | Source::Parameter(_) | Source::Input(_) => return None,
     };
+    let is_dynamic = quantities::needs(quantity) == Evaluated::Dynamics;
     let measure = match quantity {
-        Position(..) | CenterOfMass(_) | Travel(_) => Measure::Size,
-        Angle(_) | Direction(..) | Quaternion(..) | RotationVector(..) => Measure::Unit,
-        _ => Measure::Largest,
+        Position(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => Measure::Displacement,
+        Angle(_) | Direction(..) | Orientation(..) | Quaternion(..) | RotationVector(..) => {
+            Measure::Rotation
+        }
+        Strain(_) | Curvature(_) => Measure::Elastic,
+        Momentum(_) | AngularMomentum(_) | KineticEnergy | StrainEnergy | GravityEnergy
+        | SpringEnergy | Input | Dissipated | Resolution | Residual(_) => Measure::Sum,
+        _ if is_dynamic => Measure::Elastic,
+        _ => Measure::Rate,
     };
     let counts = !matches!(
         quantity,
@@ -126,7 +194,6 @@ fn nature(source: Source) -> Option<(Measure, bool, bool)> {
             | Resolution
             | Residual(_)
     );
-    let is_dynamic = quantities::needs(quantity) == Evaluated::Dynamics;
     Some((measure, is_dynamic, counts))
 }
 
@@ -153,6 +220,13 @@ fn is_force(source: Source) -> bool {
     )
 }
 
+impl Measure {
+    /// Whether changes are counted from how the scene was drawn.
+    fn is_change(self) -> bool {
+        matches!(self, Self::Displacement | Self::Rotation)
+    }
+}
+
 /// Components of an output at a point of a run.
 fn at(group: &Group, run: &Run, point: usize) -> Vec<f64> {
     let row = &run.rows[point];
@@ -164,26 +238,55 @@ fn points(group: &Group, run: &Run) -> std::ops::Range<usize> {
     usize::from(group.is_dynamic && run.rows.len() > 1)..run.rows.len()
 }
 
-/// By what differences of an output are measured, in its unit.
-pub(super) fn scale(group: &Group, run: &Run) -> f64 {
-    match group.measure {
-        Measure::Size => run.size,
-        Measure::Unit => 1.0,
-        Measure::Largest => {
-            let sizes = points(group, run).map(|point| norm(&at(group, run, point)));
-            let natural = group.members.iter().map(|m| run.natural[*m]);
-            sizes.fold(SMALLEST * natural.fold(0.0, f64::max), f64::max)
+/// The largest change of an output over a run, in its unit.
+fn own(group: &Group, run: &Run) -> f64 {
+    let change = |point| {
+        let mut values = at(group, run, point);
+        if group.measure.is_change() {
+            let drawn = group.members.iter().map(|member| run.drawn[*member]);
+            values.iter_mut().zip(drawn).for_each(|(v, d)| *v -= d);
         }
-    }
+        norm(&values)
+    };
+    points(group, run).map(change).fold(0.0, f64::max)
+}
+
+/// Of sizes of outputs that of one, or a thousandth of the largest of like outputs of its body where that is more.
+pub(super) fn like(groups: &[Group], index: usize, sizes: &[f64]) -> f64 {
+    let group = &groups[index];
+    let is_like = |(_, other): &(usize, &Group)| {
+        let shares = other.bodies.iter().any(|body| group.bodies.contains(body));
+        shares && other.unit == group.unit && other.measure == group.measure
+    };
+    let others = groups.iter().enumerate().filter(is_like);
+    let others = others.fold(0.0, |most: f64, (other, _)| most.max(sizes[other]));
+    sizes[index].max(SMALLEST * others)
+}
+
+/// What the errors of every output are measured by in a run, in its unit, and what that is.
+pub(super) fn scales(groups: &[Group], run: &Run) -> Vec<(f64, RelativeTo)> {
+    let changes: Vec<f64> = groups.iter().map(|group| own(group, run)).collect();
+    let scale = |(index, group): (usize, &Group)| {
+        let natural = group.members.iter().map(|m| run.natural[*m]);
+        let natural = natural.fold(0.0, f64::max);
+        match (changes[index], like(groups, index, &changes)) {
+            (_, by_body) if by_body <= NOTHING * natural => (SMALLEST * natural, RelativeTo::Scene),
+            (change, by_body) if change < by_body => (by_body, RelativeTo::Body),
+            (change, _) => (change, RelativeTo::Own),
+        }
+    };
+    groups.iter().enumerate().map(scale).collect()
 }
 
 /// What an output changes from a run to one that is closer to the truth; `limit` is asked for.
-pub(super) fn difference(group: &Group, run: &Run, closer: &Run, limit: f64) -> Difference {
-    let size = scale(group, closer);
-    let mut found = Difference {
-        largest: 0.0,
-        until: None,
-    };
+pub(super) fn difference(
+    (group, index): (&Group, usize),
+    run: &Run,
+    closer: &Run,
+    limit: f64,
+) -> Difference {
+    let size = closer.scales[index].0;
+    let mut found = Difference::NONE;
     for point in points(group, closer) {
         let (a, b) = (at(group, run, point), at(group, closer, point));
         let apart: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
@@ -198,3 +301,29 @@ pub(super) fn difference(group: &Group, run: &Run, closer: &Run, limit: f64) -> 
     }
     found
 }
+
+/// Displacement that a run must resolve for an output to be believed, m, and by what part of the error wanted; nothing
+/// where it shows none.
+pub(super) fn shown((group, index): (&Group, usize), run: &Run) -> Option<f64> {
+    let of_bodies = |displacements: &[f64]| {
+        let all = displacements.iter().enumerate();
+        let own = all.filter(|(body, found)| group.bodies.contains(body) && **found > 0.0);
+        let least = own.map(|(_, found)| *found).reduce(f64::min);
+        least.or_else(|| displacements.iter().copied().reduce(f64::max))
+    };
+    let (scale, _) = run.scales[index];
+    let found = match group.measure {
+        Measure::Displacement => Some(scale),
+        Measure::Rotation => Some(scale.min(1.0) * run.size),
+        Measure::Rate => of_bodies(&run.moved),
+        Measure::Elastic => match of_bodies(&run.deformed) {
+            Some(deformed) if deformed > 0.0 => Some(deformed),
+            _ => of_bodies(&run.moved),
+        },
+        Measure::Sum => None,
+    };
+    found.filter(|found| *found > ROUNDOFF * run.size)
+}
+
+/// Part of the size of a scene below which displacements are roundoff.
+const ROUNDOFF: f64 = 1e-13;

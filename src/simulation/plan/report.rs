@@ -1,5 +1,7 @@
 //! What was planned, and why.
 
+use super::outputs::RelativeTo;
+
 /// Where the numbers of a planned scene come from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -11,8 +13,10 @@ pub struct Plan {
     pub tolerance: f64,
     /// Integrator at the end of the experiment.
     pub method: &'static str,
-    /// Inputs that kept their start values.
+    /// Inputs that kept their start values; meshes were compared by the linear answers to them.
     pub held: Vec<String>,
+    /// What doubling changes of these answers, and of natural frequencies that the communication step resolves, relative.
+    pub answers: Vec<(String, f64)>,
     /// Outputs that count.
     pub outputs: Vec<PlannedOutput>,
     /// The choice, and the next cheaper and dearer ones, where they were run.
@@ -53,6 +57,8 @@ pub struct PlannedOutput {
     pub error: f64,
     /// What errors are relative to, in the unit of the output.
     pub scale: f64,
+    /// What that is.
+    pub relative_to: RelativeTo,
     /// Whether the first instant is left out.
     pub skips_start: bool,
     /// Whether the error wanted is kept.

@@ -3,11 +3,12 @@
 use super::Progress;
 use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
-use super::outputs::{Difference, Group, are_kept, difference, groups};
+use super::outputs::{Difference, Group, RelativeTo, are_kept, difference, groups, scales, shown};
 use super::report::Plan;
+use super::response;
 use super::shear::{Beam, Sheared};
 use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
-use crate::simulation::{Variable, check, variables};
+use crate::simulation::{check, variables};
 
 /// Part of the error wanted that doubling may change.
 pub(super) const OF_SPACE: f64 = 2.0 / 3.0;
@@ -15,6 +16,11 @@ pub(super) const OF_SPACE: f64 = 2.0 / 3.0;
 pub(super) const SHARED: f64 = 0.9;
 /// Part of what doubling changes that the next one changes at least, where that is foreseen.
 const LEAST: f64 = 1.0 / 16.0;
+/// Part of the error wanted that the tolerance is where inputs rest and nothing moves: motions of a thousandth of the size are
+/// resolved when they act.
+const STILL: f64 = 1e-3;
+/// The tightest tolerance: below it roundoff makes the steps.
+pub(super) const TIGHTEST: f64 = 1e-11;
 /// Most cables of which single ones are tried with fewer elements.
 const MOST_SINGLE: usize = 4;
 /// Most elements of a cable, runs, and work of all of them (some seconds); of a fuzzer little, so that it gets on.
@@ -25,8 +31,10 @@ const MOST_WORK: f64 = if cfg!(fuzzing) { 1e5 } else { 1e8 };
 /// A search under way.
 pub(super) struct Search<'a, 'p> {
     pub scene: &'a Scene,
-    pub variables: Vec<Variable>,
+    /// Outputs: first those that count.
     pub groups: Vec<Group>,
+    /// Number of outputs that count.
+    counting: usize,
     pub experiment: Experiment,
     /// Error wanted.
     pub error: f64,
@@ -38,6 +46,8 @@ pub(super) struct Search<'a, 'p> {
     pub fewest: Vec<u32>,
     /// Bodies that may be beams.
     pub(super) beams: Vec<Beam>,
+    /// The loosest tolerance that may be chosen.
+    pub(super) loosest: f64,
     progress: Progress<'p>,
 }
 
@@ -78,17 +88,18 @@ impl<'a, 'p> Search<'a, 'p> {
     /// # Errors
     /// A name in `accuracy` that the scene does not have; what is not valid.
     pub fn new(scene: &'a Scene, beams: Vec<Beam>, progress: Progress<'p>) -> Result<Self, Error> {
-        let variables = variables(scene);
+        let groups = groups(scene, &variables(scene))?;
         Ok(Self {
             beams,
-            groups: groups(scene, &variables)?,
+            counting: groups.iter().filter(|group| group.counts).count(),
+            groups,
             experiment: Experiment::new(scene)?,
             error: scene.error(),
             scene,
-            variables,
             runs: Vec::new(),
             work: 0.0,
             fewest: fewest(scene)?,
+            loosest: f64::INFINITY,
             progress,
         })
     }
@@ -196,9 +207,12 @@ impl<'a, 'p> Search<'a, 'p> {
         if self.runs.len() >= MOST_RUNS || left <= 0.0 {
             return Err(Unfinished::TooMuchWork);
         }
-        let run = self
+        let mut run = self
             .experiment
             .run(self.planned(choice), choice.is_halved, left);
+        if let Ok(run) = &mut run {
+            run.scales = scales(&self.groups, run);
+        }
         self.work += match &run {
             Ok(run) => run.work,
             Err(Unfinished::TooMuchWork) => left,
@@ -225,9 +239,62 @@ impl<'a, 'p> Search<'a, 'p> {
         let Some((run, closer)) = self.known(choice).zip(self.known(closer)) else {
             return Err(Unfinished::TooMuchWork);
         };
-        let groups = self.groups.iter();
-        let found = groups.map(|group| difference(group, run, closer, limit));
-        Ok(found.collect())
+        let counting = self.groups[..self.counting].iter().enumerate();
+        let of_outputs =
+            counting.map(|(index, group)| difference((group, index), run, closer, limit));
+        let held = 0..self.experiment.held.len();
+        let [own, fine] = [run, closer].map(|run| &run.responses);
+        let of_inputs = held.map(|input| own.difference(fine, input, &self.groups));
+        let of_frequencies = self.tunes().then(|| own.detuned(fine));
+        let still = of_inputs.chain(of_frequencies).map(|largest| Difference {
+            largest,
+            until: (largest > limit).then_some(0.0),
+        });
+        Ok(of_outputs.chain(still).collect())
+    }
+
+    /// Whether natural frequencies are compared: of scenes with inputs that are held.
+    fn tunes(&self) -> bool {
+        !self.experiment.held.is_empty()
+    }
+
+    /// Number of all that is compared: outputs that count, answers to inputs that are held, and natural frequencies.
+    fn compared(&self) -> usize {
+        self.counting + self.experiment.held.len() + usize::from(self.tunes())
+    }
+
+    /// Name of something that is compared.
+    pub fn name(&self, index: usize) -> String {
+        let input = index.checked_sub(self.counting);
+        match input.map(|input| self.experiment.held.get(input)) {
+            None => self.groups[index].name.clone(),
+            Some(Some(input)) => response::name(input),
+            Some(None) => response::FREQUENCIES.to_owned(),
+        }
+    }
+
+    /// Outputs that count, in the order in which they are compared.
+    pub fn outputs(&self) -> &[Group] {
+        &self.groups[..self.counting]
+    }
+
+    /// The loosest tolerance at which a run resolves what its outputs show: the error wanted of the displacements that they follow from.
+    pub fn believed(&self, run: &Run) -> f64 {
+        let counting = self.outputs().iter().enumerate();
+        let shown = counting.filter_map(|(index, group)| shown((group, index), run));
+        let least = shown.fold(f64::INFINITY, f64::min);
+        let by_motion = self.error * least / run.size.max(f64::MIN_POSITIVE);
+        let at_rest = match self.is_at_rest(run) {
+            true => STILL * self.error,
+            false => f64::INFINITY,
+        };
+        by_motion.min(at_rest).max(TIGHTEST)
+    }
+
+    /// Whether inputs are held while an output that counts does not change.
+    pub fn is_at_rest(&self, run: &Run) -> bool {
+        let mut scales = run.scales[..self.counting].iter();
+        self.tunes() && scales.any(|(_, of)| *of == RelativeTo::Scene)
     }
 
     /// What is said of outputs that could not be compared.
@@ -236,7 +303,7 @@ impl<'a, 'p> Search<'a, 'p> {
             largest: f64::INFINITY,
             until: Some(0.0),
         };
-        vec![unknown; self.groups.len()]
+        vec![unknown; self.compared()]
     }
 
     /// Doubles all numbers of elements that are free, and lets rigid bodies bend; false where there are none or too many.
@@ -253,7 +320,7 @@ impl<'a, 'p> Search<'a, 'p> {
 
     /// The same part of the error wanted for every output.
     pub fn equal(&self, part: f64) -> Vec<f64> {
-        vec![part * self.error; self.groups.len()]
+        vec![part * self.error; self.compared()]
     }
 
     /// The coarsest mesh that doubling changes by no more than may be, and what it changes.
@@ -276,7 +343,11 @@ impl<'a, 'p> Search<'a, 'p> {
                 ladder.add(&tried, found);
                 break;
             }
-            self.tighten(&tried, &mut closer);
+            let lets_bend = tried.elements.contains(&0);
+            match lets_bend {
+                true => self.resolve(&mut closer),
+                false => self.tighten(&tried, &mut closer),
+            }
             match self.compare(&tried, &closer, self.error) {
                 Ok(found) => ladder.add(&tried, found),
                 Err(Unfinished::TooMuchWork) => break,
@@ -290,11 +361,15 @@ impl<'a, 'p> Search<'a, 'p> {
             if ladder.is_climbed() || self.is_enough(&ladder, in_time) {
                 break;
             }
+            if lets_bend {
+                closer.tolerance = choice.tolerance;
+            }
             tried = closer;
         }
         let Some((best, found)) = ladder.best() else {
             let is_free = (0..choice.elements.len()).any(|cable| self.is_free(cable));
-            return Ok(if is_free { self.unknown() } else { Vec::new() });
+            let nothing = vec![Difference::NONE; self.compared()];
+            return Ok(if is_free { self.unknown() } else { nothing });
         };
         *choice = best;
         let mut closer = choice.clone();
@@ -345,6 +420,8 @@ impl<'a, 'p> Search<'a, 'p> {
             return;
         }
         let limits = self.equal(OF_SPACE);
+        // What bends is compared with what does not, so its vibrations must be there.
+        let mut resolved = closer.clone();
         for cable in cables {
             let mut tried = choice.clone();
             tried.elements[cable] /= 2;
@@ -354,6 +431,11 @@ impl<'a, 'p> Search<'a, 'p> {
             if tried.elements[cable] < least[cable] || tried.elements == choice.elements {
                 continue;
             }
+            let lets_bend = tried.elements[cable] == 0;
+            if lets_bend {
+                self.resolve(&mut resolved);
+            }
+            let closer = if lets_bend { &resolved } else { closer };
             let changed = self.compare(&tried, closer, self.error);
             if changed.is_ok_and(|changed| are_kept(&changed, found, &limits)) {
                 *choice = tried;

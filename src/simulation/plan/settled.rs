@@ -23,7 +23,7 @@ impl Search<'_, '_> {
             ..choice.clone()
         };
         let changes = self.compare(choice, &settled, self.error).ok()?;
-        let changed: Vec<usize> = (0..changes.len())
+        let changed: Vec<usize> = (0..self.outputs().len())
             .filter(|index| self.groups[*index].is_force && changes[*index].largest > self.error)
             .collect();
         if changed.is_empty() {

@@ -98,8 +98,8 @@ impl Search<'_, '_> {
             ..same.clone()
         };
         let changes = self.compare(&same, &leaning, self.error).ok()?;
-        let named = self.groups.iter().zip(changes);
-        let named = named.map(|(group, change)| (group.name.clone(), change.largest));
+        let named = changes.iter().enumerate();
+        let named = named.map(|(index, change)| (self.name(index), change.largest));
         named.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 }

@@ -3,7 +3,7 @@
 use super::experiment::Unfinished;
 use super::ladder::{Choice, Ladder};
 use super::outputs::Difference;
-use super::search::{OF_SPACE, SHARED, Search};
+use super::search::{OF_SPACE, SHARED, Search, TIGHTEST};
 use crate::scene::Error;
 
 /// Part of the error wanted that a tenth of the tolerance may change.
@@ -34,6 +34,8 @@ const LITTLE: f64 = 0.05;
 /// communication steps it would do, and with longer ones not.
 const LOOSEST: f64 = 1e-2;
 const LAST: f64 = 1e-3;
+/// Times that a tolerance is tightened at most until a run resolves what it shows.
+const RESOLVED: usize = 4;
 
 impl Search<'_, '_> {
     /// The first tolerance that is tried: the one given, or the loosest.
@@ -42,10 +44,10 @@ impl Search<'_, '_> {
         self.scene.accuracy.relative_tolerance.unwrap_or(first)
     }
 
-    /// The loosest tolerance that the coarsest mesh allows, and what a tenth of it changes.
+    /// The loosest tolerance that the coarsest mesh allows, and what the error of it is.
     pub(super) fn find_tolerance(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Error> {
         loop {
-            match self.loosest(choice, &self.equal(OF_TIME)) {
+            match self.loosest_believed(choice) {
                 Ok(found) => return Ok(found),
                 // A mesh that is too coarse to be run says nothing of time.
                 Err(Unfinished::Failed(reason)) => {
@@ -56,6 +58,80 @@ impl Search<'_, '_> {
                 Err(Unfinished::TooMuchWork) => return Ok(self.unknown()),
             }
         }
+    }
+
+    /// The loosest tolerance whose difference from a run that resolves its motions is small enough, from that of a choice on. Runs that
+    /// damp small vibrations away agree with each other, and are all wrong.
+    fn loosest_believed(&mut self, choice: &mut Choice) -> Result<Vec<Difference>, Unfinished> {
+        let limits = self.equal(OF_TIME);
+        let mut resolved = choice.clone();
+        self.run(&resolved)?;
+        self.resolve(&mut resolved);
+        if resolved.tolerance >= tenth(choice.tolerance) {
+            return self.loosest(choice, &limits);
+        }
+        self.loosest = match self.rests(&resolved) {
+            true => resolved.tolerance,
+            false => choice.tolerance,
+        };
+        choice.tolerance = decade(10.0 * resolved.tolerance).min(self.loosest);
+        let mut found = self.loosest(choice, &limits)?;
+        // The tightest one that was run says what looser ones miss.
+        let reference = Choice {
+            tolerance: tenth(choice.tolerance),
+            ..choice.clone()
+        };
+        while decade(10.0 * choice.tolerance) <= self.loosest && self.known(&reference).is_some() {
+            let looser = Choice {
+                tolerance: decade(10.0 * choice.tolerance),
+                ..choice.clone()
+            };
+            let Ok(now) = self.doubted(&looser, &reference) else {
+                break;
+            };
+            if !now
+                .iter()
+                .zip(&limits)
+                .all(|(now, limit)| now.largest <= *limit)
+            {
+                break;
+            }
+            (choice.tolerance, found) = (looser.tolerance, now);
+        }
+        Ok(found)
+    }
+
+    /// Whether inputs are held while an output that counts does not move: then the tolerance is for motions that will be.
+    fn rests(&self, choice: &Choice) -> bool {
+        let run = self.known(choice);
+        run.is_some_and(|run| self.is_at_rest(run))
+    }
+
+    /// Tightens the tolerance of a choice until its run resolves what it shows, or cannot be finished.
+    pub(super) fn resolve(&mut self, choice: &mut Choice) {
+        if self.scene.accuracy.relative_tolerance.is_some() {
+            return;
+        }
+        for _ in 0..RESOLVED {
+            let Ok(run) = self.run(choice).cloned() else {
+                return;
+            };
+            let believed = self.believed(&run);
+            if choice.tolerance <= believed {
+                return;
+            }
+            choice.tolerance = decade_below(believed);
+        }
+    }
+
+    /// What a tolerance changes beside a tighter one, where it counts more the looser it is.
+    fn doubted(&mut self, looser: &Choice, closer: &Choice) -> Result<Vec<Difference>, Unfinished> {
+        let mut found = self.compare(looser, closer, self.error)?;
+        let doubt = doubt(looser.tolerance);
+        found
+            .iter_mut()
+            .for_each(|difference| difference.largest *= doubt);
+        Ok(found)
     }
 
     /// The loosest tolerance from that of a choice on, and what a tenth of it changes.
@@ -80,7 +156,8 @@ impl Search<'_, '_> {
             if ladder.is_climbed() || is_given {
                 break;
             }
-            if tried.tolerance < 1.5 * LAST * self.error {
+            let first = choice.tolerance.min(self.error);
+            if tried.tolerance < 1.5 * LAST * first || tried.tolerance < 10.0 * TIGHTEST {
                 break;
             }
             tried.tolerance = tenth(tried.tolerance);
@@ -109,12 +186,7 @@ impl Search<'_, '_> {
             closer.is_halved = steps < SAME * self.experiment.steps as f64
                 || (self.run(&closer)?.steps as f64) < ALIKE * steps;
         }
-        let doubt = doubt(choice.tolerance);
-        let mut found = self.compare(choice, &closer, self.error)?;
-        found
-            .iter_mut()
-            .for_each(|difference| difference.largest *= doubt);
-        Ok(found)
+        self.doubted(choice, &closer)
     }
 
     /// A mesh that `auto` takes with another integrator than a coarser one makes other errors in time: the tolerance that it
@@ -148,6 +220,13 @@ impl Search<'_, '_> {
             half.elements.clone_from(&choice.elements);
         }
         let limits = self.left(in_space, half.elements == choice.elements);
+        let mut resolved = half.clone();
+        self.resolve(&mut resolved);
+        if resolved.tolerance < half.tolerance {
+            let found = self.beside(&half, &resolved, &limits)?;
+            choice.tolerance = found.0;
+            return Some(found.1);
+        }
         let is_clear = |(found, limit): (&Difference, &f64)| found.largest <= CLEAR * limit;
         if choice.tolerance == self.first_tolerance() && in_time.iter().zip(&limits).all(is_clear) {
             return None;
@@ -161,6 +240,26 @@ impl Search<'_, '_> {
         };
         choice.tolerance = tolerance;
         Some(found)
+    }
+
+    /// The loosest tolerance of a mesh that is good enough beside one that resolves its motions, and what it changes.
+    fn beside(
+        &mut self,
+        tried: &Choice,
+        resolved: &Choice,
+        limits: &[f64],
+    ) -> Option<(f64, Vec<Difference>)> {
+        let found = self.doubted(tried, resolved).ok()?;
+        if found
+            .iter()
+            .zip(limits)
+            .all(|(found, limit)| found.largest <= *limit)
+        {
+            return Some((tried.tolerance, found));
+        }
+        let mut tighter = resolved.clone();
+        let found = self.loosest(&mut tighter, limits).ok()?;
+        Some((tighter.tolerance, found))
     }
 
     /// What each output may still change with the tolerance: what the mesh leaves, but not much more than a third of the
@@ -189,12 +288,11 @@ impl Search<'_, '_> {
         loop {
             let mut looser = best.clone();
             looser.tolerance = decade(10.0 * tolerance);
-            if is_given || looser.tolerance > self.first_tolerance() {
+            if is_given || looser.tolerance > self.first_tolerance().min(self.loosest) {
                 break;
             }
-            let mut now = self.compare(&looser, best, self.error).ok()?;
+            let now = self.doubted(&looser, best).ok()?;
             let doubt = doubt(looser.tolerance);
-            now.iter_mut().for_each(|d| d.largest *= doubt);
             let tail = (TAIL / doubt).max(1.0);
             let mut pairs = now.iter().zip(limits);
             let is_kept = pairs.all(|(now, limit)| tail * now.largest <= *limit);
@@ -263,6 +361,13 @@ pub(super) fn tenth(tolerance: f64) -> f64 {
         true => decade(0.1 * tolerance),
         false => 0.1 * tolerance,
     }
+}
+
+/// The power of ten that is not above a tolerance.
+fn decade_below(value: f64) -> f64 {
+    format!("1e{}", value.log10().floor())
+        .parse()
+        .unwrap_or(value)
 }
 
 /// The nearest power of ten, as it would be written.

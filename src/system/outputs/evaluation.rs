@@ -64,6 +64,16 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
 }
 
 impl<const D: usize> Evaluation<D> {
+    /// At rest with these nodal coordinates, angles less than half a turn; slides and driven coordinates are at zero.
+    pub fn at_rest(system: &System<D>, nodes: &[Node<D>]) -> Self {
+        let mut made = Self::new(system);
+        made.x.copy_from_slice(nodes);
+        for (value, angle) in made.angles.iter_mut().zip(&system.angles) {
+            *value = angle.value(nodes, 0.0);
+        }
+        made
+    }
+
     /// Takes over the inputs and their first and second derivatives, zero where there are none.
     pub fn set_inputs(&mut self, inputs: &[f64], slopes: &[[f64; 2]]) {
         self.inputs.clear();

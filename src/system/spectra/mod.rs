@@ -6,6 +6,7 @@ mod iteration;
 pub(in crate::system) mod linearization;
 pub(in crate::system) mod modes;
 mod probe;
+pub(in crate::system) mod response;
 mod rods;
 mod shifted;
 pub(in crate::system) mod spectrum;

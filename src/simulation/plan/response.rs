@@ -1,0 +1,197 @@
+//! What inputs that keep their start values would do: linear answers of outputs to each of them, and natural frequencies, which need
+//! neither an amplitude nor a run. Meshes are compared by these where nothing is said of an input.
+
+use std::f64::consts::PI;
+
+use super::outputs::{Group, like};
+use crate::math::vector::norm;
+use crate::simulation::dimension::AnyEngine;
+use crate::simulation::engine::Engine;
+use crate::simulation::inputs::Inputs;
+use crate::simulation::{Quantity, Simulation, Source};
+use crate::system::{Model, State, slow_response};
+
+/// Most natural frequencies that are compared.
+const MODES: usize = 12;
+/// Root mean square displacement of the answers, in sizes of the scene, and change of an input that is tried first.
+const SMALL: f64 = 1e-5;
+const FIRST: f64 = 1e-6;
+
+/// What a mesh answers to inputs that are held, about the initial state.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Responses {
+    /// For every input that is held, what every computed variable changes with it.
+    pub inputs: Vec<Vec<f64>>,
+    /// Natural frequencies that the communication step resolves, rad/s, the lowest first.
+    pub frequencies: Vec<f64>,
+}
+
+impl Responses {
+    /// Of a simulation that has been initialized, to inputs by their places; over an experiment of a length and with communication steps
+    /// of a length, s.
+    pub fn new(simulation: &mut Simulation, held: &[usize], (stop, step): (f64, f64)) -> Self {
+        let computed = simulation.variables.iter().filter(|v| v.is_computed());
+        let sources = computed.map(|variable| match variable.source {
+            Source::Output(quantity) => Some(quantity),
+            _ => None,
+        });
+        let quantities: Vec<Option<Quantity>> = sources.collect();
+        let (state, inputs) = (&simulation.state, &simulation.inputs.values);
+        let Some(engine) = &mut simulation.engine else {
+            return Self::default();
+        };
+        let answers = held.iter().map(|place| {
+            let asked = (&inputs[..], *place);
+            let found = engine.slow_response(state, asked, 1.0 / stop, &quantities);
+            found.unwrap_or_else(|| vec![0.0; quantities.len()])
+        });
+        let answers = answers.collect();
+        let frequencies = frequencies(engine, state, inputs, PI / step);
+        engine.forget();
+        Self {
+            inputs: answers,
+            frequencies,
+        }
+    }
+
+    /// What the answer to an input changes from one mesh to a finer one: the largest of the outputs that count, each relative to what it
+    /// is there, or to a thousandth of like ones of its body.
+    pub fn difference(&self, closer: &Self, input: usize, groups: &[Group]) -> f64 {
+        let (Some(own), Some(fine)) = (self.inputs.get(input), closer.inputs.get(input)) else {
+            return 0.0;
+        };
+        let values = |group: &Group, all: &[f64]| -> Vec<f64> {
+            group.members.iter().map(|member| all[*member]).collect()
+        };
+        let sizes: Vec<f64> = groups.iter().map(|g| norm(&values(g, fine))).collect();
+        let counting = groups.iter().enumerate().filter(|(_, group)| group.counts);
+        let differences = counting.map(|(index, group)| {
+            let size = like(groups, index, &sizes);
+            let pairs = values(group, own).into_iter().zip(values(group, fine));
+            let apart: Vec<f64> = pairs.map(|(a, b)| a - b).collect();
+            match size > 0.0 {
+                true => norm(&apart) / size,
+                false => 0.0,
+            }
+        });
+        differences.fold(0.0, f64::max)
+    }
+
+    /// The largest relative change of a natural frequency from one mesh to a finer one: 1 of one that is missing.
+    pub fn detuned(&self, closer: &Self) -> f64 {
+        let fine = closer.frequencies.iter().enumerate();
+        let differences = fine.map(|(index, fine)| {
+            let own = self.frequencies.get(index).copied().unwrap_or(0.0);
+            ((own - fine) / fine).abs().min(1.0)
+        });
+        differences.fold(0.0, f64::max)
+    }
+}
+
+/// Natural frequencies below a limit, rad/s; none where there are none to be had.
+fn frequencies(engine: &mut AnyEngine, state: &State, inputs: &[f64], limit: f64) -> Vec<f64> {
+    let modes = engine.modes(state, inputs, MODES).unwrap_or_default();
+    let squares = modes.into_iter().map(|mode| mode.square);
+    let swinging = squares.filter(|square| *square > 0.0);
+    let mut found: Vec<f64> = swinging.map(f64::sqrt).filter(|f| *f < limit).collect();
+    found.truncate(MODES);
+    found
+}
+
+/// A state that stands still where another is.
+fn still(state: &State) -> State {
+    let mut still = state.clone();
+    still.rates.fill(0.0);
+    still
+}
+
+impl<const D: usize> Engine<D> {
+    /// What quantities change with an input, by its place among inputs with these values, that grows at a rate (1/s) from a state
+    /// at rest; zero of what is none. Nothing where the linearized equations cannot be solved.
+    pub(in crate::simulation) fn slow_response(
+        &mut self,
+        state: &State,
+        (inputs, place): (&[f64], usize),
+        rate: f64,
+        quantities: &[Option<Quantity>],
+    ) -> Option<Vec<f64>> {
+        let system = &self.assembled.system;
+        let full = SMALL * system.size() * system.mass().sqrt();
+        let (mut change, mut way) = (FIRST, Vec::new());
+        for _ in 0..2 {
+            way = self.way(state, (inputs, place), rate, change)?;
+            let size = norm(&way);
+            if size <= 0.0 {
+                return Some(vec![0.0; quantities.len()]);
+            }
+            change *= full / size;
+        }
+        let scale = full / norm(&way);
+        // The change that belongs to the way as it is scaled.
+        let mut sides = [1.0, -1.0].into_iter().map(|sign| {
+            let mut at = still(state);
+            let moved = at.coordinates.iter_mut().zip(&way);
+            moved.for_each(|(q, way)| *q += sign * scale * way);
+            let mut values = inputs.to_vec();
+            values[place] += sign * change;
+            let values = Inputs::at_rest(values);
+            let system = &self.assembled.system;
+            if !Model::new(system, &values.values, &mut self.work, &at).project(&mut at) {
+                return None;
+            }
+            self.forget();
+            let read = quantities.iter().map(|quantity| {
+                quantity.map_or(0.0, |quantity| self.output(quantity, &at, &values))
+            });
+            Some(read.collect::<Vec<f64>>())
+        });
+        let (up, down) = (sides.next()??, sides.next()??);
+        let slope = up
+            .iter()
+            .zip(&down)
+            .map(|(up, down)| (up - down) / (2.0 * change));
+        let slope: Vec<f64> = slope.collect();
+        slope.iter().all(|s| s.is_finite()).then_some(slope)
+    }
+
+    /// How coordinates move with a change of an input: as constraints carry them, and as forces bend them.
+    fn way(
+        &mut self,
+        state: &State,
+        (inputs, place): (&[f64], usize),
+        rate: f64,
+        change: f64,
+    ) -> Option<Vec<f64>> {
+        let system = &self.assembled.system;
+        let n = state.coordinates.len();
+        let mut sides = [1.0, -1.0].into_iter().map(|sign| {
+            let mut values = inputs.to_vec();
+            values[place] += sign * change;
+            let mut at = still(state);
+            let mut model = Model::new(system, &values, &mut self.work, &at);
+            if !model.project(&mut at) {
+                return None;
+            }
+            let mut a = vec![0.0; n];
+            model.accelerate(at.time, &at.coordinates, &at.rates, &mut a);
+            Some((at.coordinates, a))
+        });
+        let ((up, pushed), (down, pulled)) = (sides.next()??, sides.next()??);
+        let half = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| 0.5 * (a - b)).collect()
+        };
+        let (carried, mut way) = (half(&up, &down), half(&pushed, &pulled));
+        let at = still(state);
+        let solved = slow_response(system, inputs, &mut self.work, &at, rate, &mut way);
+        way.iter_mut().zip(carried).for_each(|(way, by)| *way += by);
+        solved.then_some(way)
+    }
+}
+
+/// What natural frequencies are called where errors are told.
+pub(super) const FREQUENCIES: &str = "natural frequencies";
+
+/// Words for what inputs that are held would do, where errors are told.
+pub(super) fn name(input: &str) -> String {
+    format!("answer to {input}")
+}
