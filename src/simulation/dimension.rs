@@ -56,6 +56,7 @@ handed_on! {
     fn markers([&mut] self, state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
     fn outlines([&mut] self, state: &State, inputs: &Inputs, parts: &dyn Fn(usize) -> u32) -> Outlines;
     fn contact([&mut] self, load: LoadId, at: &[f64], state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
+    fn elastic_displacements([&mut] self, state: &State, inputs: &Inputs) -> Vec<f64>;
     fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
 }
 
