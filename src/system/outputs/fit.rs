@@ -9,7 +9,7 @@
 
 use nalgebra::{Matrix3, Vector3, Vector4};
 
-use crate::body::Node;
+use crate::body::{Marker, Node, axes_at};
 use crate::elements::{Element, shape};
 use crate::math::jet::Number;
 use crate::math::quadrature::GAUSS_5;
@@ -116,6 +116,51 @@ impl<const D: usize, N: Number> Evaluation<D, N> {
     }
 }
 
+impl<const D: usize, N: Number> Evaluation<D, N> {
+    /// Deflection of a marker of a chain: its place less where the drawn body, carried by the frame at another marker or in its best
+    /// rigid fit, takes it, along the carried axes, m. Zero of what does not bend.
+    pub fn deflection(
+        &self,
+        system: &System<D>,
+        drawn: &[Node<D>],
+        marker: &Marker,
+        from: Option<&Marker>,
+    ) -> [N; 3] {
+        let first = system.bodies()[marker.body].start;
+        let chain = system.chains().iter().find(|c| c.nodes(0)[0] == first);
+        let Some(chain) = chain else {
+            return [N::of(0.0); 3];
+        };
+        let by = system.length_now(chain, &self.drives).longer_by();
+        let as_drawn = |of: &Marker| full(of.position(drawn)).map(N::of) * by;
+        let now = |of: &Marker| full(of.lift().position(&self.x));
+        let fit = match from {
+            None => self.rigid_fit(system, chain, drawn),
+            Some(from) => {
+                let axes = self.carried_axes(drawn, from);
+                RigidFit::new(as_drawn(from), now(from), axes)
+            }
+        };
+        fit.displacement(&as_drawn(marker), &now(marker)).into()
+    }
+
+    /// What the frame at a marker of a chain has made of the global axes since it was drawn.
+    fn carried_axes(&self, drawn: &[Node<D>], marker: &Marker) -> [Vector3<N>; 3] {
+        let before = full(marker.direction(drawn)).normalize();
+        let now: Vector3<N> = full(marker.lift().direction(&self.x)).normalize();
+        if D == 2 {
+            return planar(&(now * before.map(N::of).transpose()));
+        }
+        if !marker.is_framed() {
+            return smallest(&before, &now);
+        }
+        let node = marker.nodes[0];
+        let (before, now) = (axes_at(node, drawn), axes_at(node, &self.x));
+        let part = |k: usize, axis: usize| now[axis] * N::of(before[axis][k]);
+        std::array::from_fn(|k| part(k, 0) + part(k, 1) + part(k, 2))
+    }
+}
+
 impl<const D: usize> Evaluation<D> {
     /// Largest distance of the nodes of a chain from where its best rigid fit to these drawn nodes takes them, m.
     pub fn elastic_displacement(
@@ -127,7 +172,7 @@ impl<const D: usize> Evaluation<D> {
         let fit = self.rigid_fit(system, chain, drawn);
         let by = system.length_now(chain, &self.drives).longer_by();
         let first = chain.nodes(0)[0];
-        let at = |x: &[Node<D>], node: usize| Vector3::from(components(&Vector::from(x[node][0])));
+        let at = |x: &[Node<D>], node: usize| full(Vector::from(x[node][0]));
         let nodes = first..first + chain.node_count();
         let away = nodes.map(|node| fit.displacement(&(at(drawn, node) * by), &at(&self.x, node)));
         away.map(|away| away.norm()).fold(0.0, f64::max)
@@ -154,8 +199,12 @@ fn place<const D: usize, N: Number>(
     x: &[Node<D, N>],
     values: Vector4<N>,
 ) -> Vector3<N> {
-    let place: Vector<D, N> = chain.element(j, x) * values;
-    Vector3::from(components(&place))
+    full(chain.element(j, x) * values)
+}
+
+/// Three components of a vector.
+fn full<const D: usize, N: Number>(v: Vector<D, N>) -> Vector3<N> {
+    Vector3::from(components(&v))
 }
 
 /// Best rotation in the plane.
