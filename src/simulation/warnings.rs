@@ -24,7 +24,7 @@ impl Simulation {
         self.engine.as_mut().and_then(AnyEngine::next_doubtful)
     }
 
-    /// A mesh that has become too coarse for the error wanted, told once, where the output `resolution` is asked for.
+    /// A mesh that has become too coarse for the error wanted, told once.
     pub fn next_unresolved(&mut self) -> Option<Unresolved<'_>> {
         self.engine.as_mut().and_then(AnyEngine::next_unresolved)
     }
