@@ -40,6 +40,24 @@ fn scenes() -> Vec<PathBuf> {
     found
 }
 
+/// Deflections of the first body along a line with two markers: of one of them, from the mean and from the other.
+fn deflections(scene: &serde_json::Value) -> Vec<serde_json::Value> {
+    let bodies = scene["bodies"].as_array().into_iter().flatten();
+    let mut lines = bodies.filter(|body| body["element"] != "rigid" && body["element"] != "auto");
+    let found = lines.find_map(|body| {
+        let mut names = body["markers"].as_object()?.keys();
+        let (first, second) = (names.next()?, names.next()?);
+        let name = |marker: &str| format!("{}.{marker}", body["name"].as_str().unwrap_or_default());
+        Some([name(first), name(second)])
+    });
+    found.map_or_else(Vec::new, |[from, marker]| {
+        vec![
+            serde_json::json!({"kind": "deflection", "marker": &marker}),
+            serde_json::json!({"kind": "deflection", "marker": &marker, "from": from}),
+        ]
+    })
+}
+
 /// A scene whose inputs move: `value + rate t + second t^2 / 2` for each.
 struct Moving {
     simulation: Simulation,
@@ -50,11 +68,12 @@ impl Moving {
     fn new(path: &Path) -> Self {
         let text = std::fs::read_to_string(path).expect("a readable scene");
         let mut scene: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-        // No ready scene asks for it.
-        let resolution = serde_json::json!({"kind": "resolution"});
+        // No ready scene asks for them.
+        let mut asked = vec![serde_json::json!({"kind": "resolution"})];
+        asked.extend(deflections(&scene));
         match scene["outputs"].as_array_mut() {
-            Some(outputs) => outputs.push(resolution),
-            None => scene["outputs"] = serde_json::json!([resolution]),
+            Some(outputs) => outputs.extend(asked),
+            None => scene["outputs"] = asked.into(),
         }
         if touches(path) {
             // Radau has no order where what lies on a surface begins to press on it.

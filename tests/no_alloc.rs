@@ -79,6 +79,8 @@ fn scene(integrator: &str, damping_time: f64, (joints, holder): (&str, &str)) ->
           "inputs": [ {{ "kind": "force", "marker": "rod.tip" }},
                       {{ "kind": "moment", "marker": "rod.middle" }} ],
           "outputs": [
+            {{ "kind": "deflection", "marker": "rod.tip" }},
+            {{ "kind": "deflection", "marker": "rod.tip", "from": "rod.root" }},
             {{ "kind": "position", "marker": "rod.tip" }}, {{ "kind": "velocity", "marker": "rod.tip" }},
             {{ "kind": "acceleration", "marker": "rod.tip" }}, {{ "kind": "angle", "marker": "rod.tip" }},
             {{ "kind": "angle", "marker": "rod.middle" }},

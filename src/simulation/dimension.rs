@@ -61,6 +61,7 @@ handed_on! {
     fn drawn_outlines([&] self, parts: &dyn Fn(usize) -> u32) -> Outlines;
     fn drawn([&] self, quantity: Quantity) -> f64;
     fn contact([&mut] self, load: LoadId, at: &[f64], state: &State, inputs: &Inputs) -> Vec<[f64; 3]>;
+    fn elastic_displacements([&mut] self, state: &State, inputs: &Inputs) -> Vec<f64>;
     fn poses([&mut] self, state: &State, inputs: &Inputs) -> Vec<Pose>;
 }
 

@@ -124,7 +124,7 @@ impl<const D: usize> Engine<D> {
             bodies: names(&mut resolved.bodies.iter().map(|body| body.name())),
             evaluated: Evaluated::Nothing,
             watch,
-            mesh: MeshWatch::new(variables),
+            mesh: MeshWatch::default(),
             derivatives: None,
             derived: Derived::Nothing,
             wanted: Spectra::wanted(variables),

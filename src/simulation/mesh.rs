@@ -1,11 +1,12 @@
 //! Meshes that do not carry the shapes that cables have: what is read of it, and told once.
 
+use super::Quantity;
 use super::engine::Engine;
 use super::inputs::Inputs;
-use super::{Quantity, Source, Variable};
+use super::watch::is_sampled;
 use crate::math::jet::Number;
 use crate::scene::Assembled;
-use crate::system::{Evaluation, State};
+use crate::system::{CableChain, Evaluation, State};
 
 /// Part of [`Evaluation::missed`] that positions are off by, about: mostly 0.03 to 0.6 on 22 scenes, for errors of
 /// 1e-6 to 1 of their sizes (docs/decisions/0036-resolution.md).
@@ -19,32 +20,34 @@ pub(super) fn resolution<const D: usize, N: Number>(
     let system = &assembled.system;
     let mut largest = N::of(0.0);
     for chain in system.chains() {
-        let missed = values.missed(system, chain);
-        if missed > largest {
-            largest = missed;
+        let off = off(values, assembled, chain);
+        if off > largest {
+            largest = off;
         }
     }
-    largest * N::of(OFF / (system.size() * assembled.error))
+    largest * N::of(1.0 / (system.size() * assembled.error))
+}
+
+/// Error in position that the mesh of a chain makes in its present shape, m.
+fn off<const D: usize, N: Number>(
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    chain: &CableChain<D>,
+) -> N {
+    let Assembled { system, nodes, .. } = assembled;
+    let jumps = values.missed(system, chain) * N::of(OFF);
+    let bends = values.bent_away(system, chain, nodes);
+    if bends > jumps { bends } else { jumps }
 }
 
 /// Whether meshes have been found too coarse.
 #[derive(Default)]
 pub(super) struct MeshWatch {
-    is_read: bool,
+    /// Communication points so far.
+    points: u64,
     /// The body, and the resolution when it first passed 1.
     found: Option<(usize, f64)>,
     is_told: bool,
-}
-
-impl MeshWatch {
-    /// For these variables: where none is the resolution, nothing is watched.
-    pub(super) fn new(variables: &[Variable]) -> Self {
-        let resolution = Source::Output(Quantity::Resolution);
-        Self {
-            is_read: variables.iter().any(|v| v.source == resolution),
-            ..Self::default()
-        }
-    }
 }
 
 /// A mesh that is too coarse for the error wanted.
@@ -74,17 +77,19 @@ impl std::fmt::Display for Unresolved<'_> {
 }
 
 impl<const D: usize> Engine<D> {
-    /// Looks at the meshes at a communication point until they are first too coarse.
+    /// Looks at the meshes at communication points that are sampled until they are first too coarse.
     pub(super) fn watch_mesh(&mut self, state: &State, inputs: &Inputs) {
-        if !self.mesh.is_read || self.mesh.found.is_some() {
+        self.mesh.points += 1;
+        if self.mesh.found.is_some() || !is_sampled(self.mesh.points) {
             return;
         }
         let resolution = self.output(Quantity::Resolution, state, inputs);
         if resolution <= 1.0 {
             return;
         }
-        let (Assembled { system, .. }, values) = self.placed(state, inputs);
-        let missed = (system.chains().iter()).map(|chain| values.missed(system, chain));
+        let (assembled, values) = self.placed(state, inputs);
+        let system = &assembled.system;
+        let missed = (system.chains().iter()).map(|chain| off(values, assembled, chain));
         let worst = missed.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         let first = worst.map(|(chain, _)| system.chains()[chain].nodes(0)[0]);
         let body = (system.bodies().iter()).position(|nodes| Some(nodes.start) == first);

@@ -20,6 +20,8 @@ use crate::system::{End, Evaluation, System};
 pub enum Quantity {
     /// Component of the position of a marker.
     Position(MarkerId, usize),
+    /// Component of the deflection of a marker, from the frame at another one or from the mean of its body.
+    Deflection(MarkerId, Option<MarkerId>, usize),
     /// Component of the velocity of a marker.
     Velocity(MarkerId, usize),
     /// Component of the acceleration of a marker.
@@ -135,6 +137,10 @@ pub(super) fn value<const D: usize, N: Number>(
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
+        Deflection(id, from, axis) => {
+            let from = from.map(|from| at(from));
+            values.deflection(system, &assembled.nodes, at(id), from)[axis]
+        }
         Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
         Angle(angle) => values.angles[angle.index()],
         Orientation(id, ..)
@@ -337,6 +343,8 @@ fn nature(quantity: Quantity) -> (Evaluated, fn(Scale) -> Option<f64>) {
         Position(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => {
             (Kinematics, |by| Some(by.size))
         }
+        // What is below a billionth of the size is roundoff.
+        Deflection(..) => (Kinematics, |by| Some(1e-6 * by.size)),
         Velocity(..) | SlidingVelocity(_) => (Kinematics, |by| Some(by.size * by.rate)),
         Acceleration(..) | SlidingAcceleration(_) => {
             (Dynamics, |by| Some(by.size * by.rate * by.rate))

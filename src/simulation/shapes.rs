@@ -88,6 +88,18 @@ impl Simulation {
         Ok(value.unwrap_or_default())
     }
 
+    /// Largest distance of the nodes of every flexible body from the best rigid fit of its drawn shape, m, in the order of the bodies:
+    /// cables, rods and beams; 0 of one that is rigid.
+    ///
+    /// # Errors
+    /// The initial state cannot be computed.
+    pub(in crate::simulation) fn elastic_displacements(&mut self) -> Result<Vec<f64>, Error> {
+        self.refresh()?;
+        let engine = self.engine.as_mut();
+        let found = engine.map(|engine| engine.elastic_displacements(&self.state, &self.inputs));
+        Ok(found.unwrap_or_default())
+    }
+
     /// The force per reference length (N/m) of a contact along a body now at these material coordinates, in global components.
     ///
     /// # Errors
@@ -134,6 +146,23 @@ impl<const D: usize> Engine<D> {
     /// See [`drawn`].
     pub(super) fn drawn(&self, quantity: Quantity) -> f64 {
         drawn(quantity, &self.assembled)
+    }
+
+    /// Largest elastic displacement of every body along a line.
+    pub(super) fn elastic_displacements(&mut self, state: &State, inputs: &Inputs) -> Vec<f64> {
+        let (assembled, values) = self.placed(state, inputs);
+        let Assembled { system, nodes, .. } = assembled;
+        let of = |first: usize| {
+            let chain = system.chains().iter().find(|c| c.nodes(0)[0] == first);
+            let bends = chain.map(|chain| values.elastic_displacement(system, chain, nodes));
+            bends.or(system
+                .rods()
+                .iter()
+                .any(|rod| rod.node == first)
+                .then_some(0.0))
+        };
+        let bodies = system.bodies().iter();
+        bodies.filter_map(|nodes| of(nodes.start)).collect()
     }
 
     /// How all bodies stand.
@@ -254,4 +283,67 @@ fn outlines<const D: usize>(
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// `E I`, N m^2, and length, m.
+    const BENDING: f64 = 10.0;
+    const LENGTH: f64 = 2.0;
+
+    /// A cantilever along a slanted line under a force across its tip, N.
+    fn cantilever(dimension: usize, element: &str, force: f64) -> Simulation {
+        let section = match (element, dimension) {
+            ("cable", _) => r#""area": 0.01, "second_moment": 1e-4"#,
+            (_, 2) => r#""area": 0.01, "second_moment": 1e-4, "shear_factor": 1e4"#,
+            ("rod", _) => {
+                r#""area": 0.01, "second_moments": [1e-4, 1e-4], "torsion_constant": 1e-4"#
+            }
+            _ => {
+                r#""area": 0.01, "second_moments": [1e-4, 1e-4], "torsion_constant": 1e-4, "shear_factors": [1e4, 1e4]"#
+            }
+        };
+        let vector = |v: [f64; 3]| format!("{:?}", &v[..dimension]);
+        let direction = [-0.8, 0.6, 0.0].map(|c| c * force);
+        let text = format!(
+            r#"{{ "name": "c", "dimension": {dimension}, "gravity": {},
+              "bodies": [ {{ "name": "line", "element": "{element}", "elements": 6,
+                "material": {{ "youngs_modulus": 1e5, "shear_modulus": 4e4, "density": 1000.0 }},
+                "section": {{ {section} }},
+                "shape": {{ "line": {{ "from": {}, "to": {} }} }},
+                "markers": {{ "root": 0.0, "tip": 1.0 }} }} ],
+              "joints": [ {{ "name": "wall", "kind": "weld", "markers": ["ground", "line.root"] }} ],
+              "loads": [ {{ "name": "push", "kind": "force", "marker": "line.tip", "force": {} }} ],
+              "initial": "static_equilibrium", "accuracy": {{ "relative_tolerance": 1e-10 }} }}"#,
+            vector([0.0; 3]),
+            vector([1.0, 2.0, 0.0]),
+            vector([2.2, 3.6, 0.0]),
+            vector(direction),
+        );
+        Simulation::new(Scene::from_json(&text).expect("a valid scene"))
+    }
+
+    #[test]
+    fn elastic_displacement_is_that_of_a_cantilever() {
+        let all = [
+            (2, "cable"),
+            (2, "beam"),
+            (3, "cable"),
+            (3, "rod"),
+            (3, "beam"),
+        ];
+        for (dimension, element) in all {
+            let force = 1e-3;
+            let mut simulation = cantilever(dimension, element, force);
+            simulation.initialize(0.0).expect("an equilibrium");
+            // `F (3 L s^2 - s^3) / 6 E I` less its best straight line is largest at the root.
+            let wanted = force * LENGTH.powi(3) / (20.0 * BENDING);
+            let found = simulation.elastic_displacements().expect("a state").into_iter().fold(0.0, f64::max);
+            let miss = (found / wanted - 1.0).abs();
+            assert!(miss < 1e-3, "{dimension} {element}: {found} {wanted}");
+        }
+    }
 }

@@ -29,7 +29,7 @@ impl Simulation {
         engine.map(AnyEngine::doubtful).unwrap_or_default()
     }
 
-    /// A mesh that has become too coarse for the error wanted, told once, where the output `resolution` is asked for.
+    /// A mesh that has become too coarse for the error wanted, told once.
     pub fn next_unresolved(&mut self) -> Option<Unresolved<'_>> {
         self.engine.as_mut().and_then(AnyEngine::next_unresolved)
     }

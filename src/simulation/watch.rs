@@ -24,6 +24,11 @@ const PART: f64 = 1e-3;
 /// Most components of an output: those of an orientation.
 const MOST: usize = 9;
 
+/// Whether a communication point, counted from 1, is sampled.
+pub(super) fn is_sampled(point: u64) -> bool {
+    point.is_power_of_two() || point.is_multiple_of(EVERY)
+}
+
 /// An output, with all its components where it is a vector.
 struct Group {
     name: String,
@@ -143,8 +148,7 @@ impl Watch {
         self.points += 1;
         self.steps += steps;
         self.elapsed += time;
-        let is_due = self.points.is_power_of_two() || self.points.is_multiple_of(EVERY);
-        is_due && !self.groups.is_empty()
+        is_sampled(self.points) && !self.groups.is_empty()
     }
 
     /// Takes the outputs at the state.

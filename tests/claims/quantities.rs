@@ -25,6 +25,8 @@ macro_rules! named {
 
 named! { label, LABELS, Quantity:
     Position(_, 0) => "position x", Position(_, 1) => "position y", Position(..) => "position z",
+    Deflection(_, None, 0) => "deflection x", Deflection(_, None, 1) => "deflection y", Deflection(_, None, _) => "deflection z",
+    Deflection(_, _, 0) => "deflection x from a marker", Deflection(_, _, 1) => "deflection y from a marker", Deflection(..) => "deflection z from a marker",
     Velocity(_, 0) => "velocity x", Velocity(_, 1) => "velocity y", Velocity(..) => "velocity z",
     Acceleration(_, 0) => "acceleration x", Acceleration(_, 1) => "acceleration y", Acceleration(..) => "acceleration z",
     Direction(_, 0) => "direction x", Direction(_, 1) => "direction y", Direction(..) => "direction z",

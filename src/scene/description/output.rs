@@ -14,6 +14,10 @@ pub struct Output {
     /// `body.marker`, for quantities at a marker.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marker: Option<String>,
+    /// `deflection` only: the marker of the same body whose frame carries the rigid body that the marker is compared with; without it
+    /// the rigid body is the drawn one where it fits the present one best.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<String>,
     /// Name of a joint, for quantities of a joint.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
@@ -78,6 +82,13 @@ pub enum OutputKind {
     /// Way of the second marker of a joint along its line from the first marker or the point, m; not where that line belongs to a
     /// cable.
     Displacement,
+    /// Deflection of a marker of a cable, rod or beam, m: its place less where it would be if the body were rigid. The rigid body is
+    /// carried by the frame at the marker `from`; without that it is the drawn body where it fits the present one best, in the mean
+    /// of the squared distances along its length. Components are along the axes of the scene as the rigid body carries them. The frame
+    /// at a marker is that of the section, of a cable its tangent: in space the drawn one taken to the present one by the smallest
+    /// rotation. The best fit of a cable that is drawn straight in space rotates by the smallest rotation too. Zero of a body whose
+    /// `model` is `rigid`. A winch lengthens the drawn body.
+    Deflection,
     /// Direction at a marker: the unit vector along the cable, or along the first axis of a rigid body, which must have
     /// inertia.
     Direction,
@@ -146,8 +157,8 @@ pub enum OutputKind {
     /// Centre of mass of the scene, m.
     CenterOfMass,
     /// How well meshes carry the shapes that cables have: the error in position that they make now, estimated from jumps of
-    /// curvature at nodes, over the error wanted (`accuracy.error`, or ten times the tolerance). Above 1 more elements are
-    /// needed, which is said once in the log. Within a factor of five on most scenes; what a mesh did before, errors of time,
+    /// curvature at nodes and from the angles that elements bend by, over the error wanted (`accuracy.error`, or ten times the tolerance). Above 1 more elements are
+    /// needed, which is said once in the log of every run. Within a factor of five on most scenes; what a mesh did before, errors of time,
     /// and a cable of one element that is clamped at both ends do not count.
     Resolution,
     /// Largest residual of the constraints, relative: of positions and of velocities.
@@ -182,6 +193,8 @@ pub enum ReadAt {
     Directed,
     /// A marker of a cable.
     Cable,
+    /// A marker of a cable, which may be told from another one of the same body.
+    Deflected,
     /// A marker of a rod.
     Rod,
     /// A marker of a cable that bends.
@@ -215,6 +228,7 @@ impl OutputKind {
             Self::Position => ReadAt::Marker,
             Self::Velocity | Self::Acceleration => ReadAt::Moving,
             Self::Displacement => ReadAt::Sliding,
+            Self::Deflection => ReadAt::Deflected,
             Self::GearForce | Self::GearTorque => ReadAt::Gear,
             Self::LoadForce | Self::LoadMoment => ReadAt::Load,
             Self::Direction => ReadAt::Directed,
@@ -253,6 +267,7 @@ impl Kind for OutputKind {
             | ReadAt::Flexible
             | ReadAt::Node => &[(&["marker"], &[])],
             ReadAt::Points => &[(&["marker", "points"], &[])],
+            ReadAt::Deflected => &[(&["marker"], &["from"])],
             ReadAt::Angle | ReadAt::Moving => &[(&["joint"], &[]), (&["marker"], &[])],
             ReadAt::Turning => &[(&["joint"], &[]), (&["marker"], &["axes"])],
             ReadAt::Gear => &[(&["gear"], &[])],

@@ -30,6 +30,8 @@ pub struct Output<'a> {
 pub enum Of<'a> {
     /// A marker.
     Marker(Marker<'a>),
+    /// A marker of a cable, and another one of the same body.
+    Deflected(Marker<'a>, Option<Marker<'a>>),
     /// What turns.
     Turning(Turning<'a>),
     /// What turns, its angle counted on over full turns.

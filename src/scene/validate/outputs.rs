@@ -14,8 +14,9 @@ const MOST_FREQUENCIES: u32 = 100;
 
 impl Output {
     fn validate_keys(&self, path: &str) -> Result<(), Error> {
-        let all: [Key; 9] = [
+        let all: [Key; 10] = [
             ("marker", self.marker.is_some(), "a name"),
+            ("from", self.from.is_some(), "a name"),
             ("joint", self.joint.is_some(), "a name"),
             ("gear", self.gear.is_some(), "a name"),
             ("load", self.load.is_some(), "a name"),
@@ -56,6 +57,7 @@ impl<'a> Resolved<'a> {
             self.validate_axes(&path, output, &of)?;
             let named = [
                 &output.marker,
+                &output.from,
                 &output.joint,
                 &output.gear,
                 &output.load,
@@ -128,6 +130,10 @@ impl<'a> Resolved<'a> {
             ReadAt::Rod => Of::Marker(marker(Self::require_rod_marker)?),
             ReadAt::Flexible => Of::Marker(marker(Self::require_flexible_marker)?),
             ReadAt::Points => self.section_points(path, output)?,
+            ReadAt::Deflected => {
+                let marker = marker(Self::require_cable_marker)?;
+                Of::Deflected(marker, self.deflected_from(path, output, &marker)?)
+            }
             ReadAt::Turning => Of::Turning(spinning()?),
             ReadAt::Angle => {
                 let turning = turning()?;
@@ -148,6 +154,32 @@ impl<'a> Resolved<'a> {
                 Of::Spectrum(body, count)
             }
         })
+    }
+
+    /// The marker whose frame carries the rigid body that another one of its body is compared with.
+    fn deflected_from(
+        &self,
+        path: &str,
+        output: &'a Output,
+        marker: &Marker<'a>,
+    ) -> Result<Option<Marker<'a>>, Error> {
+        let Some(name) = &output.from else {
+            return Ok(None);
+        };
+        let path = format!("{path}.from");
+        let from = self.require_marker(&path, name)?;
+        if from.place.body_index() != marker.place.body_index() {
+            let wanted = format!("a marker of {}", quoted(marker.place.body().name()));
+            return Err(expected(&path, &wanted, quoted(name)));
+        }
+        if from.id == marker.id {
+            return Err(expected(
+                &path,
+                "another marker",
+                format!("{} itself", quoted(name)),
+            ));
+        }
+        Ok(Some(from))
     }
 
     pub(super) fn count_angle(&mut self, turning: Turning<'a>) -> Of<'a> {

@@ -100,7 +100,7 @@ impl Experiment {
         let variables = simulation.variables().iter().enumerate();
         let computed = variables.filter(|(_, variable)| variable.is_computed());
         let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
-        let mut motion = Motion::new(&simulation);
+        let mut motion = Motion::new(simulation.scene(), &simulation);
         for number in 0..=self.steps {
             let until = (number as f64 * self.step).min(self.stop);
             let middle = (until - 0.5 * self.step).max(0.0);

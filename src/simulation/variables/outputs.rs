@@ -31,6 +31,8 @@ enum Shape {
 #[derive(Clone, Copy)]
 enum Read {
     Marker(fn(MarkerId, usize) -> Quantity),
+    /// Of a marker beside another one.
+    Deflected(fn(MarkerId, Option<MarkerId>, usize) -> Quantity),
     /// Of a marker, of a joint.
     Turning(
         fn(MarkerId, usize, Along) -> Quantity,
@@ -63,6 +65,7 @@ fn rows(kind: OutputKind, resolved: &Resolved<'_>) -> Vec<Row> {
         Kind::Velocity => vec![("velocity", "Velocity of {}", Some(METRE_PER_SECOND), Vector, Read::Moving(Velocity, SlidingVelocity))],
         Kind::Acceleration => vec![("acceleration", "Acceleration of {}", Some(METRE_PER_SECOND_2), Vector, Read::Moving(Acceleration, SlidingAcceleration))],
         Kind::Displacement => vec![("displacement", "Displacement of {}", Some(METRE), Scalar, Read::Joint(Displacement))],
+        Kind::Deflection => vec![("deflection", "Deflection of {}", Some(METRE), Vector, Read::Deflected(Deflection))],
         Kind::GearForce | Kind::GearTorque | Kind::LoadForce | Kind::LoadMoment => exerted(kind),
         Kind::Direction => vec![("direction", "Unit vector in the direction at {}", None, Vector, Read::Marker(Direction))],
         Kind::Orientation => vec![("orientation", "Axes of the frame at {}, as columns", None, Matrix, Read::Marker(Orientation))],
@@ -194,9 +197,13 @@ fn add_output(list: &mut List, resolved: &Resolved<'_>, output: &Output<'_>, por
             (Shape::Vector, Of::Sliding(_)) => Shape::Scalar,
             _ => shape,
         };
-        let (name, what) = match output.along {
-            Along::Global => (name, what),
-            Along::Body => (
+        let (name, what) = match (output.along, output.of) {
+            (_, Of::Deflected(_, Some(from))) => {
+                let from = from.name.rsplit('.').next().unwrap_or_default();
+                (format!("{name}_from_{from}"), what)
+            }
+            (Along::Global, _) => (name, what),
+            (Along::Body, _) => (
                 format!("{name}_body"),
                 format!("{what}, axes of {}", owner(&output.of)),
             ),
@@ -215,6 +222,20 @@ fn words<'a>(of: &Of<'a>) -> (&'a str, String) {
     let second = |joint: &str| format!("the second marker of {joint} less that of its first");
     match of {
         Of::Marker(marker) | Of::Points(marker, ..) => (marker.name, marker.name.into()),
+        Of::Deflected(marker, None) => {
+            let what = format!(
+                "{} from the mean of its body, along axes that follow the mean",
+                marker.name
+            );
+            (marker.name, what)
+        }
+        Of::Deflected(marker, Some(from)) => {
+            let what = format!(
+                "{} from the frame at {}, along axes that follow it",
+                marker.name, from.name
+            );
+            (marker.name, what)
+        }
         Of::Turning(Turning::Marker(marker)) => {
             (marker.name, format!("the direction at {}", marker.name))
         }
@@ -255,6 +276,9 @@ fn source(read: Read, output: &Output<'_>, k: usize) -> Source {
     let along = output.along;
     Source::Output(match (read, &output.of) {
         (Read::Marker(quantity), Of::Marker(marker)) => quantity(marker.id, k),
+        (Read::Deflected(quantity), Of::Deflected(marker, from)) => {
+            quantity(marker.id, from.map(|from| from.id), k)
+        }
         (Read::Turning(quantity, _), Of::Turning(Turning::Marker(marker))) => {
             quantity(marker.id, k, along)
         }

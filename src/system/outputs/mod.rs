@@ -3,6 +3,7 @@
 mod clamp;
 pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;
+pub(in crate::system) mod fit;
 mod forces;
 mod lengthened;
 mod resolution;

@@ -7,6 +7,7 @@ mod contacts;
 mod coordinates;
 mod coupled;
 mod damping;
+mod deflections;
 mod fluids;
 mod frames;
 mod initial;
@@ -71,6 +72,7 @@ pub fn all() -> Vec<Specimen> {
         contacts::all(),
         coordinates::all(),
         damping::all(),
+        deflections::all(),
         bushings::all(),
         space_ports::all(),
         space_driven::all(),
