@@ -12,6 +12,7 @@ mod report;
 mod search;
 mod settled;
 mod shear;
+mod start;
 mod time;
 
 pub use damping::Damped;
@@ -41,7 +42,7 @@ pub struct Planned {
 /// planner.
 ///
 /// # Errors
-/// A body with a damping ratio that has no mode; a name in `accuracy` that the scene does not have; an experiment that cannot be run with any mesh.
+/// A body with a damping ratio that has no mode; a name in `accuracy` that the scene does not have; a start that does not exist; an experiment that cannot be run with any mesh.
 pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), Error> {
     let (scene, damping) = damp(scene)?;
     let mut elements = scene.choose_elements()?;
@@ -54,6 +55,7 @@ pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), E
         };
         return Ok((plain, planned));
     }
+    start::check_start(&plain)?;
     let beams = Beam::all(&plain, &elements)?;
     let mut search = Search::new(&plain, beams, &mut *progress)?;
     let (mut planned, mut plan, sheared) = search.find()?;
