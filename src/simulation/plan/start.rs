@@ -130,7 +130,7 @@ mod tests {
             error.starts_with("joints: expected bodies that fit together"),
             "{error}"
         );
-        assert!(error.contains("`other`"), "{error}");
+        assert!(error.contains("joint `o"), "{error}");
     }
 
     /// What is not held falls: there is no equilibrium.
