@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use flexbody::fmi2;
-use flexbody::simulation::check;
+use flexbody::simulation::{Simulation, check};
 use packing::{prepared, shown};
 
 use crate::icon;
@@ -33,8 +33,10 @@ pub fn run(arguments: &Describe) -> Result<()> {
 /// Writes everything that an FMU of a scene holds besides libraries and licenses, and returns the scene's name.
 pub fn describe(place: &Path, output: &Path, is_moving: bool) -> Result<String> {
     let (scene, planned) = planned(place)?;
-    // What contradicts itself is told here, not by the first master that runs it.
+    // What contradicts itself, or has no start, is told here, not by the first master that runs it.
     check(&scene).map_err(|error| at(place, error))?;
+    let start = Simulation::new(scene.clone()).initialize(0.0);
+    start.map_err(|error| at(place, format!("start values: {error}")))?;
     let motion = match is_moving {
         true => viewing::motion(place, &scene)?,
         false => String::new(),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::Result;
-use flexbody::scene::{Chosen, Scene};
+use flexbody::scene::{Chosen, Scene, remarks};
 use flexbody::simulation::{self, Damped, Plan, Planned, Settles};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -31,6 +31,7 @@ pub struct Planning {
 /// Reads a scene, and plans it where it leaves elements or numbers to the planner.
 pub fn planned(path: &Path) -> Result<(Scene, Planned)> {
     let scene = read(path)?;
+    tell_remarks(&scene);
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("planning {spinner} {msg}") {
         bar.set_style(style);
@@ -43,6 +44,13 @@ pub fn planned(path: &Path) -> Result<(Scene, Planned)> {
     });
     bar.finish_and_clear();
     found.map_err(|error| at(path, error))
+}
+
+/// Tells at once, on standard error, what is likely a slip of a unit.
+fn tell_remarks(scene: &Scene) {
+    for remark in remarks(scene) {
+        eprintln!("flexbody: remark: {remark}");
+    }
 }
 
 /// Plans a scene and prints the plan.

@@ -11,7 +11,7 @@ use super::logger::{Category, Logger};
 use super::names::Names;
 use super::state::SavedState;
 use super::status::{Fault, Status};
-use crate::scene::Scene;
+use crate::scene::{Scene, remarks};
 use crate::simulation::{self, NEARLY, Simulation};
 
 /// Relative difference up to which two times are the same; masters add up their time in many ways.
@@ -38,6 +38,8 @@ pub struct Instance {
     scene: Arc<str>,
     start_time: f64,
     stop_time: Option<f64>,
+    /// Whether it was told that a master's tolerance is looser than the one that holds.
+    told_looser: bool,
 }
 
 /// Instances move between the threads of a master.
@@ -76,6 +78,9 @@ impl Instance {
                 let name = &simulation.scene().name;
                 let message = format_args!("instantiated \"{name}\" by {LIBRARY}");
                 logger.log(Status::Ok, Category::Events, message);
+                for remark in remarks(simulation.scene()) {
+                    logger.log(Status::Warning, Category::Warning, format_args!("{remark}"));
+                }
                 State::Instantiated
             }
             None => {
@@ -98,6 +103,7 @@ impl Instance {
             guid: token.into(),
             start_time: 0.0,
             stop_time: None,
+            told_looser: false,
         }
     }
 
@@ -152,11 +158,26 @@ impl Instance {
             });
         }
         if let Some(tolerance) = tolerance {
-            self.simulation.set_tolerance(tolerance)?;
+            let holds = self.simulation.limit_tolerance(tolerance)?;
+            self.log_looser(tolerance, holds);
         }
         self.start_time = start_time;
         self.stop_time = stop_time;
         Ok(())
+    }
+
+    /// Tells once that a master's tolerance is looser than the one that holds.
+    fn log_looser(&mut self, asked: f64, holds: Option<f64>) {
+        let Some(holds) = holds.filter(|_| !self.told_looser) else {
+            return;
+        };
+        self.told_looser = true;
+        let experiment = self.names.experiment;
+        let message = format_args!(
+            "{experiment}: expected a tolerance of at most {holds:e}, that of the scene, found {asked:e}: {holds:e} holds; \
+             the parameter relative_tolerance takes a looser one"
+        );
+        self.logger.log(Status::Warning, Category::Warning, message);
     }
 
     /// From here on values exist.

@@ -1,4 +1,7 @@
-//! Messages to the master's logger: filtered by category, silent when logging is off.
+//! Messages to the master's logger: filtered by category. When logging is off only errors are passed on.
+//!
+//! Source: FMI 2.0.4, section 2.1.3 (`fmi2Error`: the logger was called with the reason) and section 2.1.5 (`loggingOn` is about debug
+//! messages).
 
 use std::ffi::{CStr, CString};
 use std::fmt;
@@ -53,6 +56,8 @@ impl Category {
 }
 
 const ALL: u8 = 15;
+/// What is passed on when logging is off: the reasons of `Error` and `Fatal`, which are no debug messages.
+const OFF: u8 = Category::Error as u8;
 
 /// The logger of one instance.
 pub struct Logger {
@@ -61,13 +66,13 @@ pub struct Logger {
 }
 
 impl Logger {
-    /// A logger for `sink`, with all categories or none. A master without a logger gives no sink.
+    /// A logger for `sink`, with all categories or errors alone. A master without a logger gives no sink.
     pub fn new(sink: Option<Sink>, on: bool) -> Self {
-        let enabled = if on { ALL } else { 0 };
+        let enabled = if on { ALL } else { OFF };
         Self { sink, enabled }
     }
 
-    /// Enables only the named categories, all when none is named, none when off.
+    /// Enables only the named categories, all when none is named, errors alone when off.
     ///
     /// # Errors
     /// An unknown category; nothing changes then.
@@ -86,7 +91,7 @@ impl Logger {
             }
         }
         self.enabled = match (on, named) {
-            (false, _) => 0,
+            (false, _) => OFF,
             (true, 0) => ALL,
             (true, _) => named,
         };
@@ -101,8 +106,8 @@ impl Logger {
         }
     }
 
-    /// Passes a message on even when logging is off: only where no instance could be made, for
-    /// which the standard promises the reason.
+    /// Passes a message on whatever is enabled: only where no instance could be made, for which the standard promises
+    /// the reason.
     pub fn report(&self, status: Status, category: Category, message: fmt::Arguments<'_>) {
         let Some(sink) = &self.sink else { return };
         // In a message `#` introduces a value reference; NUL would end it.
@@ -141,6 +146,26 @@ mod tests {
             copy.lock().expect("no panic while locked").push(line);
         });
         (Logger::new(Some(sink), on), lines)
+    }
+
+    /// An error is no debug message: its reason reaches the log that a master shows by default.
+    #[test]
+    fn errors_are_told_when_logging_is_off() {
+        let (mut logger, lines) = recorded(false);
+        for _ in 0..2 {
+            logger.fault("call", &Fault::Pointer("vr"));
+            logger.fault("call", &Fault::NoAnswer("not yet"));
+            logger.fault("call", &Fault::Remark("not stable"));
+            let lines = std::mem::take(&mut *lines.lock().expect("no panic"));
+            assert_eq!(lines.len(), 1, "{lines:?}");
+            assert!(lines[0].starts_with("logStatusError: call: vr"));
+            logger.enable(false, std::iter::empty()).expect("off");
+        }
+        logger
+            .enable(true, std::iter::once(Ok("logEvents")))
+            .expect("a known category");
+        logger.fault("call", &Fault::Pointer("vr"));
+        assert!(lines.lock().expect("no panic").is_empty());
     }
 
     fn say(logger: &Logger) {

@@ -19,6 +19,54 @@ pub fn rescaled(error: f64, power: f64) -> f64 {
     error.powf(4.0 / power)
 }
 
+/// Most steps from one communication point to the next whose length depends on where the points are.
+const FEW: f64 = 4.0;
+/// Growth that roundoff may bring into a step that is to fit between two points.
+const ROUNDOFF: f64 = 1e-9;
+
+/// How far apart the communication points are that a tolerance was found with: its account holds for the steps that were taken between
+/// them, and so does the choice of a method.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Pitch(Option<f64>);
+
+impl Pitch {
+    /// Of points so far apart (s), or of none.
+    pub fn new(apart: Option<f64>) -> Self {
+        Self(apart.filter(|apart| *apart > 0.0))
+    }
+
+    /// The longest step to take where one of `wanted` (s) is proposed and allowed: as long as it would be between those points. One
+    /// that would have led beyond them is `free`.
+    pub fn allowed(self, wanted: f64, is_free: bool) -> f64 {
+        match self.0 {
+            Some(apart) if wanted < FEW * apart || !is_free => {
+                let pieces = (apart / wanted).ceil().max(1.0);
+                match pieces < FEW {
+                    true => (1.0 + ROUNDOFF) * apart / pieces,
+                    false => wanted,
+                }
+            }
+            _ => wanted,
+        }
+    }
+
+    /// The time (s) over which methods are compared, where `remaining` is left to the end.
+    pub fn way(self, remaining: f64) -> f64 {
+        self.0.unwrap_or(remaining)
+    }
+
+    /// The points between those that reading a state counts for, which is `passed` (s) after the last one.
+    pub fn points(self, passed: f64) -> f64 {
+        self.0.map_or(1.0, |apart| passed / apart)
+    }
+
+    /// A trial of a step where one of `wanted` (s) is proposed, which is allowed this long and may lead no further than `remaining`.
+    pub fn trial(self, wanted: f64, allowed: f64, remaining: f64) -> Trial {
+        let trial = Controller::trial(allowed, remaining);
+        trial.among(self, wanted, allowed)
+    }
+}
+
 /// A step to try.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trial {
@@ -28,9 +76,34 @@ pub(super) struct Trial {
     pub is_last: bool,
     /// Whether it is shorter than wanted, to reach the end in whole steps.
     pub is_cut: bool,
+    /// Part of the step that it would be if communication points were where the tolerance was found; 1 where it was not.
+    pub part: f64,
 }
 
 impl Trial {
+    /// A step of `h` (s) that is as long as it is meant to be.
+    pub fn whole(h: f64) -> Self {
+        Self {
+            h,
+            is_last: false,
+            is_cut: false,
+            part: 1.0,
+        }
+    }
+
+    /// The same where one of `wanted` (s) was proposed, and `allowed` by a pitch.
+    pub fn among(self, pitch: Pitch, wanted: f64, allowed: f64) -> Self {
+        let part = match pitch.0 {
+            Some(_) => (self.h / allowed).min(1.0),
+            None => 1.0,
+        };
+        Self {
+            is_cut: self.h < wanted,
+            part,
+            ..self
+        }
+    }
+
     /// Whether the step to propose next (s) is so much longer that steps have not found their length yet.
     pub fn has_grown(&self, next: f64) -> bool {
         !self.is_cut && next > GROWING * self.h
@@ -65,14 +138,14 @@ impl Controller {
     /// would cost a step of its own.
     pub fn trial(wanted: f64, remaining: f64) -> Trial {
         let pieces = (remaining / wanted).ceil().max(1.0);
-        let h = match pieces < 4.0 {
+        let h = match pieces < FEW {
             true => remaining / pieces,
             false => wanted,
         };
         Trial {
-            h,
             is_last: pieces <= 1.0,
             is_cut: h < wanted,
+            ..Trial::whole(h)
         }
     }
 
@@ -163,5 +236,40 @@ mod tests {
         assert!(next <= 0.5 * RELAX);
         let trial = Controller::trial(next, 100.0);
         assert!(controller.accept(trial, 0.0, next) <= 0.5 * RELAX * RELAX);
+    }
+
+    #[test]
+    fn steps_are_those_between_the_points_of_the_plan_wherever_points_are() {
+        let pitch = Pitch::new(Some(1.0));
+        for (wanted, planned) in [
+            (5.0, 1.0),
+            (1.0, 1.0),
+            (0.7, 0.5),
+            (0.4, 1.0 / 3.0),
+            (0.1, 0.1),
+        ] {
+            let allowed = pitch.allowed(wanted, false);
+            for remaining in [0.25, 0.5, 1.0, 7.3, 100.0] {
+                let trial = pitch.trial(wanted, allowed, remaining);
+                assert!(trial.h <= planned * (1.0 + 1e-8), "{wanted}, {remaining}");
+                // A step counts by its part of the one of the plan.
+                assert!((trial.h / trial.part / planned - 1.0).abs() < 1e-8);
+            }
+            let trial = pitch.trial(wanted, allowed, 1.0);
+            assert!(
+                (trial.h / planned - 1.0).abs() < 1e-8,
+                "{wanted}: {}",
+                trial.h
+            );
+        }
+        // What would lead beyond the next points of the plan may.
+        assert_eq!(pitch.allowed(5.0, true), 5.0);
+        assert!(pitch.allowed(3.0, true) < 1.1);
+        let none = Pitch::default();
+        assert_eq!(
+            (none.allowed(5.0, false), none.way(0.2), none.points(0.2)),
+            (5.0, 0.2, 1.0)
+        );
+        assert_eq!(none.trial(5.0, 5.0, 0.2).part, 1.0);
     }
 }

@@ -8,7 +8,7 @@
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8 (the collocation
 //! polynomial of Radau IIA as dense output).
 
-use super::controller::Trial;
+use super::controller::{Pitch, Trial};
 use super::{Method, RELAXATIONS, Rival, Stop, Tolerance, outcome, shortest};
 use crate::math::radau::{A_INVERSE, C};
 use crate::math::sums::{Term, sum};
@@ -41,11 +41,7 @@ pub(super) fn trial(
     }
     let end = dynamics.unchanged_until(state.time, state.time + wanted);
     let h = wanted.min(end - state.time);
-    (h > longer).then_some(Trial {
-        h,
-        is_last: false,
-        is_cut: h < wanted,
-    })
+    (h > longer).then_some(Trial::whole(h))
 }
 
 /// The step that a method has attempted last is under way.
@@ -70,14 +66,14 @@ pub(super) fn follow(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
-    (tolerance, rival): (&Tolerance, Option<Rival>),
+    (tolerance, rival, pitch): (&Tolerance, Option<Rival>, Pitch),
 ) -> Result<(), Stop> {
-    let end = state.dense.end();
+    let (end, before) = (state.dense.end(), state.time);
     let near = shortest(until, end);
     let is_over = until >= end - near;
     state.time = if until > end + near { end } else { until };
     place(state);
-    state.dense.operations += POINT;
+    state.dense.operations += POINT * pitch.points(state.time - before);
     match come_to_rest(method, dynamics, state, (state.time >= until, tolerance)) {
         Ok(true) => (),
         Ok(false) | Err(Stop::Broken) => {
@@ -88,11 +84,7 @@ pub(super) fn follow(
     }
     if is_over {
         state.dense.under_way = 0.0;
-        let trial = Trial {
-            h: state.dense.length,
-            is_last: false,
-            is_cut: false,
-        };
+        let trial = Trial::whole(state.dense.length);
         let step = (trial, state.dense.operations, true);
         if rival.is_some_and(|rival| rival.takes_over(state, step)) {
             state.dense.length = 0.0;
@@ -165,6 +157,15 @@ pub(super) fn acceleration(step: &DenseStep, time: f64, a: &mut [f64]) {
     let [_, v, ..] = step.parts();
     let [x, y, z] = by_stages(&weights, step);
     sum(a, &[(-weights.iter().sum::<f64>(), v), x, y, z]);
+}
+
+/// Part of what the polynomial is off by at its start that it is off by at `s`, up to the first stage: that of the cubic through 1
+/// at the start and zero at the stages.
+pub(super) fn of_start(s: f64) -> f64 {
+    match s < C[0] {
+        true => C.iter().map(|c| 1.0 - s / c).product(),
+        false => 0.0,
+    }
 }
 
 /// A weighted sum of the velocities at the stages, `A^-1 z / h`, by what positions change by to each.

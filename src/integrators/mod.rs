@@ -22,7 +22,7 @@ pub use selection::Methods;
 
 use crate::math::vector::norm as size;
 use crate::system::{Accepted, DenseStep, Dynamics, State};
-use controller::{Controller, Trial};
+use controller::{Controller, Pitch, Trial};
 use selection::Rival;
 
 /// Error that a step may make, in the mass norm.
@@ -196,7 +196,8 @@ pub fn advance(
     until: f64,
     tolerance: &Tolerance,
 ) -> (Counts, Result<(), Stop>) {
-    advance_choosing(&mut [method], dynamics, state, until, tolerance)
+    let aim = (tolerance, Pitch::default());
+    advance_choosing(&mut [method], dynamics, state, until, aim)
 }
 
 /// As [`advance`], with the cheaper of two methods where there are two.
@@ -205,7 +206,7 @@ fn advance_choosing(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
-    tolerance: &Tolerance,
+    (tolerance, pitch): (&Tolerance, Pitch),
 ) -> (Counts, Result<(), Stop>) {
     let mut counts = Counts::default();
     let mut result = Ok(());
@@ -221,10 +222,10 @@ fn advance_choosing(
         let method = &mut *methods[index];
         if state.dense.is_under_way() {
             dynamics.begin_stretch(state.dense.start, until);
-            result = dense::follow(method, dynamics, state, until, (tolerance, rival));
+            result = dense::follow(method, dynamics, state, until, (tolerance, rival, pitch));
         } else {
             let end = dynamics.begin_stretch(state.time, until);
-            let goal = (tolerance, rival, &mut counts);
+            let goal = (tolerance, rival, pitch, &mut counts);
             result = advance_smoothly(method, dynamics, state, end, goal);
             counts.newton_iterations += method.newton_iterations();
         }
@@ -246,7 +247,7 @@ fn advance_smoothly(
     dynamics: &mut dyn Dynamics,
     state: &mut State,
     until: f64,
-    (tolerance, rival, counts): (&Tolerance, Option<Rival>, &mut Counts),
+    (tolerance, rival, pitch, counts): (&Tolerance, Option<Rival>, Pitch, &mut Counts),
 ) -> Result<(), Stop> {
     let follows = state.dense.has_ended_at(state.time);
     let mut controller = Controller::new(follows.then_some(state.dense.ceiling));
@@ -260,7 +261,7 @@ fn advance_smoothly(
             return Ok(());
         }
         if is_fresh || remaining > MANY * state.step {
-            take_up_cheaper(method, state, (remaining, is_settled));
+            take_up_cheaper(method, state, (pitch.way(remaining), is_settled));
         }
         if dynamics.is_exhausted() {
             return Err(Stop::TooMuchWork);
@@ -268,23 +269,27 @@ fn advance_smoothly(
         if dynamics.renew(state) {
             method.refresh(dynamics, state.time, &state.coordinates, &state.rates);
         }
-        let wanted = state.step.min(method.longest_step());
-        let beyond = dense::trial(method, dynamics, state, (until, wanted));
-        if beyond.is_some() && !is_fresh {
+        let (trial, is_beyond) = next_trial(method, dynamics, state, (until, pitch));
+        if is_beyond && !is_fresh {
             // A step that is kept follows from nothing but its start.
             return Ok(());
         }
-        let trial = beyond.unwrap_or_else(|| Controller::trial(wanted, remaining));
         let from = (state.time, &state.coordinates[..], &state.rates[..]);
         match method.attempt(dynamics, from, trial.h, tolerance) {
             Attempt::Done(error) if error <= 1.0 => {
                 state.step = controller.accept(trial, error, state.step);
                 is_settled = !trial.has_grown(state.step);
                 counts.steps += 1;
-                if beyond.is_some() {
+                if is_beyond {
                     let operations = dynamics.operations() - counted;
                     dense::begin(method, state, [trial.h, operations, controller.ceiling()]);
-                    return dense::follow(method, dynamics, state, until, (tolerance, rival));
+                    return dense::follow(
+                        method,
+                        dynamics,
+                        state,
+                        until,
+                        (tolerance, rival, pitch),
+                    );
                 }
                 is_fresh = false;
                 take(method, state, (trial, until));
@@ -292,7 +297,9 @@ fn advance_smoothly(
                 relax(method, dynamics, state, (until, tolerance))?;
                 let since = since(dynamics, &mut counted);
                 let alike = dynamics.steps_in(tolerance.time, trial.h);
-                let step = (trial, since, error / alike < QUIET);
+                // The whole of a step that is cut short would have another error.
+                let is_quiet = error / alike < QUIET * trial.part.powi(4);
+                let step = (trial, since, is_quiet);
                 if rival.is_some_and(|rival| rival.takes_over(state, step)) {
                     return Ok(());
                 }
@@ -305,6 +312,21 @@ fn advance_smoothly(
                 }
             }
         }
+    }
+}
+
+/// The step to try next on the way to `until`, and whether it is to lead beyond.
+fn next_trial(
+    method: &dyn Method,
+    dynamics: &dyn Dynamics,
+    state: &State,
+    (until, pitch): (f64, Pitch),
+) -> (Trial, bool) {
+    let wanted = state.step.min(method.longest_step());
+    let allowed = pitch.allowed(wanted, method.is_dense());
+    match dense::trial(method, dynamics, state, (until, allowed)) {
+        Some(trial) => (trial.among(pitch, wanted, allowed), true),
+        None => (pitch.trial(wanted, allowed, until - state.time), false),
     }
 }
 

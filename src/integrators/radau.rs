@@ -64,6 +64,8 @@ pub struct Radau {
     iterations: u64,
     /// Power at the stages, W.
     powers: [[f64; 2]; 3],
+    /// Acceleration at the start of the last attempt that succeeded.
+    start_a: Vec<f64>,
     kept: Kept,
 }
 
@@ -74,6 +76,8 @@ struct Kept {
     at: [f64; 2],
     q: Vec<f64>,
     v: Vec<f64>,
+    /// Acceleration there.
+    a: Vec<f64>,
 }
 
 impl Radau {
@@ -102,8 +106,10 @@ impl Radau {
             kept: Kept {
                 at: [0.0; 2],
                 q: zero.clone(),
-                v: zero,
+                v: zero.clone(),
+                a: zero.clone(),
             },
+            start_a: zero,
         }
     }
 
@@ -307,6 +313,7 @@ impl Method for Radau {
         let [q, v, ..] = step.parts();
         self.kept.q.copy_from_slice(q);
         self.kept.v.copy_from_slice(v);
+        self.kept.a.copy_from_slice(&self.start_a);
         self.kept.at = [step.start, step.length];
     }
 
@@ -401,6 +408,7 @@ impl Method for Radau {
                 }
             }
             // The next error estimate starts from the acceleration at the end.
+            self.start_a.copy_from_slice(&self.a);
             self.place(END, q, v);
             dynamics.acceleration(time + h, &self.stage_q, &self.stage_v, &mut self.a);
             self.powers[END] = dynamics.power();

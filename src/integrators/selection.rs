@@ -9,7 +9,7 @@
 //! selection of methods for solving stiff and nonstiff systems, SIAM J. Sci. Stat. Comput. 4 (1983) 136-148; that the
 //! price of steps is counted while they are taken is ours (docs/decisions/0034-integrator-by-counted-cost.md).
 
-use super::controller::Trial;
+use super::controller::{Pitch, Trial};
 use super::{Counts, Method, Stop, Tolerance, advance_choosing};
 use crate::system::{Dynamics, Pace, State};
 
@@ -21,6 +21,8 @@ const PAUSE: f64 = 1e3;
 const WINDOW: f64 = 1e3;
 /// Steps of a trial that are measured, once they have stopped growing.
 const MEASURED: f64 = 4.0;
+/// Steps of a trial that roundoff leaves when all are measured.
+const LEFT: f64 = 1e-6;
 /// Operations that a trial takes at most.
 const TRIAL: f64 = 600.0;
 /// How many times further with an operation a method must get to be preferred to the one in use.
@@ -51,28 +53,43 @@ pub(super) fn cheaper_of_pair(
 }
 
 /// One method, or two to choose from.
-pub struct Methods(Vec<Box<dyn Method>>);
+pub struct Methods {
+    methods: Vec<Box<dyn Method>>,
+    pitch: Pitch,
+}
 
 impl Methods {
     /// No choice.
     pub fn one(method: Box<dyn Method>) -> Self {
-        Self(vec![method])
+        Self::of(vec![method])
     }
 
     /// Begins with the first.
     pub fn two(first: Box<dyn Method>, second: Box<dyn Method>) -> Self {
-        Self(vec![first, second])
+        Self::of(vec![first, second])
+    }
+
+    fn of(methods: Vec<Box<dyn Method>>) -> Self {
+        let pitch = Pitch::default();
+        Self { methods, pitch }
+    }
+
+    /// The same for a tolerance that was found by runs with communication points so far apart (s): steps are no longer, and the choice
+    /// is the same, wherever points are.
+    pub fn found_with(self, apart: Option<f64>) -> Self {
+        let pitch = Pitch::new(apart);
+        Self { pitch, ..self }
     }
 
     /// The method that is in use.
     pub fn at(&mut self, pace: &Pace) -> &mut dyn Method {
-        let index = pace.index(self.0.len());
-        &mut *self.0[index]
+        let index = pace.index(self.methods.len());
+        &mut *self.methods[index]
     }
 
     /// Its name.
     pub fn name(&self, pace: &Pace) -> &'static str {
-        self.0[pace.index(self.0.len())].name()
+        self.methods[pace.index(self.methods.len())].name()
     }
 
     /// As [`advance`](super::advance), with the cheaper method.
@@ -86,11 +103,11 @@ impl Methods {
         until: f64,
         tolerance: &Tolerance,
     ) -> (Counts, Result<(), Stop>) {
-        let methods: &mut [&mut dyn Method] = match &mut self.0[..] {
+        let methods: &mut [&mut dyn Method] = match &mut self.methods[..] {
             [one, two] => &mut [&mut **one, &mut **two],
             methods => &mut [&mut *methods[0]],
         };
-        advance_choosing(methods, dynamics, state, until, tolerance)
+        advance_choosing(methods, dynamics, state, until, (tolerance, self.pitch))
     }
 }
 
@@ -116,12 +133,14 @@ impl Rival {
         (step, operations, is_quiet): (Trial, f64, bool),
     ) -> bool {
         let grows = step.has_grown(state.step);
+        // What a communication point cuts short counts as a part of the step that it would have been.
+        let operations = operations * step.part;
         let pace = &mut state.pace;
         pace.time += step.h;
         pace.operations += operations;
         pace.cost += operations;
         if pace.trial > 0.0 {
-            return takes_back(state, grows);
+            return takes_back(state, grows, step.part);
         }
         if pace.operations > WINDOW {
             pace.time *= 0.5;
@@ -142,8 +161,8 @@ impl Rival {
     }
 }
 
-/// In a trial: whether the method before goes on.
-fn takes_back(state: &mut State, grows: bool) -> bool {
+/// In a trial, after a step or a part of one: whether the method before goes on.
+fn takes_back(state: &mut State, grows: bool, part: f64) -> bool {
     let pace = &mut state.pace;
     let reached = pace.time / pace.operations;
     let ends = pace.cost > TRIAL || !grows && reached < HOPELESS * pace.other;
@@ -152,8 +171,8 @@ fn takes_back(state: &mut State, grows: bool) -> bool {
         (pace.time, pace.operations) = (0.0, 0.0);
         return false;
     }
-    pace.trial -= 1.0;
-    if pace.trial > 0.0 && !ends {
+    pace.trial -= part;
+    if pace.trial > LEFT && !ends {
         return false;
     }
     pace.trial = 0.0;

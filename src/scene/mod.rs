@@ -11,6 +11,7 @@ mod elements;
 mod marker;
 mod mesh;
 mod ports;
+mod remarks;
 mod resolved;
 mod shape;
 mod timed;
@@ -27,6 +28,7 @@ pub use description::{
     Shape, Solid, Spin, Station, Strain, Surface, Symbol, Table, Value, Vector,
 };
 pub use elements::Chosen;
+pub use remarks::remarks;
 pub use resolved::{
     Action, AngleId, BodyReference, Bushing, By, Cable, CableId, Contact, Coupling, CouplingId,
     Ends, First, Fluid, Gear, Hold, Holder, HolderId, Incoming, Input, InputKind, Joint,

@@ -104,6 +104,7 @@ impl<const D: usize> Engine<D> {
             inputs: &inputs,
         };
         let (tolerance, methods) = method::choose(resolved, &start, &mut work)?;
+        let methods = methods.found_with(resolved.scene.planned_step());
         let outputs = variables
             .iter()
             .filter_map(|variable| match variable.source {

@@ -231,16 +231,24 @@ impl Simulation {
         self.set(index, f64::from(value))
     }
 
-    /// Sets the relative tolerance.
+    /// Bounds the relative tolerance by that of a master: the tighter one of both holds. A tolerance of 0 is none. The one that holds
+    /// already, where the master's is looser.
     ///
     /// # Errors
     /// Out of range, or initialization has ended.
-    pub fn set_tolerance(&mut self, value: f64) -> Result<(), Error> {
+    pub fn limit_tolerance(&mut self, value: f64) -> Result<Option<f64>, Error> {
         let tolerance = Source::Parameter(Parameter::RelativeTolerance);
-        match self.variables.iter().position(|v| v.source == tolerance) {
-            Some(index) => self.set(index, value),
-            None => Ok(()),
+        let index = self.variables.iter().position(|v| v.source == tolerance);
+        let Some(index) = index.filter(|_| value != 0.0) else {
+            return Ok(None);
+        };
+        let (before, current) = (self.values[index], self.current);
+        self.set(index, value)?;
+        if value <= before {
+            return Ok(None);
         }
+        (self.values[index], self.current) = (before, current);
+        Ok(Some(before))
     }
 
     /// Value of a real variable now. Before the end of initialization it computes the initial state

@@ -12,4 +12,5 @@ mod runs;
 mod states;
 mod steps;
 mod support;
+mod tolerances;
 mod values;

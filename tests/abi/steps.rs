@@ -64,7 +64,7 @@ fn the_stop_time_holds_but_for_rounding() {
             Status::Error
         );
     }
-    for tolerance in [0.0, -1e-4, f64::NAN, 1.0] {
+    for tolerance in [-1e-4, f64::NAN, 1.0] {
         assert_eq!(
             call!(fmi2SetupExperiment, c, 1, tolerance, 0.0, 0, 0.0),
             Status::Error

@@ -139,11 +139,13 @@ def test_null_pointers_are_refused(instance):
         assert failure.value.status == ERROR
 
 
-def test_logging_off_is_silent(swing):
+def test_logging_off_leaves_errors_alone(swing):
+    # Section 2.1.5: loggingOn is about debug messages; section 2.1.3: the logger is called before fmi2Error is returned.
     with Instance(swing, logging=False) as instance:
+        assert instance.messages == []
         with pytest.raises(FMICallException):
             instance.slave.doStep(0.0, STEP)
-        assert instance.messages == []
+        assert len(instance.messages) == 1 and "fmi2DoStep" in instance.messages[0]
 
 
 def test_a_refused_instance_gives_its_reason_even_so(swing):
@@ -159,6 +161,12 @@ def test_logging_can_be_switched(swing):
         assert instance.messages
         instance.messages.clear()
         instance.slave.setDebugLogging(False, [])
+        assert instance.messages == []
+        with pytest.raises(FMICallException):
+            instance.slave.doStep(0.0, STEP)
+        assert len(instance.messages) == 1
+        instance.messages.clear()
+        instance.slave.setDebugLogging(True, ["logEvents"])
         with pytest.raises(FMICallException):
             instance.slave.doStep(0.0, STEP)
         assert instance.messages == []

@@ -59,7 +59,7 @@ impl Radau {
         }
         dynamics.acceleration(time, q, v, &mut self.a);
         dynamics.set_stage(0);
-        dense::acceleration(step, time, &mut self.stage_v);
+        self.solved_within(step, time);
         self.leave(dynamics);
         let s = GAMMA / step.length;
         let [left, rest, _] = &mut self.f;
@@ -94,7 +94,7 @@ impl Radau {
         }
         dynamics.acceleration(time, q, v, &mut self.a);
         match within {
-            Some(step) => dense::acceleration(step, time, &mut self.stage_v),
+            Some(step) => self.solved_within(step, time),
             None => self.solved_at_end(),
         }
         self.leave(dynamics);
@@ -132,6 +132,19 @@ impl Radau {
         );
     }
 
+    /// The same at a time within a step that is kept. The polynomial of velocities is not solved at the start of the step: from there
+    /// to the first stage its derivative is led over from the acceleration at the start, so that a state close to the start is the
+    /// start.
+    fn solved_within(&mut self, step: &DenseStep, time: f64) {
+        dense::acceleration(step, time, &mut self.stage_v);
+        let weight = dense::of_start((time - step.start) / step.length);
+        if weight > 0.0 {
+            dense::acceleration(step, step.start, &mut self.stage_q);
+            let led = [(weight, &self.kept.a[..]), (-weight, &self.stage_q)];
+            add(&mut self.stage_v, &led);
+        }
+    }
+
     /// Acceleration less that of the stage equations' solution (in `stage_v`), but for what constraints hold, into
     /// `f[0]`: what Newton's iteration, the way back to the constraints and the polynomial between stages left in
     /// stiff directions.
@@ -161,10 +174,12 @@ impl Radau {
             at,
             q: kept_q,
             v: kept_v,
+            a: kept_a,
         } = &mut self.kept;
         if *at == [step.start, step.length] && kept_q == q && kept_v == v {
             return true;
         }
+        dynamics.acceleration(step.start, q, v, kept_a);
         let s = GAMMA / step.length;
         dynamics.linearize(step.start, q, v);
         let is_made = dynamics.factor([s * s, s]);

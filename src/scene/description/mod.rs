@@ -171,6 +171,13 @@ impl Scene {
         self.accuracy.error.unwrap_or(by_tolerance)
     }
 
+    /// Communication step that the tolerance was found with, s; nothing where the planner did not find it.
+    pub fn planned_step(&self) -> Option<f64> {
+        let accuracy = &self.accuracy;
+        let is_planned = accuracy.error.is_some() && accuracy.relative_tolerance.is_some();
+        is_planned.then_some(self.experiment.step)
+    }
+
     /// Gives a tolerance; nothing is left to the planner then.
     pub fn set_relative_tolerance(&mut self, value: f64) {
         if self.is_to_be_planned() {

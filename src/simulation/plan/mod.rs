@@ -14,6 +14,7 @@ mod response;
 mod search;
 mod settled;
 mod shear;
+mod start;
 mod time;
 
 pub use damping::Damped;
@@ -44,7 +45,7 @@ pub struct Planned {
 /// planner.
 ///
 /// # Errors
-/// A body with a damping ratio that has no mode; a name in `accuracy` that the scene does not have; an experiment that cannot be run with any mesh.
+/// A body with a damping ratio that has no mode; a name in `accuracy` that the scene does not have; a start that does not exist; an experiment that cannot be run with any mesh.
 pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), Error> {
     let (scene, damping) = damp(scene)?;
     let mut elements = scene.choose_elements()?;
@@ -57,6 +58,7 @@ pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), E
         };
         return Ok((plain, planned));
     }
+    start::check_start(&plain)?;
     let beams = Beam::all(&plain, &elements)?;
     let mut search = Search::new(&plain, beams, &mut *progress)?;
     let (mut planned, mut plan, sheared) = search.find()?;

@@ -150,7 +150,7 @@ impl Master<'_> {
         let start = number(&[0.0, 0.5, -2.0]);
         let stop = number(&[start + 0.1, start + 1.0, start + 1e-3]);
         let [with_tolerance, with_stop] = [(); 2].map(|()| bytes.once_in(2));
-        let no_tolerance = with_tolerance && !(tolerance > 0.0 && tolerance < 1.0);
+        let no_tolerance = with_tolerance && !(0.0..1.0).contains(&tolerance);
         let no_stop = with_stop && !(stop > start && stop.is_finite());
         let expected = match !start.is_finite() || no_tolerance || no_stop {
             true => ERROR,
@@ -165,9 +165,11 @@ impl Master<'_> {
         if status == Status::Ok {
             let memory = &mut self.memory;
             (memory.start, memory.stop) = (start, with_stop.then_some(stop));
-            if with_tolerance {
+            // The tighter one holds; 0 is none.
+            if with_tolerance && tolerance > 0.0 {
                 let reference = self.unit.reference("relative_tolerance");
-                memory.values[reference as usize] = tolerance;
+                let holds = &mut memory.values[reference as usize];
+                *holds = holds.min(tolerance);
             }
         }
     }
