@@ -223,10 +223,12 @@ impl Radau {
         self.f[0].copy_from_slice(&self.a);
         self.filter(dynamics, h);
         let error = tolerance.norm(&self.error_q, &self.error_v);
-        if error < 1.0 || !error.is_finite() || !(self.rejected || self.last.is_none()) {
+        let is_doubted = self.rejected || self.last.is_none();
+        if error < 1.0 || !error.is_finite() || !is_doubted || !dynamics.is_damped() {
             return error;
         }
-        // After a rejection or at the start the estimate is filtered once more.
+        // After a rejection or at the start the estimate is filtered once more where vibrations die away: else what it filters is
+        // what the step would lose.
         for i in 0..q.len() {
             self.stage_q[i] = q[i] + self.error_q[i];
             self.stage_v[i] = v[i] + self.error_v[i];

@@ -341,7 +341,11 @@ mod tests {
             simulation.initialize(0.0).expect("an equilibrium");
             // `F (3 L s^2 - s^3) / 6 E I` less its best straight line is largest at the root.
             let wanted = force * LENGTH.powi(3) / (20.0 * BENDING);
-            let found = simulation.elastic_displacements().expect("a state").into_iter().fold(0.0, f64::max);
+            let found = simulation
+                .elastic_displacements()
+                .expect("a state")
+                .into_iter()
+                .fold(0.0, f64::max);
             let miss = (found / wanted - 1.0).abs();
             assert!(miss < 1e-3, "{dimension} {element}: {found} {wanted}");
         }

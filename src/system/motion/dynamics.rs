@@ -26,6 +26,10 @@ pub trait Dynamics {
     fn dissipates(&self) -> bool {
         true
     }
+    /// Whether vibrations may die away.
+    fn is_damped(&self) -> bool {
+        true
+    }
     /// Computes `K` and `R` at a state, for the calls below.
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]);
     /// Factors `m I + r R + K` for real weights `[m, r]` of inertia (1/s^2) and damping (1/s); false when it is not
@@ -353,6 +357,10 @@ impl<const D: usize> Dynamics for Model<'_, D> {
 
     fn dissipates(&self) -> bool {
         self.system.tracks_work && self.system.is_damped
+    }
+
+    fn is_damped(&self) -> bool {
+        self.system.is_damped
     }
 
     fn linearize(&mut self, time: f64, q: &[f64], v: &[f64]) {
