@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use flexbody::scene::{Body, Initial, InitialState, Scene};
-use flexbody::simulation::{Simulation, Source, plan};
+use flexbody::simulation::{Budget, Simulation, Source, plan};
 
 /// Steps before derivatives are taken, and their length, s.
 const STEPS: usize = 20;
@@ -80,7 +80,7 @@ impl Moving {
             scene["method"] = serde_json::json!({"integrator": "dopri853"});
         }
         let scene = Scene::from_json(&scene.to_string()).expect("a valid scene");
-        let (mut scene, _) = plan(&scene, &mut |_, _, _| ()).expect("a plan");
+        let (mut scene, _) = plan(&scene, &Budget::default(), &mut |_, _, _| ()).expect("a plan");
         scene.accuracy.relative_tolerance = Some(1e-10);
         // Soft enough for differences over a time that rounding does not notice.
         scene.initial = Initial::State(InitialState::AsShaped);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use flexbody::scene::{Axial, Body, Model, Scene};
-use flexbody::simulation::{Plan, Settles, Signals, Simulation, courses, plan};
+use flexbody::simulation::{Budget, Plan, Settles, Signals, Simulation, courses, plan};
 use serde_json::{Value, json};
 
 /// A beam of one metre between two pins, on rollers at its end.
@@ -28,7 +28,7 @@ fn edited(text: &str, edit: impl Fn(&mut Value)) -> Result<Scene, String> {
 }
 
 fn planned(scene: &Scene) -> Result<(Scene, Option<Plan>), String> {
-    let planned = plan(scene, &mut |_, _, _| ());
+    let planned = plan(scene, &Budget::default(), &mut |_, _, _| ());
     planned
         .map(|(scene, planned)| (scene, planned.numbers))
         .map_err(|error| error.to_string())

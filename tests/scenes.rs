@@ -1,7 +1,7 @@
 //! What a scene may not say, and how it is told: the place, what was expected, what was found.
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Redundant, Signals, Simulation, courses, plan};
+use flexbody::simulation::{Budget, Redundant, Signals, Simulation, courses, plan};
 use serde_json::{Value, json};
 
 const SCENE: &str = include_str!("../scenes/cantilever.json");
@@ -160,7 +160,7 @@ fn told(pointer: &str, value: Value) -> String {
 /// A scene with the numbers that it leaves to the planner.
 fn planned(text: &str) -> Result<Scene, String> {
     let scene = Scene::from_json(text).map_err(|error| error.to_string())?;
-    let planned = plan(&scene, &mut |_, _, _| ());
+    let planned = plan(&scene, &Budget::default(), &mut |_, _, _| ());
     planned
         .map(|(scene, _)| scene)
         .map_err(|error| error.to_string())

@@ -8,7 +8,7 @@ use flexbody::simulation::{Simulation, check};
 use packing::{prepared, shown};
 
 use crate::icon;
-use crate::planning::planned;
+use crate::planning::{Within, planned};
 use crate::reading::at;
 use crate::viewing;
 
@@ -23,16 +23,25 @@ pub struct Describe {
     /// Leaves the default experiment in motion out of the documentation.
     #[arg(long)]
     no_animation: bool,
+    #[command(flatten)]
+    within: Within,
 }
 
 /// Describes as the user asks for it.
 pub fn run(arguments: &Describe) -> Result<()> {
-    describe(&arguments.scene, &arguments.output, !arguments.no_animation).map(drop)
+    let is_moving = !arguments.no_animation;
+    describe(
+        &arguments.scene,
+        &arguments.output,
+        is_moving,
+        &arguments.within,
+    )
+    .map(drop)
 }
 
 /// Writes everything that an FMU of a scene holds besides libraries and licenses, and returns the scene's name.
-pub fn describe(place: &Path, output: &Path, is_moving: bool) -> Result<String> {
-    let (scene, planned) = planned(place)?;
+pub fn describe(place: &Path, output: &Path, is_moving: bool, within: &Within) -> Result<String> {
+    let (scene, planned) = planned(place, within)?;
     // What contradicts itself, or has no start, is told here, not by the first master that runs it.
     check(&scene).map_err(|error| at(place, error))?;
     let start = Simulation::new(scene.clone()).initialize(0.0);

@@ -8,6 +8,7 @@ use packing::{
 };
 
 use crate::describing::describe;
+use crate::planning::Within;
 use crate::reading::is_fmu;
 
 /// What says which variables make up a port; only FMUs of scenes with ports have it.
@@ -16,6 +17,9 @@ const TERMINALS: &str = "terminalsAndIcons/";
 /// Which scene, and where to write.
 #[derive(clap::Args)]
 pub struct Package {
+    /// What planning may cost.
+    #[command(flatten)]
+    pub within: Within,
     /// Scene file.
     pub scene: PathBuf,
     /// FMU, or the folder for one that is named like the scene [default: the current folder].
@@ -49,7 +53,12 @@ pub fn package(arguments: &Package) -> Result<()> {
     };
     let parts = libraries_and_licenses(&parts, &arguments.platform)?;
     let stage = stage("package")?;
-    let name = describe(&arguments.scene, &stage.0, !arguments.no_animation)?;
+    let name = describe(
+        &arguments.scene,
+        &stage.0,
+        !arguments.no_animation,
+        &arguments.within,
+    )?;
     let mut content = content(&stage.0)?;
     if arguments.no_terminals {
         content.retain(|name, _| !name.starts_with(TERMINALS));

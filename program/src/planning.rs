@@ -4,16 +4,39 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use flexbody::scene::{Chosen, Scene, remarks};
-use flexbody::simulation::{self, Damped, Plan, Planned, Settles};
+use flexbody::simulation::{self, Budget, Damped, Plan, Planned, Settles};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::reading::{at, read};
 
+/// What planning may cost, and what becomes of a plan that misses the error wanted.
+#[derive(Clone, clap::Args)]
+pub struct Within {
+    /// Most time that planning may take, s; what is best so far is taken then, and told.
+    #[arg(long, value_name = "SECONDS", default_value_t = Budget::default().seconds, value_parser = seconds)]
+    pub budget: f64,
+    /// Fails where the plan does not keep the error wanted of an output, which is told otherwise.
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// A positive number of seconds.
+fn seconds(text: &str) -> Result<f64, String> {
+    let expected = || format!("expected a positive number of seconds, found \"{text}\"");
+    let seconds: f64 = text.parse().map_err(|_| expected())?;
+    match seconds > 0.0 && seconds <= 1e6 {
+        true => Ok(seconds),
+        false => Err(expected()),
+    }
+}
+
 /// Which scene, and where to write.
 #[derive(clap::Args)]
 pub struct Planning {
+    #[command(flatten)]
+    within: Within,
     /// Scene file.
     scene: PathBuf,
     /// Writes the scene with these numbers to a file.
@@ -29,15 +52,35 @@ pub struct Planning {
 }
 
 /// Reads a scene, and plans it where it leaves elements or numbers to the planner.
-pub fn planned(path: &Path) -> Result<(Scene, Planned)> {
+pub fn planned(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
+    let found = planned_quietly(path, within)?;
+    let Some(plan) = &found.1.numbers else {
+        return Ok(found);
+    };
+    eprintln!("flexbody: {}", plan.in_a_line());
+    let missed = plan.missed();
+    for sentence in &missed {
+        eprintln!("flexbody: {sentence}");
+    }
+    if within.strict && !missed.is_empty() {
+        bail!("--strict: the plan does not keep the error wanted");
+    }
+    Ok(found)
+}
+
+/// The same, where the plan is told otherwise.
+fn planned_quietly(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
     let scene = read(path)?;
     tell_remarks(&scene);
+    let budget = Budget {
+        seconds: within.budget,
+    };
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("planning {spinner} {msg}") {
         bar.set_style(style);
     }
     bar.enable_steady_tick(Duration::from_millis(100));
-    let found = simulation::plan(&scene, &mut |run, elements, tolerance| {
+    let found = simulation::plan(&scene, &budget, &mut |run, elements, tolerance| {
         bar.set_message(format!(
             "run {run}: {elements} elements, tolerance {tolerance:e}"
         ));
@@ -56,7 +99,7 @@ fn tell_remarks(scene: &Scene) {
 /// Plans a scene and prints the plan.
 pub fn plan(arguments: &Planning) -> Result<()> {
     let path = &arguments.scene;
-    let (scene, planned) = planned(path)?;
+    let (scene, planned) = planned_quietly(path, &arguments.within)?;
     let Planned {
         elements,
         damping,
@@ -72,7 +115,12 @@ pub fn plan(arguments: &Planning) -> Result<()> {
     }
     print!("{}{}", chosen_in_words(elements), damping_in_words(damping));
     match numbers {
-        Some(plan) => print!("{}", in_words(plan)),
+        Some(plan) => {
+            print!("{}", in_words(plan));
+            if arguments.within.strict && !plan.missed().is_empty() {
+                bail!("--strict: the plan does not keep the error wanted");
+            }
+        }
         None if !elements.is_empty() || !damping.is_empty() => (),
         None => println!("nothing to plan: the scene gives numbers of elements and a tolerance"),
     }
@@ -176,6 +224,13 @@ fn in_words(plan: &Plan) -> String {
             "inputs held at their start values: {}\n",
             plan.held.join(", ")
         );
+        let heads = [
+            "linear answers and frequencies",
+            "changed by twice the mesh",
+        ];
+        let rows = plan.answers.iter();
+        let rows = rows.map(|(name, error)| [name.clone(), format!("{error:.1e}")]);
+        text += &table(&heads, rows.collect());
     }
     text += "\nerrors estimated\n";
     let rows = plan.outputs.iter().map(|output| {
@@ -187,6 +242,12 @@ fn in_words(plan: &Plan) -> String {
         [output.name.clone(), output.error_in_words(), settles]
     });
     text += &table(&["output", "error", ""], rows.collect());
+    for sentence in plan.measured_otherwise() {
+        text += &format!("  {sentence}\n");
+    }
+    if plan.is_cut {
+        text += "planning took all the work it may (`--budget`): this is the best plan so far\n";
+    }
     if let Some(settled) = &plan.settled {
         text += &format!("\nproposed\n  {}\n", settled.in_words());
     }

@@ -12,13 +12,15 @@ use indicatif::ProgressBar;
 use packing::bar;
 
 use crate::files::{Shapes, Sink, Table};
-use crate::planning::planned;
+use crate::planning::{Within, planned};
 use crate::reading::at;
 use crate::settings::{assign, names, nearest};
 use crate::stopwatch::Stopwatch;
 
 #[derive(clap::Args)]
 pub struct Simulate {
+    #[command(flatten)]
+    within: Within,
     /// Scene file.
     scene: PathBuf,
     /// Time at which the simulation ends, s; that of the scene's experiment if it is not given.
@@ -122,7 +124,7 @@ impl Cost {
 
 /// Simulates to a table.
 pub fn simulate(arguments: &Simulate) -> Result<()> {
-    let (scene, _) = planned(&arguments.scene)?;
+    let (scene, _) = planned(&arguments.scene, &arguments.within)?;
     let stop_time = arguments.stop_time.unwrap_or(scene.experiment.stop_time);
     let step = arguments.step.unwrap_or(scene.experiment.step);
     let points = communication_points(stop_time, step)?;

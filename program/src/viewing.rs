@@ -9,13 +9,15 @@ use flexbody::scene::Scene;
 use flexbody::simulation::courses;
 use flexbody::view::{Limits, Recording, Table, gltf, vtk};
 
-use crate::planning::planned;
+use crate::planning::{Within, planned};
 use crate::reading::{at, is_fmu, read};
 use crate::simulating::progress_bar;
 
 /// What to show, and where to write.
 #[derive(clap::Args)]
 pub struct View {
+    #[command(flatten)]
+    within: Within,
     /// Scene (`.json`), FMU (`.fmu`), or outputs as `flexbody simulate` writes them (`.csv`).
     file: PathBuf,
     /// Page of HTML; named like the file, in the current folder, if it is not given.
@@ -108,7 +110,7 @@ fn recorded(arguments: &View) -> Result<(Scene, Recording)> {
         true => (read(file)?, None),
         false => {
             let given = courses(&read(file)?).map_err(|error| at(file, error))?;
-            (planned(file)?.0, given)
+            (planned(file, &arguments.within)?.0, given)
         }
     };
     let inputs = match &arguments.input {

@@ -78,7 +78,8 @@ impl Instance {
                 let name = &simulation.scene().name;
                 let message = format_args!("instantiated \"{name}\" by {LIBRARY}");
                 logger.log(Status::Ok, Category::Events, message);
-                for remark in remarks(simulation.scene()) {
+                let scene = simulation.scene();
+                for remark in remarks(scene).iter().chain(&scene.accuracy.notes) {
                     logger.log(Status::Warning, Category::Warning, format_args!("{remark}"));
                 }
                 State::Instantiated

@@ -59,10 +59,9 @@ fn damping(damped: &[Damped]) -> String {
 
 fn numbers(plan: &Plan) -> String {
     let note = format!(
-        "<p>Numbers of elements and the tolerance were found while packaging, for an error of {} in the default experiment \
-         of positions relative to the size of the scene, of angles in rad, of all else relative to the largest value: \
-         what twice as many elements and a tenth of the tolerance change is below it.{} {} runs were made, which cost {:.1} \
-         times one with the choice.</p>\n",
+        "<p>Numbers of elements and the tolerance were found while packaging, for an error of {} in the default experiment, relative \
+         to the largest change of each output: what twice as many elements and a tenth of the tolerance change is told below.{} {} runs \
+         were made, which cost {:.1} times one with the choice.</p>\n",
         number(plan.error),
         held(plan),
         plan.runs,
@@ -94,7 +93,7 @@ fn held(plan: &Plan) -> String {
         false => {
             let names: Vec<String> = plan.held.iter().map(|name| code(name)).collect();
             format!(
-                " Inputs that kept their start values: {}.",
+                " Inputs that kept their start values, by whose linear answers meshes were compared: {}.",
                 names.join(", ")
             )
         }
@@ -105,13 +104,21 @@ fn outputs(plan: &Plan) -> String {
     let rows = plan.outputs.iter().map(|output| {
         let settles = match output.settles {
             Settles::Yes => "kept".into(),
-            Settles::Until(time) => format!("kept until {} s", number(time)),
-            Settles::No => "does not settle".into(),
+            Settles::Until(time) => missed(&format!("kept until {} s", number(time))),
+            Settles::No => missed("does not settle"),
         };
         row(&[&code(&output.name), &output.error_in_words(), &settles])
     });
     let heads = ["Output", "Error estimated", "Error wanted"];
-    table("Errors estimated", "", &heads, rows.collect())
+    let note: String = (plan.missed().iter())
+        .map(|sentence| format!("<p>{}.</p>\n", missed(&escape(sentence))))
+        .collect();
+    table("Errors estimated", &note, &heads, rows.collect())
+}
+
+/// What a plan does not keep, in red.
+fn missed(text: &str) -> String {
+    format!("<strong style=\"color: #b00020\">{text}</strong>")
 }
 
 fn costs(plan: &Plan) -> String {

@@ -24,8 +24,8 @@ mod watch;
 pub use dimension::check;
 pub use mesh::Unresolved;
 pub use plan::{
-    Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo, Settled,
-    Settles, courses, plan,
+    Budget, Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo,
+    Settled, Settles, courses, plan,
 };
 pub use quantities::Quantity;
 pub use shapes::Pose;

@@ -46,8 +46,9 @@ const TOGETHER: [&str; 7] = [
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
 /// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
 /// whose element is chosen says is what the element says that it becomes (`elements.rs`).
-const OWN: [&str; 10] = [
+const OWN: [&str; 11] = [
     "about.",
+    "accuracy.notes",
     "method.work_limit",
     "accuracy.for.",
     "bodies{cable}.elements=auto",

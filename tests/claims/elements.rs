@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use flexbody::scene::Scene;
-use flexbody::simulation::plan;
+use flexbody::simulation::{Budget, plan};
 use serde_json::{Value, json};
 
 use crate::scenes;
@@ -14,7 +14,8 @@ const LINES: [&str; 3] = ["cable", "rod", "beam"];
 /// The scene as it is packaged, and the element of every body.
 fn packaged(scene: &Value) -> Result<(Value, Vec<Value>), String> {
     let scene = Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())?;
-    let (scene, _) = plan(&scene, &mut |_, _, _| ()).map_err(|error| error.to_string())?;
+    let (scene, _) =
+        plan(&scene, &Budget::default(), &mut |_, _, _| ()).map_err(|error| error.to_string())?;
     let scene: Value = serde_json::from_str(&scene.to_json()).expect("JSON");
     let bodies = scene["bodies"].as_array().expect("bodies").iter();
     let elements = bodies.map(|body| body["element"].clone()).collect();

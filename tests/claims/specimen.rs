@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use flexbody::fmi2::model_description;
 use flexbody::scene::Scene;
-use flexbody::simulation::{Simulation, plan};
+use flexbody::simulation::{Budget, Simulation, plan};
 use serde_json::Value;
 
 /// Relative error of what is computed without steps.
@@ -152,7 +152,7 @@ impl Specimen {
             Err(error) => return Outcome::Refused(error.to_string()),
         };
         // What is left to the planner is planned as while packaging.
-        let described = match plan(&described, &mut |_, _, _| ()) {
+        let described = match plan(&described, &Budget::default(), &mut |_, _, _| ()) {
             Ok((scene, _)) => scene,
             Err(error) => return Outcome::Refused(error.to_string()),
         };

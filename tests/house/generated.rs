@@ -5,7 +5,7 @@ use std::path::Path;
 
 use flexbody::fmi2;
 use flexbody::scene::Scene;
-use flexbody::simulation::plan;
+use flexbody::simulation::{Budget, plan};
 use flexbody::view;
 use sha2::{Digest, Sha256};
 
@@ -19,7 +19,7 @@ fn scene(path: &Path) -> Result<Scene, String> {
 #[test]
 fn the_committed_description_is_that_of_the_default_scene() {
     let scene = scene(&root().join("scenes/pendulum.json")).expect("the default scene");
-    let (scene, planned) = plan(&scene, &mut |_, _, _| ()).expect("a plan");
+    let (scene, planned) = plan(&scene, &Budget::default(), &mut |_, _, _| ()).expect("a plan");
     let mut complaints = Vec::new();
     let described = fmi2::describe(&scene, &planned, "");
     for (path, text) in &described {

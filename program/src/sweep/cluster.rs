@@ -91,6 +91,7 @@ fn fmu(arguments: &Sweep, stage: &Path) -> Result<PathBuf> {
     }
     let output = stage.join("sweep.fmu");
     packaging::package(&packaging::Package {
+        within: arguments.within.clone(),
         scene: arguments.scene.clone(),
         output: Some(output.clone()),
         platform: Vec::new(),

@@ -15,7 +15,7 @@ use flexbody::simulation::Simulation;
 use packing::{prepared, shown};
 use serde_json::json;
 
-use crate::planning::planned;
+use crate::planning::{Within, planned};
 use crate::settings::{assign, outputs, set, settable};
 use crate::simulating::communication_points;
 use axes::Axes;
@@ -24,6 +24,8 @@ use journal::Journal;
 /// Which scene, what of it varies, and where to write.
 #[derive(clap::Args)]
 pub struct Sweep {
+    #[command(flatten)]
+    within: Within,
     /// Scene file, or FMU.
     scene: PathBuf,
     /// What varies: a parameter or input and its values, `NAME=FROM:TO:COUNT`, `NAME=A,B,...` or `NAME=@FILE.csv` (the column of
@@ -153,7 +155,7 @@ pub fn sweep(arguments: &Sweep) -> Result<()> {
 impl Common {
     fn new(arguments: &Sweep) -> Result<Self> {
         let axes = Axes::parse(&arguments.vary)?;
-        let (scene, _) = planned(&arguments.scene)?;
+        let (scene, _) = planned(&arguments.scene, &arguments.within)?;
         let step = arguments.step.unwrap_or(scene.experiment.step);
         let stop_time = arguments.stop_time.unwrap_or(scene.experiment.stop_time);
         let count = communication_points(stop_time, step)?;

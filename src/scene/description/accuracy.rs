@@ -11,10 +11,10 @@ use super::strict::{Strict, typed};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
-    /// Error wanted of every output over the default experiment: of positions relative to the size of the scene, of
-    /// angles and directions in rad, of all else relative to the largest value of its vector. By default 1e-3 where
-    /// numbers of elements are left to the planner. Where nothing is left to it, what the output `resolution` is measured
-    /// by: ten times the tolerance where nothing is said.
+    /// Error wanted of every output over the default experiment, relative to its own largest change: of positions, angles and directions
+    /// from where the scene draws them, of all else from zero. What hardly changes is held to a thousandth of like outputs of its body.
+    /// By default 1e-3 where numbers of elements are left to the planner. Where nothing is left to it, what warnings and the output
+    /// `resolution` are measured by: ten times the tolerance where nothing is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error: Option<f64>,
     /// Names of the outputs that count, without indices; by default all but energies, work and residuals.
@@ -29,6 +29,9 @@ pub struct Accuracy {
     /// given.
     #[serde(default)]
     pub relative_tolerance: Option<f64>,
+    /// What the planner could not keep and which inputs it held, in words: written by it, told by units when they are instantiated.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
 }
 
 /// What an input does in the experiment that is planned for.

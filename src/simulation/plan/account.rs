@@ -40,6 +40,7 @@ impl Search<'_, '_> {
                 true => None,
                 false => self.price(&double, None),
             },
+            is_cut: self.is_cut,
             runs: self.runs.len(),
             runs_cost: if cost > 0.0 { self.work / cost } else { 0.0 },
         }

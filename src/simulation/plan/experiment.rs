@@ -1,6 +1,7 @@
 //! Runs of the default experiment.
 
 use std::f64::consts::PI;
+use std::time::Instant;
 
 use super::motion::Motion;
 use super::outputs::RelativeTo;
@@ -79,9 +80,14 @@ impl Experiment {
         })
     }
 
-    /// Runs a scene with numbers of elements and a tolerance, with at most so much work; where it is halved, in two steps
-    /// from one communication point to the next.
-    pub fn run(&self, scene: Scene, is_halved: bool, most_work: f64) -> Result<Run, Unfinished> {
+    /// Runs a scene with numbers of elements and a tolerance, with at most so much work, and not beyond a moment; where it is halved, in
+    /// two steps from one communication point to the next.
+    pub fn run(
+        &self,
+        scene: Scene,
+        is_halved: bool,
+        (most_work, ends): (f64, Option<Instant>),
+    ) -> Result<Run, Unfinished> {
         let failed = |reason: String| Unfinished::Failed(reason);
         let mut simulation = Simulation::new(scene);
         // Indices of inputs follow from what bodies are.
@@ -119,7 +125,7 @@ impl Experiment {
                 run.work += report.work;
                 run.steps += report.steps;
                 run.method = report.method;
-                if run.work > most_work {
+                if run.work > most_work || ends.is_some_and(|ends| Instant::now() >= ends) {
                     return Err(Unfinished::TooMuchWork);
                 }
             }

@@ -30,6 +30,32 @@ use shear::Beam;
 /// What is under way, for a person who waits: the number of the run, elements of all cables, tolerance.
 pub type Progress<'a> = &'a mut dyn FnMut(usize, u32, f64);
 
+/// What planning may cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Budget {
+    /// Time, s: runs are counted by their work, so that the same scene gives the same plan; the clock ends what counts do not see.
+    pub seconds: f64,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { seconds: 60.0 }
+    }
+}
+
+impl Budget {
+    /// The work of all runs (operations times parts), of a fuzzer little.
+    fn work(&self) -> f64 {
+        match cfg!(fuzzing) {
+            true => 1e5,
+            false => WORK * self.seconds,
+        }
+    }
+}
+
+/// Work in a second of the budget: a sixth of what a processor of 2024 does, which leaves time for what is not counted.
+const WORK: f64 = 5e6;
+
 /// What was found while packaging, and why.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Planned {
@@ -46,7 +72,11 @@ pub struct Planned {
 ///
 /// # Errors
 /// A body with a damping ratio that has no mode; a name in `accuracy` that the scene does not have; a start that does not exist; an experiment that cannot be run with any mesh.
-pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), Error> {
+pub fn plan(
+    scene: &Scene,
+    budget: &Budget,
+    progress: Progress<'_>,
+) -> Result<(Scene, Planned), Error> {
     let (scene, damping) = damp(scene)?;
     let mut elements = scene.choose_elements()?;
     let plain = scene.with_elements(&elements);
@@ -60,7 +90,7 @@ pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), E
     }
     start::check_start(&plain)?;
     let beams = Beam::all(&plain, &elements)?;
-    let mut search = Search::new(&plain, beams, &mut *progress)?;
+    let mut search = Search::new(&plain, beams, budget, &mut *progress)?;
     let (mut planned, mut plan, sheared) = search.find()?;
     for of in sheared {
         of.judge(&mut elements, plan.error, scene.dimension);
@@ -69,7 +99,7 @@ pub fn plan(scene: &Scene, progress: Progress<'_>) -> Result<(Scene, Planned), E
     let sheared = scene.with_elements(&elements);
     if sheared != plain {
         let (runs, work) = (search.runs.len(), search.work);
-        let mut search = Search::new(&sheared, Vec::new(), progress)?;
+        let mut search = Search::new(&sheared, Vec::new(), budget, progress)?;
         (planned, plan, _) = search.find()?;
         plan.runs += runs;
         plan.runs_cost *= 1.0 + work / search.work.max(f64::MIN_POSITIVE);

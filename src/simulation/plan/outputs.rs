@@ -9,8 +9,9 @@ use crate::simulation::{Quantity, Source, Unit, Variable};
 /// Part of what others of its body do that an output is held to where it hardly moves, and of the size of the scene where
 /// nothing moves.
 const SMALLEST: f64 = 1e-3;
-/// Part of its natural size below which what an output does is roundoff.
-const NOTHING: f64 = 1e-11;
+/// Part of its natural size below which what an output does is roundoff; and where its body deforms by less than roundoff.
+const NOTHING: f64 = 1e-14;
+const STIFF: f64 = 1e-11;
 
 /// What an output must show for its errors to be resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -173,7 +174,9 @@ fn nature(source: Source) -> Option<(Measure, bool, bool)> {
     };
     let is_dynamic = quantities::needs(quantity) == Evaluated::Dynamics;
     let measure = match quantity {
-        Position(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => Measure::Displacement,
+        Position(..) | Deflection(..) | CenterOfMass(_) | Travel(_) | Displacement(_) => {
+            Measure::Displacement
+        }
         Angle(_) | Direction(..) | Orientation(..) | Quaternion(..) | RotationVector(..) => {
             Measure::Rotation
         }
@@ -269,8 +272,13 @@ pub(super) fn scales(groups: &[Group], run: &Run) -> Vec<(f64, RelativeTo)> {
     let scale = |(index, group): (usize, &Group)| {
         let natural = group.members.iter().map(|m| run.natural[*m]);
         let natural = natural.fold(0.0, f64::max);
+        let deformed = run.deformed.iter().copied().fold(0.0, f64::max);
+        let nothing = match group.measure == Measure::Elastic && deformed <= NOTHING * run.size {
+            true => STIFF * natural,
+            false => NOTHING * natural,
+        };
         match (changes[index], like(groups, index, &changes)) {
-            (_, by_body) if by_body <= NOTHING * natural => (SMALLEST * natural, RelativeTo::Scene),
+            (_, by_body) if by_body <= nothing => (SMALLEST * natural, RelativeTo::Scene),
             (change, by_body) if change < by_body => (by_body, RelativeTo::Body),
             (change, _) => (change, RelativeTo::Own),
         }

@@ -27,6 +27,8 @@ pub struct Plan {
     pub dearer: Option<Price>,
     /// What would settle where forces do not.
     pub settled: Option<Settled>,
+    /// Whether the work that planning may cost ended before the plan was found: it is the best so far.
+    pub is_cut: bool,
     /// Runs that were made, and what they cost together, in runs with the choice.
     pub runs: usize,
     /// See `runs`.
@@ -105,6 +107,74 @@ pub struct Price {
 const OPERATION: f64 = 36e-9;
 
 impl Plan {
+    /// What was chosen, and what it was chosen by, in one line.
+    pub fn in_a_line(&self) -> String {
+        let body = |body: &PlannedBody| match body.elements {
+            Some(count) => format!("{} {} with {count} elements", body.name, body.kind),
+            None => format!("{} {}", body.name, body.kind),
+        };
+        let bodies = self.bodies.iter().filter(|body| body.fewest.is_some());
+        let bodies: Vec<String> = bodies.map(body).collect();
+        let bodies = match bodies.is_empty() {
+            true => String::new(),
+            false => format!("{}, ", bodies.join(", ")),
+        };
+        let held = match self.held.is_empty() {
+            true => String::new(),
+            false => format!(
+                "; inputs held at their start values: {} (the mesh follows from the linear answers to them)",
+                self.held.join(", ")
+            ),
+        };
+        format!(
+            "planned for an error of {:e}: {bodies}relative tolerance {:e}{held}",
+            self.error, self.tolerance
+        )
+    }
+
+    /// What the plan does not keep, a sentence each.
+    pub fn missed(&self) -> Vec<String> {
+        let wanted = self.error;
+        let outputs = self.outputs.iter().filter(|of| of.settles != Settles::Yes);
+        let outputs = outputs.map(|output| {
+            let until = match output.settles {
+                Settles::Until(time) => format!("; it is kept until {time:.3} s"),
+                _ => String::new(),
+            };
+            let error = output.error_in_words();
+            format!(
+                "{}: the error of the plan is {error}, {wanted:e} is wanted{until}",
+                output.name
+            )
+        });
+        let answers = self.answers.iter().filter(|(_, error)| *error > wanted);
+        let answers = answers.map(|(name, error)| {
+            let error = in_words(*error);
+            format!("{name}: twice the mesh changes it by {error}, {wanted:e} is wanted")
+        });
+        let cut = "planning took all the work it may (`--budget`): this is the best plan so far";
+        let cut = self.is_cut.then(|| cut.to_owned());
+        outputs.chain(answers).chain(cut).collect()
+    }
+
+    /// Outputs that were measured by another size than their own largest change, a sentence each.
+    pub fn measured_otherwise(&self) -> Vec<String> {
+        let others = self.outputs.iter().filter_map(|output| {
+            let by = match output.relative_to {
+                RelativeTo::Own => return None,
+                RelativeTo::Body => {
+                    "a thousandth of the largest change of like outputs of its body"
+                }
+                RelativeTo::Scene => "a thousandth of what is natural in the scene",
+            };
+            Some(format!(
+                "{}: it hardly changes, its error is relative to {by}",
+                output.name
+            ))
+        });
+        others.collect()
+    }
+
     /// The choices by name, from cheap to dear, those that were run.
     pub fn prices(&self) -> impl Iterator<Item = (&'static str, &Price)> {
         let all = [

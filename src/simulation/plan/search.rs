@@ -1,12 +1,14 @@
 //! The search for meshes and a tolerance.
 
-use super::Progress;
+use std::time::{Duration, Instant};
+
 use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
 use super::outputs::{Difference, Group, RelativeTo, are_kept, difference, groups, scales, shown};
 use super::report::Plan;
 use super::response;
 use super::shear::{Beam, Sheared};
+use super::{Budget, Progress};
 use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
 use crate::simulation::{check, variables};
 
@@ -23,10 +25,9 @@ const STILL: f64 = 1e-3;
 pub(super) const TIGHTEST: f64 = 1e-11;
 /// Most cables of which single ones are tried with fewer elements.
 const MOST_SINGLE: usize = 4;
-/// Most elements of a cable, runs, and work of all of them (some seconds); of a fuzzer little, so that it gets on.
+/// Most elements of a cable, and runs; of a fuzzer few, so that it gets on.
 const MOST_ELEMENTS: u32 = if cfg!(fuzzing) { 8 } else { 1024 };
-const MOST_RUNS: usize = if cfg!(fuzzing) { 4 } else { 30 };
-const MOST_WORK: f64 = if cfg!(fuzzing) { 1e5 } else { 1e8 };
+const MOST_RUNS: usize = if cfg!(fuzzing) { 4 } else { 40 };
 
 /// A search under way.
 pub(super) struct Search<'a, 'p> {
@@ -48,6 +49,11 @@ pub(super) struct Search<'a, 'p> {
     pub(super) beams: Vec<Beam>,
     /// The loosest tolerance that may be chosen.
     pub(super) loosest: f64,
+    /// Most work of all runs, and when planning ends at the latest: clocks decide only where counts do not.
+    most_work: f64,
+    ends: Option<Instant>,
+    /// Whether either has ended the search.
+    pub(super) is_cut: bool,
     progress: Progress<'p>,
 }
 
@@ -87,7 +93,12 @@ impl<'a, 'p> Search<'a, 'p> {
     ///
     /// # Errors
     /// A name in `accuracy` that the scene does not have; what is not valid.
-    pub fn new(scene: &'a Scene, beams: Vec<Beam>, progress: Progress<'p>) -> Result<Self, Error> {
+    pub fn new(
+        scene: &'a Scene,
+        beams: Vec<Beam>,
+        budget: &Budget,
+        progress: Progress<'p>,
+    ) -> Result<Self, Error> {
         let groups = groups(scene, &variables(scene))?;
         Ok(Self {
             beams,
@@ -100,6 +111,9 @@ impl<'a, 'p> Search<'a, 'p> {
             work: 0.0,
             fewest: fewest(scene)?,
             loosest: f64::INFINITY,
+            most_work: budget.work(),
+            ends: Instant::now().checked_add(Duration::from_secs_f64(budget.seconds)),
+            is_cut: false,
             progress,
         })
     }
@@ -127,14 +141,21 @@ impl<'a, 'p> Search<'a, 'p> {
         };
         let sheared = self.shear(&choice);
         let plan = self.report(&choice, &in_space, &in_time);
-        Ok((self.planned(&choice), plan, sheared))
+        let mut scene = self.planned(&choice);
+        scene.accuracy.notes = plan.missed();
+        if !plan.held.is_empty() {
+            scene.accuracy.notes.insert(0, plan.in_a_line());
+        }
+        Ok((scene, plan, sheared))
     }
 
     /// A mesh with all cables rigid that may be.
     fn stiffest(&self, elements: &[u32]) -> Vec<u32> {
         let cables = cables(self.scene).zip(elements);
         let least = cables.map(|((body, cable), count)| {
-            let is_open = cable.elements.is_none() && cable.model == Model::Auto;
+            // What has no bending stiffness does not push.
+            let bends = cable.bending_stiffness() > 0.0;
+            let is_open = cable.elements.is_none() && cable.model == Model::Auto && bends;
             match is_open && with_rigid(self.scene.clone(), body).resolve().is_ok() {
                 true => 0,
                 false => *count,
@@ -203,13 +224,17 @@ impl<'a, 'p> Search<'a, 'p> {
     fn make(&mut self, choice: &Choice) -> Result<Run, Unfinished> {
         let elements = choice.elements.iter().sum();
         (self.progress)(self.runs.len() + 1, elements, choice.tolerance);
-        let left = MOST_WORK - self.work;
-        if self.runs.len() >= MOST_RUNS || left <= 0.0 {
+        let left = self.most_work - self.work;
+        let is_late = self.ends.is_some_and(|ends| Instant::now() >= ends);
+        if self.runs.len() >= MOST_RUNS || left <= 0.0 || is_late {
+            self.is_cut = true;
             return Err(Unfinished::TooMuchWork);
         }
+        let limits = (left, self.ends);
         let mut run = self
             .experiment
-            .run(self.planned(choice), choice.is_halved, left);
+            .run(self.planned(choice), choice.is_halved, limits);
+        self.is_cut |= matches!(run, Err(Unfinished::TooMuchWork));
         if let Ok(run) = &mut run {
             run.scales = scales(&self.groups, run);
         }

@@ -123,7 +123,9 @@ mod tests {
         assert_eq!(check_start(&cable(1.0, HELD)), Ok(()));
         let scene = cable(2.0, HELD);
         let mut runs = 0;
-        let found = super::super::plan(&scene, &mut |_, _, _| runs += 1);
+        let found = super::super::plan(&scene, &super::super::Budget::default(), &mut |_, _, _| {
+            runs += 1
+        });
         let error = found.expect_err("a start").to_string();
         assert_eq!(runs, 0);
         assert!(
@@ -142,7 +144,9 @@ mod tests {
             ..scene
         };
         let mut runs = 0;
-        let found = super::super::plan(&free, &mut |_, _, _| runs += 1);
+        let found = super::super::plan(&free, &super::super::Budget::default(), &mut |_, _, _| {
+            runs += 1
+        });
         let error = found.expect_err("a start").to_string();
         assert_eq!(runs, 0);
         assert!(error.starts_with("initial: "), "{error}");
