@@ -176,7 +176,13 @@ impl<const D: usize> Engine<D> {
             _ => None,
         };
         if self.initial != InitialState::AsShaped {
-            let found = equilibrium::find(system, values, &mut self.work, &mut state, steady);
+            let found = equilibrium::find(
+                system,
+                values,
+                &mut self.work,
+                &mut state,
+                (steady, self.most_work),
+            );
             let found = found.map_err(|error| self.unsettled(error))?;
             self.remarks.is_unstable = !found.is_stable;
             if steady.is_some() || !motions.is_none() {
@@ -216,7 +222,16 @@ impl<const D: usize> Engine<D> {
             Failure::Rest(rest) => {
                 Error::Equilibrium(format!("{error}, on `{}`", self.bodies[rest.body]))
             }
-            Failure::Correction(_) => Error::Equilibrium(error.to_string()),
+            Failure::Away(body) => {
+                Error::Equilibrium(format!("{error}, found that of `{}`", self.bodies[body]))
+            }
+            Failure::Correction(_) | Failure::Restless => Error::Equilibrium(error.to_string()),
+            Failure::Work => {
+                let limit = self.most_work;
+                Error::Equilibrium(format!(
+                    "{error}, work_limit = {limit:e} (evaluations times parts)"
+                ))
+            }
         }
     }
 

@@ -186,6 +186,7 @@ impl<'a> Resolved<'a> {
                 }),
             });
         }
+        self.unite_axes();
         Ok(())
     }
 

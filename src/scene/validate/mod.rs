@@ -2,6 +2,7 @@
 
 mod bodies;
 mod checks;
+mod coaxial;
 mod contact;
 mod fluids;
 mod gears;

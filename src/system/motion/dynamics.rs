@@ -181,6 +181,11 @@ impl<'a, const D: usize> Model<'a, D> {
         self
     }
 
+    /// Counts operations that it does not see itself, in accelerations.
+    pub fn spend(&mut self, operations: f64) {
+        self.operations += operations;
+    }
+
     /// Inputs move from now on, with these first and second derivatives.
     pub fn moving(mut self, slopes: &'a [[f64; 2]]) -> Self {
         self.slopes = slopes;
@@ -295,6 +300,7 @@ impl<'a, const D: usize> Model<'a, D> {
     /// Number of negative eigenvalues of `m I + r R + K` for weights `[m, r]` where constraints leave freedom, and its
     /// factors for [`Dynamics::solve`]; nothing where it is singular.
     pub fn inertia(&mut self, weights: [f64; 2]) -> Option<usize> {
+        self.operations += FACTOR;
         let elimination = &self.system.elimination;
         self.work.tangent.inertia(elimination, weights)
     }

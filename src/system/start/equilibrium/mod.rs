@@ -10,16 +10,20 @@
 //! (1979) (branches).
 
 mod balance;
+mod motion;
 mod newton;
 mod unsymmetric;
+
+use std::cell::Cell;
 
 use super::held::Open;
 use super::steady::Steady;
 use crate::body::Node;
 use crate::math::space::Vector;
 use crate::math::vector::norm;
+use crate::system::loads::Load;
 use crate::system::{Dynamics, Model, State, System, Work};
-use newton::{Guard, Newton, stiffest};
+use newton::{EDGE, Guard, Newton, stiffest};
 
 /// Smallest step of the way.
 const SMALLEST: f64 = 1.0 / 256.0;
@@ -27,6 +31,12 @@ const SMALLEST: f64 = 1.0 / 256.0;
 const STEPS: usize = 2000;
 /// Largest turn of a slope in one step, where smaller ones are left to try, rad.
 const BRANCH: f64 = 1.5;
+/// Such a turn that the next step aims at, rad.
+const AIM: f64 = 1.2;
+/// Turn under all of the load, were the response linear, from which on the first step is shorter, rad.
+const FAR: f64 = 6.0;
+/// Largest step that closes joints with such a turn.
+const FOLDING: f64 = 2.0 * SMALLEST;
 /// Such turns where smaller steps do not help, at most: what hangs falls into place, an arch snaps through. More of them
 /// go from one equilibrium to others with turns more.
 const LEAPS: usize = 2;
@@ -60,6 +70,17 @@ pub enum Failure {
     /// A rod, among the bodies, with an element that a correction bent or twisted beyond what its frames hold, and which that is.
     #[error("an element is bent or twisted beyond what it holds")]
     Overbent(usize, usize),
+    /// A body that moves away without end, among the bodies.
+    #[error("a body moves away without end under the loads; expected bodies that are held")]
+    Away(usize),
+    /// The damped motion did not come to rest.
+    #[error(
+        "a damped motion from there came to no rest; expected loads under which bodies come to rest"
+    )]
+    Restless,
+    /// The work was done that is allowed.
+    #[error("the work limit is reached; expected an equilibrium within it")]
+    Work,
     /// It ended where forces do not balance.
     #[error(
         "expected forces that cancel to roundoff, found {:.1e} {} left, {:.1e} times that", .0.size, .0.unit(), .0.relative()
@@ -118,7 +139,7 @@ pub fn find<const D: usize>(
     inputs: &[f64],
     work: &mut Work<D>,
     state: &mut State,
-    steady: Option<Steady<D>>,
+    (steady, most_work): (Option<Steady<D>>, f64),
 ) -> Result<Found, NotFound> {
     let mut held = system.held_at(inputs, work, state);
     if let Some(Steady { velocity, rate }) = steady {
@@ -135,9 +156,11 @@ pub fn find<const D: usize>(
     };
     let path = Path {
         inputs,
-        first: 1.0,
+        first: first_step(&held, inputs, work, state),
         predicts: false,
         kept: 0.0,
+        swings: turning.is_none(),
+        left: Cell::new(most_work),
     };
     let before = state.clone();
     let found = path.follow(way, work, state);
@@ -146,7 +169,8 @@ pub fn find<const D: usize>(
         Some(Turning { rate, .. }) if found.is_err() => {
             state.copy_from(&before);
             let kept = norm(&rate);
-            Path { kept, ..path }.follow(way, work, state)
+            let path = Path { kept, ..path };
+            path.follow(way, work, state)
         }
         _ => found,
     }
@@ -179,6 +203,8 @@ pub(super) fn close<const D: usize>(
         first: CLOSING,
         predicts: true,
         kept: 0.0,
+        swings: true,
+        left: Cell::new(f64::INFINITY),
     };
     closing.follow(way, work, state)?;
     let last = Path {
@@ -193,7 +219,14 @@ impl<const D: usize> System<D> {
     fn held_at(&self, inputs: &[f64], work: &mut Work<D>, state: &State) -> Self {
         let model = Model::new(self, inputs, work, state);
         self.forward_kinematics(state.time, &state.coordinates, None, model.work);
-        self.held(state.time, model.work, true)
+        let mut held = self.held(state.time, model.work, true);
+        for load in &mut held.loads {
+            if let Load::Contact(contact) = load {
+                // There is none at rest, and without it the loads have a potential.
+                contact.friction = 0.0;
+            }
+        }
+        held
     }
 }
 
@@ -205,6 +238,10 @@ struct Path<'a> {
     predicts: bool,
     /// Shift that Newton's method keeps, 1/s.
     kept: f64,
+    /// Whether the damped motion is tried where steps fail.
+    swings: bool,
+    /// Work that is left to do, operations times parts.
+    left: Cell<f64>,
 }
 
 impl Path<'_> {
@@ -226,32 +263,27 @@ impl Path<'_> {
             }
             let target = f64::min(1.0, reached + step);
             let next = way(target, work);
-            let guards = match next.is_conservative() {
-                true => [Guard::Turns, Guard::Potential],
-                false => [Guard::Turns, Guard::Transient],
-            };
-            let mut outcome = Err(why);
-            for guard in guards {
-                if outcome.is_err() {
-                    state.copy_from(&from);
-                    if self.predicts {
-                        self.predict((&before, &next), work, state);
-                    }
-                    outcome = self.settle(&next, work, state, guard);
-                }
-            }
+            let is_smallest = step < 2.0 * SMALLEST;
+            let mut outcome = self.attempt((&before, &next), is_smallest, work, (&from, state));
             // Far from the last equilibrium there may be another one, with a turn more.
             let mut model = Model::new(&next, self.inputs, work, &from);
             let turn = model.turn_between([&from, state]);
             let leaps_on = turn > BRANCH;
-            if leaps_on && (step > SMALLEST.sqrt() || leaps == LEAPS) {
+            // Where joints close, it is an element that folded.
+            let largest = if self.predicts {
+                FOLDING
+            } else {
+                SMALLEST.sqrt()
+            };
+            if leaps_on && (step > largest || leaps == LEAPS) {
                 outcome = Err(why);
             }
             match outcome {
                 Ok(now) => {
                     leaps += usize::from(leaps_on);
                     (reached, found) = (target, now);
-                    step *= 2.0;
+                    // As far as the next one turns no slope too far either.
+                    step *= (AIM / turn).clamp(0.5, 2.0);
                     from.copy_from(state);
                     before = next;
                 }
@@ -259,13 +291,58 @@ impl Path<'_> {
                     state.copy_from(&from);
                     why = left;
                     step /= 2.0;
-                    if step < SMALLEST {
+                    if step < SMALLEST || why == Failure::Work {
                         break;
                     }
                 }
             }
         }
+        if self.swings && !self.predicts && why != Failure::Work {
+            let whole = way(1.0, work);
+            match self.with_newton(&whole, work, state, |newton, state| newton.swing(state)) {
+                Ok(found) => return Ok(found),
+                Err(error) => {
+                    state.copy_from(&from);
+                    let is_known = matches!(why, Failure::Overbent(..) | Failure::Rest(_));
+                    if !(is_known && error == Failure::Restless) {
+                        why = error;
+                    }
+                }
+            }
+        }
         Err(NotFound { reached, why })
+    }
+
+    /// One step of the way: under one guard after the other, and at last by a damped motion where joints close.
+    fn attempt<const D: usize>(
+        &self,
+        (before, next): (&System<D>, &System<D>),
+        is_smallest: bool,
+        work: &mut Work<D>,
+        (from, state): (&State, &mut State),
+    ) -> Result<Found, Failure> {
+        let guards = match next.is_conservative() {
+            true => [Guard::Turns, Guard::Potential],
+            false => [Guard::Turns, Guard::Transient],
+        };
+        let start = |work: &mut Work<D>, state: &mut State| {
+            state.copy_from(from);
+            if self.predicts {
+                self.predict((before, next), work, state);
+            }
+        };
+        let mut outcome = Err(Failure::Correction(f64::INFINITY));
+        for guard in guards {
+            if outcome.is_err() {
+                start(work, state);
+                outcome = self.settle(next, work, state, guard);
+            }
+        }
+        if outcome.is_err() && is_smallest && self.predicts && self.swings {
+            start(work, state);
+            outcome = self.with_newton(next, work, state, |newton, state| newton.swing(state));
+        }
+        outcome
     }
 
     /// Newton's method, and again from beside every equilibrium that is not stable.
@@ -276,9 +353,25 @@ impl Path<'_> {
         state: &mut State,
         guard: Guard,
     ) -> Result<Found, Failure> {
+        self.with_newton(system, work, state, |newton, state| {
+            newton.settle(state, guard)
+        })
+    }
+
+    /// An iteration on a system within the work that is left.
+    fn with_newton<const D: usize, T>(
+        &self,
+        system: &System<D>,
+        work: &mut Work<D>,
+        state: &mut State,
+        find: impl FnOnce(&mut Newton<'_, '_, D>, &mut State) -> T,
+    ) -> T {
         let least = smallest_shift(system, self.inputs, work, state);
-        let mut model = Model::new(system, self.inputs, work, state);
-        Newton::new(&mut model, least, self.kept).settle(state, guard)
+        let mut model = Model::new(system, self.inputs, work, state).limited(self.left.get());
+        let found = find(&mut Newton::new(&mut model, least, self.kept), state);
+        let done = model.operations() * system.parts() as f64;
+        self.left.set(self.left.get() - done);
+        found
     }
 
     /// Moves all nodes as the tangent asks for when those that joints hold move on to the next system.
@@ -294,6 +387,40 @@ impl Path<'_> {
     }
 }
 
+/// First step of the way to all of the load: a part of it where moments that have no potential would turn rods and beams far.
+/// Newton's method fails there, and takes long to do so.
+fn first_step<const D: usize>(
+    system: &System<D>,
+    inputs: &[f64],
+    work: &mut Work<D>,
+    state: &State,
+) -> f64 {
+    if system.is_conservative() || system.rod_chains.is_empty() {
+        return 1.0;
+    }
+    let least = smallest_shift(system, inputs, work, state);
+    let n = state.coordinates.len();
+    let (rest, mut x) = (vec![0.0; n], vec![0.0; n]);
+    let mut model = Model::new(system, inputs, work, state);
+    model.acceleration(state.time, &state.coordinates, &rest, &mut x);
+    model.linearize(state.time, &state.coordinates, &rest);
+    if !model.factor([least * least, least]) {
+        return 1.0;
+    }
+    model.solve_small(&mut x);
+    let part = 1e-3 * system.scale() / norm(&x);
+    if !part.is_finite() {
+        return 1.0;
+    }
+    let pairs = state.coordinates.iter().zip(&x);
+    let moved: Vec<f64> = pairs.map(|(q, x)| q + part * x).collect();
+    let turn = model.largest_turn(&state.coordinates, &moved) / part;
+    match turn > FAR {
+        true => (AIM / turn).max(SMALLEST),
+        false => 1.0,
+    }
+}
+
 /// Root of the smallest multiple of the mass that regularizes the tangent: a part of the stiffest mode that is at
 /// the edge of roundoff; without stiffness, what lets the forces there are move the system by a part of its size.
 fn smallest_shift<const D: usize>(
@@ -305,7 +432,7 @@ fn smallest_shift<const D: usize>(
     let mut model = Model::new(system, inputs, work, state);
     let stiffest = stiffest(&mut model, state);
     if stiffest > 0.0 {
-        return 1e-8 * stiffest.sqrt();
+        return EDGE * stiffest.sqrt();
     }
     let n = state.coordinates.len();
     let (rest, mut force) = (vec![0.0; n], vec![0.0; n]);

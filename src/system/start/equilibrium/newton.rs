@@ -13,15 +13,17 @@ const TRANSIENT: usize = 500;
 /// Shifts that are tried in one iteration, each three times the one before.
 const SHIFTS: usize = 60;
 /// Unstable equilibria that are left before the last one is answered.
-const ESCAPES: usize = 8;
+pub(super) const ESCAPES: usize = 8;
 /// Largest turn of a slope in one iteration, rad.
-const LARGEST_TURN: f64 = 0.5;
+pub(super) const LARGEST_TURN: f64 = 0.5;
 /// Turn, or way relative to the size, with which an unstable equilibrium is left.
 const AWAY: f64 = 0.05;
 /// Way along the lowest mode, relative to the size, that forces have to ask for to show a side.
 const EVEN: f64 = 1e-6;
 /// Eigenvalue, relative to the largest, that roundoff hides.
 const HIDDEN: f64 = 1e-15;
+/// Smallest shift, relative to the root of the largest eigenvalue: its square is at the edge of roundoff.
+pub(super) const EDGE: f64 = 1e-8;
 /// Steps of the power iteration for the largest and of the inverse iteration for the lowest mode.
 const POWERS: usize = 20;
 /// Correction, relative to the size of the system, below which Newton converges quadratically.
@@ -29,7 +31,7 @@ const CLOSE: f64 = 1e-7;
 /// Correction at which it cannot get better.
 const EXACT: f64 = 1e-14;
 /// Change of the potential, relative to its terms, that roundoff hides.
-const NOISE: f64 = 1e-10;
+pub(super) const NOISE: f64 = 1e-10;
 
 /// What a Newton iteration must respect.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -49,14 +51,14 @@ pub(super) enum Guard {
 pub(super) struct Newton<'a, 'b, const D: usize> {
     pub(super) model: &'a mut Model<'b, D>,
     /// Smallest shift.
-    least: f64,
+    pub(super) least: f64,
     /// Shift that is kept to the end, where a direction in which nothing acts is free; else 0.
     kept: f64,
-    is_conservative: bool,
+    pub(super) is_conservative: bool,
     pub(super) rest: Vec<f64>,
     pub(super) force: Vec<f64>,
-    x: Vec<f64>,
-    trial: Vec<f64>,
+    pub(super) x: Vec<f64>,
+    pub(super) trial: Vec<f64>,
     /// The lowest mode.
     mode: Vec<f64>,
     /// What of the rods could not go where a correction led.
@@ -82,9 +84,10 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
 
     /// An equilibrium where forces balance, stable where that can be had.
     pub(super) fn settle(&mut self, state: &mut State, guard: Guard) -> Result<Found, Failure> {
-        let failure = |this: &Self, correction: f64| match this.overbent {
-            Some((body, element)) => Failure::Overbent(body, element),
-            None => Failure::Correction(correction),
+        let failure = |this: &Self, correction: f64| match (this.exhausted(), this.overbent) {
+            (Some(failure), _) => failure,
+            (None, Some((body, element))) => Failure::Overbent(body, element),
+            (None, None) => Failure::Correction(correction),
         };
         let mut is_stable = false;
         for _ in 0..ESCAPES {
@@ -106,8 +109,13 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
         }
     }
 
+    /// That the work is done that was allowed.
+    pub(super) fn exhausted(&self) -> Option<Failure> {
+        (self.model.is_exhausted()).then_some(Failure::Work)
+    }
+
     /// An equilibrium; on failure the last correction.
-    fn relax(&mut self, state: &mut State, guard: Guard) -> Result<(), f64> {
+    pub(super) fn relax(&mut self, state: &mut State, guard: Guard) -> Result<(), f64> {
         let (time, size) = (state.time, self.model.system.scale());
         let is_transient = guard == Guard::Transient;
         let (mut shift, mut before, mut correction) = (self.kept, f64::INFINITY, f64::INFINITY);
@@ -178,9 +186,12 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
     }
 
     /// Solves for the correction, with the smallest shift from `shift` on that lets it descend; false where no
-    /// shift does.
+    /// shift does, or all work is done.
     fn correct(&mut self, shift: &mut f64) -> bool {
         self.x.copy_from_slice(&self.force);
+        if self.model.is_exhausted() {
+            return false;
+        }
         if !self.is_conservative {
             return unsymmetric::solve(self.model, *shift, self.least, &mut self.x);
         }
@@ -246,9 +257,17 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
 
     /// Leaves an equilibrium that is not stable along its lowest mode, towards where gravity pulls, else up or to
     /// the right; false, and nothing has changed, where it is stable.
-    fn leave(&mut self, state: &mut State) -> bool {
+    pub(super) fn leave(&mut self, state: &mut State) -> bool {
+        // A body that touched nothing where it was drawn had no stiffness there.
+        let stiffest = stiffest(self.model, state);
+        let before = self.least;
+        if stiffest > 0.0 {
+            self.least = before.min(EDGE * stiffest.sqrt());
+        }
         (self.model).linearize(state.time, &state.coordinates, &self.rest);
-        self.lowest(state).is_some() && self.displace(state)
+        let leaves = self.lowest(state).is_some() && self.displace(state);
+        self.least = before;
+        leaves
     }
 
     /// Leaves a place that symmetry keeps unstable before roundoff does, to a side that does not depend on it; false
@@ -278,7 +297,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
                 break;
             }
         }
-        let largest = (self.least * 1e8).powi(2);
+        let largest = (self.least / EDGE).powi(2);
         let mut mode = seed(state.coordinates.len());
         for _ in 0..POWERS {
             self.model.solve_small(&mut mode);

@@ -7,8 +7,8 @@
 use crate::body::{Node, map_node};
 use crate::math::jet::{Jet, moving, part};
 use crate::math::vector::{dot, norm};
-use crate::system::Model;
 use crate::system::instant::Instant;
+use crate::system::{Dynamics, Model};
 
 /// Most steps, and the residual at which the iteration ends, relative to that at its start.
 const STEPS: usize = 80;
@@ -21,6 +21,9 @@ const NEUTRAL: f64 = 1e-5;
 /// bodies that have no stiffness but that of their joints are small, and roundoff leads against these joints; a
 /// shift that is not part of the tangent costs the iteration a few steps.
 const JOINED: f64 = 1e3;
+
+/// What a product with the whole tangent and its projections cost beside an acceleration, roughly.
+const PRODUCT: f64 = 3.0;
 
 /// Solves `(s^2 I + K) x = f` in place, where the model is linearized; `least` is the shift of the symmetric
 /// factors that stand in where those without are singular. False where no factors are found, or where
@@ -50,6 +53,9 @@ pub(super) fn solve<const D: usize>(
     let (mut columns, mut rotations) = (Vec::new(), Vec::<[f64; 2]>::new());
     let mut target = vec![scale];
     for k in 0..STEPS.min(x.len()) {
+        if model.is_exhausted() {
+            return false;
+        }
         let product = apply(model, s, &basis[k]);
         let mut w = preconditioned(model, &product);
         let mut column: Vec<f64> = Vec::with_capacity(k + 2);
@@ -109,6 +115,7 @@ fn substitute_back(columns: &[Vec<f64>], target: &mut [f64]) {
 /// Solves with the symmetric factors, inside the tangent plane of the constraints: what they lead out of it, no
 /// product with the tangent sees.
 fn preconditioned<const D: usize>(model: &mut Model<'_, D>, f: &[f64]) -> Vec<f64> {
+    model.spend(PRODUCT);
     let mut x = f.to_vec();
     model.system.project_on_tangent_plane(model.work, &mut x);
     model.solve_small(&mut x);

@@ -1,0 +1,68 @@
+//! Equilibria that are not there, not stable, or too far for the work that is allowed: none is answered in silence.
+
+use flexbody::scene::Scene;
+use flexbody::simulation::Simulation;
+use serde_json::{Value, json};
+
+/// What is told when a scene is to start; nothing where it starts from a stable equilibrium.
+fn told(scene: &Value) -> Option<String> {
+    let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+    let mut simulation = Simulation::new(scene);
+    match simulation.initialize(0.0) {
+        Err(error) => Some(error.to_string()),
+        Ok(_) => simulation.is_unstable().then(|| "not stable".into()),
+    }
+}
+
+/// A body drawn where a surface begins, on top of it.
+fn on_top(surface: Value, friction: f64) -> Value {
+    let mut contact = json!({"name": "touch", "kind": "contact", "marker": "it.c", "surface": surface, "stiffness": 1e5});
+    if friction > 0.0 {
+        contact["friction"] = json!(friction);
+        contact["slip_velocity"] = json!(1e-3);
+    }
+    json!({"name": "on_top", "dimension": 3, "gravity": [0.0, 0.0, -9.81],
+        "bodies": [{"name": "it", "element": "rigid", "mass": 1.0, "inertia": [0.1, 0.1, 0.1],
+                    "position": [0.0, 0.0, 1.0], "markers": {"c": [0.0, 0.0, 0.0]}}],
+        "loads": [contact], "initial": "static_equilibrium"})
+}
+
+/// On top of what is round a point stands, but not stably, and beside it there is no other place: it rolls down. Friction holds nothing
+/// that rests. On a plane it stays.
+#[test]
+fn what_stands_on_top_of_what_is_round_is_told_of() {
+    let sphere = json!({"sphere": {"center": [0.0, 0.0, 0.0], "radius": 1.0}});
+    let cylinder =
+        json!({"cylinder": {"point": [0.0, 0.0, 0.0], "axis": [0.0, 1.0, 0.0], "radius": 1.0}});
+    for surface in [sphere, cylinder] {
+        for friction in [0.0, 0.3] {
+            let told = told(&on_top(surface.clone(), friction));
+            let told = told.unwrap_or_else(|| panic!("no word: {surface}, {friction}"));
+            assert!(
+                told.contains("moves away without end") && told.contains("`it`"),
+                "{surface}, {friction}: {told}"
+            );
+        }
+    }
+}
+
+/// A line of 1 m drawn straight between pins nearer than that.
+fn slack(work_limit: f64) -> Value {
+    json!({"name": "slack", "dimension": 2, "gravity": [0.0, -9.81],
+        "bodies": [{"name": "line", "element": "cable", "elements": 16,
+                    "material": {"youngs_modulus": 7.7e10, "density": 7850.0}, "section": {"area": 1.3e-5, "second_moment": 0.0},
+                    "shape": {"line": {"from": [0.0, 0.0], "to": [1.0, 0.0]}}, "markers": {"a": 0.0, "b": 1.0}}],
+        "joints": [{"name": "a", "kind": "revolute", "markers": ["ground", "line.a"], "point": [0.0, 0.0]},
+                   {"name": "b", "kind": "revolute", "markers": ["ground", "line.b"], "point": [0.8, 0.1]}],
+        "method": {"work_limit": work_limit}, "initial": "static_equilibrium"})
+}
+
+#[test]
+fn the_search_obeys_the_work_limit_and_says_so() {
+    let told = told(&slack(50.0)).expect("a limit below any work");
+    assert!(
+        told.contains("the work limit is reached") && told.contains("work_limit = 5e1"),
+        "{told}"
+    );
+    assert_eq!(self::told(&slack(1e8)), None);
+}
