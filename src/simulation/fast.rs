@@ -1,0 +1,82 @@
+//! Functions of time that go through far more periods in a communication step than sub-steps can follow.
+
+use std::fmt;
+
+use crate::scene::Timed;
+
+/// Periods in one communication step beyond which a function is told of. Each takes several sub-steps to follow.
+const PERIODS: f64 = 1e3;
+
+/// Functions of time with waves in them, and what there is to tell of them.
+#[derive(Default)]
+pub(super) struct FastFunctions {
+    waves: Vec<Wave>,
+}
+
+struct Wave {
+    timed: Timed,
+    /// Most periods in a step, and how long that was, s.
+    found: Option<[f64; 2]>,
+    is_told: bool,
+}
+
+/// A function of time that steps do not follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TooFast<'a> {
+    /// Name of the motion or load that follows it.
+    pub name: &'a str,
+    /// Where it stands in the scene.
+    pub path: &'a str,
+    /// Periods in a communication step.
+    pub periods: f64,
+    /// Length of that step, s.
+    pub step: f64,
+}
+
+impl fmt::Display for TooFast<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}: {} goes through {:.1e} periods in a communication step of {} s; no sub-steps follow that, and what it does here is left \
+             to chance: take shorter communication steps, or leave it out",
+            self.path, self.name, self.periods, self.step
+        )
+    }
+}
+
+impl FastFunctions {
+    /// Those among functions of time.
+    pub(super) fn new(timed: Vec<Timed>) -> Self {
+        let waves = timed.into_iter().filter(Timed::is_periodic);
+        let waves = waves.map(|timed| Wave {
+            timed,
+            found: None,
+            is_told: false,
+        });
+        Self {
+            waves: waves.collect(),
+        }
+    }
+
+    /// A communication step from one time to another begins, s.
+    pub(super) fn begin_step(&mut self, from: f64, until: f64) {
+        for wave in self.waves.iter_mut().filter(|wave| wave.found.is_none()) {
+            let periods = wave.timed.periods(from, until);
+            wave.found = (periods > PERIODS).then_some([periods, until - from]);
+        }
+    }
+
+    /// The next one to tell of; each once.
+    pub(super) fn next(&mut self) -> Option<TooFast<'_>> {
+        let mut waves = self.waves.iter_mut();
+        let wave = waves.find(|wave| wave.found.is_some() && !wave.is_told)?;
+        wave.is_told = true;
+        let [periods, step] = wave.found?;
+        Some(TooFast {
+            name: wave.timed.name(),
+            path: wave.timed.path(),
+            periods,
+            step,
+        })
+    }
+}
