@@ -210,6 +210,15 @@ fn signals(
     }
     let set = simulation.set_inputs(&signals);
     set.map_err(|error| at(path, error))?;
+    let variables = simulation.variables();
+    let following: Vec<&str> = signals.following().map(|i| &*variables[i].name).collect();
+    if let (Curve::Linear, false) = (curve, following.is_empty()) {
+        eprintln!(
+            "flexbody: {}: {} follow the straight lines between rows; `--interpolation spline` makes the motion smooth",
+            path.display(),
+            following.join(", ")
+        );
+    }
     Ok(signals)
 }
 

@@ -6,6 +6,8 @@ use crate::scene::Timed;
 
 /// Periods in one communication step beyond which a function is told of. Each takes several sub-steps to follow.
 const PERIODS: f64 = 1e3;
+/// Periods in one communication step that no work limit lets sub-steps follow: such a step is refused.
+const MOST: f64 = 1e5;
 
 /// Functions of time with waves in them, and what there is to tell of them.
 #[derive(Default)]
@@ -37,8 +39,8 @@ impl fmt::Display for TooFast<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{}: {} goes through {:.1e} periods in a communication step of {} s; no sub-steps follow that, and what it does here is left \
-             to chance: take shorter communication steps, or leave it out",
+            "{}: {} goes through {:.1e} periods in a communication step of {} s; sub-steps do not follow that: take shorter \
+             communication steps, or leave it out",
             self.path, self.name, self.periods, self.step
         )
     }
@@ -64,6 +66,20 @@ impl FastFunctions {
             let periods = wave.timed.periods(from, until);
             wave.found = (periods > PERIODS).then_some([periods, until - from]);
         }
+    }
+
+    /// Why no sub-steps follow a communication step from one time to another, s.
+    pub(super) fn refusal(&self, from: f64, until: f64) -> Option<String> {
+        self.waves.iter().find_map(|Wave { timed, .. }| {
+            let periods = timed.periods(from, until);
+            let found = TooFast {
+                name: timed.name(),
+                path: timed.path(),
+                periods,
+                step: until - from,
+            };
+            (periods > MOST).then(|| found.to_string())
+        })
     }
 
     /// The next one to tell of; each once.

@@ -344,10 +344,13 @@ impl Simulation {
                 reason: error.to_string(),
             })?;
         }
+        let time = self.state.time;
+        if let Some(reason) = self.fast.refusal(time, until) {
+            return Err(StepFailure { time, reason });
+        }
         let (moves, is_held) = self.inputs.begin_step();
         self.unset_rates.begin_step();
         self.state.dense.begin_point(is_held);
-        let time = self.state.time;
         self.fast.begin_step(time, until);
         let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
             time,

@@ -158,6 +158,11 @@ impl Signals {
         Ok(())
     }
 
+    /// Indices of inputs without a column that follow from those that have one: rates of prescribed motions.
+    pub fn following(&self) -> impl Iterator<Item = usize> {
+        self.implied.iter().map(|implied| implied.input)
+    }
+
     /// Whether an input, by its index among the variables, has a column or follows from one.
     pub fn holds(&self, index: usize) -> bool {
         self.inputs.contains(&index) || self.implied.iter().any(|implied| implied.input == index)
