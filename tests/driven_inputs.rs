@@ -152,9 +152,9 @@ fn rates_without_columns_are_those_of_the_curve_through_the_values() {
         );
         let spline = errors(input, Interpolation::Spline, 0.002);
         assert!(spline.iter().all(|error| *error < 2e-5), "{spline:?}");
-        // Ten communication steps from row to row.
+        // Ten communication steps from row to row: the cube of what the road turns from one to the next, 0.19 rad.
         let coarse = errors(input, Interpolation::Spline, 0.02);
-        assert!(coarse.iter().all(|error| *error < 2e-3), "{coarse:?}");
+        assert!(coarse.iter().all(|error| *error < 1e-2), "{coarse:?}");
     }
 }
 
