@@ -148,7 +148,7 @@ const REASONS: [(Edit, &str); 19] = [
             push(
                 s,
                 "joints",
-                json!({"name": "ball", "kind": "revolute", "markers": ["block.c", "line.tip"]}),
+                json!({"name": "ball", "kind": "spherical", "markers": ["block.c", "line.tip"]}),
             )
         },
         "cable: nothing",
@@ -282,7 +282,7 @@ fn every_body_is_chosen_by_itself() {
         push(
             s,
             "joints",
-            json!({"name": "ball", "kind": "revolute", "markers": ["second.tip", "third.root"]}),
+            json!({"name": "ball", "kind": "spherical", "markers": ["second.tip", "third.root"]}),
         );
     });
     let chosen = read(&scene)

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, bail};
-use flexbody::scene::Experiment;
+use flexbody::scene::{Experiment, Interpolation};
 use flexbody::simulation::{
     Causality, Doubtful, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular,
 };
@@ -32,10 +32,13 @@ pub struct Simulate {
     /// Value of a parameter or input, e.g. `rod.density=7800`; may be repeated.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// CSV file of inputs that vary in time: a column `time` and one for every input, named like it; straight
-    /// lines between the rows, two rows of one time are a jump.
+    /// CSV file of inputs that vary in time: a column `time` and one for every input, named like it; two rows of one time are
+    /// a jump. Rates of prescribed motions without a column are those of the curve through the values.
     #[arg(long)]
     input: Option<PathBuf>,
+    /// The curve through the rows of `--input`.
+    #[arg(long, value_enum, default_value_t = Curve::Linear)]
+    interpolation: Curve,
     /// CSV file; standard output if it is not given.
     #[arg(long)]
     output: Option<PathBuf>,
@@ -48,6 +51,24 @@ pub struct Simulate {
     /// communication point with the places of markers and, at some, of points along the bodies.
     #[arg(long)]
     shapes: Option<PathBuf>,
+}
+
+/// Curves through the rows of a table.
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub enum Curve {
+    /// Straight lines: the rate of a prescribed motion jumps at every row, its acceleration is 0 between them.
+    Linear,
+    /// Cubic splines with continuous first and second derivatives.
+    Spline,
+}
+
+impl From<Curve> for Interpolation {
+    fn from(curve: Curve) -> Self {
+        match curve {
+            Curve::Linear => Self::Linear,
+            Curve::Spline => Self::Spline,
+        }
+    }
 }
 
 /// Communication points, about, that bodies are drawn at.
@@ -67,6 +88,8 @@ struct Cost {
     singular: Vec<Singular>,
     /// A mesh that is too coarse, in words.
     unresolved: Option<String>,
+    /// Functions of time that steps do not follow, and rods that turn too quickly, in words.
+    told: Vec<String>,
 }
 
 impl Cost {
@@ -80,6 +103,7 @@ impl Cost {
             doubtful: Vec::new(),
             singular: Vec::new(),
             unresolved: None,
+            told: Vec::new(),
         }
     }
 
@@ -133,7 +157,8 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
     let set = set.map(|assignment| Ok((&**assignment, assign(&mut simulation, assignment)?)));
     let set: Vec<(&str, usize)> = set.collect::<Result<_>>()?;
     let input = arguments.input.as_deref();
-    let signals = input.map(|path| signals(&mut simulation, path, &set, stop_time));
+    let curve = arguments.interpolation;
+    let signals = input.map(|path| signals(&mut simulation, (path, curve), &set, stop_time));
     let signals = signals.transpose()?;
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
@@ -168,14 +193,14 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
 /// The inputs that vary in time, by a file, set to their values at the start; what is set beside them is none of them.
 fn signals(
     simulation: &mut Simulation,
-    path: &Path,
+    (path, curve): (&Path, Curve),
     set: &[(&str, usize)],
     stop_time: f64,
 ) -> Result<Signals> {
     let text = fs::read_to_string(path).map_err(|error| at(path, error))?;
     let found = Signals::from_csv(&text, simulation.variables()).and_then(|signals| {
         signals.check_covers(0.0, stop_time)?;
-        Ok(signals)
+        signals.interpolated(curve.into())
     });
     let signals = found.map_err(|error| match &error {
         SignalError::Unknown(name) => {
@@ -191,6 +216,15 @@ fn signals(
     }
     let set = simulation.set_inputs(&signals);
     set.map_err(|error| at(path, error))?;
+    let variables = simulation.variables();
+    let following: Vec<&str> = signals.following().map(|i| &*variables[i].name).collect();
+    if let (Curve::Linear, false) = (curve, following.is_empty()) {
+        eprintln!(
+            "flexbody: {}: {} follow the straight lines between rows; `--interpolation spline` makes the motion smooth",
+            path.display(),
+            following.join(", ")
+        );
+    }
     Ok(signals)
 }
 
@@ -264,6 +298,9 @@ impl Run {
         for singular in &self.cost.singular {
             eprintln!("flexbody: {singular}");
         }
+        for found in &self.cost.told {
+            eprintln!("flexbody: {found}");
+        }
         if let Some(unresolved) = &self.cost.unresolved {
             eprintln!("flexbody: {unresolved}");
         }
@@ -285,6 +322,12 @@ impl Run {
                 }
             })?;
             self.cost.add(simulation.report());
+            while let Some(found) = simulation.next_too_fast() {
+                self.cost.told.push(found.to_string());
+            }
+            while let Some(found) = simulation.next_without_propeller() {
+                self.cost.told.push(found.to_string());
+            }
             self.cost.singular.extend(simulation.next_singular());
             if let Some(unresolved) = simulation.next_unresolved() {
                 self.cost.unresolved = Some(unresolved.to_string());

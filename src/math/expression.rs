@@ -1,6 +1,8 @@
 //! Expressions in the time `t`, with their first four derivatives: a program runs on numbers, on numbers
 //! with their derivatives, or on numbers whose derivatives have derivatives.
 
+use std::f64::consts::TAU;
+
 use num_dual::{Dual2, Dual2_64, DualNumCopy};
 
 use super::grammar;
@@ -8,6 +10,8 @@ use super::switches::{self, Switch};
 
 /// Most numbers that wait while an expression is evaluated.
 pub(super) const DEPTH: usize = 64;
+/// Most sines, cosines and tangents whose periods are counted.
+const PHASES: usize = 32;
 
 /// An expression in `t` (s): numbers, `PI`, `E`, `+ - * / ^`, parentheses and the functions `sin`, `cos`,
 /// `tan`, `asin`, `acos`, `atan`, `atan2(y, x)`, `sinh`, `cosh`, `tanh`, `exp`, `ln`, `log2`, `log10`, `sqrt`,
@@ -119,6 +123,32 @@ impl Expression {
         run(&self.program, t)
     }
 
+    /// Whether it holds sines, cosines or tangents.
+    pub fn is_periodic(&self) -> bool {
+        let periodic = |of: &Operation| matches!(of, Operation::Function(f) if f.is_periodic());
+        self.program.iter().any(periodic)
+    }
+
+    /// Most periods that a sine, cosine or tangent in it goes through from one time to another, of the first [`PHASES`].
+    pub fn periods(&self, from: f64, until: f64) -> f64 {
+        let mut phases = [0.0; PHASES];
+        let mut rest = phases.iter_mut();
+        let first = |argument| {
+            if let Some(phase) = rest.next() {
+                *phase = argument;
+            }
+        };
+        run_telling(&self.program, from, |_| {}, first);
+        let (mut rest, mut most) = (phases.iter(), 0.0_f64);
+        let last = |argument: f64| {
+            if let Some(phase) = rest.next() {
+                most = most.max((argument - phase).abs() / TAU);
+            }
+        };
+        run_telling(&self.program, until, |_| {}, last);
+        most
+    }
+
     /// Value, first and second derivative at a time.
     pub fn derivatives(&self, t: f64) -> [f64; 3] {
         let found = run(&self.program, Dual2_64::from_re(t).derivative());
@@ -150,6 +180,10 @@ impl Operation {
 }
 
 impl Elementary {
+    fn is_periodic(self) -> bool {
+        matches!(self, Self::Sin | Self::Cos | Self::Tan)
+    }
+
     fn apply<N: DualNumCopy<Primitive = f64>>(self, x: N) -> N {
         match self {
             Self::Sin => x.sin(),
@@ -231,10 +265,16 @@ pub(super) fn run<N: ConstantPower>(program: &[Operation], t: N) -> N {
 
 /// Runs a program; `note` is told the branches that its switches take, and on which side of their poles
 /// quotients and tangents are, in order.
-pub(super) fn run_noting<N: ConstantPower>(
+pub(super) fn run_noting<N: ConstantPower>(program: &[Operation], t: N, note: impl FnMut(u8)) -> N {
+    run_telling(program, t, note, |_| {})
+}
+
+/// Runs a program; `tell` gets the arguments of sines, cosines and tangents as well, in order.
+fn run_telling<N: ConstantPower>(
     program: &[Operation],
     t: N,
     mut note: impl FnMut(u8),
+    mut tell: impl FnMut(f64),
 ) -> N {
     let mut stack = [N::from(0.0); DEPTH];
     let mut height = 0_usize;
@@ -255,6 +295,9 @@ pub(super) fn run_noting<N: ConstantPower>(
             Operation::Power => stack[top].powd(stack[height]),
             Operation::PowerOf(exponent) => stack[top].to(exponent),
             Operation::Function(function) => {
+                if function.is_periodic() {
+                    tell(stack[top].re());
+                }
                 if function == Elementary::Tan {
                     note(u8::from(stack[top].re().cos() >= 0.0));
                 }
@@ -326,6 +369,20 @@ mod tests {
                 let error = (found[order] - wanted[order]).abs();
                 assert!(error < 1e-10, "{text}: {found:?}, expected {wanted:?}");
             }
+        }
+    }
+
+    #[test]
+    fn periods_are_those_of_the_fastest_wave() {
+        for (text, from, until, wanted) in [
+            ("sin(2*PI*50*t)", 0.0, 0.1, 5.0),
+            ("3*cos(2*PI*t) + tan(2*PI*7*t)", 1.0, 1.5, 3.5),
+            ("sin(2*PI*t^2)", 1.0, 3.0, 8.0),
+            ("exp(-1e9*t)", 0.0, 1.0, 0.0),
+        ] {
+            let f = Expression::new(text).expect(text);
+            assert!((f.periods(from, until) - wanted).abs() < 1e-12, "{text}");
+            assert_eq!(f.is_periodic(), wanted > 0.0, "{text}");
         }
     }
 

@@ -129,6 +129,19 @@ impl Function {
         }
     }
 
+    /// Whether it holds sines, cosines or tangents.
+    pub fn is_periodic(&self) -> bool {
+        matches!(self, Self::Expression(expression) if expression.is_periodic())
+    }
+
+    /// Most periods that a wave in it goes through from one time to another. Allocates nothing.
+    pub fn periods(&self, from: f64, until: f64) -> f64 {
+        match self {
+            Self::Expression(expression) => expression.periods(from, until),
+            Self::Constant(_) | Self::Linear(_) | Self::Spline(_) => 0.0,
+        }
+    }
+
     /// Whether it may have kinks or jumps.
     pub fn has_breaks(&self) -> bool {
         match self {

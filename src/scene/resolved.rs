@@ -67,6 +67,14 @@ impl CableId {
     pub fn body_index(self) -> usize {
         self.body
     }
+
+    /// Its place among the chains of the system, if it is flexible.
+    pub fn chain(self) -> Option<usize> {
+        match self.form {
+            Form::Chain(chain) => Some(chain),
+            Form::Rod(_) => None,
+        }
+    }
 }
 
 /// What a cable is in the system.

@@ -165,16 +165,22 @@ impl Shape {
 }
 
 impl CableBody {
-    /// The first axis of a rod's section at its first end: as described, or across the tangent and as far along `z` as can be, along `y`
-    /// of a rod along `z`.
+    /// The first axis of a rod's section at its first end: as described; else level, so that the second is as far upright as can be; of
+    /// an upright rod as far along `y` as can be, of one along `y` along `z`.
     pub fn first_axis(&self) -> [f64; 3] {
+        const NEAR: f64 = 1e-6;
         let tangent = Vector3::from(self.shape.tangent(0.0));
         let across = |axis: Vector3<f64>| axis - tangent * tangent.dot(&axis);
-        let upright = across(Vector3::z());
+        let vertical = match Vector3::from(self.vertical) {
+            unsaid if unsaid == Vector3::zeros() => Vector3::z(),
+            vertical => vertical.normalize(),
+        };
+        let level = vertical.cross(&tangent);
         let axis = match self.axis {
             Some(axis) => across(axis.full().into()),
-            None if upright.norm() > 1e-6 => upright,
-            None => across(Vector3::y()),
+            None if level.norm() > NEAR => level,
+            None if across(Vector3::y()).norm() > NEAR => across(Vector3::y()),
+            None => across(Vector3::z()),
         };
         axis.normalize().into()
     }
@@ -192,6 +198,41 @@ impl CableBody {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The second axis, which a rectangle's height is along, points against gravity.
+    #[test]
+    fn sections_stand_upright() {
+        let tilted = [0.6, 0.0, 0.8];
+        for (gravity, to, second) in [
+            ([0.0; 3], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+            ([0.0, 0.0, -9.81], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+            ([0.0, 0.0, -9.81], [0.0, -3.0, 0.0], [0.0, 0.0, 1.0]),
+            ([0.0, -1.62, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            ([0.0, 0.0, -9.81], tilted, [-0.8, 0.0, 0.6]),
+            // Upright: the first axis along `y`, or along `z` as in the plane.
+            ([0.0, 0.0, -9.81], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]),
+            ([0.0, -9.81, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]),
+        ] {
+            let text = format!(
+                r#"{{"name": "s", "dimension": 3, "gravity": {gravity:?}, "bodies": [{{"name": "r", "element": "rod", "elements": 2,
+                   "material": {{"youngs_modulus": 1e9, "shear_modulus": 4e8, "density": 1e3}},
+                   "section": {{"shape": {{"rectangle": {{"width": 0.01, "height": 0.02}}}}}},
+                   "shape": {{"line": {{"from": [0, 0, 0], "to": {to:?}}}}}}}],
+                   "experiment": {{"stop_time": 1, "step": 0.1}}}}"#
+            );
+            let scene = crate::scene::Scene::from_json(&text).expect("a scene");
+            let found = scene.bodies[0]
+                .cable()
+                .expect("a rod")
+                .directed(0.0, [0.0, 0.0, 1.0]);
+            for (found, wanted) in found.into_iter().zip(second) {
+                assert!(
+                    (found - wanted).abs() < 1e-14,
+                    "{to:?}: {found}, expected {wanted}"
+                );
+            }
+        }
+    }
 
     #[test]
     fn an_arc_has_its_length_and_ends_and_sags() {

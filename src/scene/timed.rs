@@ -97,6 +97,26 @@ pub fn finite_near(timed: &[Timed], time: f64) -> Result<(), Error> {
 }
 
 impl Timed {
+    /// Name of the motion or load that follows it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where it stands in the scene.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// Whether it holds sines, cosines or tangents.
+    pub fn is_periodic(&self) -> bool {
+        self.function.is_periodic()
+    }
+
+    /// Most periods that a wave in it goes through from one time to another, s. Allocates nothing.
+    pub fn periods(&self, from: f64, until: f64) -> f64 {
+        self.function.periods(from, until)
+    }
+
     /// What is told of a time where it has no value.
     fn broken(&self, t: f64, told: f64) -> Option<Error> {
         const WHAT: [&str; 3] = ["value", "first derivative", "second derivative"];

@@ -18,6 +18,7 @@ impl Simulation {
         self.check_input_derivative(index, order, value)?;
         self.inputs.drop_slopes();
         self.inputs.moving = true;
+        self.unset_rates.set(index, false);
         if let Source::Input(place) = self.variables[index].source {
             self.inputs.slopes[place][order as usize - 1] = value;
         }

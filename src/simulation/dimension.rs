@@ -4,7 +4,8 @@ use super::engine::{Engine, Remarks};
 use super::inputs::Inputs;
 use super::watch::Doubtful;
 use super::{
-    Error, Pose, Quantity, Redundant, Report, Singular, Spectra, StepFailure, Unresolved, Variable,
+    Error, NoPropeller, Pose, Quantity, Redundant, Report, Singular, Spectra, StepFailure,
+    Unresolved, Variable,
 };
 use crate::scene::{Error as SceneError, LoadId, Resolved, Scene};
 use crate::system::{Mode, State};
@@ -49,6 +50,7 @@ handed_on! {
     fn doubtful([&] self) -> Vec<Doubtful>;
     fn next_singular([&mut] self) -> Option<Singular>;
     fn next_unresolved([&mut] self) -> Option<Unresolved<'_>>;
+    fn next_without_propeller([&mut] self) -> Option<NoPropeller<'_>>;
     fn fits([&] self, state: &State) -> bool;
     fn forget([&mut] self);
     fn inputs_changed([&mut] self, inputs: &Inputs);

@@ -3,6 +3,7 @@
 use super::inputs::Inputs;
 use super::mesh::MeshWatch;
 use super::modes::in_words;
+use super::propeller::PropellerWatch;
 use super::quantities::{Evaluated, needs, value};
 use super::shapes::drawn;
 use super::variables::{sets_springs, start_inputs};
@@ -48,6 +49,7 @@ pub(super) struct Engine<const D: usize> {
     derived: Derived,
     pub(super) watch: Watch,
     pub(super) mesh: MeshWatch,
+    pub(super) propeller: PropellerWatch,
     /// Numbers of natural frequencies and of eigenvalues wanted.
     wanted: [usize; 2],
     /// Whether inputs that jump do work on springs.
@@ -126,6 +128,7 @@ impl<const D: usize> Engine<D> {
             evaluated: Evaluated::Nothing,
             watch,
             mesh: MeshWatch::default(),
+            propeller: PropellerWatch::new(resolved),
             derivatives: None,
             derived: Derived::Nothing,
             wanted: Spectra::wanted(variables),
@@ -318,6 +321,7 @@ impl<const D: usize> Engine<D> {
         state.work[0] -= self.set_energy(state, inputs);
         self.forget();
         self.watch_mesh(state, inputs);
+        self.watch_propeller(state, inputs);
         let report = Report {
             method: self.methods.name(&state.pace),
             steps: counts.steps,

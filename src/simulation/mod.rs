@@ -1,14 +1,17 @@
 //! Floor 6. A simulation: a scene with its parameters and inputs, stepped from communication point to
 //! communication point. What an FMU does, without FMI.
 
+mod curves;
 mod derivatives;
 mod dimension;
 mod engine;
+mod fast;
 mod inputs;
 mod mesh;
 mod method;
 mod modes;
 mod plan;
+mod propeller;
 mod quantities;
 mod shapes;
 mod signals;
@@ -17,29 +20,34 @@ mod snapshot;
 mod stop;
 #[cfg(test)]
 mod tests;
+mod unset_rates;
 mod variables;
 mod warnings;
 mod watch;
 
 pub use dimension::check;
+pub use fast::TooFast;
 pub use mesh::Unresolved;
 pub use plan::{
     Budget, Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo,
     Settled, Settles, courses, plan,
 };
+pub use propeller::NoPropeller;
 pub use quantities::Quantity;
 pub use shapes::Pose;
 pub use signals::{SignalError, Signals};
 pub use singular::{NEARLY, Redundant, Singular};
 pub use snapshot::{Snapshot, Spectra};
-pub use variables::{Causality, Parameter, Source, Unit, Variable, variables};
+pub use variables::{Causality, DrivePart, Parameter, Source, Unit, Variable, variables};
 pub use watch::Doubtful;
 
 use crate::scene::{Error as SceneError, Scene, finite_at};
 use crate::system::State;
 use dimension::AnyEngine;
+use fast::FastFunctions;
 use inputs::Inputs;
 use plan::damp;
+use unset_rates::UnsetRates;
 use variables::{set_parameter, start_inputs};
 
 /// Why a simulation cannot go on.
@@ -112,6 +120,8 @@ pub struct Simulation {
     /// Parameters and inputs, one per variable.
     values: Vec<f64>,
     inputs: Inputs,
+    unset_rates: UnsetRates,
+    fast: FastFunctions,
     /// A direction of the inputs.
     direction: Vec<f64>,
     engine: Option<AnyEngine>,
@@ -149,6 +159,8 @@ impl Simulation {
         Self {
             direction: vec![0.0; inputs.len()],
             inputs: Inputs::at_rest(inputs),
+            unset_rates: UnsetRates::new(&variables),
+            fast: FastFunctions::default(),
             scene,
             variables,
             values,
@@ -309,10 +321,12 @@ impl Simulation {
         }
         let scene = self.parametrized();
         let resolved = scene.resolve()?;
-        finite_at(&scene.timed(), start_time)?;
+        let timed = scene.timed();
+        finite_at(&timed, start_time)?;
         let mut engine = AnyEngine::new(&resolved, &self.variables)?;
         let (state, spectra) = engine.initial_state(start_time, &self.inputs)?;
         (self.engine, self.state, self.spectra) = (Some(engine), state, spectra);
+        self.fast = FastFunctions::new(timed);
         self.current = true;
         Ok(())
     }
@@ -339,9 +353,14 @@ impl Simulation {
                 reason: error.to_string(),
             })?;
         }
-        let (moves, is_held) = self.inputs.begin_step();
-        self.state.dense.begin_point(is_held);
         let time = self.state.time;
+        if let Some(reason) = self.fast.refusal(time, until) {
+            return Err(StepFailure { time, reason });
+        }
+        let (moves, is_held) = self.inputs.begin_step();
+        self.unset_rates.begin_step();
+        self.state.dense.begin_point(is_held);
+        self.fast.begin_step(time, until);
         let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
             time,
             reason: "expected a simulation that has been initialized".into(),
@@ -383,6 +402,7 @@ impl Simulation {
         match self.variables[index].source {
             Source::Input(place) => {
                 self.inputs.drop_slopes();
+                self.unset_rates.set(index, self.started && value != before);
                 self.values[index] = value;
                 self.inputs.values[place] = value;
                 if let Some(engine) = &mut self.engine {

@@ -1,20 +1,27 @@
-//! Inputs that vary in time: straight lines between the rows of a table.
+//! Inputs that vary in time, by the rows of a table.
 
+use super::curves::{Curves, Implied, implied};
 use super::{Error, Simulation, Source, Variable};
+use crate::scene::Interpolation;
 
 /// Rows of a table that are this far apart at most, in communication steps, are at one time.
 const SAME_TIME: f64 = 1e-9;
 
-/// Values of inputs at times. Between two rows an input follows a straight line; two rows of one time are a jump,
-/// and what is read at that time belongs to the motion before it.
-#[derive(Clone, Debug, PartialEq)]
+/// Values of inputs at times. Between two rows an input follows a straight line, or a spline
+/// ([`Self::interpolated`]); two rows of one time are a jump, and what is read at that time belongs to the motion before it.
+/// A rate of a prescribed motion that has no column is that of the curve of its value.
+#[derive(Clone, Debug)]
 pub struct Signals {
     /// Indices of the inputs among the variables.
-    inputs: Vec<usize>,
+    pub(super) inputs: Vec<usize>,
     /// Times, s, in order.
-    times: Vec<f64>,
+    pub(super) times: Vec<f64>,
     /// One value per input, at every time.
-    rows: Vec<Vec<f64>>,
+    pub(super) rows: Vec<Vec<f64>>,
+    /// Curves through the rows.
+    pub(super) curves: Curves,
+    /// Inputs without a column that follow from these.
+    pub(super) implied: Vec<Implied>,
 }
 
 /// Why a table of inputs is refused.
@@ -28,7 +35,7 @@ pub enum SignalError {
     Wrong(String),
 }
 
-fn wrong<T>(message: String) -> Result<T, SignalError> {
+pub(super) fn wrong<T>(message: String) -> Result<T, SignalError> {
     Err(SignalError::Wrong(message))
 }
 
@@ -36,7 +43,7 @@ impl Signals {
     /// Reads a CSV file: a line of names, `time` first, then numbers.
     ///
     /// # Errors
-    /// A column that is no input or stands twice, a field that is no finite number, times that go back or stand
+    /// A column that is no input or stands twice, or is the rate of a prescribed motion whose value has none; a field that is no finite number, times that go back or stand
     /// more than twice.
     pub fn from_csv(text: &str, variables: &[Variable]) -> Result<Self, SignalError> {
         let mut lines = text.trim_start_matches('\u{feff}').lines();
@@ -67,9 +74,11 @@ impl Signals {
             return wrong("line 1: expected a column for an input beside `time`".into());
         }
         let mut signals = Self {
+            implied: implied(&inputs, variables)?,
             inputs,
             times: Vec::new(),
             rows: Vec::new(),
+            curves: Curves::Linear,
         };
         for (number, line) in lines
             .enumerate()
@@ -124,6 +133,16 @@ impl Signals {
         Ok(())
     }
 
+    /// The same rows with another curve through them.
+    ///
+    /// # Errors
+    /// Rows that no curve goes through.
+    pub fn interpolated(self, interpolation: Interpolation) -> Result<Self, SignalError> {
+        let curves = Curves::new(interpolation, &self.times, &self.rows);
+        let curves = curves.or_else(wrong)?;
+        Ok(Self { curves, ..self })
+    }
+
     /// Refuses a table that does not cover a run.
     ///
     /// # Errors
@@ -139,29 +158,14 @@ impl Signals {
         Ok(())
     }
 
-    /// Whether an input, by its index among the variables, has a column.
-    pub fn holds(&self, index: usize) -> bool {
-        self.inputs.contains(&index)
+    /// Indices of inputs without a column that follow from those that have one: rates of prescribed motions.
+    pub fn following(&self) -> impl Iterator<Item = usize> {
+        self.implied.iter().map(|implied| implied.input)
     }
 
-    /// Sets the inputs to their values at a time, and to the slopes of the lines that they follow from there.
-    ///
-    /// # Errors
-    /// As [`Simulation::set_real`].
-    fn apply(&self, simulation: &mut Simulation, time: f64, slack: f64) -> Result<(), Error> {
-        let row = self
-            .times
-            .partition_point(|&at| at <= time + slack)
-            .saturating_sub(1);
-        let next = (row + 1).min(self.times.len() - 1);
-        let span = self.times[next] - self.times[row];
-        for (place, &index) in self.inputs.iter().enumerate() {
-            let (from, to) = (self.rows[row][place], self.rows[next][place]);
-            let slope = if span > 0.0 { (to - from) / span } else { 0.0 };
-            simulation.set_real(index, from + slope * (time - self.times[row]))?;
-            simulation.set_input_derivative(index, 1, slope)?;
-        }
-        Ok(())
+    /// Whether an input, by its index among the variables, has a column or follows from one.
+    pub fn holds(&self, index: usize) -> bool {
+        self.inputs.contains(&index) || self.implied.iter().any(|implied| implied.input == index)
     }
 }
 
@@ -171,7 +175,7 @@ impl Simulation {
     /// # Errors
     /// As [`Self::set_real`].
     pub fn set_inputs(&mut self, signals: &Signals) -> Result<(), Error> {
-        signals.apply(self, self.time(), 0.0)
+        signals.apply(self, [self.time(), 0.0], 0.0)
     }
 
     /// Advances to `until`, or to the next row of the signals where that comes first, with inputs that follow
@@ -185,7 +189,7 @@ impl Simulation {
         let stop = signals.times.partition_point(|&at| at <= time + slack);
         let row = signals.times.get(stop).copied().unwrap_or(until);
         let end = if row < until - slack { row } else { until };
-        let applied = signals.apply(self, time, slack);
+        let applied = signals.apply(self, [time, end - time], slack);
         applied.map_err(|error| error.to_string())?;
         self.step(end).map_err(|failure| failure.to_string())
     }

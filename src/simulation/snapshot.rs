@@ -1,6 +1,7 @@
 //! Snapshots: what a simulation needs to go on from a point in time.
 
 use super::dimension::AnyEngine;
+use super::fast::FastFunctions;
 use super::{Error, Simulation, Source, Variable};
 use crate::system::State;
 
@@ -106,6 +107,7 @@ impl Simulation {
             Ok(rebuilt) => {
                 if let Some(engine) = rebuilt {
                     self.engine = Some(engine);
+                    self.fast = FastFunctions::new(self.parametrized().timed());
                 }
             }
             Err(error) => {

@@ -1,6 +1,8 @@
 //! What there is to tell of a simulation beside its values: of its start, of its constraints and of its steps.
 
-use super::{AnyEngine, Doubtful, Redundant, Simulation, Singular, Unresolved};
+use super::{
+    AnyEngine, Doubtful, NoPropeller, Redundant, Simulation, Singular, TooFast, Unresolved,
+};
 
 impl Simulation {
     /// Gaps, in words, of joints that bodies as described do not fit by far: bodies were moved, or cables deformed, to
@@ -40,11 +42,31 @@ impl Simulation {
         self.engine.as_mut().and_then(AnyEngine::next_singular)
     }
 
+    /// The next function of time that goes through far more periods in a communication step than sub-steps can follow; each is told once.
+    pub fn next_too_fast(&mut self) -> Option<TooFast<'_>> {
+        self.fast.next()
+    }
+
+    /// The next rod that turns so quickly that the propeller moment counts, which rods do not have; each is told once.
+    pub fn next_without_propeller(&mut self) -> Option<NoPropeller<'_>> {
+        let engine = self.engine.as_mut();
+        engine.and_then(AnyEngine::next_without_propeller)
+    }
+
     /// Tells all that the steps so far give reason to warn of and that was not told of before, in words: outputs that the tolerance does not
-    /// reach, singular positions, a mesh that is too coarse.
+    /// reach, functions of time that are too fast, prescribed motions whose rates were never set, singular positions, a mesh that is too coarse.
     pub fn tell_warnings(&mut self, mut tell: impl FnMut(std::fmt::Arguments<'_>)) {
         while let Some(doubtful) = self.next_doubtful() {
             tell(format_args!("{doubtful}"));
+        }
+        while let Some(found) = self.next_too_fast() {
+            tell(format_args!("{found}"));
+        }
+        while let Some(found) = self.next_without_propeller() {
+            tell(format_args!("{found}"));
+        }
+        while let Some(message) = self.unset_rates.next() {
+            tell(format_args!("{message}"));
         }
         if let Some(singular) = self.next_singular() {
             tell(format_args!("{singular}"));

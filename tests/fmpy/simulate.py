@@ -3,7 +3,8 @@
 usage: simulate.py FMU --output FILE.csv [--stop-time T] [--step H] [--set name=value ...] [--input FILE.csv]
 
 A file of inputs has a column `time` and one for every input that varies, named like it. Inputs follow straight lines
-from row to row, by their first derivatives, and the FMU is stepped to every row; two rows of one time are a jump.
+from row to row, by their first derivatives, and the FMU is stepped to every row; two rows of one time are a jump. Rates of
+driven coordinates without a column are those of the lines.
 """
 
 import argparse
@@ -17,6 +18,11 @@ from fmpy import read_model_description
 from instance import Fmu, Instance
 from tqdm import tqdm
 
+# Keys of driven coordinates, their rates and accelerations.
+RATES = [
+    *((value, "velocity", "acceleration") for value in ("displacement", "position", "travel")),
+    ("angle", "angular_velocity", "angular_acceleration"),
+]
 # Times that are nearer than this part of a step are one.
 SAME_TIME = 1e-9
 
@@ -66,7 +72,7 @@ def run(instance, outputs, given, experiment):
     starts, signals = given
     step, stop_time = experiment
     slave = instance.slave
-    first = dict(zip(signals.names, signals.at(0.0, 0.0)[0])) if signals else {}
+    first = signals.first() if signals else {}
     instance.initialize({**starts, **first}, stop_time=stop_time)
     rows = [[0.0, *instance.get(outputs)]]
     # The last step is shorter where the stop time is no multiple, but not by rounding alone.
@@ -84,6 +90,7 @@ def run(instance, outputs, given, experiment):
                 if signals:
                     values, slopes = signals.at(time, SAME_TIME * step)
                     slave.setReal(signals.references, values)
+                    slave.setReal(*signals.rates(slopes))
                     slave.setRealInputDerivatives(signals.references, [1] * len(slopes), slopes)
                 slave.doStep(currentCommunicationPoint=time, communicationStepSize=stop - time)
                 time = stop
@@ -117,6 +124,8 @@ class Signals:
         if len(set(names)) < len(names):
             raise Refused(f"{path}, line 1: expected every input once")
         self.references = [variables[name].valueReference for name in self.names]
+        # Places of columns and orders of what follows from them, by reference.
+        self.implied = dict(self.unsaid(variables))
         self.times, self.rows = [], []
         for number, row in enumerate(rows, 2):
             self.add(f"{path}, line {number}", row)
@@ -145,6 +154,26 @@ class Signals:
         span = self.times[after] - self.times[row]
         slopes = [(b - a) / span if span > 0.0 else 0.0 for a, b in zip(self.rows[row], self.rows[after])]
         return [a + slope * (time - self.times[row]) for a, slope in zip(self.rows[row], slopes)], slopes
+
+    def unsaid(self, variables):
+        """Rates of driven coordinates that have no column: reference, name, nearest column below, order above it."""
+        for name in self.names:
+            for keys in RATES:
+                chain = [name.replace(f".{keys[0]}", f".{key}") for key in keys]
+                for order, rate in enumerate(chain):
+                    if f".{keys[0]}" in name and rate in variables and rate not in self.names:
+                        below = max(k for k in range(order) if chain[k] in self.names)
+                        yield variables[rate].valueReference, (rate, self.names.index(chain[below]), order - below)
+
+    def rates(self, slopes):
+        """References and values of rates that have no column."""
+        return list(self.implied), [slopes[place] if order == 1 else 0.0 for _, place, order in self.implied.values()]
+
+    def first(self):
+        """Values at the start, by name."""
+        values, slopes = self.at(0.0, 0.0)
+        rates = dict(zip((name for name, *_ in self.implied.values()), self.rates(slopes)[1]))
+        return {**dict(zip(self.names, values)), **rates}
 
     def rows_between(self, start, end):
         """Times of rows inside a step."""

@@ -88,11 +88,11 @@ fn assembled(gravity: f64, held: Option<f64>) -> Assembled<3> {
             "section": {"area": 1e-4, "second_moment": 0.0},
             "shape": {"line": {"from": [0.0, 0.0, 0.0], "to": [0.0, 0.0, -LENGTH]}},
             "markers": {"top": 0.0, "end": 1.0}}],
-        "joints": [{"name": "hook", "kind": "revolute", "markers": ["ground", "rope.top"]}]});
+        "joints": [{"name": "hook", "kind": "spherical", "markers": ["ground", "rope.top"]}]});
     if let Some(height) = held {
         let joints = scene["joints"].as_array_mut().expect("joints");
         joints.push(
-            json!({"name": "hand", "kind": "revolute", "markers": ["ground", "rope.end"],
+            json!({"name": "hand", "kind": "spherical", "markers": ["ground", "rope.end"],
             "point": [0.0, 0.0, height]}),
         );
     }

@@ -595,7 +595,8 @@ class MasterInput(Part):
 
     input: Annotated[StrictInt, Field(ge=0, le=2)]
     """
-    What the master sets besides the value: 0 nothing, 1 its rate, 2 its rate and acceleration.
+    What the master sets besides the value: 0 nothing, 1 its rate, 2 its rate and acceleration. A rate that is never set is 0: a unit whose
+    value moves all the same says so once. Tables of inputs (`flexbody simulate --input`) need no rates: those of the curve are taken.
     """
 
 
@@ -1794,8 +1795,8 @@ class Revolute(Part):
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     its section there). `slider`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
     """
@@ -1854,8 +1855,8 @@ class Universal(Part):
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     its section there). `slider`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     second_direction: Vector
     """
@@ -1923,8 +1924,8 @@ class Slider(Part):
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     its section there). `slider`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
     """
@@ -1957,8 +1958,8 @@ class Cylindrical(Part):
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     its section there). `slider`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
     """
@@ -1991,8 +1992,8 @@ class Screw(Part):
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     its section there). `slider`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     pitch: StrictFloat
     """
@@ -2034,8 +2035,8 @@ class Prismatic(Part):
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     its section there). `slider`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
     """
@@ -2068,8 +2069,8 @@ class Planar(Part):
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     its section there). `slider`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
     """
@@ -2141,8 +2142,8 @@ class Hinge(Part):
     In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     its section there). `slider`, `cylindrical`, `screw`: direction
     of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     """
     point: Vector | None = None
     """
@@ -2524,7 +2525,9 @@ class Cable(Part):
     axis: Vector | None = None
     """
     Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
-    there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
+    rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
+    then along `y`, or along `z` where that is the line.
     """
     elements: Elements = "auto"
     """
@@ -2582,7 +2585,9 @@ class Rod(Part):
     axis: Vector | None = None
     """
     Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
-    there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
+    rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
+    then along `y`, or along `z` where that is the line.
     """
     elements: Elements = "auto"
     """
@@ -2639,7 +2644,9 @@ class Beam(Part):
     axis: Vector | None = None
     """
     Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
-    there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
+    rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
+    then along `y`, or along `z` where that is the line.
     """
     elements: Elements = "auto"
     """
@@ -2698,7 +2705,9 @@ class AutoBody(Part):
     axis: Vector | None = None
     """
     Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
-    there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
+    rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
+    then along `y`, or along `z` where that is the line.
     """
     elements: Elements = "auto"
     """

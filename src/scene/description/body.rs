@@ -63,7 +63,9 @@ pub struct CableBody {
     #[serde(default)]
     pub axial: Axial,
     /// Of rods and beams in space: the first axis of the section at the first end, of any length; what of it is along the tangent does not count. From
-    /// there sections are untwisted, but for what `stations` say. Across the tangent, and as far along `z` as can be, where nothing is said.
+    /// there sections are untwisted, but for what `stations` say. Where nothing is said it is level, and the second axis (`height` of a
+    /// rectangle) stands as upright as the line lets it: against the scene's gravity, or along `z` without gravity. Of an upright line it is
+    /// then along `y`, or along `z` where that is the line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<Vector>,
     /// Unstressed shape, and the configuration at the start.
@@ -77,6 +79,9 @@ pub struct CableBody {
     /// What its sections do, as its element says, or was chosen.
     #[serde(skip)]
     pub sections: Sections,
+    /// Against gravity as the scene was written, of any length; zero without gravity. A parameter that changes gravity later does not turn sections.
+    #[serde(skip)]
+    pub vertical: [f64; 3],
 }
 
 /// What the sections of a line do.

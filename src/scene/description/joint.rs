@@ -22,8 +22,8 @@ pub struct Joint {
     /// In the axes of the body of the first marker at the start (of ground: the global ones; of a rod or beam the tangent and both axes of
     /// its section there). `slider`, `cylindrical`, `screw`: direction
     /// of the line along which the marker may move; `prismatic`: the same, in the plane by default the direction of the
-    /// first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about (`revolute` without one is
-    /// `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
+    /// first marker itself. In space, `revolute`, `hinge`, `cylindrical`, `screw`: the axis to turn about, which none of them goes without
+    /// (a ball joint is `spherical`); `universal`: that of the two axes which is fixed in the first body; `planar`: what is across the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direction: Option<Vector>,
     /// `universal` only: the axis that is fixed in the second body, across `direction` and in the same axes as that.

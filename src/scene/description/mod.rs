@@ -128,6 +128,10 @@ impl Scene {
                 *vector = Vector::zero(self.dimension.clamp(2, 3));
             }
         }
+        let vertical = self.gravity.full().map(|component| -component);
+        for line in self.bodies.iter_mut().filter_map(Body::cable_mut) {
+            line.vertical = vertical;
+        }
     }
 
     /// Whether the frame turns that it is described in.

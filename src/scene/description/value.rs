@@ -77,7 +77,8 @@ pub enum MotionValue {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MasterInput {
-    /// What the master sets besides the value: 0 nothing, 1 its rate, 2 its rate and acceleration.
+    /// What the master sets besides the value: 0 nothing, 1 its rate, 2 its rate and acceleration. A rate that is never set is 0: a unit whose
+    /// value moves all the same says so once. Tables of inputs (`flexbody simulate --input`) need no rates: those of the curve are taken.
     #[schemars(range(max = 2))]
     pub input: u8,
 }

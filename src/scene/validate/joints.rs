@@ -6,7 +6,7 @@ use super::checks::{
     Key, direction, expected, finite, keys, not_negative, not_zero, planar, positive, quoted,
     spring_damper,
 };
-use crate::scene::description::{Condition, Declaration, Joint, Kind as _};
+use crate::scene::description::{Condition, Declaration, Joint, JointKind, Kind as _};
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{self, Ends, First, Hold, Marker, Place, Resolved, SlideId};
 use crate::scene::{Error, Vector};
@@ -52,14 +52,18 @@ impl Joint {
             planar(&format!("{path}.angle"), dimension, "nothing", "an angle")?;
         }
         if dimension == 3 {
-            let demands = [Condition::Line, Condition::Spring];
+            let demands = [Condition::Line, Condition::Axis];
             let demands = holds.iter().any(|of| demands.contains(of));
-            let needs_direction = demands && self.direction.is_none();
-            let place = format!("{path}.direction");
-            return match needs_direction {
-                true => Err(expected(&place, "a direction [x, y, z]", "nothing")),
-                false => Ok(()),
+            if !demands || self.direction.is_some() {
+                return Ok(());
+            }
+            let wanted = match self.kind {
+                JointKind::Revolute => {
+                    "the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`)"
+                }
+                _ => "a direction [x, y, z]",
             };
+            return Err(expected(&format!("{path}.direction"), wanted, "nothing"));
         }
         if self.kind.is_spatial() {
             let wanted = "revolute, weld, slider, prismatic, orientation, distance, hinge or along in the plane";
@@ -162,7 +166,7 @@ impl<'a> Resolved<'a> {
             joint.validate_numbers(&path, self.scene.dimension)?;
             let holds = joint.kind.declaration().holds.iter();
             let is_held = |condition: &&Condition| match condition {
-                Condition::Axis => self.scene.dimension == 3 && joint.direction.is_some(),
+                Condition::Axis => self.scene.dimension == 3,
                 _ => true,
             };
             let holds = holds.filter(is_held).map(|condition| match condition {
@@ -234,8 +238,9 @@ impl<'a> Resolved<'a> {
             First::Ground(_) | First::Cable(_) => None,
         };
         let axes = [Condition::Axis, Condition::Across, Condition::Plane];
-        let has_axis = |of: &&Condition| axes.contains(of) && joint.direction.is_some();
-        let needs_frames = holds.iter().any(|of| has_axis(&of)) || holds.contains(&Condition::Rest);
+        let needs_frames = holds
+            .iter()
+            .any(|of| axes.contains(of) || *of == Condition::Rest);
         let holds_direction = holds.contains(&Condition::Direction);
         let sides = [
             (0, first, needs_frames || holds.contains(&Condition::Line)),
@@ -285,8 +290,7 @@ impl<'a> Resolved<'a> {
             let (is_along, on_ground) = (1.0 - cosine.abs() < RIGHT, first.is_none());
             let is_pivot = on_ground && cosine.abs() < RIGHT;
             let may_hold = |condition: &Condition| match condition {
-                Condition::Axis => joint.direction.is_none() || is_along || is_pivot,
-                Condition::Plane => is_along || is_pivot,
+                Condition::Axis | Condition::Plane => is_along || is_pivot,
                 Condition::Across => is_along,
                 Condition::Line => side == 1 || is_along,
                 Condition::Direction => on_ground,

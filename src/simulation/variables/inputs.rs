@@ -1,7 +1,7 @@
 //! Inputs: loads, then driven motions, then what comes into ports.
 
 use super::unit::*;
-use super::{AXES, List, PARTS, Source, Unit, component};
+use super::{AXES, DrivePart, List, PARTS, Source, Unit, component};
 use crate::scene::{
     ActionKind, Coupling, Incoming, Input, InputKind, Marker, MotionKind, PortKind, Resolved,
 };
@@ -75,6 +75,11 @@ fn add_orientation(
         let name = component(&format!("{of}.quaternion"), k);
         let what = format!("Quaternion {what}, {}", PARTS[k]);
         list.add(name, what, None, Source::Input(first + k), Some(start));
+        list.mark_drive(DrivePart::Orientation {
+            first,
+            order: 0,
+            component: k,
+        });
     }
     let place = list.variables.len();
     for (order, (key, kind, unit)) in TURNING.iter().enumerate().skip(1) {
@@ -87,6 +92,11 @@ fn add_orientation(
             let what = format!("{kind} {what}, component {axis}");
             let source = Source::Input(first + 1 + 3 * order + k);
             list.add(name, what, Some(*unit), source, Some(0.0));
+            list.mark_drive(DrivePart::Orientation {
+                first,
+                order,
+                component: k,
+            });
         }
     }
     // As of other motions, an acceleration may jump.
@@ -258,6 +268,7 @@ fn add_motion(list: &mut List, motion: &MotionKind<'_>, (name, verb): (&str, &st
             };
             let (place, source) = (list.variables.len(), Source::Input(first + order));
             list.add(name, what, Some(unit), source, Some(start));
+            list.mark_drive(DrivePart::Coordinate { first, order });
             // Positions and rates go on from where they are; an acceleration may jump.
             if order == 2 {
                 list.mark_direct(place);

@@ -39,6 +39,45 @@ pub struct Variable {
     pub sets_length: bool,
     /// Of an input: the coupling that it comes in through.
     pub coupling: Option<CouplingId>,
+    /// Of an input that prescribes a motion: the part that it has in it.
+    pub drive: Option<DrivePart>,
+}
+
+/// The part of an input in a prescribed motion. Motions are told apart by the input that gives their value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrivePart {
+    /// A coordinate or one of its derivatives.
+    Coordinate {
+        /// Place of the input with the value ([`Source::Input`]).
+        first: usize,
+        /// Order of the derivative: 0 for the value.
+        order: usize,
+    },
+    /// A part of the quaternion of an orientation (order 0), or a component of its angular velocity (1) or acceleration (2).
+    Orientation {
+        /// Place of the input with the scalar part ([`Source::Input`]).
+        first: usize,
+        /// Order of the derivative.
+        order: usize,
+        /// Number of the part or component.
+        component: usize,
+    },
+}
+
+impl DrivePart {
+    /// Place of the input that gives the value, or the scalar part of the quaternion.
+    pub fn first(self) -> usize {
+        match self {
+            Self::Coordinate { first, .. } | Self::Orientation { first, .. } => first,
+        }
+    }
+
+    /// Order of the derivative.
+    pub fn order(self) -> usize {
+        match self {
+            Self::Coordinate { order, .. } | Self::Orientation { order, .. } => order,
+        }
+    }
 }
 
 /// What a variable stands for.
@@ -244,7 +283,15 @@ impl List {
             is_direct: false,
             sets_length: false,
             coupling: None,
+            drive: None,
         });
+    }
+
+    /// Says of the last variable which part it has in a prescribed motion.
+    fn mark_drive(&mut self, part: DrivePart) {
+        if let Some(variable) = self.variables.last_mut() {
+            variable.drive = Some(part);
+        }
     }
 
     /// Inputs from this index on are direct.

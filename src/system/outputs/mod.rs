@@ -1,5 +1,6 @@
 //! What is read of a system at a state, and its derivatives.
 
+mod across;
 mod clamp;
 pub(in crate::system) mod derivatives;
 pub(in crate::system) mod evaluation;

@@ -24,7 +24,7 @@ fn scene() -> Value {
         "masses": [{"marker": "rod.mid", "mass": 2}],
         "joints": [
             {"name": "clamp", "kind": "weld", "markers": ["ground", "rod.root"]},
-            {"name": "knot", "kind": "revolute", "markers": ["rod.tip", "rope.root"]},
+            {"name": "knot", "kind": "spherical", "markers": ["rod.tip", "rope.root"]},
             {"name": "rail", "kind": "slider", "markers": ["ground", "load.eye"], "direction": [1, 0, 0]},
             {"name": "ring", "kind": "along", "markers": ["rope", "load.eye"]},
             {"name": "link", "kind": "distance", "markers": ["rod.mid", "load.eye"]}
@@ -352,7 +352,7 @@ fn joints_hold_axes_of_the_ground_and_of_rigid_bodies() {
     check(
         mechanism,
         r#"
-        /joints/0/direction | null | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one, found "pin"
+        /joints/0/direction | null | joints[0].direction: expected the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`), found nothing
         /joints/0/kind | "spherical" | joints[0].direction: expected nothing for this kind of joint
         /joints/0/direction | [0, 0, 0] | joints[0].direction: expected a direction that is not zero
         /joints/1/direction | null | joints[1].direction: expected a direction [x, y, z], found nothing

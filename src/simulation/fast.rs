@@ -1,0 +1,98 @@
+//! Functions of time that go through far more periods in a communication step than sub-steps can follow.
+
+use std::fmt;
+
+use crate::scene::Timed;
+
+/// Periods in one communication step beyond which a function is told of. Each takes several sub-steps to follow.
+const PERIODS: f64 = 1e3;
+/// Periods in one communication step that no work limit lets sub-steps follow: such a step is refused.
+const MOST: f64 = 1e5;
+
+/// Functions of time with waves in them, and what there is to tell of them.
+#[derive(Default)]
+pub(super) struct FastFunctions {
+    waves: Vec<Wave>,
+}
+
+struct Wave {
+    timed: Timed,
+    /// Most periods in a step, and how long that was, s.
+    found: Option<[f64; 2]>,
+    is_told: bool,
+}
+
+/// A function of time that steps do not follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TooFast<'a> {
+    /// Name of the motion or load that follows it.
+    pub name: &'a str,
+    /// Where it stands in the scene.
+    pub path: &'a str,
+    /// Periods in a communication step.
+    pub periods: f64,
+    /// Length of that step, s.
+    pub step: f64,
+}
+
+impl fmt::Display for TooFast<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}: {} goes through {:.1e} periods in a communication step of {} s; sub-steps do not follow that: take shorter \
+             communication steps, or leave it out",
+            self.path, self.name, self.periods, self.step
+        )
+    }
+}
+
+impl FastFunctions {
+    /// Those among functions of time.
+    pub(super) fn new(timed: Vec<Timed>) -> Self {
+        let waves = timed.into_iter().filter(Timed::is_periodic);
+        let waves = waves.map(|timed| Wave {
+            timed,
+            found: None,
+            is_told: false,
+        });
+        Self {
+            waves: waves.collect(),
+        }
+    }
+
+    /// A communication step from one time to another begins, s.
+    pub(super) fn begin_step(&mut self, from: f64, until: f64) {
+        for wave in self.waves.iter_mut().filter(|wave| wave.found.is_none()) {
+            let periods = wave.timed.periods(from, until);
+            wave.found = (periods > PERIODS).then_some([periods, until - from]);
+        }
+    }
+
+    /// Why no sub-steps follow a communication step from one time to another, s.
+    pub(super) fn refusal(&self, from: f64, until: f64) -> Option<String> {
+        self.waves.iter().find_map(|Wave { timed, .. }| {
+            let periods = timed.periods(from, until);
+            let found = TooFast {
+                name: timed.name(),
+                path: timed.path(),
+                periods,
+                step: until - from,
+            };
+            (periods > MOST).then(|| found.to_string())
+        })
+    }
+
+    /// The next one to tell of; each once.
+    pub(super) fn next(&mut self) -> Option<TooFast<'_>> {
+        let mut waves = self.waves.iter_mut();
+        let wave = waves.find(|wave| wave.found.is_some() && !wave.is_told)?;
+        wave.is_told = true;
+        let [periods, step] = wave.found?;
+        Some(TooFast {
+            name: wave.timed.name(),
+            path: wave.timed.path(),
+            periods,
+            step,
+        })
+    }
+}

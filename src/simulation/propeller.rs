@@ -1,0 +1,114 @@
+//! Rods that turn so quickly that the propeller moment counts, which they do not have.
+//!
+//! A section of unequal second moments that turns at `w1`, `w2` about its axes takes the moment `rho (I2 - I1) w1 w2` about the
+//! tangent, per length. Where a rod turns at `w` across its line, that is up to `rho |I2 - I1| w^2` times a small twist: a
+//! stiffness, which stands against that of torsion, `G J (PI / (2 L))^2` in the lowest shape of a rod held at one end.
+//!
+//! Source: A. A. Shabana, Dynamics of Multibody Systems, 5th ed. (2020), section 3.6 (Euler's equations, here of a section).
+
+use std::f64::consts::FRAC_PI_2;
+use std::fmt;
+
+use super::engine::Engine;
+use super::inputs::Inputs;
+use crate::scene::{BodyReference, Resolved};
+use crate::system::State;
+
+/// Share of the stiffness of torsion from which on it is told.
+const SHARE: f64 = 1e-3;
+
+/// Rods with sections of unequal second moments.
+#[derive(Default)]
+pub(super) struct PropellerWatch {
+    rods: Vec<Rod>,
+}
+
+struct Rod {
+    /// Its place among bodies, and among chains.
+    body: usize,
+    chain: usize,
+    /// Share of the stiffness of torsion by the square of the rate, s^2.
+    by_rate: f64,
+    /// The share when it was first too large.
+    found: Option<f64>,
+    is_told: bool,
+}
+
+/// A rod that turns too quickly to leave the propeller moment out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoPropeller<'a> {
+    /// The body.
+    pub body: &'a str,
+    /// What the moment would be beside the stiffness of torsion.
+    pub share: f64,
+}
+
+impl fmt::Display for NoPropeller<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}: turns so quickly that the propeller moment of its sections, which a rod does not have, is about {:.1e} of its stiffness \
+             of torsion; a beam has it",
+            self.body, self.share
+        )
+    }
+}
+
+impl PropellerWatch {
+    /// Those of a scene.
+    pub(super) fn new(resolved: &Resolved<'_>) -> Self {
+        let lines = resolved.bodies.iter().filter_map(|body| match body {
+            BodyReference::Cable(cable) => Some(cable),
+            BodyReference::Rigid(_) => None,
+        });
+        let rods = lines.filter(|cable| cable.body.is_rod() && !cable.body.is_beam());
+        let rods = rods.filter_map(|cable| {
+            let chain = cable.id.chain()?;
+            let (body, length) = (cable.body, cable.body.shape.length());
+            let shear = body.material.shear_modulus.unwrap_or_default();
+            let by_rate = body.all_sections().map(|section| {
+                let numbers = section.numbers();
+                let [first, second] = numbers.second_moments;
+                let torsion = shear * numbers.torsion_constant * (FRAC_PI_2 / length).powi(2);
+                body.material.density.unwrap_or_default() * (second - first).abs() / torsion
+            });
+            Some(Rod {
+                body: cable.id.body_index(),
+                chain,
+                by_rate: by_rate.filter(|by| by.is_finite()).fold(0.0, f64::max),
+                found: None,
+                is_told: false,
+            })
+        });
+        Self {
+            rods: rods.filter(|rod| rod.by_rate > 0.0).collect(),
+        }
+    }
+}
+
+impl<const D: usize> Engine<D> {
+    /// Looks at a communication point at how fast rods turn across their lines.
+    pub(super) fn watch_propeller(&mut self, state: &State, inputs: &Inputs) {
+        let mut watch = std::mem::take(&mut self.propeller);
+        for rod in watch.rods.iter_mut().filter(|rod| rod.found.is_none()) {
+            let (assembled, values) = self.placed(state, inputs);
+            let system = &assembled.system;
+            let square = values.turning_across(system, &system.chains()[rod.chain]);
+            let share = rod.by_rate * square;
+            rod.found = (share > SHARE).then_some(share);
+        }
+        self.propeller = watch;
+    }
+
+    /// A rod that turns too quickly and that has not been told of.
+    pub(super) fn next_without_propeller(&mut self) -> Option<NoPropeller<'_>> {
+        let mut rods = self.propeller.rods.iter_mut();
+        let rod = rods.find(|rod| rod.found.is_some() && !rod.is_told)?;
+        rod.is_told = true;
+        let (body, share) = (rod.body, rod.found?);
+        Some(NoPropeller {
+            body: &self.bodies[body],
+            share,
+        })
+    }
+}
