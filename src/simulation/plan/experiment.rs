@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scene::{Course, Error, InputCourse, Scene};
+use crate::scene::{Course, Error, InputCourse, Scene, did_you_mean};
 use crate::simulation::{Causality, Signals, Simulation, Variable, variables};
 
 /// Communication points that are compared, about, where there are more.
@@ -145,7 +145,12 @@ pub fn courses(scene: &Scene) -> Result<Option<String>, Error> {
             .iter()
             .any(|v| v.name == course.input && Causality::of(v) == Causality::Input);
         if !is_input {
-            let message = format!("expected the name of an input, found \"{}\"", course.input);
+            let inputs = variables
+                .iter()
+                .filter(|v| Causality::of(v) == Causality::Input);
+            let meant = did_you_mean(&course.input, inputs.map(|v| v.name.as_str()));
+            let found = &course.input;
+            let message = format!("expected the name of an input, found \"{found}\"{meant}");
             return Err(Error::new(format!("accuracy.for[{place}].input"), message));
         }
     }
