@@ -38,6 +38,18 @@ def tag_of(variant):
     return None, None
 
 
+def told_apart(definition):
+    """What is checked by its kind as a choice of variants."""
+    if "allOf" not in definition:
+        return definition
+
+    def told(check):
+        return [variant for key in ("then", "else") if key in check for variant in told(check[key])] or [check]
+
+    variants = [variant for check in definition["allOf"] for variant in told(check)]
+    return {"description": definition["description"], "oneOf": variants}
+
+
 def words(definition):
     """A choice of strings, each with its meaning."""
     variants = definition["oneOf"]
@@ -105,7 +117,10 @@ def prepared(schema):
     """The schema as the generator makes good models of it, and the unions whose members stand under keys."""
     definitions = {}
     unions = {}
+    # Models do not say where their schema is.
+    schema["properties"].pop("$schema")
     for name, definition in schema["$defs"].items():
+        definition = told_apart(definition)
         for choice in definition.get("anyOf", []):
             if "$ref" not in choice:
                 choice["title"] = name + named(choice)

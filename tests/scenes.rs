@@ -93,7 +93,7 @@ const BAD: [(&str, &str, &str); 28] = [
     (
         "/joints/0/direction",
         "[1, 0]",
-        "joints[0].direction: expected nothing for this kind",
+        "joints[0].direction: expected a key of the kind ",
     ),
     (
         "/joints/0/name",

@@ -35,12 +35,24 @@ def written():
     """Text of every page by its file name."""
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
     types = {"Scene": {key: value for key, value in schema.items() if key != "$defs"}, **schema["$defs"]}
+    types = {name: told_apart(definition) for name, definition in types.items()}
     placed = {name for _, _, names in PAGES for name in names}
     rest = sorted(set(types) - placed)
     pages = [(file, title, [name for name in names if name in types]) for file, title, names in PAGES]
     pages[-1] = (*pages[-1][:2], rest)
     homes = {name: file for file, _, names in pages for name in names}
     return {f"{file}.md": page(title, names, types, Links(homes, file)) for file, title, names in pages}
+
+
+def told_apart(schema):
+    """What is checked by its kind as a choice of variants."""
+    if "allOf" not in schema:
+        return schema
+
+    def told(check):
+        return [variant for key in ("then", "else") if key in check for variant in told(check[key])] or [check]
+
+    return {"description": schema["description"], "oneOf": [variant for check in schema["allOf"] for variant in told(check)]}
 
 
 class Links:

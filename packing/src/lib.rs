@@ -6,7 +6,7 @@ mod platform;
 mod progress;
 
 pub use archive::{Content, content, pack, read, write};
-pub use files::{Stage, partial, prepared, shown, write_whole};
+pub use files::{Stage, destination, partial, prepared, shown, write_whole};
 pub use platform::Platform;
 pub use progress::{announced, bar};
 

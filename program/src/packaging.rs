@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use packing::{
-    BINARIES, Content, PARTS, Platform, Stage, announced, content, prepared, shown, write,
+    BINARIES, Content, PARTS, Platform, Stage, announced, content, destination, prepared, shown,
+    write,
 };
 
 use crate::describing::describe;
@@ -80,6 +81,8 @@ pub fn checked_output(file: &Path) -> Result<PathBuf> {
             file.display()
         );
     }
+    // Before anything is planned and run for it.
+    destination(file)?;
     prepared(file)
 }
 

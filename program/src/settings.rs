@@ -1,12 +1,8 @@
 //! Variables by name: those that are set, and those that were meant.
 
 use anyhow::{Result, anyhow};
+use flexbody::scene::did_you_mean;
 use flexbody::simulation::{Causality, Simulation};
-
-/// Names that are offered in place of one that is not there.
-const OFFERED: usize = 3;
-/// How alike (Jaro-Winkler, 0 to 1) an offered name is at least.
-const ALIKE: f64 = 0.75;
 
 /// Sets what an option says, and returns the place of the variable.
 pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<usize> {
@@ -28,7 +24,7 @@ pub fn settable(simulation: &Simulation, name: &str) -> Result<usize, String> {
         .position(|variable| variable.name == name)
         .ok_or_else(|| {
             let kinds = |kind| matches!(kind, Causality::Parameter | Causality::Input);
-            let alike = nearest(name, &names(simulation, kinds));
+            let alike = did_you_mean(name, names(simulation, kinds));
             format!("no variable of this name{alike}")
         })
 }
@@ -59,20 +55,4 @@ pub fn names(simulation: &Simulation, is_wanted: impl Fn(Causality) -> bool) -> 
     let variables = simulation.variables().iter();
     let wanted = variables.filter(|variable| is_wanted(Causality::of(variable)));
     wanted.map(|variable| variable.name.as_str()).collect()
-}
-
-/// The names that are most like one that is not there, as the end of a message.
-pub fn nearest(name: &str, names: &[&str]) -> String {
-    let mut alike: Vec<(f64, &str)> = names
-        .iter()
-        .map(|known| (strsim::jaro_winkler(name, known), *known))
-        .filter(|(likeness, _)| *likeness >= ALIKE)
-        .collect();
-    alike.sort_by(|a, b| b.0.total_cmp(&a.0));
-    alike.truncate(OFFERED);
-    if alike.is_empty() {
-        return String::new();
-    }
-    let alike: Vec<String> = alike.iter().map(|(_, name)| format!("`{name}`")).collect();
-    format!("; did you mean {}?", alike.join(" or "))
 }

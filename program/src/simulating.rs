@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, bail};
-use flexbody::scene::{Experiment, Interpolation};
+use flexbody::scene::{Experiment, Interpolation, did_you_mean};
 use flexbody::simulation::{
     Causality, Doubtful, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular,
 };
@@ -14,7 +14,7 @@ use packing::bar;
 use crate::files::{Shapes, Sink, Table};
 use crate::planning::{Within, planned};
 use crate::reading::at;
-use crate::settings::{assign, names, nearest};
+use crate::settings::{assign, names};
 use crate::stopwatch::Stopwatch;
 
 #[derive(clap::Args)]
@@ -205,7 +205,7 @@ fn signals(
     let signals = found.map_err(|error| match &error {
         SignalError::Unknown(name) => {
             let inputs = names(simulation, |kind| kind == Causality::Input);
-            at(path, format!("{error}{}", nearest(name, &inputs)))
+            at(path, format!("{error}{}", did_you_mean(name, inputs)))
         }
         SignalError::Wrong(_) => at(path, error),
     })?;

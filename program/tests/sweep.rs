@@ -253,3 +253,66 @@ fn names_that_are_not_there_are_told_before_anything_runs() {
         );
     }
 }
+
+#[test]
+fn a_sweep_in_which_every_run_fails_fails() {
+    let place = Place::new("all-failed");
+    let run = place.run(&["--vary", "bar.mass=-2,-1", "--output", "t.parquet"]);
+    let printed = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(!run.status.success());
+    assert!(
+        printed.contains("all of 2 runs failed; first run 0: bar.mass: "),
+        "{printed}"
+    );
+    // The table with the reasons is there, and nothing is left to go on with.
+    assert_eq!(rows(&place.0.join("t.parquet")).len(), 2);
+    assert!(!place.0.join("t.parquet.runs").exists());
+}
+
+#[test]
+fn a_second_sweep_into_one_file_says_that_another_is_at_work() {
+    let place = Place::new("second");
+    let journal = std::fs::File::create(place.0.join("t.parquet.runs")).expect("a journal");
+    journal.lock().expect("a lock");
+    let options = ["--vary", "bar.mass=1,2", "--output", "t.parquet"];
+    let run = place.run(&options);
+    let printed = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(!run.status.success());
+    assert!(printed.contains("found another sweep at work"), "{printed}");
+    drop(journal);
+    place.swept(&options);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_plain_file_stays_and_links_are_followed() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+
+    let place = Place::new("device");
+    let pipe = std::os::unix::net::UnixListener::bind(place.0.join("t.parquet"));
+    pipe.expect("a socket");
+    let vary = ["--vary", "bar.mass=1,2", "--output"];
+    for keys in [&["t.parquet"][..], &["a.parquet", "--series", "t.parquet"]] {
+        let run = place.run(&[&vary[..], keys].concat());
+        let printed = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert!(!run.status.success());
+        assert!(
+            printed.contains("expected a plain file or none"),
+            "{printed}"
+        );
+    }
+    let found = std::fs::symlink_metadata(place.0.join("t.parquet")).expect("it is there still");
+    assert!(found.file_type().is_socket());
+    std::fs::create_dir(place.0.join("far")).expect("a folder");
+    symlink("far/table.parquet", place.0.join("link.parquet")).expect("a link");
+    place.swept(&[&vary[..], &["link.parquet"]].concat());
+    assert_eq!(rows(&place.0.join("far/table.parquet")).len(), 2);
+    let link = std::fs::symlink_metadata(place.0.join("link.parquet")).expect("a link");
+    assert!(link.is_symlink());
+    let run = place.run(&[&vary[..], &["a.parquet", "--series", "./a.parquet"]].concat());
+    let printed = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(
+        printed.contains("--series: expected another file"),
+        "{printed}"
+    );
+}

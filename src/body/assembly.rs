@@ -200,6 +200,16 @@ impl<const D: usize> Assembly<D> {
         factor.reach(&self.of_mass, &self.held[constraint].on)
     }
 
+    /// The same of the forces on a node.
+    pub fn reach_of_node(&self, node: usize, factor: &Cholesky) -> Reach {
+        factor.reach(&self.of_mass, &[self.vertices[node]])
+    }
+
+    /// The free coordinates that move a node, and others that they move with it.
+    pub fn range_of(&self, node: usize) -> Range<usize> {
+        self.of_mass.range(self.vertices[node])
+    }
+
     /// Adds the derivatives of a constraint by one node to a matrix, in the row and column of its multiplier.
     pub fn add_gradient(
         &self,

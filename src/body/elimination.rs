@@ -64,6 +64,22 @@ impl<const D: usize> Elimination<D> {
         self.project(y, q);
     }
 
+    /// What of `T^T f` is not zero, in order, of a force on one node: no more is gone through than that reaches. `y` holds zeros,
+    /// and is left so.
+    pub fn reduce_node(&self, node: usize, f: &Node<D>, y: &mut [f64]) -> Vec<(usize, f64)> {
+        self.assembly.restrict_node(node, f, y);
+        let reach = self.assembly.reach_of_node(node, &self.factor);
+        self.project_within(&reach, y);
+        let mut found = Vec::new();
+        for place in reach.variables.into_iter().flatten() {
+            let value = std::mem::take(&mut y[place]);
+            if value != 0.0 {
+                found.push((place, value));
+            }
+        }
+        found
+    }
+
     /// Free coordinates `y = W^-T q`.
     pub fn displacements(&self, q: &[f64], y: &mut [f64]) {
         self.factor.backward(self.assembly.of_mass(), q, y);

@@ -286,6 +286,15 @@ impl Frames {
         Some((self.list.get(index)?, is_second))
     }
 
+    /// Which body of [`Self::list`] a node is the first of.
+    pub fn body_of(&self, node: usize) -> Option<usize> {
+        let of = self.of_node.get(node).copied().flatten();
+        let index = of
+            .filter(|(_, is_second)| !is_second)
+            .map(|(index, _)| index);
+        index.filter(|index| *index < self.list.len())
+    }
+
     /// Axes at coordinates over the nodes, which hold rotations before.
     pub fn place<const D: usize>(
         &self,

@@ -72,30 +72,36 @@ impl Logger {
         Self { sink, enabled }
     }
 
-    /// Enables only the named categories, all when none is named, errors alone when off.
+    /// Enables only the named categories, all when none is named or `logAll` is, errors alone when off. Categories that
+    /// are not there are passed over.
     ///
     /// # Errors
-    /// An unknown category; nothing changes then.
+    /// The categories that are not there; what is no text, of which nothing changes.
     pub fn enable<'a>(
         &mut self,
         on: bool,
         categories: impl Iterator<Item = Result<&'a str, Fault>>,
     ) -> Result<(), Fault> {
-        let mut named = 0;
+        let (mut named, mut unknown) = (0, Vec::new());
         for name in categories {
             let name = name?;
             let known = |category: &Category| category.name().to_bytes() == name.as_bytes();
             match Category::ALL.into_iter().find(known) {
                 Some(category) => named |= category as u8,
-                None => return Err(Fault::Category(name.into())),
+                // The standard knows it for all.
+                None if name == "logAll" => named = ALL,
+                None => unknown.push(name),
             }
         }
         self.enabled = match (on, named) {
             (false, _) => OFF,
-            (true, 0) => ALL,
+            (true, 0) if unknown.is_empty() => ALL,
             (true, _) => named,
         };
-        Ok(())
+        match unknown.is_empty() {
+            true => Ok(()),
+            false => Err(Fault::Category(unknown.join("\", \""))),
+        }
     }
 
     /// Passes a message on, if its category is enabled. Formats nothing otherwise, so that a
@@ -106,8 +112,8 @@ impl Logger {
         }
     }
 
-    /// Passes a message on whatever is enabled: only where no instance could be made, for which the standard promises
-    /// the reason.
+    /// Passes a message on even when logging is off: where no instance could be made, for which the standard promises
+    /// the reason, and where logging itself could not be set as asked.
     pub fn report(&self, status: Status, category: Category, message: fmt::Arguments<'_>) {
         let Some(sink) = &self.sink else { return };
         // In a message `#` introduces a value reference; NUL would end it.
@@ -125,11 +131,11 @@ impl Logger {
             Status::Discard | Status::Warning => Category::Warning,
             _ => Category::Error,
         };
-        self.log(
-            fault.status(),
-            category,
-            format_args!("{function}: {fault}"),
-        );
+        let message = format_args!("{function}: {fault}");
+        match fault {
+            Fault::Category(_) => self.report(fault.status(), category, message),
+            _ => self.log(fault.status(), category, message),
+        }
     }
 }
 
@@ -199,11 +205,22 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_category_changes_nothing() {
+    fn an_unknown_category_is_told_and_the_others_count() {
         let (mut logger, lines) = recorded(true);
-        let names = ["logEvents", "logNothing"].into_iter().map(Ok);
-        let answer = logger.enable(true, names);
-        assert_eq!(answer, Err(Fault::Category("logNothing".into())));
+        let mut enable = |names: &[&'static str]| {
+            let answer = logger.enable(true, names.iter().copied().map(Ok));
+            say(&logger);
+            (answer, lines.lock().expect("no panic").drain(..).count())
+        };
+        let unknown = |names: &str| Err(Fault::Category(names.into()));
+        assert_eq!(
+            enable(&["logEvents", "logNothing"]),
+            (unknown("logNothing"), 1)
+        );
+        assert_eq!(enable(&["a", "b"]), (unknown("a\", \"b"), 0));
+        assert_eq!(enable(&["logAll"]), (Ok(()), 2));
+        let broken = std::iter::once(Err(Fault::Text("categories")));
+        assert_eq!(logger.enable(false, broken), Err(Fault::Text("categories")));
         say(&logger);
         assert_eq!(lines.lock().expect("no panic").len(), 2);
     }

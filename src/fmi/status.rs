@@ -96,7 +96,8 @@ pub enum Fault {
     },
     /// A category that the model description does not list.
     #[error(
-        "log category \"{0}\": expected one of logStatusError, logStatusWarning, logEvents, logSolver"
+        "log category \"{0}\": expected logAll or some of logStatusError, logStatusWarning, logEvents, logSolver; logging goes on with \
+         those of them that were named"
     )]
     Category(String),
     /// Derivatives that are not to be had now.
@@ -123,7 +124,7 @@ impl Fault {
     /// The status that the master gets.
     pub fn status(&self) -> Status {
         match self {
-            Self::Remark(_) => Status::Warning,
+            Self::Remark(_) | Self::Category(_) => Status::Warning,
             Self::Step(_) | Self::NoAnswer(_) => Status::Discard,
             _ => Status::Error,
         }

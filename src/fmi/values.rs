@@ -18,8 +18,7 @@ impl Instance {
             self.variable(*reference, self.names.real)?;
         }
         for (reference, value) in references.iter().zip(values) {
-            let found = self.simulation.real(*reference as usize)?;
-            value.write(self.answer(*reference, found)?);
+            value.write(self.simulation.real(*reference as usize)?);
         }
         Ok(())
     }
@@ -113,8 +112,7 @@ impl Instance {
         }
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
             let index = *reference as usize;
-            let found = self.simulation.output_derivative(index, *order)?;
-            value.write(self.answer(*reference, found)?);
+            value.write(self.simulation.output_derivative(index, *order)?);
         }
         Ok(())
     }
@@ -149,9 +147,8 @@ impl Instance {
         let inputs = knowns.iter().map(|reference| *reference as usize);
         let inputs = inputs.zip(seeds.iter().copied());
         self.simulation.differentiate(outputs.clone(), inputs)?;
-        for ((index, reference), change) in outputs.zip(unknowns).zip(changes) {
-            let found = self.simulation.change(index)?;
-            change.write(self.answer(*reference, found)?);
+        for (index, change) in outputs.zip(changes) {
+            change.write(self.simulation.change(index)?);
         }
         Ok(())
     }
@@ -161,16 +158,6 @@ impl Instance {
         references
             .iter()
             .try_for_each(|reference| self.variable(*reference, asked).map(drop))
-    }
-
-    /// A value that the master gets; a number that is not finite is no answer.
-    fn answer(&self, reference: u32, found: f64) -> Result<f64, Fault> {
-        if found.is_finite() {
-            return Ok(found);
-        }
-        let name = self.variable(reference, self.names.real)?.name.clone();
-        let reason = format!("expected a finite number, found {found}: an input is too large");
-        Err(Fault::Value { name, reason })
     }
 
     /// The variable of a value reference, if it has the type that is asked for.

@@ -16,7 +16,7 @@
     reason = "one contract for all, stated above"
 )]
 
-use std::ffi::CString;
+use std::ffi::{CStr, CString};
 use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
@@ -78,12 +78,25 @@ fn sink(callbacks: CallbackFunctions, instance_name: CString) -> Option<Sink> {
     // An atomic pointer may move between threads, as a master's calls do; it is not followed here.
     let environment = AtomicPtr::new(callbacks.component_environment);
     Some(Box::new(move |status, category, message| {
-        let (name, category, text) = (instance_name.as_ptr(), category.as_ptr(), message.as_ptr());
+        let format = as_format(message);
+        let (name, category, text) = (instance_name.as_ptr(), category.as_ptr(), format.as_ptr());
         let environment = environment.load(Ordering::Relaxed);
         // SAFETY: the master's own function, with its own pointer and C strings that outlive the
-        // call. The text goes through "%s", because the logger takes a format.
-        unsafe { logger(environment, name, status, category, c"%s".as_ptr(), text) };
+        // call. The logger takes a format: this one converts nothing, so no argument follows it.
+        unsafe { logger(environment, name, status, category, text) };
     }))
+}
+
+/// A format that stands for a text. Masters that do not expand formats show it nearly as it is.
+fn as_format(text: &CStr) -> CString {
+    let mut format = Vec::with_capacity(text.count_bytes() + 1);
+    for byte in text.to_bytes() {
+        format.push(*byte);
+        if *byte == b'%' {
+            format.push(b'%');
+        }
+    }
+    CString::new(format).unwrap_or_default()
 }
 
 /// `fmi2GetTypesPlatform`.
@@ -125,7 +138,8 @@ pub unsafe extern "C" fn fmi2Instantiate(
                 name,
                 co_simulation: fmuType == CO_SIMULATION,
                 guid: read("fmuGUID", fmuGUID).unwrap_or_default(),
-                location: text("fmuResourceLocation", fmuResourceLocation).unwrap_or(Some("")),
+                // What cannot be read is no URI either.
+                location: text("fmuResourceLocation", fmuResourceLocation).unwrap_or(Some("?")),
             };
             instantiate(&request, Logger::new(sink?, loggingOn != 0))
         }

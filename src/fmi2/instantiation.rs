@@ -1,8 +1,10 @@
 //! `fmi2Instantiate`: from its arguments to an instance, or to the reason why there is none.
 
+use std::path::PathBuf;
+
 use super::lifecycle::state_name;
 use super::location::{LocationError, directory};
-use crate::fmi::{self, Instance, Logger, Names, open};
+use crate::fmi::{self, Instance, Logger, Names, open, own_place};
 use crate::simulation::Simulation;
 
 /// What FMI 2.0 calls things.
@@ -24,7 +26,7 @@ pub struct Request<'a> {
     pub co_simulation: bool,
     /// GUID of the model description that the master has read.
     pub guid: &'a str,
-    /// URI of the directory `resources`; none where a saved state will bring the scene.
+    /// URI of the directory `resources`, or nothing in it: that beside this library; none where a saved state will bring the scene.
     pub location: Option<&'a str>,
 }
 
@@ -61,5 +63,17 @@ fn simulation(request: &Request<'_>) -> Result<Option<Simulation>, Refusal> {
     let Some(location) = request.location else {
         return Ok(None);
     };
-    Ok(Some(open(&directory(location)?, &NAMES, request.guid)?))
+    let folder = match location.trim() {
+        "" => beside()?,
+        _ => directory(location)?,
+    };
+    Ok(Some(open(&folder, &NAMES, request.guid)?))
+}
+
+/// The directory `resources` of the unit that this library is in: `binaries/<platform>/<library>` beside it.
+fn beside() -> Result<PathBuf, LocationError> {
+    let library = own_place();
+    let root = library.as_deref().and_then(|file| file.ancestors().nth(3));
+    let root = root.ok_or_else(|| LocationError::Scheme(String::new()))?;
+    Ok(root.join("resources"))
 }

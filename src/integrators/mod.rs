@@ -275,7 +275,7 @@ fn advance_smoothly(
             return Ok(());
         }
         let from = (state.time, &state.coordinates[..], &state.rates[..]);
-        match method.attempt(dynamics, from, trial.h, tolerance) {
+        match bounded(method.attempt(dynamics, from, trial.h, tolerance), method) {
             Attempt::Done(error) if error <= 1.0 => {
                 state.step = controller.accept(trial, error, state.step);
                 is_settled = !trial.has_grown(state.step);
@@ -367,6 +367,14 @@ fn take_up_cheaper(
         method.take_up(variant);
         state.pace.set_variant(variant);
         state.step = step;
+    }
+}
+
+/// The outcome of an attempt; work that is not finite is none.
+fn bounded(attempt: Attempt, method: &dyn Method) -> Attempt {
+    match method.work().iter().all(|work| work.is_finite()) {
+        true => attempt,
+        false => Attempt::Failed(0.25),
     }
 }
 

@@ -24,7 +24,9 @@ impl<'a> Resolved<'a> {
             let message = "expected a number of elements, found \"auto\": `flexbody plan` finds it";
             return Err(Error::new(format!("{path}.elements"), message));
         };
-        nodes(&path, elements as usize, &self.loaded_coordinates(cable))
+        let held = self.loaded_coordinates(cable);
+        let stations = cable.body.stations.iter().map(|station| station.at);
+        nodes(&path, elements as usize, &held, stations.count())
     }
 
     /// Fewest elements of a cable: what acts inside it acts at nodes.
@@ -124,13 +126,17 @@ fn corners(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error>
 }
 
 /// Material coordinates in [0, 1] of the nodes of `elements` elements, with a node at every
-/// coordinate of `held`.
-fn nodes(path: &str, elements: usize, held: &[f64]) -> Result<Vec<f64>, Error> {
+/// coordinate of `held`, of which there are some by this number of stations.
+fn nodes(path: &str, elements: usize, held: &[f64], stations: usize) -> Result<Vec<f64>, Error> {
     let corners = corners(path, elements, held)?;
     let stretches: Vec<f64> = corners.windows(2).map(|c| c[1] - c[0]).collect();
     if elements < stretches.len() {
+        let inside = match stations {
+            0 => "joints, loads and masses act inside the body".into(),
+            _ => format!("its {stations} stations and what acts inside it are between elements"),
+        };
         let message = format!(
-            "expected at least {} elements (joints, loads and masses act inside the body), found {elements}",
+            "expected at least {} elements ({inside}), found {elements}",
             stretches.len()
         );
         return Err(Error::new(format!("{path}.elements"), message));
@@ -161,7 +167,7 @@ mod tests {
 
     #[test]
     fn has_a_node_at_every_held_coordinate_and_even_elements_between() {
-        let nodes = nodes("elements", 10, &[0.0, 0.3]).expect("enough elements");
+        let nodes = nodes("elements", 10, &[0.0, 0.3], 0).expect("enough elements");
         assert_eq!(nodes.len(), 11);
         assert_eq!(nodes[3], 0.3);
         let longest = nodes.windows(2).map(|n| n[1] - n[0]).fold(0.0, f64::max);
@@ -170,7 +176,7 @@ mod tests {
 
     #[test]
     fn says_how_many_elements_it_needs() {
-        let error = nodes("bodies[0]", 1, &[0.5]).expect_err("too few");
+        let error = nodes("bodies[0]", 1, &[0.5], 0).expect_err("too few");
         let told = error.to_string();
         assert!(
             told.starts_with("bodies[0].elements: expected at least 2 elements"),
@@ -181,7 +187,7 @@ mod tests {
     #[test]
     fn places_that_roundoff_keeps_apart_share_a_node() {
         let held = [1e-16, 0.3, 0.1 + 0.2, 1.0 - 1e-16];
-        let nodes = nodes("bodies[0]", 10, &held).expect("three corners");
+        let nodes = nodes("bodies[0]", 10, &held, 0).expect("three corners");
         assert_eq!((nodes.len(), nodes[3]), (11, 0.3));
         assert_eq!((nodes[0], nodes[10]), (0.0, 1.0));
     }
@@ -189,7 +195,7 @@ mod tests {
     #[test]
     fn slivers_are_refused() {
         for held in [[0.5, 0.5 + 1e-9], [1e-9, 0.5], [0.5, 1.0 - 9e-5]] {
-            let told = nodes("bodies[0]", 10, &held)
+            let told = nodes("bodies[0]", 10, &held, 0)
                 .expect_err("a sliver")
                 .to_string();
             assert!(
@@ -197,6 +203,6 @@ mod tests {
                 "{told}"
             );
         }
-        assert!(nodes("bodies[0]", 10, &[0.5, 0.50011]).is_ok());
+        assert!(nodes("bodies[0]", 10, &[0.5, 0.50011], 0).is_ok());
     }
 }

@@ -5,6 +5,7 @@
 //! expected there and what was found: `bodies[0].material.density: expected a positive number
 //! (kg/m^3), found -1`.
 
+mod alike;
 mod assemble;
 mod description;
 mod elements;
@@ -17,9 +18,11 @@ mod shape;
 mod timed;
 mod validate;
 
-use description::{Reader, Strict};
+use description::{Reader, Strict, check_keys};
 use serde::Deserialize;
+use serde_json::{Value as Json, json};
 
+pub use alike::did_you_mean;
 pub use assemble::{Assembled, assemble};
 pub use description::{
     About, Accuracy, ActionKind, Along, Axial, Body, CableBody, Course, Experiment, Inertia,
@@ -65,6 +68,21 @@ impl Error {
     }
 }
 
+/// The key by which editors find the schema of a file.
+const SCHEMA: &str = "$schema";
+
+/// A scene without the key that says where its schema is.
+fn without_schema(mut scene: Json) -> Result<Json, Error> {
+    let found = scene.as_object_mut().and_then(|keys| keys.remove(SCHEMA));
+    match found {
+        None | Some(Json::String(_)) => Ok(scene),
+        Some(other) => {
+            let message = format!("expected where the schema is, a text, found {other}");
+            Err(Error::new(SCHEMA, message))
+        }
+    }
+}
+
 impl Scene {
     /// Reads and validates a scene.
     ///
@@ -105,7 +123,9 @@ impl Scene {
         })?;
         json.end()
             .map_err(|error| Error::new("scene", broken(error)))?;
-        let mut scene = Self::deserialize(Reader(value.0)).map_err(|wrong| {
+        let value = without_schema(value.0)?;
+        check_keys(&value)?;
+        let mut scene = Self::deserialize(Reader(value)).map_err(|wrong| {
             let path = match wrong.path.as_str() {
                 "" => "scene",
                 path => path,
@@ -131,6 +151,14 @@ impl Scene {
     pub fn json_schema() -> String {
         let mut schema = schemars::schema_for!(Scene);
         description::tell_apart(&mut schema);
+        description::tell_by_tag(&mut schema);
+        // Editors find the schema by it; a scene does not keep it.
+        if let Some(properties) = schema.pointer_mut("/properties") {
+            properties[SCHEMA] = json!({
+                "description": "Where this schema is, for editors; it means nothing else.",
+                "type": "string",
+            });
+        }
         let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
         text.push('\n');
         text

@@ -55,7 +55,7 @@ impl Simulation {
     /// their derivatives say: those that are set, else those of the step before.
     ///
     /// # Errors
-    /// No output, or an order below 1.
+    /// No output, an order below 1, or not finite.
     pub fn output_derivative(&mut self, index: usize, order: i32) -> Result<f64, Error> {
         self.check_output_derivative(index, order)?;
         let (state, inputs) = (&self.state, &self.inputs);
@@ -64,7 +64,8 @@ impl Simulation {
         else {
             return Ok(0.0);
         };
-        Ok(engine.derivative(quantity, order as usize, state, inputs))
+        let found = engine.derivative(quantity, order as usize, state, inputs);
+        self.finite(index, found)
     }
 
     /// Whether [`Self::output_derivative`] would answer this.
@@ -123,13 +124,13 @@ impl Simulation {
     /// order. Nothing else may be asked in between.
     ///
     /// # Errors
-    /// No output.
+    /// No output, or not finite.
     pub fn change(&mut self, index: usize) -> Result<f64, Error> {
         let Source::Output(quantity) = self.variable(index)?.source else {
             return Err(self.refuse(index, "expected an output as an unknown"));
         };
         let engine = self.engine.as_mut();
         let change = engine.map(|engine| engine.change(quantity, &self.state));
-        Ok(change.unwrap_or(0.0))
+        self.finite(index, change.unwrap_or(0.0))
     }
 }

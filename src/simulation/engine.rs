@@ -304,7 +304,12 @@ impl<const D: usize> Engine<D> {
         until: f64,
     ) -> (Report, Result<(), StepFailure>) {
         self.forget();
-        state.work[0] += self.set_energy(state, inputs);
+        let work = state.work[0];
+        let set = self.set_energy(state, inputs);
+        if !set.is_finite() {
+            return self.unbounded(state, set);
+        }
+        state.work[0] += set;
         let (system, start) = (&self.assembled.system, state.time);
         let model = Model::new(system, &inputs.values, &mut self.work, state);
         let model = model.limited(self.most_work);
@@ -312,13 +317,17 @@ impl<const D: usize> Engine<D> {
         let (counts, result) = self
             .methods
             .advance(&mut model, state, until, &self.tolerance);
-        let work = model.operations() * system.parts() as f64;
+        let operations = model.operations() * system.parts() as f64;
         inputs.advance(state.time - start);
         self.forget();
         if result.is_ok() {
             self.watch(state, inputs, counts.steps, state.time - start);
         }
-        state.work[0] -= self.set_energy(state, inputs);
+        state.work[0] = match state.time == start {
+            // Nothing has been done, not even by roundoff.
+            true => work,
+            false => state.work[0] - self.set_energy(state, inputs),
+        };
         self.forget();
         self.watch_mesh(state, inputs);
         self.watch_propeller(state, inputs);
@@ -327,7 +336,7 @@ impl<const D: usize> Engine<D> {
             steps: counts.steps,
             rejected: counts.rejected,
             newton_iterations: counts.newton_iterations,
-            work,
+            work: operations,
         };
         let failure = |stop| StepFailure {
             time: state.time,

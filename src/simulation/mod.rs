@@ -13,6 +13,7 @@ mod modes;
 mod plan;
 mod propeller;
 mod quantities;
+mod refusals;
 mod shapes;
 mod signals;
 mod singular;
@@ -122,6 +123,8 @@ pub struct Simulation {
     inputs: Inputs,
     unset_rates: UnsetRates,
     fast: FastFunctions,
+    /// First parts of the quaternions among the variables that a master sets.
+    quaternions: Vec<usize>,
     /// A direction of the inputs.
     direction: Vec<f64>,
     engine: Option<AnyEngine>,
@@ -156,7 +159,14 @@ impl Simulation {
     fn with(variables: Vec<Variable>, scene: Scene) -> Self {
         let values = variables.iter().map(|v| v.start.unwrap_or(0.0)).collect();
         let inputs = start_inputs(&variables);
+        let is_first = |v: &Variable| {
+            matches!(v.source, Source::Input(_)) && v.name.ends_with(".quaternion[1]")
+        };
+        let places = 0..variables.len();
         Self {
+            quaternions: places
+                .filter(|place| is_first(&variables[*place]))
+                .collect(),
             direction: vec![0.0; inputs.len()],
             inputs: Inputs::at_rest(inputs),
             unset_rates: UnsetRates::new(&variables),
@@ -267,7 +277,7 @@ impl Simulation {
     /// anew where parameters or inputs have changed.
     ///
     /// # Errors
-    /// Not real, or the initial state cannot be computed.
+    /// Not real, not finite, or the initial state cannot be computed.
     pub fn real(&mut self, index: usize) -> Result<f64, Error> {
         if self.variable(index)?.is_integer() {
             return Err(self.refuse(index, "expected a call for integers, found one for reals"));
@@ -277,11 +287,11 @@ impl Simulation {
             Source::Parameter(_) | Source::Input(..) => Ok(self.values[index]),
             Source::NaturalFrequency(number) => {
                 self.refresh()?;
-                Ok(self.spectra.frequencies[number])
+                self.finite(index, self.spectra.frequencies[number])
             }
             Source::Eigenvalue(number, part) => {
                 self.refresh()?;
-                Ok(self.spectra.eigenvalues[number][part])
+                self.finite(index, self.spectra.eigenvalues[number][part])
             }
             Source::Output(quantity) => {
                 self.refresh()?;
@@ -289,7 +299,7 @@ impl Simulation {
                     .engine
                     .as_mut()
                     .map(|engine| engine.output(quantity, &self.state, &self.inputs));
-                Ok(value.unwrap_or(0.0))
+                self.finite(index, value.unwrap_or(0.0))
             }
         }
     }
@@ -319,6 +329,7 @@ impl Simulation {
         if self.scene.has_ratios() {
             damp(&self.scene)?;
         }
+        self.check_quaternions()?;
         let scene = self.parametrized();
         let resolved = scene.resolve()?;
         let timed = scene.timed();
@@ -353,6 +364,10 @@ impl Simulation {
                 reason: error.to_string(),
             })?;
         }
+        self.check_quaternions().map_err(|error| StepFailure {
+            time: self.state.time,
+            reason: error.to_string(),
+        })?;
         let time = self.state.time;
         if let Some(reason) = self.fast.refusal(time, until) {
             return Err(StepFailure { time, reason });
@@ -473,21 +488,6 @@ impl Simulation {
             if let Source::Input(place) = variable.source {
                 self.inputs.values[place] = *value;
             }
-        }
-    }
-
-    fn variable(&self, index: usize) -> Result<&Variable, Error> {
-        self.variables.get(index).ok_or_else(|| Error::Variable {
-            name: format!("value reference {index}"),
-            message: format!("expected one below {}", self.variables.len()),
-        })
-    }
-
-    fn refuse(&self, index: usize, message: &str) -> Error {
-        let name = self.variables[index].name.clone();
-        Error::Variable {
-            name,
-            message: message.into(),
         }
     }
 }

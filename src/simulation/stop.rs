@@ -1,6 +1,7 @@
 //! Why a step was not finished, in words: what was reached, what was expected, what to do.
 
 use super::engine::Engine;
+use super::{Report, StepFailure};
 use crate::integrators::{Counts, Stop};
 use crate::scene::finite_near;
 use crate::system::State;
@@ -17,6 +18,29 @@ impl<const D: usize> Engine<D> {
             self.bodies[body],
             element + 1
         )
+    }
+
+    /// Why no step begins from energy in springs that is not finite.
+    pub(super) fn unbounded(
+        &mut self,
+        state: &State,
+        found: f64,
+    ) -> (Report, Result<(), StepFailure>) {
+        self.forget();
+        let report = Report {
+            method: self.methods.name(&state.pace),
+            steps: 0,
+            rejected: 0,
+            newton_iterations: 0,
+            work: 0.0,
+        };
+        let failure = StepFailure {
+            time: state.time,
+            reason: format!(
+                "expected a finite energy of springs that inputs set, found {found} J: an input is too large"
+            ),
+        };
+        (report, Err(failure))
     }
 
     /// What ended the way from `start` to `until` at a state.

@@ -220,27 +220,27 @@ impl<const D: usize> System<D> {
     /// Finds the rotations of rigid bodies among the coordinates.
     fn find_rotations(&mut self) {
         let mut frames = std::mem::take(&mut self.frames);
-        let (mut y, mut q) = (
-            vec![0.0; self.elimination.scratch()],
-            vec![0.0; self.coordinates()],
-        );
-        let mut unit = vec![no_node(); self.reference.len()];
+        let mut y = vec![0.0; self.elimination.scratch()];
+        let turned = |axis: usize, moment: f64| {
+            let mut unit = no_node();
+            unit[1][axis] = moment;
+            unit
+        };
         for frame in frames.list_mut() {
             for axis in (0..3).filter(|axis| frame.moments[*axis] > 0.0) {
-                unit[frame.node][1][axis] = frame.moments[axis];
-                self.elimination.reduce(&unit, &mut y, &mut q);
-                unit[frame.node][1][axis] = 0.0;
-                let place = q.iter().position(|q| *q != 0.0);
-                frame.places[axis] = place.map(|at| (at, q[at]));
+                let unit = turned(axis, frame.moments[axis]);
+                let moved = self.elimination.reduce_node(frame.node, &unit, &mut y);
+                frame.places[axis] = moved.first().copied();
             }
         }
+        let assembly = &self.elimination.assembly;
         for frame in frames.carried_mut() {
             for axis in 0..frame.turns() {
-                unit[frame.node][1][axis] = 1.0;
-                self.elimination.assembly.restrict(&unit, &mut y);
-                unit[frame.node][1][axis] = 0.0;
-                let place = y.iter().position(|y| *y != 0.0);
+                assembly.restrict_node(frame.node, &turned(axis, 1.0), &mut y);
+                let mut range = assembly.range_of(frame.node);
+                let place = range.clone().find(|at| y[*at] != 0.0);
                 frame.places[axis] = place.map(|at| (at, y[at]));
+                range.by_ref().for_each(|at| y[at] = 0.0);
             }
         }
         self.frames = frames;

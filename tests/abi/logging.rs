@@ -56,11 +56,24 @@ fn categories_are_filtered() {
 }
 
 #[test]
-fn unknown_categories_are_named_and_change_nothing() {
+fn unknown_categories_are_warned_of_and_the_others_count() {
     let unit = Unit::new();
     let instance = Instance::new(&unit);
-    assert_eq!(enable(&instance, false, &[c"gossip"]), Status::Error);
-    assert!(instance.record.last().contains("gossip"));
+    let told = |on: bool, names: &[&CStr]| {
+        instance.record.take();
+        let status = enable(&instance, on, names);
+        let (_, logged, category, message) = instance.record.take().pop().expect("a message");
+        assert_eq!((status, logged), (Status::Warning, Status::Warning));
+        assert_eq!(category, "logStatusWarning");
+        message
+    };
+    // Told although it is not among what is logged from then on.
+    assert!(told(true, &[c"gossip", c"logSolver"]).contains("\"gossip\""));
+    assert_eq!(work(&instance), ["logSolver"]);
+    assert!(told(false, &[c"%s%n"]).contains("%s%n"));
+    assert!(work(&instance).is_empty());
+    assert_eq!(enable(&instance, true, &[c"logAll"]), Status::Ok);
+    assert_eq!(work(&instance).len(), 3);
     assert_eq!(
         enable(&instance, true, &[c"logEvents", c"\xff"]),
         Status::Error

@@ -7,6 +7,8 @@ use std::process::Command;
 use std::ptr;
 use std::time::{Duration, Instant};
 
+use serde_json::{Value, json};
+
 use crate::support::{CO_SIMULATION, Instance, Record, SCENE, State, Status, Unit, call};
 
 /// Where the child process of a test finds its unit.
@@ -145,6 +147,119 @@ fn a_unit_runs_on_a_full_disk() {
     assert!(String::from_utf8_lossy(&lived.stdout).contains("1 passed"));
     let wrote = child("resources::child_that_writes");
     assert!(!wrote.status.success(), "the limit does not hold");
+}
+
+/// A program stands for the library here: what matters is that it is asked where it is.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_empty_location_is_that_beside_the_library() {
+    let unit = Unit::new();
+    let root = unit.folder().join("unit");
+    for folder in ["resources", "binaries/linux64"] {
+        fs::create_dir_all(root.join(folder)).expect("a writable folder");
+    }
+    fs::write(root.join("resources/scene.json"), SCENE).expect("a writable folder");
+    let library = root.join("binaries/linux64/flexbody.so");
+    fs::copy(std::env::current_exe().expect("this program"), &library).expect("a copy");
+    let lived = Command::new(&library)
+        .args([
+            "--exact",
+            "resources::child_beside_its_resources",
+            "--ignored",
+        ])
+        .env(UNIT, unit.folder())
+        .output()
+        .expect("a copy that runs");
+    assert!(lived.status.success(), "{lived:?}");
+    assert!(String::from_utf8_lossy(&lived.stdout).contains("1 passed"));
+    // Where nothing is beside it, what was looked for is told.
+    let mut bare = Unit::new();
+    bare.location = c"".into();
+    assert!(refusal(&bare).contains("resources/scene.json"));
+}
+
+#[test]
+#[ignore = "run by another test, as a program beside resources"]
+fn child_beside_its_resources() {
+    let mut unit = Unit::at(given(), SCENE);
+    unit.location = c"".into();
+    drop(Instance::started(&unit));
+    // The folder belongs to the test that started this process.
+    std::mem::forget(unit);
+}
+
+/// Kinds of bodies, each so large that it takes more memory than the child may have.
+const LARGE: [&str; 4] = ["cable", "rod", "beam", "rigid"];
+
+fn large(element: &str) -> String {
+    let bodies = match element {
+        "rigid" => (0..21_000)
+            .map(|index| {
+                json!({"name": format!("b{index}"), "element": "rigid", "mass": 1, "inertia": [0.1, 0.2, 0.15],
+                    "position": [index, 0, 0]})
+            })
+            .collect(),
+        _ => vec![line(element)],
+    };
+    json!({"name": "large", "dimension": 3, "bodies": bodies,
+        "accuracy": {"relative_tolerance": 1e-3}})
+    .to_string()
+}
+
+fn line(element: &str) -> Value {
+    let mut material = json!({"youngs_modulus": 2e11, "density": 7800});
+    let mut section = json!({"area": 1e-4, "second_moment": 1e-9});
+    if element != "cable" {
+        material["shear_modulus"] = json!(8e10);
+        section = json!({"area": 1e-4, "second_moments": [1e-9, 1e-9], "torsion_constant": 2e-9});
+    }
+    if element == "beam" {
+        section["shear_factors"] = json!([0.85, 0.85]);
+    }
+    json!({"name": "line", "element": element, "elements": 50_000, "material": material, "section": section,
+        "shape": {"line": {"from": [0, 0, 0], "to": [5000, 0, 0]}}})
+}
+
+/// A kind of body whose memory is not asked for before it is taken ends the child.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_that_runs_out_is_an_error_for_every_kind_of_body() {
+    for element in LARGE {
+        let program = std::env::current_exe().expect("this program");
+        let output = Command::new("sh")
+            .args(["-c", "ulimit -v 400000; exec \"$@\"", "sh"])
+            .arg(program)
+            .args([
+                "--exact",
+                "resources::child_without_memory",
+                "--ignored",
+                "--test-threads=1",
+            ])
+            .env(UNIT, element)
+            .output()
+            .expect("a shell");
+        let told = String::from_utf8_lossy(&output.stdout);
+        assert!(
+            output.status.success() && told.contains("1 passed"),
+            "{element}: {output:?}"
+        );
+    }
+}
+
+#[test]
+#[ignore = "run by another test, in a process with little memory"]
+fn child_without_memory() {
+    let element = given();
+    let unit = Unit::of(&large(element.to_str().expect("a name")));
+    let instance = Instance::new(&unit);
+    let c = instance.component;
+    assert_eq!(
+        call!(fmi2SetupExperiment, c, 0, 0.0, 0.0, 0, 0.0),
+        Status::Ok
+    );
+    assert_eq!(call!(fmi2EnterInitializationMode, c), Status::Error);
+    let told = instance.record.last();
+    assert!(told.contains("expected memory for"), "{told}");
 }
 
 fn given() -> PathBuf {

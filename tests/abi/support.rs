@@ -130,17 +130,11 @@ impl Record {
     }
 }
 
-type FixedLogger = unsafe extern "C" fn(
-    *mut c_void,
-    *const c_char,
-    Status,
-    *const c_char,
-    *const c_char,
-    *const c_char,
-);
+type FixedLogger =
+    unsafe extern "C" fn(*mut c_void, *const c_char, Status, *const c_char, *const c_char);
 
 fn variadic(logger: FixedLogger) -> LoggerCallback {
-    // SAFETY: where these tests run, a variadic call passes six pointer-sized arguments as a fixed
+    // SAFETY: where these tests run, a variadic call passes five pointer-sized arguments as a fixed
     // one does; stable Rust cannot define a variadic function.
     unsafe { transmute::<FixedLogger, LoggerCallback>(logger) }
 }
@@ -151,20 +145,29 @@ unsafe extern "C" fn log(
     status: Status,
     category: *const c_char,
     format: *const c_char,
-    message: *const c_char,
 ) {
     // SAFETY: the environment is a record that outlives its instances, the rest are C strings.
-    let (record, [name, category, format, message]) = unsafe {
-        let texts = [name, category, format, message];
+    let (record, [name, category, format]) = unsafe {
+        let texts = [name, category, format];
         (
             &*environment.cast::<Record>(),
             texts.map(|text| CStr::from_ptr(text)),
         )
     };
-    assert_eq!(format, c"%s", "a message must not be a format");
-    let [name, category, message] = [name, category, message].map(|t| t.to_str().expect("UTF-8"));
-    let line = (name.into(), status, category.into(), message.into());
+    let [name, category, format] = [name, category, format].map(|t| t.to_str().expect("UTF-8"));
+    let message = printed(format);
+    let line = (name.into(), status, category.into(), message);
     record.0.lock().expect("no panic while locked").push(line);
+}
+
+/// What `printf` makes of a format that has no arguments: a conversion would read what is not there.
+fn printed(format: &str) -> String {
+    let plain = format.replace("%%", "");
+    assert!(
+        !plain.contains('%'),
+        "a message must convert nothing: {format}"
+    );
+    format.replace("%%", "%")
 }
 
 /// An instance, freed when dropped.

@@ -94,13 +94,36 @@ fn tag(node: &Value) -> Option<(&'static str, &str)> {
     constant("element").or_else(|| constant("kind"))
 }
 
+/// The variants that a check leads to.
+fn told(check: &Value) -> Vec<&Value> {
+    match check.get("then") {
+        Some(then) => [Some(then), check.get("else")]
+            .into_iter()
+            .flatten()
+            .flat_map(told)
+            .collect(),
+        None => vec![check],
+    }
+}
+
 fn is_null(node: &&Value) -> bool {
     node["type"] == "null"
 }
 
 impl Schema {
     pub fn published() -> Self {
-        Self(serde_json::from_str(&Scene::json_schema()).expect("JSON"))
+        let mut schema: Value = serde_json::from_str(&Scene::json_schema()).expect("JSON");
+        let definitions = schema["$defs"].as_object_mut().expect("definitions");
+        for definition in definitions.values_mut() {
+            if let Some(checks) = definition["allOf"].as_array() {
+                let told = checks.iter().flat_map(told).cloned();
+                *definition = json!({ "oneOf": told.collect::<Vec<_>>() });
+            }
+        }
+        // Means nothing: it is for editors.
+        let keys = schema["properties"].as_object_mut().expect("keys");
+        keys.remove("$schema").expect("where the schema is");
+        Self(schema)
     }
 
     /// All places of a scene.

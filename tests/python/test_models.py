@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 
+import jsonschema
 import numpy
 import pytest
 from conftest import ROOT, read, scene_files
@@ -114,6 +115,38 @@ def test_variants_are_told_apart():
         "marker": "b.c",
         "axes": "body",
     }
+
+
+def test_where_the_schema_is_means_nothing():
+    found = Scene.from_json(json.dumps({"$schema": "scene.schema.json", **scene().to_dict()}))
+    assert found.to_dict() == scene().to_dict()
+    with pytest.raises(ValidationError):
+        Material.from_json('{"$schema": "scene.schema.json", "density": 1}')
+
+
+@pytest.mark.parametrize(
+    ("change", "path", "message"),
+    [
+        (lambda s: s["bodies"][0].pop("material"), "$.bodies[0]", "'material' is a required property"),
+        (lambda s: s["bodies"][0].update(elemnts=3), "$.bodies[0]", "('elemnts' was unexpected)"),
+        (lambda s: s["bodies"][0].update(element="cabel"), "$.bodies[0].element", "'cabel' is not one of"),
+        (lambda s: s["joints"][0].update(stiffness=1), "$.joints[0]", "('stiffness' was unexpected)"),
+        (lambda s: s["joints"][0].update(kind="revolut"), "$.joints[0].kind", "'revolut' is not one of"),
+        (lambda s: s["joints"][0].update(markers="a"), "$.joints[0].markers", "'a' is not of type 'array'"),
+        (lambda s: s["outputs"][0].update(marker=1), "$.outputs[0].marker", "1 is not of type"),
+        (lambda s: s["outputs"][0].update(joint="j"), "$.outputs[0]", "('marker' was unexpected)"),
+    ],
+)
+def test_a_validator_tells_what_is_wrong_within_the_kind(change, path, message):
+    schema = read(ROOT / "scenes" / "scene.schema.json")
+    validator = jsonschema.Draft202012Validator(schema)
+    right = scene(
+        joints=[Revolute(name="j", markers=["ground", "rope.top"])], outputs=[{"kind": "angle", "marker": "rope.top"}]
+    ).to_dict()
+    assert not list(validator.iter_errors(right))
+    change(right)
+    found = jsonschema.exceptions.best_match(validator.iter_errors(right))
+    assert (found.json_path, message in found.message) == (path, True), found.message
 
 
 def test_names_are_those_of_the_field():

@@ -139,6 +139,19 @@ fn number(text: &str) -> Result<f64> {
         .with_context(|| format!("expected a number, found {text:?}"))
 }
 
+/// The name of a column; quotation marks stand around all of it or nowhere.
+fn title(field: &str) -> Result<&str> {
+    let field = field.trim();
+    let inside = field
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'));
+    let name = inside.unwrap_or(field);
+    match name.contains('"') {
+        true => bail!("expected names with quotation marks around them or none, found {field}"),
+        false => Ok(name),
+    }
+}
+
 /// The column of a CSV file that is named like a variable.
 fn column(file: &Path, name: &str) -> Result<Vec<f64>> {
     let text =
@@ -146,25 +159,41 @@ fn column(file: &Path, name: &str) -> Result<Vec<f64>> {
     // Spreadsheets of some systems begin a file with a mark of its encoding.
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
-    let header: Vec<&str> = match lines.next() {
-        Some(line) => line.split(',').map(str::trim).collect(),
-        None => bail!("{}: expected names in the first line", file.display()),
+    let Some(line) = lines.next() else {
+        bail!("{}: expected names in the first line", file.display());
     };
-    let place = header
-        .iter()
-        .position(|title| title.trim_matches('"') == name)
-        .with_context(|| {
-            format!(
-                "{}: expected a column {name}, found {}",
-                file.display(),
-                header.join(", ")
-            )
-        })?;
+    let titles = line.split(',').map(title);
+    let header: Vec<&str> = titles
+        .collect::<Result<_>>()
+        .with_context(|| format!("{}, first line", file.display()))?;
+    let mut places = (0..header.len()).filter(|place| header[*place] == name);
+    let place = places.next().with_context(|| {
+        format!(
+            "{}: expected a column {name}, found {}",
+            file.display(),
+            header.join(", ")
+        )
+    })?;
+    if places.next().is_some() {
+        bail!(
+            "{}: expected one column {name}, found {}",
+            file.display(),
+            2 + places.count()
+        );
+    }
     let mut found = Vec::new();
     for (index, line) in lines.enumerate() {
-        let field = line.split(',').nth(place).unwrap_or_default();
+        let fields: Vec<&str> = line.split(',').collect();
         let row = || format!("{}, row {}", file.display(), index + 1);
-        found.push(number(field).with_context(row)?);
+        if fields.len() != header.len() {
+            bail!(
+                "{}: expected {} fields as in the first line, found {}",
+                row(),
+                header.len(),
+                fields.len()
+            );
+        }
+        found.push(number(fields[place]).with_context(row)?);
     }
     if found.is_empty() {
         bail!("{}: expected rows of samples, found none", file.display());
@@ -211,7 +240,22 @@ mod tests {
         assert_eq!(axes.count(), 6);
         assert_eq!(axes.values(3), [6.0, 2.0, 1.0]);
         let error = parsed(&[&format!("d=@{at}")]).err().context("no column")?;
-        assert!(format!("{error:#}").contains("expected a column d, found \"a\", b[2]"));
+        assert!(format!("{error:#}").contains("expected a column d, found a, b[2]"));
+        for (header, told) in [
+            ("a,b,a", "expected one column a, found 2"),
+            (
+                "\"a,b",
+                "expected names with quotation marks around them or none, found \"a",
+            ),
+            (
+                "a,b\"",
+                "expected names with quotation marks around them or none, found b\"",
+            ),
+        ] {
+            std::fs::write(&file, format!("{header}\n1,2,3\n"))?;
+            let error = parsed(&[&format!("a=@{at}")]).err().context(header)?;
+            assert!(format!("{error:#}").contains(told), "{error:#}");
+        }
         std::fs::write(&file, "\u{feff}a,b\r\n1,5\r\n2,6\r\n")?;
         assert_eq!(parsed(&[&format!("a=@{at}")])?.values(1), [2.0]);
         std::fs::remove_dir_all(&folder)?;

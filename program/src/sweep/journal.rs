@@ -1,11 +1,11 @@
 //! What has been run, line by line as it comes, so that a sweep that was killed goes on where it was.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use packing::shown;
+use packing::{destination, shown};
 use serde_json::Value;
 
 use super::{Finished, Outcome, Series, Summary};
@@ -23,10 +23,20 @@ pub struct Journal {
 impl Journal {
     /// Opens that of a sweep; lines of one that was stopped count, half a line does not.
     pub fn open(path: PathBuf, sweep: &Value, count: usize) -> Result<Self> {
+        // A pipe would keep waiting.
+        let path = destination(&path)?;
         let mut options = OpenOptions::new();
         let opened = options.read(true).write(true).create(true).truncate(false);
         let file = opened.open(&path);
         let file = file.with_context(|| format!("cannot write {}", shown(&path)))?;
+        match file.try_lock() {
+            // Where there are no locks, as on some network drives, nothing is known of others.
+            Ok(()) | Err(TryLockError::Error(_)) => {}
+            Err(TryLockError::WouldBlock) => bail!(
+                "{}: expected runs of this sweep alone, found another sweep at work on them: wait for its end, or name another --output",
+                shown(&path)
+            ),
+        }
         let mut journal = Self {
             path,
             file,

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, anyhow, bail};
 use flexbody::scene::Scene;
 use flexbody::simulation::Simulation;
-use packing::{prepared, shown};
+use packing::{destination, shown};
 use serde_json::json;
 
 use crate::planning::{Within, planned};
@@ -117,8 +117,12 @@ struct Common {
 /// Runs a sweep, or what is left of one, and says where its results are.
 pub fn sweep(arguments: &Sweep) -> Result<()> {
     let common = Common::new(arguments)?;
-    let output = prepared(&arguments.output)?;
-    let series = arguments.series.as_deref().map(prepared).transpose()?;
+    let output = destination(&arguments.output).context("--output")?;
+    let series = arguments.series.as_deref().map(destination).transpose();
+    let series = series.context("--series")?;
+    if series.as_ref() == Some(&output) {
+        bail!("--series: expected another file than --output, found the same");
+    }
     let description = common.description(series.is_some());
     let count = common.axes.count();
     let mut journal = Journal::open(Journal::beside(&output), &description, count)?;
@@ -146,10 +150,17 @@ pub fn sweep(arguments: &Sweep) -> Result<()> {
     if let Some(series) = &series {
         println!("wrote {}", shown(series));
     }
-    if let Some((number, run, reason)) = failed {
-        eprintln!("flexbody: {number} of {count} runs failed; first run {run}: {reason}");
+    journal.remove()?;
+    match failed {
+        Some((number, run, reason)) if number == count => {
+            bail!("all of {count} runs failed; first run {run}: {reason}")
+        }
+        Some((number, run, reason)) => {
+            eprintln!("flexbody: {number} of {count} runs failed; first run {run}: {reason}");
+            Ok(())
+        }
+        None => Ok(()),
     }
-    journal.remove()
 }
 
 impl Common {

@@ -67,6 +67,9 @@ class Part(BaseModel):
         key = cls._extra("x-key")
         if key and set(data) == {key} and isinstance(data[key], dict):
             data = data[key]
+        if cls.__name__ == "Scene":
+            # Where the schema is means nothing but to editors.
+            data = {key: value for key, value in data.items() if key != "$schema"}
         return {key: value.tolist() if hasattr(value, "tolist") else value for key, value in data.items()}
 
     @model_validator(mode="after")

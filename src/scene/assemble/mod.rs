@@ -8,6 +8,7 @@ mod coordinates;
 mod fluids;
 mod initial;
 mod loads;
+mod memory;
 mod motions;
 mod ports;
 mod solids;
@@ -28,9 +29,6 @@ use crate::system::joints::{Joint, Primitive};
 use crate::system::{
     Angle, AxisTurn, BuildError, Coordinate, End, LumpedMass, Parts, SectionPoint, State, System,
 };
-
-/// Memory of an element, bytes: 3600 measured with 50,000, factors of the implicit method with them.
-const BYTES: usize = 5000;
 
 /// A system and what of its scene is needed beside it.
 #[derive(Clone, Debug)]
@@ -95,9 +93,10 @@ impl<const D: usize> Assembled<D> {
             ..
         } = state;
         let system = &self.system;
+        let bodies = system.bodies();
         for (node, held, now) in system.frames().quaternions(frames, coordinates) {
-            let body = system.bodies().iter().position(|nodes| nodes.start == node);
-            if body.is_some_and(|body| self.held(now, body)[0] < 0.0) {
+            let body = bodies.binary_search_by_key(&node, |nodes| nodes.start);
+            if body.is_ok_and(|body| self.held(now, body)[0] < 0.0) {
                 *held = held.map(|part| -part);
             }
         }
@@ -200,19 +199,6 @@ impl Resolved<'_> {
             rotation: scene.rotation.full(),
             tracks_work: self.outputs.iter().any(|o| o.kind == OutputKind::Work),
         }
-    }
-
-    /// Asks for the memory that a scene will take, and gives it back: an allocation that fails later would end
-    /// the process.
-    fn reserve(&self) -> Result<(), Error> {
-        let elements = self.scene.elements();
-        let bytes = elements as usize * BYTES;
-        Vec::<u8>::new().try_reserve_exact(bytes).map_err(|_| {
-            let wanted = bytes / 1_000_000;
-            let message =
-                format!("expected memory for {elements} elements ({wanted} MB), found less");
-            Error::new("bodies", message)
-        })
     }
 
     /// Principal axes of a body in its frame, and the centre of all its mass, m.

@@ -92,6 +92,72 @@ fn tell<K: Kind>(schema: &mut Schema) {
     }
 }
 
+/// Keys that say which variant an object is.
+const TAGS: [&str; 2] = ["element", "kind"];
+
+/// Makes of variants with a tag one check by it: what validators tell is of the variant that is meant, not that none of all fits.
+pub fn tell_by_tag(schema: &mut Schema) {
+    let definitions = schema.pointer_mut("/$defs").and_then(Value::as_object_mut);
+    for definition in definitions.into_iter().flat_map(Map::values_mut) {
+        let variants = definition["oneOf"].as_array().cloned().unwrap_or_default();
+        let is_told = |tag: &&str| variants.iter().all(|of| constant(of, tag).is_string());
+        let tag = TAGS.into_iter().find(is_told);
+        if let Some(tag) = tag.filter(|_| !variants.is_empty()) {
+            *definition = by_tag(&definition["description"], tag, variants);
+        }
+    }
+}
+
+fn constant<'a>(variant: &'a Value, tag: &str) -> &'a Value {
+    &variant["properties"][tag]["const"]
+}
+
+fn by_tag(description: &Value, tag: &str, variants: Vec<Value>) -> Value {
+    // Variants of one name stand side by side.
+    let mut alike: Vec<(Value, Vec<Value>)> = Vec::new();
+    for variant in variants {
+        let name = constant(&variant, tag).clone();
+        match alike.last_mut().filter(|(known, _)| *known == name) {
+            Some((_, several)) => several.push(variant),
+            None => alike.push((name, vec![variant])),
+        }
+    }
+    let names: Vec<Value> = alike.iter().map(|(name, _)| name.clone()).collect();
+    let checks: Vec<Value> = alike
+        .into_iter()
+        .map(|(name, several)| {
+            json!({
+                "if": {"properties": {tag: {"const": name}}, "required": [tag]},
+                "then": by_keys(several),
+            })
+        })
+        .collect();
+    json!({
+        "description": description,
+        "type": "object",
+        "properties": {tag: {"type": "string", "enum": names}},
+        "required": [tag],
+        "allOf": checks,
+    })
+}
+
+/// One check for several variants of a name: by the keys that they alone demand, the last where none is there.
+fn by_keys(mut variants: Vec<Value>) -> Value {
+    let demanded = |variant: &Value| variant["required"].as_array().cloned().unwrap_or_default();
+    let all: Vec<Vec<Value>> = variants.iter().map(demanded).collect();
+    let own = |keys: &[Value]| -> Vec<Value> {
+        let is_own = |key: &&Value| !all.iter().all(|others| others.contains(key));
+        let keys = keys.iter().filter(is_own);
+        keys.map(|key| json!({"required": [key]})).collect()
+    };
+    let last = variants.pop().unwrap_or_default();
+    let others = variants.into_iter().zip(&all).rev();
+    others.fold(
+        last,
+        |rest, (variant, keys)| json!({"if": {"anyOf": own(keys)}, "then": variant, "else": rest}),
+    )
+}
+
 /// A name in snake case as that of a type.
 fn camel_case(name: &str) -> String {
     let words = name.split('_').map(|word| {

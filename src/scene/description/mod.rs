@@ -8,6 +8,7 @@ mod initial;
 mod joint;
 mod kinds;
 mod load;
+mod meant;
 mod output;
 mod port;
 mod reader;
@@ -21,6 +22,7 @@ mod value;
 mod vector;
 
 use schemars::JsonSchema;
+use serde::de::{Deserializer, Error as _};
 use serde::{Deserialize, Serialize};
 
 pub use about::About;
@@ -33,8 +35,9 @@ pub use initial::{Initial, InitialState};
 pub use joint::{
     Condition, CoordinateKind, Declaration, Gear, Joint, JointKind, Motion, MotionKind, Symbol,
 };
-pub use kinds::{Keys, Kind, tell_apart};
+pub use kinds::{Keys, Kind, tell_apart, tell_by_tag};
 pub use load::{ActionKind, ActsOn, Input, InputKind, Load, LoadKind};
+pub use meant::check_keys;
 pub use output::{Along, Output, OutputKind, ReadAt};
 pub use port::{Port, PortKind};
 pub use reader::Reader;
@@ -56,6 +59,7 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "About::is_empty")]
     pub about: About,
     /// Dimension: 2 in the plane, 3 in space. Cables in space stretch and bend, isotropically, and know no torsion.
+    #[serde(deserialize_with = "dimension")]
     #[schemars(range(min = 2, max = 3))]
     pub dimension: usize,
     /// Gravitational acceleration, m/s^2; zero by default.
@@ -103,6 +107,18 @@ pub struct Scene {
     /// Default experiment of the FMU.
     #[serde(default)]
     pub experiment: Experiment,
+}
+
+/// Reads the dimension, of which there are two.
+fn dimension<'de, D: Deserializer<'de>>(deserializer: D) -> Result<usize, D::Error> {
+    let given = Strict::deserialize(deserializer)?.0;
+    let count = given.as_u64().and_then(|count| usize::try_from(count).ok());
+    count.ok_or_else(|| {
+        let found = reader::found(&given);
+        D::Error::custom(format!(
+            "expected 2 (the plane) or 3 (space), found {found}"
+        ))
+    })
 }
 
 impl Scene {

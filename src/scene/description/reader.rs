@@ -12,6 +12,7 @@ use serde::forward_to_deserialize_any;
 use serde_json::Value;
 
 use super::strict::INNER;
+use crate::scene::alike::did_you_mean;
 
 /// What is wrong, and where inside the value.
 #[derive(Clone, Debug)]
@@ -61,7 +62,14 @@ impl serde::de::Error for Wrong {
     }
 
     fn invalid_type(found: Unexpected<'_>, wanted: &dyn Expected) -> Self {
-        Self::here(expectation(&wanted.to_string()), Found(found))
+        let wanted = expectation(&wanted.to_string());
+        match found {
+            Unexpected::Str(text) if is_number(text) && NUMBERS.contains(&&*wanted) => Self::here(
+                wanted,
+                format_args!("the text \"{text}\": a number has no quotation marks"),
+            ),
+            _ => Self::here(wanted, Found(found)),
+        }
     }
 
     fn invalid_value(found: Unexpected<'_>, wanted: &dyn Expected) -> Self {
@@ -72,19 +80,28 @@ impl serde::de::Error for Wrong {
         Self::here(expectation(&wanted.to_string()), format!("{found}"))
     }
 
-    fn unknown_variant(found: &str, known: &'static [&'static str]) -> Self {
-        let known: Vec<String> = known.iter().map(|name| format!("\"{name}\"")).collect();
-        Self::here(known.join(" or "), format!("\"{found}\""))
+    fn unknown_variant(found: &str, names: &'static [&'static str]) -> Self {
+        let known: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+        let meant = did_you_mean(found, names.iter().copied());
+        Self::here(known.join(" or "), format!("\"{found}\"{meant}"))
     }
 
     fn unknown_field(found: &str, known: &'static [&'static str]) -> Self {
         let wanted = format!("one of the keys {}", known.join(", "));
-        Self::here(wanted, format!("\"{found}\""))
+        let meant = did_you_mean(found, known.iter().copied());
+        Self::here(wanted, format!("\"{found}\"{meant}"))
     }
 
     fn missing_field(key: &'static str) -> Self {
         Self::here("a value", "nothing").under(key)
     }
+}
+
+/// What is expected where numbers stand.
+const NUMBERS: [&str; 2] = ["a number", "zero or a positive integer"];
+
+fn is_number(text: &str) -> bool {
+    text.trim().parse::<f64>().is_ok()
 }
 
 /// What a type says that it expects, in words of JSON.
@@ -121,7 +138,8 @@ impl Display for Found<'_> {
     }
 }
 
-fn found(value: &Value) -> String {
+/// A value in words of JSON; of a list or an object that it is one.
+pub(super) fn found(value: &Value) -> String {
     let found = match value {
         Value::Null => Unexpected::Unit,
         Value::Bool(value) => Unexpected::Bool(*value),

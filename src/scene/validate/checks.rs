@@ -5,6 +5,7 @@ use std::fmt::Display;
 
 use crate::math::function::Function;
 use crate::scene::Error;
+use crate::scene::alike::{did_you_mean, listed};
 use crate::scene::description::Keys;
 use crate::scene::description::{Spin, Value, Vector};
 use crate::scene::marker::GROUND;
@@ -44,6 +45,19 @@ pub fn quoted(text: &str) -> String {
     format!("\"{shown}{more}\"")
 }
 
+/// An error about a name that nothing of a kind bears: what there is where that is short, and what was meant.
+pub fn unknown<'a>(
+    path: &str,
+    what: &str,
+    name: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Error {
+    let known: Vec<&str> = known.into_iter().collect();
+    let wanted = format!("{what}{}", listed(&known));
+    let meant = did_you_mean(name, known);
+    expected(path, &wanted, quoted(name) + &meant)
+}
+
 /// An optional key: its name, whether it is there, and what would stand there.
 pub type Key = (&'static str, bool, &'static str);
 
@@ -64,7 +78,13 @@ pub fn keys(path: &str, of: &str, all: &[Key], alternatives: &[Keys]) -> Result<
             return Err(expected(&place(), what, "nothing"));
         }
         if *is_given && !must.contains(key) && !may.contains(key) {
-            let wanted = format!("nothing for this kind of {of}");
+            let is_own = alternatives
+                .iter()
+                .any(|(must, may)| must.contains(key) || may.contains(key));
+            let wanted = match must {
+                [first, ..] if is_own => format!("nothing beside `{first}`"),
+                _ => format!("nothing for this kind of {of}"),
+            };
             return Err(expected(&place(), &wanted, what));
         }
     }

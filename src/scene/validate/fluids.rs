@@ -1,10 +1,12 @@
 //! Checks of fluids along bodies.
 
-use super::checks::{components, expected, finite, needed, not_negative, positive, quoted};
+use super::checks::{
+    components, expected, finite, needed, not_negative, positive, quoted, unknown,
+};
 use super::loads::component;
 use crate::scene::Error;
 use crate::scene::description::{Load, Value};
-use crate::scene::resolved::{Fluid, LoadKind, Resolved};
+use crate::scene::resolved::{self, Fluid, LoadKind, Resolved};
 use crate::system::Signal;
 
 impl<'a> Resolved<'a> {
@@ -79,7 +81,9 @@ impl<'a> Resolved<'a> {
             _ => None,
         });
         let Some(fluid) = fluid else {
-            return Err(expected(path, "a fluid of this scene", quoted(name)));
+            let fluids = |load: &&resolved::Load<'_>| matches!(load.kind, LoadKind::Fluid(_));
+            let known = self.loads.iter().filter(fluids).map(|load| load.name);
+            return Err(unknown(path, "a fluid of this scene", name, known));
         };
         let mut start = vec![0.0; fluid.current.len()];
         for (start, value) in start.iter_mut().zip(fluid.given) {

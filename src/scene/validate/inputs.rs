@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, finite, keys, needed, not_negative, quoted};
+use super::checks::{Key, expected, finite, keys, needed, not_negative, quoted, unknown};
 use crate::scene::Error;
 use crate::scene::description::{Input, InputKind, Kind as _, Value};
 use crate::scene::resolved::{self, LoadKind, Resolved};
@@ -102,11 +102,9 @@ impl<'a> Resolved<'a> {
             _ => None,
         });
         let Some(spring) = spring else {
-            return Err(expected(
-                path,
-                "a spring-damper of this scene",
-                quoted(name),
-            ));
+            let springs = |load: &&resolved::Load<'_>| matches!(load.kind, LoadKind::Spring(_));
+            let known = self.loads.iter().filter(springs).map(|load| load.name);
+            return Err(unknown(path, "a spring-damper of this scene", name, known));
         };
         let length = match spring.given {
             None => spring.ends.distance(),

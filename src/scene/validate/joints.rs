@@ -218,10 +218,10 @@ impl<'a> Resolved<'a> {
         let turns = |of: &Condition| matches!(of, Condition::Direction | Condition::Spring);
         let holds_direction = holds.iter().any(turns);
         if a != GROUND && (holds_direction || holds.contains(&Condition::Line)) {
-            self.require_turning(&first, a)?;
+            self.require_directed(&first, a)?;
         }
         if holds_direction {
-            self.require_turning(&second, b)?;
+            self.require_directed(&second, b)?;
         }
         Ok(ends)
     }

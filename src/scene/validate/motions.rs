@@ -8,6 +8,8 @@ use crate::scene::description::{Kind as _, Motion, MotionKind, MotionValue, Valu
 use crate::scene::resolved::{self, Resolved, Turning};
 use crate::system::{Attitude, Drive};
 
+/// What is offered in space where the angle of a marker would be driven.
+const NO_ANGLE: &str = "nothing in space, where a motion of kind `orientation` drives a marker and one of kind `angle` a joint with an axis,";
 /// Most derivatives that the master sets with a motion.
 const MOST_DERIVATIVES: u8 = 2;
 
@@ -65,7 +67,8 @@ impl<'a> Resolved<'a> {
                 Kind::Orientation(marker, self.quaternion_of_drives(&at_value, &motion.value)?)
             }
             (MotionKind::Angle, None) => {
-                let turning = Turning::Marker(self.require_turning(&at_marker, marker()?)?);
+                let turning =
+                    Turning::Marker(self.require_turning(&at_marker, marker()?, NO_ANGLE)?);
                 Kind::Angle(turning, self.one_drive(&at_value, &motion.value)?)
             }
             (MotionKind::Angle, Some(joint)) => {

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use super::checks::{Key, expected, keys, needed, quoted};
+use super::checks::{Key, expected, keys, needed, quoted, unknown};
 use crate::scene::Error;
 use crate::scene::description::{Kind as _, Output, OutputKind, ReadAt};
 use crate::scene::resolved::{
     self, AngleId, First, Marker, MotionKind, Of, Reaction, Resolved, Turning,
 };
 
+/// What is offered in space where the angle of a marker would be read.
+const NO_ANGLE: &str = "nothing in space, where `orientation`, `quaternion` and `rotation_vector` say how a marker stands, and `angle` is of a `joint`,";
 /// Most natural frequencies or eigenvalues.
 const MOST_FREQUENCIES: u32 = 100;
 
@@ -109,7 +111,9 @@ impl<'a> Resolved<'a> {
                 let pivot = self.require_pivot(&format!("{path}.joint"), joint)?;
                 Ok::<_, Error>(Turning::Pivot(pivot))
             }
-            None => Ok(Turning::Marker(marker(Self::require_turning)?)),
+            None => Ok(Turning::Marker(marker(|of, path, name| {
+                of.require_turning(path, name, NO_ANGLE)
+            })?)),
         };
         let spinning = || match &output.joint {
             Some(_) => turning(),
@@ -198,7 +202,8 @@ impl<'a> Resolved<'a> {
         let name = needed(path, "gear", "a name", output.gear.as_deref())?;
         let path = format!("{path}.gear");
         let Some(gear) = self.gears.iter().find(|gear| gear.name == name) else {
-            return Err(expected(&path, "a gear of this scene", quoted(name)));
+            let known = self.gears.iter().map(|gear| gear.name);
+            return Err(unknown(&path, "a gear of this scene", name, known));
         };
         let [_, second] = &gear.coordinates;
         if second.is_angle() != (output.kind == OutputKind::GearTorque) {
@@ -220,7 +225,8 @@ impl<'a> Resolved<'a> {
         let path = format!("{path}.load");
         let mut loads = self.numbered_loads();
         let Some((id, load)) = loads.find(|(_, load)| load.name == name) else {
-            return Err(expected(&path, "a load of this scene", quoted(name)));
+            let known = self.numbered_loads().map(|(_, load)| load.name);
+            return Err(unknown(&path, "a load of this scene", name, known));
         };
         let is_moment = output.kind == OutputKind::LoadMoment;
         if load.kind.exerts()[usize::from(is_moment)] {
@@ -264,7 +270,8 @@ impl<'a> Resolved<'a> {
         is_moment: bool,
     ) -> Result<Reaction<'a>, Error> {
         let Some(motion) = self.motions.iter().find(|motion| motion.name == name) else {
-            return Err(expected(path, "a motion of this scene", quoted(name)));
+            let known = self.motions.iter().map(|motion| motion.name);
+            return Err(unknown(path, "a motion of this scene", name, known));
         };
         if let MotionKind::Winch(marker, _) = motion.kind {
             let wanted = "a motion other than a winch, whose force is `axial_force` of its marker";
@@ -291,7 +298,8 @@ impl<'a> Resolved<'a> {
     /// Natural frequencies and eigenvalues belong to the scene; one body may stand for it.
     fn validate_body_output(&self, path: &str, name: &str) -> Result<(), Error> {
         if !self.bodies_by_name.contains_key(name) {
-            return Err(expected(path, "a body of this scene", quoted(name)));
+            let known = self.bodies.iter().map(|body| body.name());
+            return Err(unknown(path, "a body of this scene", name, known));
         }
         if self.bodies.len() > 1 {
             let wanted = "nothing in a scene of several bodies, which vibrate together";

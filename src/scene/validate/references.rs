@@ -1,17 +1,13 @@
 //! Names that refer to other parts of a scene, and what they refer to.
 
-use super::checks::{expected, planar, quoted, vector};
+use super::checks::{expected, quoted, unknown, vector};
 use crate::scene::description::CoordinateKind;
 use crate::scene::marker::GROUND;
 use crate::scene::resolved::{
     BodyReference, Cable, Ends, First, Form, Joint, JointCoordinate, Marker, Pivot, Place,
     Resolved, Slider,
 };
-use crate::scene::{Error, Vector};
-
-/// What is offered in space instead of what has an angle.
-const NOTHING_TURNS: &str =
-    "nothing that has an angle or takes a moment, which a cable without torsion does not,";
+use crate::scene::{CableBody, Error, Vector};
 
 impl<'a> Resolved<'a> {
     pub(super) fn require_marker(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
@@ -19,21 +15,28 @@ impl<'a> Resolved<'a> {
             let of =
                 |marker: &Marker<'_>| format!("{}.{}", marker.place.body().name(), marker.name);
             let known: Vec<String> = self.markers.iter().map(of).collect();
-            let wanted = format!("a marker of this scene ({})", known.join(", "));
-            expected(path, &wanted, quoted(name))
+            let known = known.iter().map(String::as_str);
+            unknown(path, "a marker of this scene", name, known)
         })
     }
 
-    /// A marker with an angle: in the plane, one with a direction.
-    pub(super) fn require_turning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
-        planar(path, self.scene.dimension, NOTHING_TURNS, &quoted(name))?;
-        self.require_directed(path, name)
+    /// A marker with an angle: in the plane, one with a direction. `instead` says what there is in space.
+    pub(super) fn require_turning(
+        &self,
+        path: &str,
+        name: &'a str,
+        instead: &str,
+    ) -> Result<Marker<'a>, Error> {
+        match self.scene.dimension {
+            2 => self.require_directed(path, name),
+            _ => Err(expected(path, instead, quoted(name))),
+        }
     }
 
     /// A marker that moments turn: in the plane, one with a direction; in space, one of a rigid body with inertia.
     pub(super) fn require_spinning(&self, path: &str, name: &'a str) -> Result<Marker<'a>, Error> {
         match self.scene.dimension {
-            2 => self.require_turning(path, name),
+            2 => self.require_directed(path, name),
             _ => self.require_standing(path, name),
         }
     }
@@ -121,11 +124,7 @@ impl<'a> Resolved<'a> {
     pub(super) fn require_cable(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) => Ok(*cable),
-            _ => Err(expected(
-                path,
-                "the name of a cable of this scene",
-                quoted(name),
-            )),
+            _ => Err(self.no_line(path, ("cable", |_| true), name)),
         }
     }
 
@@ -133,12 +132,23 @@ impl<'a> Resolved<'a> {
     pub(super) fn require_sections(&self, path: &str, name: &str) -> Result<Cable<'a>, Error> {
         match self.bodies_by_name.get(name) {
             Some(BodyReference::Cable(cable)) if cable.body.is_rod() => Ok(*cable),
-            _ => Err(expected(
-                path,
-                "the name of a rod or beam of this scene",
-                quoted(name),
-            )),
+            _ => Err(self.no_line(path, ("rod or beam", CableBody::is_rod), name)),
         }
+    }
+
+    /// What is said where no cable, or none of a kind, has a name.
+    fn no_line(
+        &self,
+        path: &str,
+        (what, is_meant): (&str, fn(&CableBody) -> bool),
+        name: &str,
+    ) -> Error {
+        let known = self.bodies.iter().filter_map(|body| match body {
+            BodyReference::Cable(cable) if is_meant(cable.body) => Some(&*cable.body.name),
+            _ => None,
+        });
+        let wanted = format!("the name of a {what} of this scene");
+        unknown(path, &wanted, name, known)
     }
 
     /// A cable that bends, and its place among the chains.
@@ -196,7 +206,13 @@ impl<'a> Resolved<'a> {
 
     pub(super) fn require_joint(&self, path: &str, name: &str) -> Result<&Joint<'a>, Error> {
         let found = self.joints.iter().find(|joint| joint.name == name);
-        found.ok_or_else(|| expected(path, "a joint of this scene", quoted(name)))
+        found.ok_or_else(|| self.no_joint(path, name))
+    }
+
+    /// What is said where no joint has a name.
+    pub(super) fn no_joint(&self, path: &str, name: &str) -> Error {
+        let known = self.joints.iter().map(|joint| joint.name);
+        unknown(path, "a joint of this scene", name, known)
     }
 
     /// A joint along a line of the ground or of a rigid body.

@@ -17,7 +17,7 @@ impl Resolved<'_> {
     ) -> Result<(), Error> {
         let joint = self.joints.iter_mut().find(|joint| joint.name == name);
         let Some(joint) = joint else {
-            return Err(expected(path, "a joint of this scene", quoted(name)));
+            return Err(self.no_joint(path, name));
         };
         joint.release.get_or_insert(Release::default()).input = Some(first);
         Ok(())

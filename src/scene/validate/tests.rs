@@ -202,7 +202,7 @@ fn values_out_of_range_are_refused() {
         /masses/1/mass | 0 | masses[1].mass: expected a positive number (kg)
         /masses/1/inertia | 1 | masses[1].inertia: expected 0 at a marker of a rigid body
         /masses/1/marker | "rod.mid" | masses[1].marker: expected a marker without a mass so far
-        /masses/1/marker | "rod.top" | masses[1].marker: expected a marker of this scene (rod.low, 
+        /masses/1/marker | "rod.top" | masses[1].marker: expected a marker of this scene (rod.low,
     "#,
     );
 }
@@ -234,12 +234,12 @@ fn joints_take_what_is_theirs_and_no_more() {
         r#"
         /joints/0/direction | [1, 0] | joints[0].direction: expected nothing in the plane, found a direction
         /joints/1/direction | [1, 0] | joints[1].direction: expected nothing in the plane, found a direction
-        /joints/4/direction | [1, 0] | joints[4].direction: expected nothing for this kind of joint
-        /joints/2/second_direction | [0, 1] | joints[2].second_direction: expected nothing for this kind of joint
-        /joints/0/stiffness | 1 | joints[0].stiffness: expected nothing for this kind of joint
-        /joints/0/angle | 1 | joints[0].angle: expected nothing for this kind of joint
-        /joints/6/point | [1, 0] | joints[6].point: expected nothing for this kind of joint
-        /joints/5/length | 1 | joints[5].length: expected nothing for this kind of joint
+        /joints/4/direction | [1, 0] | joints[4].direction: expected a key of the kind
+        /joints/2/second_direction | [0, 1] | joints[2].second_direction: expected a key of the kind
+        /joints/0/stiffness | 1 | joints[0].stiffness: expected a key of the kind
+        /joints/0/angle | 1 | joints[0].angle: expected a key of the kind
+        /joints/6/point | [1, 0] | joints[6].point: expected a key of the kind
+        /joints/5/length | 1 | joints[5].length: expected a key of the kind
         /joints/2/direction | null | joints[2].direction: expected a direction [x, y], found nothing
         /joints/2/direction | [0, 0] | joints[2].direction: expected a direction that is not zero
         /joints/2/markers | ["load.eye", "cart.top"] | joints[2].markers[0]: expected a marker that can turn
@@ -255,7 +255,7 @@ fn joints_take_what_is_theirs_and_no_more() {
         /joints/3/markers | ["rope.mid", "load.eye"] | joints[3].markers[0]: expected the name of a cable
         /joints/3/markers | ["rope", "rope.tip"] | joints[3].markers: expected markers of two bodies
         /joints/3/markers | ["rope", "ground"] | joints[3].markers[1]: expected a marker of this scene
-        /joints/3/point | [0, 0] | joints[3].point: expected nothing for this kind of joint
+        /joints/3/point | [0, 0] | joints[3].point: expected a key of the kind
         /joints/4/length | 0 | joints[4].length: expected a positive number (m)
         /joints/4 | {"name": "link", "kind": "distance", "markers": ["ground", "rod.tip"]} | joints[4].length: expected a length, since
         /joints/4 | {"name": "link", "kind": "distance", "markers": ["rod.tip", "crank.a"]} | joints[4].length: expected a length, since
@@ -280,14 +280,14 @@ fn motions_drive_what_can_be_driven_once() {
         /motions/0/marker | "rod.root" | motions[0]: expected either a marker or a joint, found both
         /motions/0/joint | null | motions[0]: expected either a marker or a joint, found neither
         /motions/1/joint | "pin" | motions[1].joint: expected a joint along a line of the ground or of a rigid body, found "pin"
-        /motions/1/marker | "rod.tip" | motions[1].marker: expected nothing for this kind of motion
+        /motions/1/marker | "rod.tip" | motions[1].marker: expected a key of the kind
         /motions/2/marker | null | motions[2].marker: expected a name, found nothing
-        /motions/2/joint | "pin" | motions[2].joint: expected nothing for this kind of motion
+        /motions/2/joint | "pin" | motions[2].joint: expected a key of the kind
         /motions/3/marker | "load.eye" | motions[3].marker: expected a marker that can turn
         /motions/2/value | {"input": 3} | motions[2].value.input: expected 0, 1 or 2, found 3
         /motions/2/value | 1 | motions[2].value: expected 2 values [x, y] or
         /motions/0/value | [1, 2] | motions[0].value: expected one value, found 2
-        /motions/0/value | "sin(x)" | motions[0].value: expected one of the names t, 
+        /motions/0/value | "sin(x)" | motions[0].value: expected one of the names t,
         /motions/4/value | ["t", "2 t"] | motions[4].value[1]: expected an operator, found "t"
         /motions/1/value | {"table": [[1, 0], [0, 2]]} | motions[1].value.table: expected increasing times
         /motions/1/value | {"table": [[0, 0], [1, 2]], "interpolation": "linear"} | accepted
@@ -309,16 +309,16 @@ fn loads_take_what_is_theirs_and_no_more() {
         /loads/0/value | null | loads[0].value: expected a value, found nothing
         /loads/0/value | 1 | loads[0].value: expected 2 values [x, y], found 1
         /loads/0/marker | "load.eye" | loads[0].marker: expected a marker that can turn
-        /loads/0/joint | "pin" | loads[0].joint: expected nothing for this kind of load
+        /loads/0/joint | "pin" | loads[0].joint: expected a key of the kind
         /loads/1/follower | true | loads[1].follower: expected nothing for a moment in the plane, found true
-        /loads/2/follower | true | loads[2].follower: expected nothing for this kind of load
+        /loads/2/follower | true | loads[2].follower: expected a key of the kind
         /loads/1/marker | "load.eye" | loads[1].marker: expected a marker that can turn
         /loads/1/value | [1, 2] | loads[1].value: expected one value, found 2
         /loads/1/value | "1 +" | loads[1].value: expected a number, t, a function
         /loads/2/joint | "rail" | loads[2].joint: expected a revolute joint or a hinge
-        /loads/2/stiffness | 1 | loads[2].stiffness: expected nothing for this kind of load
+        /loads/2/stiffness | 1 | loads[2].stiffness: expected a key of the kind
         /loads/3/body | "crank" | loads[3].body: expected the name of a cable of this scene
-        /loads/4/value | 1 | loads[4].value: expected nothing for this kind of load
+        /loads/4/value | 1 | loads[4].value: expected a key of the kind
         /loads/4/markers | null | loads[4].markers: expected two names, found nothing
         /loads/4/markers | ["rope.mid", "rope.tip"] | loads[4].markers: expected markers of two bodies
         /loads/4/point | [1, 1] | loads[4].point: expected nothing between two bodies
@@ -337,7 +337,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         r#"
         /inputs/0/follower | true | inputs[1]: expected an input not declared before, found "rod.tip"
         /inputs/2/follower | true | inputs[2].follower: expected nothing for a moment in the plane
-        /inputs/0/joint | "pin" | inputs[0].joint: expected nothing for this kind of input
+        /inputs/0/joint | "pin" | inputs[0].joint: expected a key of the kind
         /inputs/0/start | [1] | inputs[0].start: expected 2 component(s), found 1
         /inputs/2/marker | "load.eye" | inputs[2].marker: expected a marker that can turn
         /inputs/3/joint | "link" | inputs[3].joint: expected a revolute joint or a hinge
@@ -361,13 +361,13 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /outputs/0 | {"kind": "reaction", "motion": "drive"} | outputs[0].motion: expected a motion driven by a force
         /outputs/0 | {"kind": "reaction_moment", "motion": "feed"} | outputs[0].motion: expected a motion driven by a moment
         /outputs/0 | {"kind": "reaction", "motion": "pin"} | outputs[0].motion: expected a motion of this scene
-        /outputs/0 | {"kind": "momentum", "body": "rod"} | outputs[0].body: expected nothing for this kind of output
+        /outputs/0 | {"kind": "momentum", "body": "rod"} | outputs[0].body: expected a key of the kind
         /outputs/0 | {"kind": "natural_frequency", "count": 1, "body": "rod"} | outputs[0].body: expected nothing in a scene of several bodies
         /outputs/0 | {"kind": "natural_frequency"} | outputs[0].count: expected an integer from 1 to 100, found nothing
         /outputs/0 | {"kind": "eigenvalue", "count": 0} | outputs[0].count: expected an integer from 1 to 100, found 0
         /outputs/0 | {"kind": "eigenvalue", "count": 1, "body": "rod"} | outputs[0].body: expected nothing in a scene of several bodies
         /outputs/0 | {"kind": "energy"} | outputs[11]: expected an output not declared before
-        /outputs/0 | {"kind": "energy", "count": 1} | outputs[0].count: expected nothing for this kind of output
+        /outputs/0 | {"kind": "energy", "count": 1} | outputs[0].count: expected a key of the kind
     "#,
     );
 }
@@ -380,11 +380,11 @@ fn ports_take_what_is_theirs_and_no_more() {
         /ports/0/name | "2nd" | ports[0].name: expected a letter or _, then
         /ports/0/kind | "flow" | ports[0].kind: expected "
         /ports/0/stiff | 1 | ports[0].stiff: expected one of the keys name, marker
-        /ports/0/marker | "rod.top" | ports[0].marker: expected a marker of this scene (rod.low, 
+        /ports/0/marker | "rod.top" | ports[0].marker: expected a marker of this scene (rod.low,
         /ports/0/marker | "load.eye" | ports[0].marker: expected a marker that can turn
         /ports/0 | {"name": "plug", "marker": "load.eye", "kind": "force"} | accepted
-        /ports/0/stiffness | 1 | ports[0].stiffness: expected nothing for this kind of port, found a stiffness
-        /ports/0/rotational_damping | 1 | ports[0].rotational_damping: expected nothing for this kind of port
+        /ports/0/stiffness | 1 | ports[0].stiffness: expected a key of the kind
+        /ports/0/rotational_damping | 1 | ports[0].rotational_damping: expected a key of the kind
         /ports/1/marker | "rope.tip" | ports[1].marker: expected a marker that is not driven yet, found "rope.tip"
         /ports/1 | {"name": "socket", "marker": "crank.a", "kind": "motion"} | accepted
         /ports/1 | {"name": "socket", "marker": "rope.mid", "kind": "motion", "rotational_damping": 1} | ports[1]: expected a stiffness or a damping, found neither

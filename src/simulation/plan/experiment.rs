@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::motion::Motion;
 use super::outputs::RelativeTo;
 use super::response::Responses;
-use crate::scene::{Course, Error, InputCourse, Scene};
+use crate::scene::{Course, Error, InputCourse, Scene, did_you_mean};
 use crate::simulation::{Causality, Signals, Simulation, Source, Variable, variables};
 
 /// Communication points that are compared, about, where there are more.
@@ -215,7 +215,12 @@ pub fn courses(scene: &Scene) -> Result<Option<String>, Error> {
             .iter()
             .any(|v| v.name == course.input && Causality::of(v) == Causality::Input);
         if !is_input {
-            let message = format!("expected the name of an input, found \"{}\"", course.input);
+            let inputs = variables
+                .iter()
+                .filter(|v| Causality::of(v) == Causality::Input);
+            let meant = did_you_mean(&course.input, inputs.map(|v| v.name.as_str()));
+            let found = &course.input;
+            let message = format!("expected the name of an input, found \"{found}\"{meant}");
             return Err(Error::new(format!("accuracy.for[{place}].input"), message));
         }
     }

@@ -2,9 +2,11 @@
 //! universal joints, welds, driven turns. Their constraints are satisfied by an elimination from the leaves to the roots
 //! ([`Articulated`]) instead of one of the multipliers; both solve the same equations.
 
+use std::collections::BTreeMap;
+
 use nalgebra::Vector3;
 
-use crate::body::{Articulated, Frame, Link};
+use crate::body::{Articulated, Frame, Link, no_node};
 use crate::math::space::{Vector, components, moment};
 use crate::system::end::End;
 use crate::system::joints::{Constraint, ConstraintKind, HeldRow, Target, View};
@@ -46,14 +48,15 @@ impl<const D: usize> Tree<D> {
         if frames.is_empty() || !is_whole || !frames.iter().all(turns) {
             return None;
         }
-        let mut pairs = pairs(system)?;
+        let mut pairs = Pairs::of(system)?;
+        let mut y = vec![0.0; system.elimination.scratch()];
         let mut tree = Self {
             links: Vec::new(),
             pins: Vec::new(),
             turns: Vec::new(),
         };
         let mut link_of = vec![None; frames.len()];
-        tree.grow(system, None, &mut pairs, &mut link_of)?;
+        tree.grow(system, None, &mut pairs, (&mut link_of, &mut y))?;
         for frame in 0..frames.len() {
             if link_of[frame].is_none() {
                 link_of[frame] = Some(tree.links.len());
@@ -62,14 +65,14 @@ impl<const D: usize> Tree<D> {
                     parent: None,
                     arms: None,
                     turns: tree.turns.len()..tree.turns.len(),
-                    center: center(system, frame)?,
+                    center: center(system, frame, &mut y)?,
                 });
                 tree.pins.push(None);
-                tree.grow(system, Some(frame), &mut pairs, &mut link_of)?;
+                tree.grow(system, Some(frame), &mut pairs, (&mut link_of, &mut y))?;
             }
         }
         // What is left closes loops.
-        pairs.is_empty().then_some(tree)
+        pairs.list.iter().all(Option::is_none).then_some(tree)
     }
 
     /// Adds all that hangs on a body or on the ground.
@@ -77,13 +80,15 @@ impl<const D: usize> Tree<D> {
         &mut self,
         system: &System<D>,
         from: Option<usize>,
-        pairs: &mut Vec<Pair<D>>,
-        link_of: &mut [Option<usize>],
+        pairs: &mut Pairs<D>,
+        (link_of, y): (&mut [Option<usize>], &mut [f64]),
     ) -> Option<()> {
         let mut open = vec![from];
         while let Some(from) = open.pop() {
-            while let Some(index) = pairs.iter().position(|pair| pair.bodies.contains(&from)) {
-                let pair = pairs.swap_remove(index);
+            for index in pairs.of_body.remove(&from).unwrap_or_default() {
+                let Some(pair) = pairs.list[index].take() else {
+                    continue;
+                };
                 let is_second = pair.bodies[0] == from;
                 let frame = pair.bodies[usize::from(is_second)]?;
                 if link_of[frame].is_some() {
@@ -103,7 +108,7 @@ impl<const D: usize> Tree<D> {
                         [first, second]
                     }),
                     turns: first_turn..self.turns.len(),
-                    center: center(system, frame)?,
+                    center: center(system, frame, y)?,
                 });
                 self.pins.push(Some(Pin {
                     rows: pair.pins.try_into().ok()?,
@@ -123,24 +128,20 @@ impl<const D: usize> Tree<D> {
 }
 
 /// Where the centre of mass of a body is among the coordinates, and how many of these make a metre.
-fn center<const D: usize>(system: &System<D>, frame: usize) -> Option<(usize, f64)> {
+fn center<const D: usize>(system: &System<D>, frame: usize, y: &mut [f64]) -> Option<(usize, f64)> {
     let frame = &system.frames.list()[frame];
-    let (mut y, mut q) = (
-        vec![0.0; system.elimination.scratch()],
-        vec![0.0; system.coordinates()],
-    );
-    let mut force = vec![[[0.0; D]; 2]; system.elimination.assembly.nodes()];
+    let mut force = no_node();
     for axis in 0..D {
-        force[frame.node][0][axis] = frame.mass * (1.0 + axis as f64);
+        force[0][axis] = frame.mass * (1.0 + axis as f64);
     }
-    system.elimination.reduce(&force, &mut y, &mut q);
-    let at = q.iter().position(|q| *q != 0.0)?;
-    let scale = q[at];
-    let others = q.iter().enumerate().all(|(i, q)| match i.checked_sub(at) {
-        Some(axis @ 0..3) => (q - scale * (1.0 + axis as f64)).abs() <= 1e-14 * q.abs(),
-        _ => *q == 0.0,
-    });
-    others.then_some((at, scale))
+    let moved = system.elimination.reduce_node(frame.node, &force, y);
+    let (at, scale) = *moved.first()?;
+    let is_axis = |(i, q): &(usize, f64)| match i - at {
+        axis @ 0..3 => (q - scale * (1.0 + axis as f64)).abs() <= 1e-14 * q.abs(),
+        _ => false,
+    };
+    // Every axis moves with one coordinate, one after the other.
+    (moved.len() == D && moved.iter().all(is_axis)).then_some((at, scale))
 }
 
 /// Components of a point along the axes of its body, m.
@@ -149,29 +150,49 @@ fn arm<const D: usize>(end: &End<D>) -> [f64; 3] {
         .map_or([0.0; 3], |marker| marker.components()[0].into())
 }
 
-/// All constraints, by what they join; nothing where one is of another kind.
+/// All constraints, by what they join.
+struct Pairs<const D: usize> {
+    /// Each until it is in the tree.
+    list: Vec<Option<Pair<D>>>,
+    /// For every body and the ground, which of them join it.
+    of_body: BTreeMap<Option<usize>, Vec<usize>>,
+}
+
+impl<const D: usize> Pairs<D> {
+    /// Nothing where a constraint is of a kind that no tree has.
+    fn of(system: &System<D>) -> Option<Self> {
+        let mut of_body: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+        let list = pairs(system)?;
+        for (index, pair) in list.iter().enumerate() {
+            for body in pair.bodies {
+                of_body.entry(body).or_default().push(index);
+            }
+        }
+        let list = list.into_iter().map(Some).collect();
+        Some(Self { list, of_body })
+    }
+}
+
 fn pairs<const D: usize>(system: &System<D>) -> Option<Vec<Pair<D>>> {
     let mut pairs: Vec<Pair<D>> = Vec::new();
+    let mut known = BTreeMap::new();
     for (row, constraint) in system.constraints.iter().enumerate() {
         let ends = constraint.ends();
         let bodies = [body(system, ends.first()?)?, body(system, ends.get(1)?)?];
-        let same = |pair: &Pair<D>| pair.bodies == bodies || pair.bodies == [bodies[1], bodies[0]];
         if bodies[0] == bodies[1] || constraint.release.is_some() {
             return None;
         }
-        let index = pairs.iter().position(same);
-        let pair = match index {
-            Some(index) => &mut pairs[index],
-            None => {
-                pairs.push(Pair {
-                    bodies,
-                    pins: Vec::new(),
-                    turns: Vec::new(),
-                    ends: None,
-                });
-                pairs.last_mut()?
-            }
-        };
+        let both = [bodies[0].min(bodies[1]), bodies[0].max(bodies[1])];
+        let index = *known.entry(both).or_insert(pairs.len());
+        if index == pairs.len() {
+            pairs.push(Pair {
+                bodies,
+                pins: Vec::new(),
+                turns: Vec::new(),
+                ends: None,
+            });
+        }
+        let pair = &mut pairs[index];
         match &constraint.kind {
             ConstraintKind::HeldRow(held) => {
                 let goes_on = pair.ends.is_none_or(|ends| ends == held.ends);
@@ -199,11 +220,7 @@ fn body<const D: usize>(system: &System<D>, end: &End<D>) -> Option<Option<usize
     if !marker.is_framed() {
         return None;
     }
-    let frames = system.frames.list();
-    let index = frames
-        .iter()
-        .position(|frame| frame.node == marker.nodes[0]);
-    index.map(Some)
+    system.frames.body_of(marker.nodes[0]).map(Some)
 }
 
 /// Whether a row holds a point of the second end at that of the first, along this axis.

@@ -21,8 +21,8 @@ fn markers_and_bodies_touch_surfaces_of_their_dimension() {
         || scene(2),
         r#"
         /loads/0 | {"name": "l", "kind": "contact", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected a name, found nothing
-        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "body": "rod", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected nothing for this kind of load, found a name
-        /loads/0 | {"name": "l", "kind": "contact", "body": "ball", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected the name of a cable of this scene, found "ball"
+        /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "body": "rod", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected nothing beside `marker`, found a name
+        /loads/0 | {"name": "l", "kind": "contact", "body": "ball", "surface": {"plane": {"point": [0, 0], "normal": [0, 1]}}, "stiffness": 5} | loads[0].body: expected the name of a cable of this scene (rod), found "ball"
         /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"plane": {"point": [0, 0], "normal": [0, 0]}}, "stiffness": 5} | loads[0].surface.plane.normal: expected a direction that is not zero, found [0.0, 0.0]
         /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"sphere": {"center": [0, 0], "radius": 1}}, "stiffness": 5} | loads[0].surface: expected plane or circle in the plane, found sphere
         /loads/0 | {"name": "l", "kind": "contact", "marker": "rod.tip", "surface": {"circle": {"center": [0, 0], "radius": 1}}} | loads[0].stiffness: expected a stiffness, found nothing
@@ -68,11 +68,11 @@ fn forces_and_moments_are_read_of_loads_that_follow_from_the_motion() {
         /outputs/0 | {"kind": "load_force", "load": "floor"} | accepted
         /outputs/0 | {"kind": "load_moment", "load": "spring"} | accepted
         /outputs/0 | {"kind": "load_force"} | outputs[0].load: expected a name, found nothing
-        /outputs/0 | {"kind": "load_force", "load": "ground"} | outputs[0].load: expected a load of this scene, found "ground"
+        /outputs/0 | {"kind": "load_force", "load": "ground"} | outputs[0].load: expected a load of this scene
         /outputs/0 | {"kind": "load_force", "load": "push"} | outputs[0].load: expected a spring_damper, bushing or contact, or a joint_spring or stop on a displacement, found "push"
         /outputs/0 | {"kind": "load_force", "load": "spring"} | outputs[0].load: expected a spring_damper, bushing or contact, or a joint_spring or stop on a displacement, found "spring"
         /outputs/0 | {"kind": "load_moment", "load": "floor"} | outputs[0].load: expected a bushing, or a joint_spring or stop on an angle, found "floor"
-        /outputs/0 | {"kind": "reaction", "joint": "pin", "load": "floor"} | outputs[0].load: expected nothing for this kind of output, found a name
+        /outputs/0 | {"kind": "reaction", "joint": "pin", "load": "floor"} | outputs[0].load: expected a key of the kind
         "#,
     );
 }

@@ -27,14 +27,14 @@ fn fluids_have_a_density_and_stream_past_lines() {
         /loads/0/density | 0 | loads[0].density: expected a positive number (kg/m^3), found 0
         /loads/0/diameter | 0 | loads[0].diameter: expected a positive number (m), found 0
         /loads/0/area | -1 | loads[0].area: expected a positive number (m^2), found -1
-        /loads/0/body | "ball" | loads[0].body: expected the name of a cable of this scene, found "ball"
+        /loads/0/body | "ball" | loads[0].body: expected the name of a cable of this scene (rod), found "ball"
         /loads/0/current | [1] | loads[0].current: expected 2 values [x, y], found 1
         /loads/0/current | [] | loads[0].current: expected 2 values [x, y], found 0
         /loads/0/current | [1, "x"] | loads[0].current[1]:
-        /loads/0/value | [1, 1] | loads[0].value: expected nothing for this kind of load, found a value
+        /loads/0/value | [1, 1] | loads[0].value: expected a key of the kind
         /loads/0 | {"name": "sea", "kind": "fluid", "body": "rod"} | loads[0].density: expected a density, found nothing
         /loads/0 | {"name": "sea", "kind": "fluid", "density": 1025} | loads[0].body: expected a name, found nothing
-        /loads/0 | {"name": "sea", "kind": "distributed", "body": "rod", "value": [1, 0], "drag": 1} | loads[0].drag: expected nothing for this kind of load, found a coefficient
+        /loads/0 | {"name": "sea", "kind": "distributed", "body": "rod", "value": [1, 0], "drag": 1} | loads[0].drag: expected a key of the kind
         /rotation | 1.5 | rotation: expected 0 where a fluid acts, which does not turn with the frame, found
         /initial | {"state": "static_equilibrium", "loads": [{"name": "air", "kind": "fluid", "body": "rod", "density": 1}]} | initial.loads[0].kind: expected a force, a moment, a torque or a distributed one, found a fluid
         "#,
@@ -48,8 +48,8 @@ fn currents_that_are_inputs_are_numbers() {
         r#"
         /inputs/0/start | [0.5, 0.5] | accepted
         /inputs/0/start | [0.5] | inputs[0].start: expected 2 component(s), found 1
-        /inputs/0/load | "rod" | inputs[0].load: expected a fluid of this scene, found "rod"
-        /inputs/0 | {"kind": "rest_length", "load": "sea"} | inputs[0].load: expected a spring-damper of this scene, found "sea"
+        /inputs/0/load | "rod" | inputs[0].load: expected a fluid of this scene (sea), found "rod"
+        /inputs/0 | {"kind": "rest_length", "load": "sea"} | inputs[0].load: expected a spring-damper of this scene
         /inputs | [{"kind": "current", "load": "sea"}, {"kind": "current", "load": "sea"}] | inputs[1]: expected an input not declared before, found "sea"
         /loads/0/current | ["t", 0] | inputs[0].load: expected a fluid whose current is numbers, found "sea", whose current changes
         "#,

@@ -24,7 +24,7 @@ fn a_joint_lets_go_where_nothing_acts_on_its_coordinates() {
         /loads | [{"name": "end", "kind": "stop", "joint": "pin", "stiffness": 1, "upper": 1}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "end"
         /motions | [{"name": "drive", "kind": "angle", "joint": "pin", "value": "t"}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "drive"
         /inputs | [{"kind": "torque", "joint": "pin"}, {"kind": "release", "joint": "pin"}] | joints[0]: expected nothing that acts on the coordinates of a joint that lets go, found "torque"
-        /inputs/0/joint | "pen" | inputs[0].joint: expected a joint of this scene, found "pen"
+        /inputs/0/joint | "pen" | inputs[0].joint: expected a joint of this scene (pin), found "pen"; did you mean `pin`?
         /inputs/0/joint | null | inputs[0].joint: expected a name, found nothing
         /inputs/0/marker | "bob.p" | inputs[0].marker
         "#,

@@ -55,7 +55,7 @@ fn vectors_have_three_components() {
         /bodies/0/motion/deformation | ["0", "0"] | bodies[0].motion.deformation: expected 3 values [x, y, z], found 2
         /bodies/2/position | [3, 1] | bodies[2].position: expected 3 components [x, y, z], found 2
         /bodies/2/markers/eye | [0, 0, 1] | bodies[2].markers.eye: expected [0, 0, 0] in a body without inertia
-        /joints/2/second_direction | [0, 1, 0] | joints[2].second_direction: expected nothing for this kind of joint
+        /joints/2/second_direction | [0, 1, 0] | joints[2].second_direction: expected a key of the kind
         /joints/2/direction | [1, 0] | joints[2].direction: expected 3 components [x, y, z], found 2
         /joints/2/direction | [0, 0, 0] | joints[2].direction: expected a direction that is not zero
         /motions/0/value | ["t", 0] | motions[0].value: expected 3 values [x, y, z], found 2
@@ -96,12 +96,12 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /joints/2/kind | "planar" | joints[2].markers[1]: expected a marker of a rigid body with inertia
         /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].direction: expected a direction [x, y, z], found nothing
         /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1, "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia
-        /motions/0 | {"name": "lift", "kind": "angle", "marker": "rope.tip", "value": 0} | motions[0].marker: expected nothing that has an angle
+        /motions/0 | {"name": "lift", "kind": "angle", "marker": "rope.tip", "value": 0} | motions[0].marker: expected nothing in space, where
         /motions/0 | {"name": "lift", "kind": "angle", "joint": "knot", "value": 0} | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one
         /loads/0 | {"name": "push", "kind": "moment", "marker": "rod.tip", "value": [0, 0, 1]} | loads[0].marker: expected a marker of a rigid body with inertia or of a rod; a cable without torsion has a direction alone
         /loads/0 | {"name": "push", "kind": "torque", "joint": "knot", "value": 1} | loads[0].joint: expected a revolute joint with a direction
         /loads/0/follower | true | loads[0].marker: expected a marker of a rigid body with inertia
-        /outputs/0 | {"kind": "angle", "marker": "rod.tip"} | outputs[0].marker: expected nothing that has an angle
+        /outputs/0 | {"kind": "angle", "marker": "rod.tip"} | outputs[0].marker: expected nothing in space, where
         /outputs/0 | {"kind": "angle", "joint": "knot"} | outputs[0].joint: expected a revolute joint with a direction
         /outputs/0 | {"kind": "direction", "marker": "rod.tip"} | accepted
         /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
@@ -353,7 +353,7 @@ fn joints_hold_axes_of_the_ground_and_of_rigid_bodies() {
         mechanism,
         r#"
         /joints/0/direction | null | joints[0].direction: expected the axis [x, y, z] that a revolute joint turns about (a ball joint is `spherical`), found nothing
-        /joints/0/kind | "spherical" | joints[0].direction: expected nothing for this kind of joint
+        /joints/0/kind | "spherical" | joints[0].direction: expected a key of the kind
         /joints/0/direction | [0, 0, 0] | joints[0].direction: expected a direction that is not zero
         /joints/1/direction | null | joints[1].direction: expected a direction [x, y, z], found nothing
         /joints/1/stiffness | null | joints[1]: expected a stiffness or a damping, found neither
@@ -370,7 +370,7 @@ fn joints_hold_axes_of_the_ground_and_of_rigid_bodies() {
         /joints/5/markers | ["rope.tip", "b.out"] | joints[5].markers[0]: expected a marker of a rigid body with inertia
         /joints/6/markers | ["rope.root", "a.in"] | accepted
         /joints/6/angle | 1 | joints[6].angle: expected nothing in space, found an angle
-        /joints/7/direction | [1, 0, 0] | joints[7].direction: expected nothing for this kind of joint
+        /joints/7/direction | [1, 0, 0] | joints[7].direction: expected a key of the kind
         /joints/8/markers | ["rope.tip", "b.in"] | joints[8].markers[0]: expected a marker of a rigid body with inertia
         /joints/9/angle | 1 | joints[9].angle: expected nothing in space, found an angle
     "#,
@@ -385,7 +385,7 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /motions/0/joint | "elbow" | accepted
         /motions/0/joint | "sleeve" | accepted
         /motions/0/joint | "cross" | motions[0].joint: expected a revolute joint with a direction, or a cylindrical one, found "cross"
-        /motions/0 | {"name": "turn", "kind": "angle", "marker": "a.in", "value": 0} | motions[0].marker: expected nothing that has an angle
+        /motions/0 | {"name": "turn", "kind": "angle", "marker": "a.in", "value": 0} | motions[0].marker: expected nothing in space, where
         /motions | [{"name": "turn", "kind": "angle", "joint": "pin", "value": 0}, {"name": "slide", "kind": "displacement", "joint": "rail", "value": 0}] | accepted
         /motions/0 | {"name": "turn", "kind": "displacement", "joint": "ball", "value": 0} | motions[0].joint: expected a joint along a line of the ground or of a rigid body, found "ball"
         /gears | [{"name": "g", "joints": ["elbow", "rail"], "ratio": 0.5}] | accepted
@@ -394,7 +394,7 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /gears | [{"name": "g", "joints": ["elbow", "ball"], "ratio": 0.5}] | gears[0].joints[1]: expected a joint with an angle or along a line
         /gears | [{"name": "g", "joints": ["elbow", "elbow"], "ratio": 0.5}] | gears[0].joints: expected two joints, found "elbow" twice
         /gears | [{"name": "g", "joints": ["elbow", "rail"], "ratio": 0}] | gears[0].ratio: expected a number that is not zero (m/rad), found 0
-        /outputs/0 | {"kind": "gear_torque", "gear": "g"} | outputs[0].gear: expected a gear of this scene, found "g"
+        /outputs/0 | {"kind": "gear_torque", "gear": "g"} | outputs[0].gear: expected a gear of this scene
         /outputs/0 | {"kind": "displacement", "joint": "elbow"} | outputs[0].joint: expected a joint along a line
         /outputs/0 | {"kind": "velocity", "joint": "rail"} | accepted
         /joints/0 | {"name": "s", "kind": "screw", "markers": ["ground", "a.in"], "direction": [1, 0, 0]} | joints[0].pitch: expected a pitch, found nothing
@@ -431,8 +431,8 @@ fn moments_turns_and_what_is_read_of_them_belong_to_bodies_that_turn() {
         /outputs/0 | {"kind": "quaternion", "marker": "rope.tip"} | outputs[0].marker: expected a marker of a rigid body with inertia
         /outputs/0 | {"kind": "rotation_vector", "marker": "a.in"} | accepted
         /outputs/0 | {"kind": "angular_velocity", "marker": "a.in", "axes": "body"} | accepted
-        /outputs/0 | {"kind": "angular_velocity", "joint": "elbow", "axes": "body"} | outputs[0].axes: expected nothing for this kind of output, found axes
-        /outputs/0 | {"kind": "velocity", "marker": "a.in", "axes": "body"} | outputs[0].axes: expected nothing for this kind of output, found axes
+        /outputs/0 | {"kind": "angular_velocity", "joint": "elbow", "axes": "body"} | outputs[0].axes: expected nothing beside `joint`, found axes
+        /outputs/0 | {"kind": "velocity", "marker": "a.in", "axes": "body"} | outputs[0].axes: expected a key of the kind
         /outputs/0 | {"kind": "reaction", "joint": "elbow", "axes": "body"} | accepted
         /outputs/0 | {"kind": "reaction", "joint": "elbow", "axes": "joint"} | outputs[0].axes: expected "
         /ports | [{"name": "plug", "marker": "a.in", "kind": "force", "rotation": true}] | accepted

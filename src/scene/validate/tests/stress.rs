@@ -33,7 +33,7 @@ fn stress_is_read_where_sections_say_it() {
         /outputs/0/points | [[0.01]] | outputs[0].points[0]: expected [y, z] in space, found [0.01]
         /outputs/0/points | [[0.01, 0.0], [1, 2, 3]] | outputs[0].points[1]: expected [y, z] in space
         /outputs/0 | {"kind": "stress", "marker": "rod.tip"} | outputs[0].points: expected points, found nothing
-        /outputs/0 | {"kind": "torque", "marker": "rod.tip", "points": [[0.01, 0.0]]} | outputs[0].points: expected nothing for this kind of output
+        /outputs/0 | {"kind": "torque", "marker": "rod.tip", "points": [[0.01, 0.0]]} | outputs[0].points: expected a key of the kind
         /bodies/0/section/coupling | [0.001, 0, 0] | outputs[0].marker: expected a marker of a body whose section has area and second moments
         /bodies/0/section/axial_coupling | [0.001, 0, 0] | outputs[0].marker: expected a marker of a body whose section has area and second moments
         /bodies/0/section/axial_coupling | [1e3, 0, 0] | bodies[0].section.axial_coupling: expected stiffness that couples less than stretching, twist and bending

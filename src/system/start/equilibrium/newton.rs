@@ -362,7 +362,7 @@ impl<'a, 'b, const D: usize> Newton<'a, 'b, D> {
             pairs.for_each(|(x, to)| *x += PART * (to - *x));
         }
         let mut moved = self.force.clone();
-        Model::new(&part, &[], self.model.work, state)
+        Model::new(&part, self.model.inputs, self.model.work, state)
             .acceleration(time, &q, &self.rest, &mut moved);
         self.model.linearize(time, &q, &self.rest);
         for (x, (moved, force)) in self.x.iter_mut().zip(moved.iter().zip(&self.force)) {

@@ -1,0 +1,84 @@
+//! Keys that a kind does not take: told before anything is read, so that a value for another kind is no matter of its type.
+
+use schemars::JsonSchema;
+use serde_json::Value;
+
+use super::{InputKind, JointKind, Kind, LoadKind, MotionKind, OutputKind, PortKind};
+use crate::scene::Error;
+
+/// What else takes keys of a joint: a load between its ends.
+const OF_LOADS: [&str; 2] = ["stiffness", "damping"];
+
+/// Checks that all parts of a scene have keys of their kinds alone; what else may be wrong with them is left to who reads them.
+///
+/// # Errors
+/// The first key that other kinds take.
+pub fn check_keys(scene: &Value) -> Result<(), Error> {
+    check::<JointKind>(&scene["joints"], "joints")?;
+    check::<MotionKind>(&scene["motions"], "motions")?;
+    check::<LoadKind>(&scene["loads"], "loads")?;
+    check::<LoadKind>(&scene["initial"]["loads"], "initial.loads")?;
+    check::<InputKind>(&scene["inputs"], "inputs")?;
+    check::<OutputKind>(&scene["outputs"], "outputs")?;
+    check::<PortKind>(&scene["ports"], "ports")
+}
+
+fn check<K: Kind + JsonSchema>(list: &Value, place: &str) -> Result<(), Error> {
+    let parts = list.as_array().into_iter().flatten();
+    for (index, part) in parts.enumerate() {
+        let Ok(kind) = serde_json::from_value::<K>(part["kind"].clone()) else {
+            continue;
+        };
+        // What is null or false is not said.
+        let keys = part.as_object().into_iter().flatten();
+        let said = keys.filter(|(_, value)| !value.is_null() && **value != Value::Bool(false));
+        let mut said = said.filter(|(key, _)| !own(&kind).any(|own| own == key.as_str()));
+        let strange = said.find_map(|(key, _)| Some((key, strange(&kind, key, &part["kind"])?)));
+        if let Some((key, message)) = strange {
+            return Err(Error::new(format!("{place}[{index}].{key}"), message));
+        }
+    }
+    Ok(())
+}
+
+/// Keys that a kind takes beside those that all of them have.
+fn own<K: Kind>(kind: &K) -> impl Iterator<Item = &'static str> {
+    let keys = kind.keys().iter();
+    keys.flat_map(|(must, may)| must.iter().chain(*may))
+        .copied()
+}
+
+/// What is said of a key that other kinds take and this one does not; nothing of one that none takes.
+fn strange<K: Kind + JsonSchema>(kind: &K, key: &str, name: &Value) -> Option<String> {
+    let schema = schemars::schema_for!(K);
+    let kinds = schema.as_value()["oneOf"].as_array();
+    let takers = kinds.into_iter().flatten().filter_map(|known| {
+        let of: K = serde_json::from_value(known["const"].clone()).ok()?;
+        own(&of)
+            .any(|own| own == key)
+            .then_some(known["const"].as_str()?)
+    });
+    let takers: Vec<&str> = takers.collect();
+    if takers.is_empty() {
+        return None;
+    }
+    let mut keys: Vec<&str> = Vec::new();
+    own(kind).for_each(|key| {
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    });
+    let has = match keys.is_empty() {
+        true => "none beside those of all".into(),
+        false => keys.join(", "),
+    };
+    let load = match K::PART == "Joint" && OF_LOADS.contains(&key) {
+        true => " and of a load of kind joint_spring",
+        false => "",
+    };
+    let name = name.as_str().unwrap_or_default();
+    let takers = takers.join(", ");
+    Some(format!(
+        "expected a key of the kind {name} ({has}), found `{key}`, which is one of {takers}{load}"
+    ))
+}
