@@ -19,6 +19,7 @@ mod driven_orientation;
 mod driven_signs;
 mod driven_starts;
 mod elements;
+mod files;
 mod fluids;
 mod frames;
 mod least;
