@@ -316,3 +316,121 @@ fn what_is_no_plain_file_stays_and_links_are_followed() {
         "{printed}"
     );
 }
+
+/// Every row has the reason and the warnings of its own run, whichever came first.
+#[test]
+fn reasons_and_warnings_stand_in_the_rows_of_their_runs() {
+    let place = Place::new("rows");
+    let vary = ["--vary", "bar.mass=2,-2", "--vary", "bar.inertia=1,-1"];
+    let printed = place.swept(&[&vary[..], &["--jobs", "2", "--output", "t.parquet"]].concat());
+    assert!(
+        printed.contains("3 of 4 runs failed; first run 1: bar.inertia: "),
+        "{printed}"
+    );
+    let found = rows(&place.0.join("t.parquet"));
+    for (row, wanted) in found
+        .iter()
+        .zip(["", "bar.inertia: ", "bar.mass: ", "bar.mass: "])
+    {
+        match cell(row, "error") {
+            Field::Str(reason) => {
+                assert!(!wanted.is_empty() && reason.starts_with(wanted), "{reason}")
+            }
+            other => assert_eq!((other, wanted), (&Field::Null, "")),
+        }
+    }
+    // One element bends too far for what it resolves under the larger force alone.
+    std::fs::write(place.0.join("scene.json"), BENT).expect("a writable temporary directory");
+    let vary = ["--vary", "strip.tip.force[2]=0,2,0.01,4"];
+    place.swept(&[&vary[..], &["--jobs", "2", "--output", "w.parquet"]].concat());
+    let found = rows(&place.0.join("w.parquet"));
+    for (row, warns) in found.iter().zip([false, true, false, true]) {
+        let warning = cell(row, "warnings");
+        assert_eq!(warning != &Field::Null, warns, "{warning:?}");
+    }
+}
+
+/// A strip of one element on a wall.
+const BENT: &str = r#"{
+    "name": "bent", "dimension": 2, "gravity": [0, 0],
+    "bodies": [{"name": "strip", "element": "cable", "elements": 1,
+                "material": {"youngs_modulus": 1e7, "density": 1000, "damping_time": 0.05},
+                "section": {"area": 1e-4, "second_moment": 1e-7},
+                "shape": {"line": {"from": [0, 0], "to": [1, 0]}}, "markers": {"root": 0, "tip": 1}}],
+    "joints": [{"name": "wall", "kind": "weld", "markers": ["ground", "strip.root"]}],
+    "inputs": [{"kind": "force", "marker": "strip.tip"}],
+    "outputs": [{"kind": "resolution"}, {"kind": "position", "marker": "strip.tip"}],
+    "accuracy": {"relative_tolerance": 1e-4},
+    "experiment": {"stop_time": 1, "step": 0.1}
+}"#;
+
+/// What decides the results of a sweep decides whether runs that are there already are its own; what is fixed in all runs is so after a
+/// stop too.
+#[test]
+fn a_sweep_goes_on_with_its_own_runs_alone() {
+    let place = Place::new("goes-on");
+    let own = [
+        "--vary",
+        "bar.mass=1:2:120",
+        "--set",
+        "gravity[2]=-5",
+        "--stop-time",
+        "5",
+        "--step",
+        "0.01",
+    ];
+    let with = |change: &[(&str, &str)], output: &'static str| -> Vec<String> {
+        let mut options: Vec<String> = own.iter().map(|option| (*option).into()).collect();
+        for (old, new) in change {
+            let at = own
+                .iter()
+                .position(|option| option == old)
+                .expect("an option");
+            options[at] = (*new).into();
+        }
+        options.extend(["--jobs", "1", "--output", output].map(String::from));
+        options
+    };
+    let run = |options: Vec<String>| {
+        let options: Vec<&str> = options.iter().map(String::as_str).collect();
+        place.run(&options)
+    };
+    assert!(run(with(&[], "whole.parquet")).status.success());
+    // What a killed process leaves: some runs, out of order.
+    let journal = place.0.join("cut.parquet.runs");
+    let options = with(&[], "cut.parquet");
+    let options: Vec<&str> = options.iter().map(String::as_str).collect();
+    let mut child = place.command(&options);
+    let mut child = child
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program runs");
+    let lines = || std::fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
+    let started = Instant::now();
+    while lines() < 3 && started.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("it runs still");
+    child.wait().expect("an end");
+    assert!(
+        journal.exists(),
+        "expected a sweep that was stopped half-way"
+    );
+    for change in [
+        ("gravity[2]=-5", "gravity[2]=-6"),
+        ("gravity[2]=-5", "bar.inertia=0.5"),
+        ("bar.mass=1:2:120", "bar.mass=1:2:121"),
+        ("bar.mass=1:2:120", "bar.inertia=1:2:120"),
+        ("5", "6"),
+        ("0.01", "0.02"),
+    ] {
+        let other = run(with(&[change], "cut.parquet"));
+        let printed = String::from_utf8_lossy(&other.stderr).into_owned();
+        assert!(
+            !other.status.success() && printed.contains("found another's"),
+            "{change:?}: {printed}"
+        );
+    }
+    assert!(run(with(&[], "cut.parquet")).status.success());
+    assert_eq!(place.bytes("cut.parquet"), place.bytes("whole.parquet"));
+}

@@ -199,3 +199,77 @@ fn room_of_the_wrong_size_is_refused() {
     }
     instance.free(state);
 }
+
+/// The stop time of a state holds where it is restored: in an instance that has another, and in one that has none.
+#[test]
+fn the_stop_time_of_a_state_holds_in_another_instance() {
+    let unit = Unit::new();
+    let begun = |stop: Option<f64>| {
+        let instance = Instance::new(&unit);
+        let (is_there, stop) = (i32::from(stop.is_some()), stop.unwrap_or(0.0));
+        let c = instance.component;
+        assert_eq!(
+            call!(fmi2SetupExperiment, c, 0, 0.0, 0.0, is_there, stop),
+            Status::Ok
+        );
+        assert_eq!(call!(fmi2EnterInitializationMode, c), Status::Ok);
+        assert_eq!(call!(fmi2ExitInitializationMode, c), Status::Ok);
+        instance
+    };
+    for stop in [Some(0.06), None] {
+        let bytes = {
+            let instance = begun(stop);
+            instance.run(0, 2);
+            instance.fingerprint()
+        };
+        for other in [Some(0.04), Some(0.2), None] {
+            let instance = begun(other);
+            let state = instance.deserialize(&bytes).expect("its own bytes");
+            assert_eq!(instance.restore(state), Status::Ok);
+            instance.free(state);
+            assert_eq!(instance.fingerprint(), bytes);
+            assert_eq!(instance.step(0.04, 0.02), Status::Ok);
+            let beyond = instance.step(0.06, 0.02);
+            assert_eq!(beyond == Status::Ok, stop.is_none(), "{stop:?} {other:?}");
+        }
+    }
+}
+
+/// A ball that is pulled slowly under Radau, whose steps lead beyond communication points, and a bar that lets go on the way.
+const ON_THE_WAY: [&str; 2] = [
+    r#"{"name": "dense", "dimension": 2, "gravity": [0, 0],
+        "bodies": [{"element": "rigid", "name": "ball", "mass": 1, "position": [2, 0], "markers": {"c": [0, 0]}}],
+        "loads": [{"name": "pull", "kind": "force", "marker": "ball.c", "value": ["cos(0.5*t)", 0.1]},
+                  {"name": "rope", "kind": "spring_damper", "markers": ["ground", "ball.c"], "point": [0, 0],
+                   "stiffness": 2, "damping": 0.5, "length": 1.9}],
+        "outputs": [{"kind": "position", "marker": "ball.c"}, {"kind": "energy"}, {"kind": "work"}],
+        "method": {"integrator": "radau"}, "accuracy": {"relative_tolerance": 1e-4}}"#,
+    r#"{"name": "loose", "dimension": 3, "gravity": [0, 0, -9.81],
+        "bodies": [{"element": "rigid", "name": "bar", "mass": 2, "inertia": [0.1, 0.2, 0.2], "position": [0.5, 0, 0],
+            "markers": {"end": [-0.5, 0, 0], "tip": [0.5, 0, 0]}}],
+        "joints": [{"name": "ball", "kind": "spherical", "markers": ["ground", "bar.end"], "release_time": 0.3}],
+        "outputs": [{"kind": "position", "marker": "bar.tip"}, {"kind": "reaction", "joint": "ball"},
+            {"kind": "energy"}, {"kind": "work"}]}"#,
+];
+
+/// Bytes of any point lead on as the run did, in an instance that has gone on to the end and in a new one.
+#[test]
+fn bytes_from_the_middle_of_a_step_or_from_before_a_release_go_on_everywhere() {
+    for scene in ON_THE_WAY {
+        let unit = Unit::of(scene);
+        let gone_on = Instance::started(&unit);
+        let expected = gone_on.run(0, 30);
+        let saving = Instance::started(&unit);
+        for first in 1..30 {
+            saving.run(first - 1, first);
+            let bytes = saving.fingerprint();
+            for instance in [&gone_on, &Instance::new(&unit)] {
+                let state = instance.deserialize(&bytes).expect("its own bytes");
+                assert_eq!(instance.restore(state), Status::Ok);
+                instance.free(state);
+                let found = instance.run(first, 30);
+                assert_eq!(found, expected[first as usize..], "from point {first}");
+            }
+        }
+    }
+}

@@ -315,10 +315,10 @@ impl CableBody {
         numbers.any(|numbers| numbers.axial_coupling != [0.0; 3])
     }
 
-    /// Its cross section, and those at stations.
+    /// Its cross sections: those at stations where there are any, else the one that it has all along.
     pub fn all_sections(&self) -> impl Iterator<Item = &Section> {
         let at_stations = self.stations.iter().map(|station| &station.section);
-        at_stations.chain([&self.section])
+        at_stations.chain(self.stations.is_empty().then_some(&self.section))
     }
 
     /// Whether its sections are given as whole matrices.

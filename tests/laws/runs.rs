@@ -1,0 +1,110 @@
+//! Scenes that are run as a master runs them: variables by name.
+
+use flexbody::scene::Scene;
+use flexbody::simulation::{Causality, Simulation, Snapshot};
+use serde_json::Value;
+
+/// A simulation of a scene, started.
+pub struct Run(pub Simulation);
+
+impl Run {
+    /// A simulation of a scene that is not started yet.
+    pub fn ready(scene: &Value) -> Self {
+        let text = scene.to_string();
+        let scene = Scene::from_json(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        Self(Simulation::new(scene))
+    }
+
+    /// A started simulation.
+    pub fn started(scene: &Value) -> Self {
+        let mut run = Self::ready(scene);
+        run.start();
+        run
+    }
+
+    /// Computes the initial state and starts.
+    pub fn start(&mut self) {
+        self.0.initialize(0.0).expect("an initial state");
+        self.0.start().expect("a start");
+    }
+
+    /// Index of a variable.
+    pub fn index(&self, name: &str) -> usize {
+        let mut variables = self.0.variables().iter();
+        let found = variables.position(|variable| variable.name == name);
+        found.unwrap_or_else(|| panic!("{name}"))
+    }
+
+    /// Sets one variable.
+    pub fn set(&mut self, name: &str, value: f64) {
+        let index = self.index(name);
+        self.0.set_real(index, value).expect("a value");
+    }
+
+    /// Sets the components of a variable.
+    pub fn set_all(&mut self, name: &str, values: &[f64]) {
+        for (k, value) in values.iter().enumerate() {
+            self.set(&format!("{name}[{}]", k + 1), *value);
+        }
+    }
+
+    /// Value of one variable.
+    pub fn read(&mut self, name: &str) -> f64 {
+        let index = self.index(name);
+        self.0.real(index).expect("a value")
+    }
+
+    /// Values of the components of a variable.
+    pub fn read_all<const N: usize>(&mut self, name: &str) -> [f64; N] {
+        std::array::from_fn(|k| self.read(&format!("{name}[{}]", k + 1)))
+    }
+
+    /// Values of all outputs.
+    pub fn outputs(&mut self) -> Vec<f64> {
+        let variables = self.0.variables().iter().enumerate();
+        let of: Vec<usize> = variables
+            .filter(|(_, variable)| Causality::of(variable) == Causality::Output)
+            .map(|(index, _)| index)
+            .collect();
+        let value = |index: &usize| self.0.real(*index).expect("an output");
+        of.iter().map(value).collect()
+    }
+
+    /// Names of all outputs.
+    pub fn names(&self) -> Vec<String> {
+        let variables = self.0.variables().iter();
+        let outputs = variables.filter(|variable| Causality::of(variable) == Causality::Output);
+        outputs.map(|variable| variable.name.clone()).collect()
+    }
+
+    /// Steps to a time.
+    pub fn step(&mut self, until: f64) {
+        let stepped = self.0.step(until);
+        stepped.unwrap_or_else(|failure| panic!("at {until}: {failure}"));
+    }
+
+    /// Outputs after each of the steps `from..to` of a length, before each of which inputs are set.
+    pub fn steps(
+        &mut self,
+        range: std::ops::Range<u32>,
+        length: f64,
+        mut set: impl FnMut(&mut Self, u32),
+    ) -> Vec<Vec<f64>> {
+        let step = |k: u32| {
+            set(self, k);
+            self.step(f64::from(k + 1) * length);
+            self.outputs()
+        };
+        range.map(step).collect()
+    }
+
+    /// A copy of all that changes.
+    pub fn snapshot(&self) -> Snapshot {
+        self.0.snapshot()
+    }
+
+    /// Goes back to a copy.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.0.restore(snapshot).expect("a snapshot of its own");
+    }
+}
