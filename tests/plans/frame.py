@@ -106,6 +106,9 @@ class Frame:
         """A body; `first` and `last` are its end nodes. Gives its nodes."""
         start, end, axis = (np.asarray(part, float) for part in (start, end, axis))
         tangent = (end - start) / np.linalg.norm(end - start)
+        if self.planar:
+            # What a scene of the plane gives is for bending in it: by the second moment about the second axis.
+            axis = np.cross([0, 0, 1], tangent)
         one = axis - tangent * (axis @ tangent)
         one /= np.linalg.norm(one)
         rotation = np.array([tangent, one, np.cross(tangent, one)])

@@ -122,11 +122,11 @@ def save(case, folder):
 
 def who_told(name, run, plan):
     """Who said that an output does not keep the error."""
-    if any(name in line for line in run.splitlines()):
+    if re.search(re.escape(name) + r"(?!\w)", run):
         return "run"
     if re.search(r"(?i)inputs?\b.*\bheld\b|\bheld\b.*\binputs?\b", run):
         return "held"
-    if re.search(re.escape(name) + r".*(does not settle|kept until)", plan):
+    if re.search(re.escape(name) + r"(?!\w).*(does not settle|kept until)", plan):
         return "plan"
     return "held by plan" if "inputs held at their start values" in plan else "no"
 

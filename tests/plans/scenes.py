@@ -502,7 +502,8 @@ def bent(random):
     own = body(random, space, slender=(50, 1000))
     length, s = own.length, own.section
     rotation = random.rotation() if space else random.turn()
-    stiffness = s.youngs * s.i2
+    # In space the load is along the second axis, and what bends turns about the first.
+    stiffness = s.youngs * (s.i1 if space else s.i2)
     size = random.wide(1e-7, 12) * stiffness / length**2
     shape = random.one(["force", "force", "uniform", "moment"])
     if space and s.element == "cable" and shape == "moment":
@@ -531,7 +532,7 @@ def bent(random):
     if not (space and s.element == "cable"):
         outputs.append(({"kind": "reaction_moment", "joint": "clamp"}, "clamp.reaction_moment"))
     finish(random, "fuzz", scene, outputs, wanted)
-    shear = s.shear * s.area * s.factors[0] if s.element == "beam" else None
+    shear = s.shear * s.area * s.factors[1 if space else 0] if s.element == "beam" else None
     at = {"force": vector[:2], "uniform": vector[:2] / length}
     none = np.zeros(2)
 
