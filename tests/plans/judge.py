@@ -24,7 +24,8 @@ class Verdict:
     wanted: float
     # True error over the error wanted; infinite where there is no answer.
     score: float
-    # Who told: `run` (the run names the output), `held` (the run names inputs that were held), `plan` (only the plan), or nobody.
+    # Who told: `run` (the run names the output), `mesh` (it names the body whose mesh is too coarse), `held` (it names
+    # inputs that were held), `plan` and `held by plan` (only the plan does), or nobody.
     told: str
     note: str = ""
 
@@ -124,6 +125,8 @@ def who_told(name, run, plan):
     """Who said that an output does not keep the error."""
     if re.search(re.escape(name) + r"(?!\w)", run):
         return "run"
+    if re.search(r"(?i)\bmesh of \w+ does not", run):
+        return "mesh"
     if re.search(r"(?i)inputs?\b.*\bheld\b|\bheld\b.*\binputs?\b", run):
         return "held"
     if re.search(re.escape(name) + r"(?!\w).*(does not settle|kept until)", plan):
