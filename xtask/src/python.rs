@@ -19,6 +19,8 @@ const PEERS: (&str, &str) = ("lab/exudyn/requirements.txt", "python-peers");
 const MASTERS: (&str, &str) = ("tests/masters/requirements.txt", "python-masters");
 /// What the Python package needs, and what makes its models; apart, so that no picture needs a cluster.
 const OWN: (&str, &str) = ("tests/python/requirements.txt", "python-own");
+/// What scenes with references of their own are reckoned with; apart, so that no picture needs it.
+const PLANS: (&str, &str) = ("tests/plans/requirements.txt", "python-plans");
 /// The linker of libraries; apart, so that what needs no library does not need it.
 const LINKER: (&str, &str) = ("xtask/linker.txt", "python-linker");
 /// The checker of dependencies, built.
@@ -69,6 +71,11 @@ impl Python {
     /// The environment of the Python package.
     pub fn prepare_own(workspace: &Workspace) -> Result<Self> {
         Self::prepare_one(workspace, OWN)
+    }
+
+    /// The environment of plans that are held against references.
+    pub fn prepare_plans(workspace: &Workspace) -> Result<Self> {
+        Self::prepare_one(workspace, PLANS)
     }
 
     /// The environment of the linker.

@@ -16,7 +16,7 @@ use crate::{assembly, describe, fuzz};
 type Step = (&'static str, fn(&Workspace) -> Result<()>);
 
 /// The checks in order.
-const STEPS: [Step; 11] = [
+const STEPS: [Step; 12] = [
     ("formatting", formatting),
     ("clippy", clippy),
     ("dependencies", dependencies),
@@ -25,6 +25,7 @@ const STEPS: [Step; 11] = [
     ("generated files", describe::check),
     ("FMUs under fmpy", fmpy_tests),
     ("Python package", package_tests),
+    ("plans against references", plan_tests),
     ("pages in a browser", browser_tests),
     ("coupled FMUs under other masters", master_tests),
     ("fuzzing", fuzz::test),
@@ -124,6 +125,14 @@ fn fmpy_tests(workspace: &Workspace) -> Result<()> {
 fn package_tests(workspace: &Workspace) -> Result<()> {
     let python = Python::prepare_own(workspace)?;
     run(&mut pytest(&python, workspace, "tests/python")?)
+}
+
+/// One scene after the other: what a plan may take is measured.
+fn plan_tests(workspace: &Workspace) -> Result<()> {
+    let python = Python::prepare_plans(workspace)?;
+    let program = workspace.program(PACKAGE)?;
+    let mut tests = pytest(&python, workspace, "tests/plans")?;
+    run(tests.env("FLEXBODY_PROGRAM", program))
 }
 
 fn browser_tests(workspace: &Workspace) -> Result<()> {
