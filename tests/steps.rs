@@ -163,7 +163,7 @@ fn a_step_of_next_to_nothing_changes_next_to_nothing() {
                 .expect("a step");
             for (group, (name, _)) in groups.iter().enumerate() {
                 let jump = distance(&before[group], &after[group]);
-                if scales[group] > 1e-9 && jump > 1e-6 * scales[group] {
+                if scales[group] > 1e-9 && jump > 1e-5 * scales[group] {
                     let part = jump / scales[group];
                     let method = simulation.report().method;
                     off.push(format!(
