@@ -11,11 +11,12 @@ use flexbody::simulation::{Simulation, Variable};
 const ELEMENTS: u32 = 4;
 /// Steps of the default experiment that a run takes at most.
 const STEPS: u32 = 30;
-/// Tolerance of the runs, and of those that they are compared with.
-const TOLERANCE: f64 = 1e-4;
-const CLOSE: f64 = 1e-8;
-/// How many times the error with even steps, or the tolerance where that is more, the error with uneven ones may be.
+/// Tolerance of the runs, as loose as plans have it, and of those that they are compared with.
+const TOLERANCE: f64 = 1e-2;
+const CLOSE: f64 = 1e-7;
+/// How many times the error with even steps, or the least one that counts where that is more, the error with uneven ones may be.
 const LIMIT: f64 = 3.0;
+const LEAST: f64 = 1e-5;
 /// A communication step that is next to nothing, s.
 const NOTHING: f64 = 1e-12;
 
@@ -41,8 +42,7 @@ fn scenes(tolerance: f64) -> Vec<Scene> {
         scene.accuracy.relative_tolerance = Some(tolerance);
         scene
     });
-    let only = std::env::var("ONLY").unwrap_or_default();
-    scenes.filter(|scene| scene.name.contains(&only)).collect()
+    scenes.collect()
 }
 
 fn started(scene: &Scene) -> Simulation {
@@ -83,7 +83,7 @@ fn distance(one: &[f64], other: &[f64]) -> f64 {
 /// The largest size of every group over a run.
 fn scales(rows: &[Row]) -> Vec<f64> {
     let size = |values: &[f64]| distance(values, &vec![0.0; values.len()]);
-    let largest = |group| rows.iter().map(|row| size(&row[group])).fold(0.0, f64::max);
+    let largest = |group: usize| rows.iter().map(|row| size(&row[group])).fold(0.0, f64::max);
     (0..rows[0].len()).map(largest).collect()
 }
 
@@ -122,7 +122,7 @@ fn uneven_steps_keep_the_error_of_even_ones() {
             let (uneven, others) = run(&scene, parts);
             for (group, (name, _)) in groups.iter().enumerate() {
                 let of = (group, scales[group]);
-                if !name.ends_with("position") || of.1 == 0.0 {
+                if !name.ends_with("position") || name.starts_with("residual") || of.1 == 0.0 {
                     continue;
                 }
                 let [wanted, found] = [&even, &uneven].map(|rows| error(rows, &right, of));
@@ -131,7 +131,7 @@ fn uneven_steps_keep_the_error_of_even_ones() {
                     "{} {name} {parts:?}: {found:.1e} for {wanted:.1e} {ends:?}",
                     scene.name
                 );
-                if found > LIMIT * wanted.max(TOLERANCE) {
+                if found > LIMIT * wanted.max(LEAST) {
                     off.push(format!(
                         "{} {name} {parts:?}: {found:.1e} for {wanted:.1e}",
                         scene.name
@@ -163,7 +163,7 @@ fn a_step_of_next_to_nothing_changes_next_to_nothing() {
                 .expect("a step");
             for (group, (name, _)) in groups.iter().enumerate() {
                 let jump = distance(&before[group], &after[group]);
-                if scales[group] > 1e-9 && jump > 1e-6 * scales[group] {
+                if scales[group] > 1e-9 && jump > 1e-5 * scales[group] {
                     let part = jump / scales[group];
                     let method = simulation.report().method;
                     off.push(format!(
