@@ -38,7 +38,7 @@ fn line(element: &str, [along, first, _]: [Vector3<f64>; 3], from: Vector3<f64>)
         "markers": {"root": 0.0, "tip": 1.0}});
     if element != "cable" {
         body["material"]["shear_modulus"] = json!(4.0e5);
-        body["axis"] = array(first);
+        body["axis"] = json!(array(first));
     }
     body
 }
