@@ -17,11 +17,12 @@ pub fn all() -> Vec<Specimen> {
 }
 
 const YOUNG: f64 = 1.0e6;
-const AREA: f64 = 1.0e-3;
+/// So small that lengthening counts beside bending.
+const AREA: f64 = 1.0e-5;
 const MOMENTS: [f64; 2] = [2.0e-6, 1.0e-6];
 const LENGTH: f64 = 1.2;
 /// Along the body and along both axes of its section, N: so small that deflections are linear in them, to 1e-4.
-const FORCES: [f64; 3] = [0.02, 3.0e-4, -5.0e-4];
+const FORCES: [f64; 3] = [2.0e-4, 3.0e-4, -5.0e-4];
 
 /// A straight body on axes of its own, in space.
 fn line(element: &str, [along, first, _]: [Vector3<f64>; 3], from: Vector3<f64>) -> Value {
@@ -100,7 +101,7 @@ fn carried(element: &str) -> Specimen {
     let plane = |v: [f64; 3]| json!([v[0], v[1]]);
     body["shape"]["line"] =
         json!({"from": plane([0.0; 3]), "to": plane([0.6 * LENGTH, 0.8 * LENGTH, 0.0])});
-    body["section"] = json!({"area": AREA, "second_moment": MOMENTS[1]});
+    body["section"] = json!({"area": 1e-3, "second_moment": MOMENTS[1]});
     if element == "beam" {
         body["section"]["shear_factor"] = json!(1.0);
     }
