@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use flexbody::fmi2;
 use flexbody::scene::{Body, Chosen, Scene};
-use flexbody::simulation::{Planned, Simulation, plan};
+use flexbody::simulation::{Budget, Planned, Simulation, plan};
 use serde_json::{Value, json};
 
 const YOUNG: f64 = 2.0e9;
@@ -36,7 +36,7 @@ fn chosen(scene: &Value) -> Result<Chosen, String> {
 }
 
 fn planned(scene: &Scene) -> (Scene, Planned) {
-    plan(scene, &mut |_, _, _| ()).unwrap_or_else(|error| panic!("{error}"))
+    plan(scene, &Budget::default(), &mut |_, _, _| ()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn edited(edit: impl Fn(&mut Value)) -> Value {

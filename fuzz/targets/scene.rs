@@ -3,7 +3,7 @@
 
 use flexbody::fmi2::describe;
 use flexbody::scene::{Body, Scene};
-use flexbody::simulation::{Simulation, plan};
+use flexbody::simulation::{Budget, Simulation, plan};
 use libfuzzer_sys::fuzz_target;
 
 /// Most elements of a scene that is simulated: more find nothing new.
@@ -26,7 +26,7 @@ fuzz_target!(|data: &[u8]| {
     if sizes.fold(0, u32::saturating_add) > MOST {
         return;
     }
-    let Ok((scene, planned)) = plan(&scene, &mut |_, _, _| ()) else {
+    let Ok((scene, planned)) = plan(&scene, &Budget::default(), &mut |_, _, _| ()) else {
         return;
     };
     // Ports add terminals.

@@ -87,7 +87,13 @@ impl Start {
         let state = system.initial_state(0.0, &inputs, described, &mut work);
         let mut state = state.map_err(|error| format!("joints do not fit: {:?}", error.gaps))?;
         if scene.initial.state() == InitialState::StaticEquilibrium {
-            let found = equilibrium::find(system, &inputs, &mut work, &mut state, None);
+            let found = equilibrium::find(
+                system,
+                &inputs,
+                &mut work,
+                &mut state,
+                (None, f64::INFINITY),
+            );
             found.map_err(|error| error.to_string())?;
         }
         Ok(Self {

@@ -138,7 +138,7 @@ pub(super) fn value<const D: usize, N: Number>(
         Velocity(id, axis) => on(id).position(&values.v)[axis],
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
         Deflection(id, from, axis) => {
-            let from = from.map(|from| at(from));
+            let from = from.map(at);
             values.deflection(system, &assembled.nodes, at(id), from)[axis]
         }
         Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
