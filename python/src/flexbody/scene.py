@@ -804,6 +804,28 @@ class DisplacementOutput(Part):
     """
 
 
+class DeflectionOutput(Part):
+    """
+    Deflection of a marker of a cable, rod or beam, m: its place less where it would be if the body were rigid. The rigid body is
+    carried by the frame at the marker `from`; without that it is the drawn body where it fits the present one best, in the mean
+    of the squared distances along its length. Components are along the axes of the scene as the rigid body carries them. The frame
+    at a marker is that of the section, of a cable its tangent: in space the drawn one taken to the present one by the smallest
+    rotation. The best fit of a cable that is drawn straight in space rotates by the smallest rotation too. Zero of a body whose
+    `model` is `rigid`. A winch lengthens the drawn body.
+    """
+
+    kind: Literal["deflection"] = "deflection"
+    marker: StrictStr
+    """
+    `body.marker`, for quantities at a marker.
+    """
+    from_: StrictStr | None = None
+    """
+    `deflection` only: the marker of the same body whose frame carries the rigid body that the marker is compared with; without it
+    the rigid body is the drawn one where it fits the present one best.
+    """
+
+
 class DirectionOutput(Part):
     """
     Direction at a marker: the unit vector along the cable, or along the first axis of a rigid body, which must have
@@ -1213,8 +1235,8 @@ class CenterOfMassOutput(Part):
 class ResolutionOutput(Part):
     """
     How well meshes carry the shapes that cables have: the error in position that they make now, estimated from jumps of
-    curvature at nodes, over the error wanted (`accuracy.error`, or ten times the tolerance). Above 1 more elements are
-    needed, which is said once in the log. Within a factor of five on most scenes; what a mesh did before, errors of time,
+    curvature at nodes and from the angles that elements bend by, over the error wanted (`accuracy.error`, or ten times the tolerance). Above 1 more elements are
+    needed, which is said once in the log of every run. Within a factor of five on most scenes; what a mesh did before, errors of time,
     and a cable of one element that is clamped at both ends do not count.
     """
 
@@ -1279,6 +1301,7 @@ Output = TypeAliasType(
         | VelocityOutput
         | AccelerationOutput
         | DisplacementOutput
+        | DeflectionOutput
         | DirectionOutput
         | AngleOutput
         | OrientationOutput
