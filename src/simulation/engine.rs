@@ -5,17 +5,16 @@ use super::mesh::MeshWatch;
 use super::modes::in_words;
 use super::propeller::PropellerWatch;
 use super::quantities::{Evaluated, needs, value};
-use super::shapes::drawn;
 use super::variables::{sets_springs, start_inputs};
 use super::watch::Watch;
-use super::{Error, Quantity, Report, Source, Spectra, StepFailure, Variable, method};
+use super::{Error, Quantity, Report, Spectra, StepFailure, Variable, method};
 use crate::integrators::{Methods, Tolerance};
 use crate::math::jet::{Jet, part};
 use crate::math::space::components;
 use crate::scene::{Assembled, Holder, InitialState, LoadId, Resolved, Timed};
-use crate::system::equilibrium::{self, Failure, NotFound};
+use crate::system::equilibrium;
 use crate::system::{
-    Derivatives, Dynamics, Evaluation, Gap, Model, NotAssembled, State, System, Work, eigenvalues,
+    Derivatives, Dynamics, Evaluation, Model, NotAssembled, State, System, Work, eigenvalues,
     natural_frequencies,
 };
 
@@ -35,7 +34,7 @@ pub(super) struct Engine<const D: usize> {
     /// Functions of time of the scene, to say which of them ended a step.
     pub(super) timed: Vec<Timed>,
     /// What holds something in the system, by its list and name, and names of bodies.
-    holders: Vec<(&'static str, String)>,
+    pub(super) holders: Vec<(&'static str, String)>,
     /// What the initial state was found with that a person should know.
     remarks: Remarks,
     pub(super) bodies: Vec<String>,
@@ -107,17 +106,8 @@ impl<const D: usize> Engine<D> {
         };
         let (tolerance, methods) = method::choose(resolved, &start, &mut work)?;
         let methods = methods.found_with(resolved.scene.planned_step());
-        let outputs = variables
-            .iter()
-            .filter_map(|variable| match variable.source {
-                Source::Output(quantity) => {
-                    let drawn = drawn(quantity, &assembled);
-                    Some((quantity, &variable.name[..], drawn))
-                }
-                _ => None,
-            });
         let wanted = resolved.scene.error_wanted();
-        let watch = Watch::new(outputs, system, &tolerance, wanted);
+        let watch = Watch::new(variables, &assembled, &tolerance, wanted);
         Ok(Self {
             initial: resolved.scene.initial.state(),
             most_work: most_work(resolved.scene.method.work_limit),
@@ -212,32 +202,6 @@ impl<const D: usize> Engine<D> {
         Ok((state, spectra))
     }
 
-    /// Why there is no equilibrium.
-    fn unsettled(&self, error: NotFound) -> Error {
-        match error.why {
-            Failure::Overbent(body, element) => {
-                let place = format!(
-                    " on the way to equilibrium beyond {:.4} of the load",
-                    error.reached
-                );
-                Error::Overbent(self.overbent((body, element), &place))
-            }
-            Failure::Rest(rest) => {
-                Error::Equilibrium(format!("{error}, on `{}`", self.bodies[rest.body]))
-            }
-            Failure::Away(body) => {
-                Error::Equilibrium(format!("{error}, found that of `{}`", self.bodies[body]))
-            }
-            Failure::Correction(_) | Failure::Restless => Error::Equilibrium(error.to_string()),
-            Failure::Work => {
-                let limit = self.most_work;
-                Error::Equilibrium(format!(
-                    "{error}, work_limit = {limit:e} (evaluations times parts)"
-                ))
-            }
-        }
-    }
-
     fn spectra(&mut self, inputs: &[f64], state: &State) -> Result<Spectra, Error> {
         let ([natural, damped], mut spectra) = (self.wanted, Spectra::default());
         let (system, work) = (&self.assembled.system, &mut self.work);
@@ -261,28 +225,6 @@ impl<const D: usize> Engine<D> {
     /// What a person should know about the initial state.
     pub(super) fn remarks(&self) -> &Remarks {
         &self.remarks
-    }
-
-    fn open_joints(&self, error: &NotAssembled) -> String {
-        if error.gaps.is_empty() {
-            return "expected joints and motions that agree, found some that contradict each other"
-                .into();
-        }
-        let gaps = self.gaps(&error.gaps);
-        format!("expected bodies that fit together, found gaps: {gaps}")
-    }
-
-    /// Gaps of joints, in words.
-    fn gaps(&self, gaps: &[Gap]) -> String {
-        let word = |gap: &Gap| {
-            let (kind, name) = &self.holders[gap.joint];
-            let unit = if gap.is_angle { "rad" } else { "m" };
-            match gap.size < 1e-3 {
-                true => format!("{kind} `{name}` {:.1e} {unit}", gap.size),
-                false => format!("{kind} `{name}` {:.3} {unit}", gap.size),
-            }
-        };
-        gaps.iter().map(word).collect::<Vec<_>>().join(", ")
     }
 
     /// Name of a joint, motion or port that holds something in the system.

@@ -21,6 +21,7 @@ mod snapshot;
 mod stop;
 #[cfg(test)]
 mod tests;
+mod unfit;
 mod unset_rates;
 mod variables;
 mod warnings;

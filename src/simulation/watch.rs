@@ -9,9 +9,12 @@
 use super::engine::Engine;
 use super::inputs::Inputs;
 use super::quantities::{Quantity, Scale, natural};
+use super::shapes::drawn;
+use super::{Source, Variable};
 use crate::integrators::Tolerance;
 use crate::math::vector::norm;
-use crate::system::{Model, State, System};
+use crate::scene::Assembled;
+use crate::system::{Model, State};
 
 /// Communication points from one sample to the next; before, those whose number is a power of two are sampled.
 const EVERY: u64 = 16;
@@ -92,13 +95,22 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// For these outputs, with what they are as drawn.
-    pub(super) fn new<'a, const D: usize>(
-        outputs: impl Iterator<Item = (Quantity, &'a str, f64)>,
-        system: &System<D>,
+    /// For the outputs among these variables.
+    pub(super) fn new<const D: usize>(
+        variables: &[Variable],
+        assembled: &Assembled<D>,
         tolerance: &Tolerance,
         wanted: f64,
     ) -> Self {
+        let system = &assembled.system;
+        let outputs = variables
+            .iter()
+            .filter_map(|variable| match variable.source {
+                Source::Output(quantity) => {
+                    Some((quantity, &variable.name[..], drawn(quantity, assembled)))
+                }
+                _ => None,
+            });
         let (mut groups, by) = (Vec::<Group>::new(), Scale::of(system, tolerance));
         for (quantity, name, drawn) in outputs {
             let Some(natural) = natural(quantity, by) else {

@@ -4,6 +4,7 @@
 //! a planned scene is a scene with plain numbers.
 
 mod account;
+mod belief;
 mod damping;
 mod experiment;
 mod ladder;

@@ -4,9 +4,8 @@ use std::time::{Duration, Instant};
 
 use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
-use super::outputs::{Difference, Group, RelativeTo, are_kept, difference, groups, scales, shown};
+use super::outputs::{Difference, Group, are_kept, difference, groups, scales};
 use super::report::Plan;
-use super::response;
 use super::shear::{Beam, Sheared};
 use super::{Budget, Progress};
 use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
@@ -18,9 +17,6 @@ pub(super) const OF_SPACE: f64 = 2.0 / 3.0;
 pub(super) const SHARED: f64 = 0.9;
 /// Part of what doubling changes that the next one changes at least, where that is foreseen.
 const LEAST: f64 = 1.0 / 16.0;
-/// Part of the error wanted that the tolerance is where inputs rest and nothing moves: motions of a thousandth of the size are
-/// resolved when they act.
-const STILL: f64 = 1e-3;
 /// The tightest tolerance: below it roundoff makes the steps.
 pub(super) const TIGHTEST: f64 = 1e-11;
 /// Most cables of which single ones are tried with fewer elements.
@@ -35,7 +31,7 @@ pub(super) struct Search<'a, 'p> {
     /// Outputs: first those that count.
     pub groups: Vec<Group>,
     /// Number of outputs that count.
-    counting: usize,
+    pub(super) counting: usize,
     pub experiment: Experiment,
     /// Error wanted.
     pub error: f64,
@@ -276,50 +272,6 @@ impl<'a, 'p> Search<'a, 'p> {
             until: (largest > limit).then_some(0.0),
         });
         Ok(of_outputs.chain(still).collect())
-    }
-
-    /// Whether natural frequencies are compared: of scenes with inputs that are held.
-    fn tunes(&self) -> bool {
-        !self.experiment.held.is_empty()
-    }
-
-    /// Number of all that is compared: outputs that count, answers to inputs that are held, and natural frequencies.
-    fn compared(&self) -> usize {
-        self.counting + self.experiment.held.len() + usize::from(self.tunes())
-    }
-
-    /// Name of something that is compared.
-    pub fn name(&self, index: usize) -> String {
-        let input = index.checked_sub(self.counting);
-        match input.map(|input| self.experiment.held.get(input)) {
-            None => self.groups[index].name.clone(),
-            Some(Some(input)) => response::name(input),
-            Some(None) => response::FREQUENCIES.to_owned(),
-        }
-    }
-
-    /// Outputs that count, in the order in which they are compared.
-    pub fn outputs(&self) -> &[Group] {
-        &self.groups[..self.counting]
-    }
-
-    /// The loosest tolerance at which a run resolves what its outputs show: the error wanted of the displacements that they follow from.
-    pub fn believed(&self, run: &Run) -> f64 {
-        let counting = self.outputs().iter().enumerate();
-        let shown = counting.filter_map(|(index, group)| shown((group, index), run));
-        let least = shown.fold(f64::INFINITY, f64::min);
-        let by_motion = self.error * least / run.size.max(f64::MIN_POSITIVE);
-        let at_rest = match self.is_at_rest(run) {
-            true => STILL * self.error,
-            false => f64::INFINITY,
-        };
-        by_motion.min(at_rest).max(TIGHTEST)
-    }
-
-    /// Whether inputs are held while an output that counts does not change.
-    pub fn is_at_rest(&self, run: &Run) -> bool {
-        let mut scales = run.scales[..self.counting].iter();
-        self.tunes() && scales.any(|(_, of)| *of == RelativeTo::Scene)
     }
 
     /// What is said of outputs that could not be compared.
