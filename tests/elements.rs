@@ -394,11 +394,14 @@ fn shear_is_estimated_where_nothing_is_planned() {
     );
 }
 
-/// What the planner says that shear moves is `F L / (k G A)`, and decides.
+/// What the planner says that shear moves is its share of the way of the tip, `x / (1 + x)` with `x = 3 E I / (k G A L^2)`, and decides.
 #[test]
 fn shear_decides_by_what_it_moves_in_the_experiment() {
-    for (part, element) in [(0.6e-3, "rod"), (1.6e-3, "beam")] {
-        let mut scene = sheared(0.3, part);
+    let poisson = YOUNG / (2.0 * SHEAR) - 1.0;
+    let factor = 10.0 * (1.0 + poisson) / (12.0 + 11.0 * poisson);
+    for (part, element) in [(0.6e-3_f64, "rod"), (1.6e-3, "beam")] {
+        let height = (4.0 * part / (1.0 - part) * factor * SHEAR / YOUNG).sqrt();
+        let mut scene = sheared(height, 1e-6);
         scene["accuracy"] = json!({"error": 1e-3});
         scene["bodies"][0]["elements"] = json!("auto");
         let scene = read(&scene).expect("a scene");
@@ -432,10 +435,12 @@ fn shear_decides_by_what_it_moves_in_the_experiment() {
 /// judged by itself, and the thick one is a beam.
 #[test]
 fn bodies_that_shear_are_told_from_those_that_do_not() {
-    let (part, radius) = (1.6e-3, 0.15);
+    let part = 1.6e-3_f64;
     let poisson = YOUNG / (2.0 * SHEAR) - 1.0;
     let factor = 6.0 * (1.0 + poisson) / (7.0 + 6.0 * poisson);
-    let force = part * factor * SHEAR * PI * radius * radius;
+    // `x = 3 E r^2 / (4 k G L^2)` of bending, `x / (1 + x)` of both.
+    let radius = (4.0 * part / (1.0 - part) * factor * SHEAR / (3.0 * YOUNG)).sqrt();
+    let force = 1e-6 * factor * SHEAR * PI * radius * radius;
     let scene = edited(|s| {
         let mut thin = s["bodies"][0].clone();
         thin["name"] = json!("thin");

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use flexbody::scene::{Chosen, Scene, remarks};
@@ -72,8 +72,10 @@ pub fn planned(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
 fn planned_quietly(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
     let scene = read(path)?;
     tell_remarks(&scene);
+    let started = Instant::now();
     let budget = Budget {
         seconds: within.budget,
+        is_over: &|| started.elapsed().as_secs_f64() >= within.budget,
     };
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("planning {spinner} {msg}") {

@@ -283,13 +283,8 @@ fn advance_smoothly(
                 if is_beyond {
                     let operations = dynamics.operations() - counted;
                     dense::begin(method, state, [trial.h, operations, controller.ceiling()]);
-                    return dense::follow(
-                        method,
-                        dynamics,
-                        state,
-                        until,
-                        (tolerance, rival, pitch),
-                    );
+                    let aim = (tolerance, rival, pitch);
+                    return dense::follow(method, dynamics, state, until, aim);
                 }
                 is_fresh = false;
                 take(method, state, (trial, until));

@@ -131,8 +131,8 @@ pub(super) fn value<const D: usize, N: Number>(
     let system = &assembled.system;
     let on = |id: MarkerId| -> Marker<N> { assembled.marker(id).lift() };
     let at = |id: MarkerId| assembled.marker(id);
-    let ends = |joint: HolderId| system.joints()[joint.index()].ends;
-    let turn = |joint: HolderId| system.joints()[joint.index()].turn;
+    let joint_of = |joint: HolderId| &system.joints()[joint.index()];
+    let (ends, turn) = (|joint| joint_of(joint).ends, |joint| joint_of(joint).turn);
     match quantity {
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],

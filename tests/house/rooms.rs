@@ -176,7 +176,7 @@ const OWNERS: [(&str, &[&str]); 14] = [
     ("serde_json", &["scene/"]),
     ("serde_path_to_error", &["scene/"]),
     ("schemars", &["scene/"]),
-    ("libc", &["fmi2/abi.rs"]),
+    ("libc", &["fmi2/abi.rs", "fmi/place.rs"]),
     ("quick_xml", &["page/canvas.rs", "fmi/xml.rs"]),
     ("sha2", &["fmi/guid.rs", "fmi/state.rs"]),
     ("cpu_time", &["stopwatch.rs"]),

@@ -1,7 +1,6 @@
 //! Runs of the default experiment.
 
 use std::f64::consts::PI;
-use std::time::Instant;
 
 use super::motion::Motion;
 use super::outputs::RelativeTo;
@@ -80,13 +79,13 @@ impl Experiment {
         })
     }
 
-    /// Runs a scene with numbers of elements and a tolerance, with at most so much work, and not beyond a moment; where it is halved, in
+    /// Runs a scene with numbers of elements and a tolerance, with at most so much work, and until time is over; where it is halved, in
     /// two steps from one communication point to the next.
     pub fn run(
         &self,
         scene: Scene,
         is_halved: bool,
-        (most_work, ends): (f64, Option<Instant>),
+        (most_work, is_over): (f64, &dyn Fn() -> bool),
     ) -> Result<Run, Unfinished> {
         let failed = |reason: String| Unfinished::Failed(reason);
         let mut simulation = Simulation::new(scene);
@@ -125,7 +124,7 @@ impl Experiment {
                 run.work += report.work;
                 run.steps += report.steps;
                 run.method = report.method;
-                if run.work > most_work || ends.is_some_and(|ends| Instant::now() >= ends) {
+                if run.work > most_work || is_over() {
                     return Err(Unfinished::TooMuchWork);
                 }
             }

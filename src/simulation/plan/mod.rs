@@ -32,19 +32,24 @@ use shear::Beam;
 pub type Progress<'a> = &'a mut dyn FnMut(usize, u32, f64);
 
 /// What planning may cost.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Budget {
-    /// Time, s: runs are counted by their work, so that the same scene gives the same plan; the clock ends what counts do not see.
+#[derive(Clone, Copy)]
+pub struct Budget<'a> {
+    /// Time, s: runs are counted by their work, so that the same scene gives the same plan.
     pub seconds: f64,
+    /// Whether the time is over: ends what counts do not see.
+    pub is_over: &'a dyn Fn() -> bool,
 }
 
-impl Default for Budget {
+impl Default for Budget<'_> {
     fn default() -> Self {
-        Self { seconds: 60.0 }
+        Self {
+            seconds: 60.0,
+            is_over: &|| false,
+        }
     }
 }
 
-impl Budget {
+impl Budget<'_> {
     /// The work of all runs (operations times parts), of a fuzzer little.
     fn work(&self) -> f64 {
         match cfg!(fuzzing) {
@@ -75,7 +80,7 @@ pub struct Planned {
 /// A body with a damping ratio that has no mode; a name in `accuracy` that the scene does not have; a start that does not exist; an experiment that cannot be run with any mesh.
 pub fn plan(
     scene: &Scene,
-    budget: &Budget,
+    budget: &Budget<'_>,
     progress: Progress<'_>,
 ) -> Result<(Scene, Planned), Error> {
     let (scene, damping) = damp(scene)?;

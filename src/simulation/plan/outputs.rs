@@ -110,7 +110,7 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>
                 members: vec![index],
                 measure,
                 unit: variable.unit,
-                bodies: bodies_of(scene, name),
+                bodies: scene.bodies_read_by(name),
                 is_dynamic,
                 is_force: is_force(variable.source),
                 counts,
@@ -130,35 +130,6 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>
         return Err(Error::new("outputs", message));
     }
     Ok(groups)
-}
-
-/// Places of the bodies that an output is read at.
-fn bodies_of(scene: &Scene, output: &str) -> Vec<usize> {
-    let Some((first, _)) = output.split_once('.') else {
-        return Vec::new();
-    };
-    let owner = |marker: &str| marker.split('.').next().unwrap_or_default().to_owned();
-    let joint = |name: &str| scene.joints.iter().find(|joint| joint.name == name);
-    let of_joint = |name: &str| -> Vec<String> {
-        let markers = joint(name).map(|joint| joint.markers.iter().map(|marker| owner(marker)));
-        markers.into_iter().flatten().collect()
-    };
-    let mut names = vec![first.to_owned()];
-    names.extend(of_joint(first));
-    for motion in scene.motions.iter().filter(|motion| motion.name == first) {
-        names.extend(motion.marker.iter().map(|marker| owner(marker)));
-        names.extend(motion.joint.iter().flat_map(|joint| of_joint(joint)));
-    }
-    for load in scene.loads.iter().filter(|load| load.name == first) {
-        let markers = load.markers.iter().flatten().chain(&load.marker);
-        names.extend(markers.map(|marker| owner(marker)).chain(load.body.clone()));
-        names.extend(load.joint.iter().flat_map(|joint| of_joint(joint)));
-    }
-    let ports = scene.ports.iter().filter(|port| port.name == first);
-    names.extend(ports.map(|port| owner(&port.marker)));
-    let bodies = scene.bodies.iter().enumerate();
-    let named = bodies.filter(|(_, body)| names.iter().any(|name| name == body.name()));
-    named.map(|(index, _)| index).collect()
 }
 
 /// By what an output is measured, whether it follows from accelerations, and whether it counts where none are named;

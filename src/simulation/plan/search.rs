@@ -1,7 +1,5 @@
 //! The search for meshes and a tolerance.
 
-use std::time::{Duration, Instant};
-
 use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
 use super::outputs::{Difference, Group, are_kept, difference, groups, scales};
@@ -45,9 +43,9 @@ pub(super) struct Search<'a, 'p> {
     pub(super) beams: Vec<Beam>,
     /// The loosest tolerance that may be chosen.
     pub(super) loosest: f64,
-    /// Most work of all runs, and when planning ends at the latest: clocks decide only where counts do not.
+    /// Most work of all runs, and whether planning has taken the time that it may: clocks decide only where counts do not.
     most_work: f64,
-    ends: Option<Instant>,
+    is_over: &'a dyn Fn() -> bool,
     /// Whether either has ended the search.
     pub(super) is_cut: bool,
     progress: Progress<'p>,
@@ -92,7 +90,7 @@ impl<'a, 'p> Search<'a, 'p> {
     pub fn new(
         scene: &'a Scene,
         beams: Vec<Beam>,
-        budget: &Budget,
+        budget: &Budget<'a>,
         progress: Progress<'p>,
     ) -> Result<Self, Error> {
         let groups = groups(scene, &variables(scene))?;
@@ -108,7 +106,7 @@ impl<'a, 'p> Search<'a, 'p> {
             fewest: fewest(scene)?,
             loosest: f64::INFINITY,
             most_work: budget.work(),
-            ends: Instant::now().checked_add(Duration::from_secs_f64(budget.seconds)),
+            is_over: budget.is_over,
             is_cut: false,
             progress,
         })
@@ -221,12 +219,11 @@ impl<'a, 'p> Search<'a, 'p> {
         let elements = choice.elements.iter().sum();
         (self.progress)(self.runs.len() + 1, elements, choice.tolerance);
         let left = self.most_work - self.work;
-        let is_late = self.ends.is_some_and(|ends| Instant::now() >= ends);
-        if self.runs.len() >= MOST_RUNS || left <= 0.0 || is_late {
+        if self.runs.len() >= MOST_RUNS || left <= 0.0 || (self.is_over)() {
             self.is_cut = true;
             return Err(Unfinished::TooMuchWork);
         }
-        let limits = (left, self.ends);
+        let limits = (left, self.is_over);
         let mut run = self
             .experiment
             .run(self.planned(choice), choice.is_halved, limits);

@@ -89,6 +89,7 @@ fn with_mesh(reason: Reason, elements: &[u32], finer: u32) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::{Budget, plan};
     use std::fs;
     use std::path::Path;
 
@@ -123,9 +124,7 @@ mod tests {
         assert_eq!(check_start(&cable(1.0, HELD)), Ok(()));
         let scene = cable(2.0, HELD);
         let mut runs = 0;
-        let found = super::super::plan(&scene, &super::super::Budget::default(), &mut |_, _, _| {
-            runs += 1
-        });
+        let found = plan(&scene, &Budget::default(), &mut |_, _, _| runs += 1);
         let error = found.expect_err("a start").to_string();
         assert_eq!(runs, 0);
         assert!(
@@ -144,9 +143,7 @@ mod tests {
             ..scene
         };
         let mut runs = 0;
-        let found = super::super::plan(&free, &super::super::Budget::default(), &mut |_, _, _| {
-            runs += 1
-        });
+        let found = plan(&free, &Budget::default(), &mut |_, _, _| runs += 1);
         let error = found.expect_err("a start").to_string();
         assert_eq!(runs, 0);
         assert!(error.starts_with("initial: "), "{error}");

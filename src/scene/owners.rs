@@ -1,0 +1,35 @@
+//! Which bodies an output belongs to.
+
+use super::Scene;
+
+impl Scene {
+    /// Places of the bodies that an output is read at, by its name without an index: of a joint, motion, load or port those that it joins,
+    /// moves or acts on.
+    pub fn bodies_read_by(&self, output: &str) -> Vec<usize> {
+        let Some((first, _)) = output.split_once('.') else {
+            return Vec::new();
+        };
+        let owner = |marker: &str| marker.split('.').next().unwrap_or_default().to_owned();
+        let joint = |name: &str| self.joints.iter().find(|joint| joint.name == name);
+        let of_joint = |name: &str| -> Vec<String> {
+            let markers = joint(name).map(|joint| joint.markers.iter().map(|marker| owner(marker)));
+            markers.into_iter().flatten().collect()
+        };
+        let mut names = vec![first.to_owned()];
+        names.extend(of_joint(first));
+        for motion in self.motions.iter().filter(|motion| motion.name == first) {
+            names.extend(motion.marker.iter().map(|marker| owner(marker)));
+            names.extend(motion.joint.iter().flat_map(|joint| of_joint(joint)));
+        }
+        for load in self.loads.iter().filter(|load| load.name == first) {
+            let markers = load.markers.iter().flatten().chain(&load.marker);
+            names.extend(markers.map(|marker| owner(marker)).chain(load.body.clone()));
+            names.extend(load.joint.iter().flat_map(|joint| of_joint(joint)));
+        }
+        let ports = self.ports.iter().filter(|port| port.name == first);
+        names.extend(ports.map(|port| owner(&port.marker)));
+        let bodies = self.bodies.iter().enumerate();
+        let named = bodies.filter(|(_, body)| names.iter().any(|name| name == body.name()));
+        named.map(|(index, _)| index).collect()
+    }
+}
