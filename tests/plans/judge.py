@@ -16,6 +16,10 @@ except ImportError:
     resource = None
 
 
+# Seconds that planning may take.
+BUDGET = 20
+
+
 @dataclass
 class Verdict:
     """What came of one output."""
@@ -139,7 +143,8 @@ def judge(case, folder, program, seconds=60):
     folder = save(case, folder)
     table = folder / "outputs.csv"
     table.unlink(missing_ok=True)
-    options = ["--input", folder / "input.csv"] if case.inputs else []
+    budget = ["--budget", BUDGET]
+    options = budget + (["--input", folder / "input.csv"] if case.inputs else [])
     started = children()
     text, trouble = invoke(program, "simulate", folder / "scene.json", "--output", table, *options, seconds=seconds)
     took = children() - started
@@ -152,7 +157,7 @@ def judge(case, folder, program, seconds=60):
     for name in case.counted:
         score = difference(case, name, columns(names, rows, name), right[name]) / case.wanted
         if score > 1 and plan is None:
-            plan, trouble = invoke(program, "plan", folder / "scene.json", seconds=seconds)
+            plan, trouble = invoke(program, "plan", folder / "scene.json", *budget, seconds=seconds)
             plan = plan or trouble
         verdicts.append(Verdict(name, case.wanted, score, who_told(name, text, plan or "")))
     return verdicts, took

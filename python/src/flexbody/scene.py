@@ -1755,14 +1755,18 @@ class Accuracy(Part):
 
     error: StrictFloat | None = None
     """
-    Error wanted of every output over the default experiment: of positions relative to the size of the scene, of
-    angles and directions in rad, of all else relative to the largest value of its vector. By default 1e-3 where
-    numbers of elements are left to the planner. Where nothing is left to it, what the output `resolution` is measured
-    by: ten times the tolerance where nothing is said.
+    Error wanted of every output over the default experiment, relative to its own largest change: of positions, angles and directions
+    from where the scene draws them, of all else from zero. What hardly changes is held to a thousandth of like outputs of its body.
+    By default 1e-3 where numbers of elements are left to the planner. Where nothing is left to it, what warnings and the output
+    `resolution` are measured by: ten times the tolerance where nothing is said.
     """
     for_: Annotated[list[InputCourse], Field(validate_default=True)] = []
     """
     What inputs do in the experiment that is planned for; those that are not named keep their start values.
+    """
+    notes: list[StrictStr] = []
+    """
+    What the planner could not keep and which inputs it held, in words: written by it, told by units when they are instantiated.
     """
     of: list[StrictStr] = []
     """
