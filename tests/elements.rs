@@ -347,11 +347,16 @@ fn what_is_refused_says_why_it_would_be_needed() {
     }
 }
 
+/// Shear factor of a rectangle by Cowper.
+fn of_rectangle() -> f64 {
+    let poisson = YOUNG / (2.0 * SHEAR) - 1.0;
+    10.0 * (1.0 + poisson) / (12.0 + 11.0 * poisson)
+}
+
 /// A cantilever of height `h` under a force at its tip that bends it, with as much shear as is asked for: the way of the tip by it,
 /// `F L / (k G A)` with Cowper's factor, over the length.
 fn sheared(height: f64, part: f64) -> Value {
-    let poisson = YOUNG / (2.0 * SHEAR) - 1.0;
-    let factor = 10.0 * (1.0 + poisson) / (12.0 + 11.0 * poisson);
+    let factor = of_rectangle();
     let force = part * factor * SHEAR * 0.5 * height * height;
     edited(|s| {
         s["bodies"] = json!([s["bodies"][0]]);
@@ -370,8 +375,7 @@ fn sheared(height: f64, part: f64) -> Value {
 /// Share of shear in the deflection: `3 E I / (k G A L^2)` with `I / A = h^2 / 12`.
 #[test]
 fn shear_is_estimated_where_nothing_is_planned() {
-    let poisson = YOUNG / (2.0 * SHEAR) - 1.0;
-    let factor = 10.0 * (1.0 + poisson) / (12.0 + 11.0 * poisson);
+    let factor = of_rectangle();
     let height = |part: f64| (4.0 * part * factor * SHEAR / YOUNG).sqrt();
     for (part, element) in [(0.9e-3, "rod"), (1.1e-3, "beam")] {
         let chosen = chosen(&sheared(height(part), 1e-6)).expect("a choice");
@@ -394,11 +398,17 @@ fn shear_is_estimated_where_nothing_is_planned() {
     );
 }
 
+/// By how much shear moves the tip, as it is told.
+fn moved(why: &str) -> f64 {
+    let told = why.split("line.tip.position by ").nth(1);
+    let number = told.and_then(|told| told.split([',', ';']).next());
+    number.and_then(|text| text.parse().ok()).expect("a number")
+}
+
 /// What the planner says that shear moves is its share of the way of the tip, `x / (1 + x)` with `x = 3 E I / (k G A L^2)`, and decides.
 #[test]
 fn shear_decides_by_what_it_moves_in_the_experiment() {
-    let poisson = YOUNG / (2.0 * SHEAR) - 1.0;
-    let factor = 10.0 * (1.0 + poisson) / (12.0 + 11.0 * poisson);
+    let factor = of_rectangle();
     for (part, element) in [(0.6e-3_f64, "rod"), (1.6e-3, "beam")] {
         let height = (4.0 * part / (1.0 - part) * factor * SHEAR / YOUNG).sqrt();
         let mut scene = sheared(height, 1e-6);
@@ -408,16 +418,7 @@ fn shear_decides_by_what_it_moves_in_the_experiment() {
         let (packaged, planned) = planned(&scene);
         let chosen = &planned.elements[0];
         assert_eq!(chosen.element(), element, "{}", chosen.why);
-        let moved = chosen
-            .why
-            .split("line.tip.position by ")
-            .nth(1)
-            .expect("an output");
-        let moved: f64 = moved
-            .split([',', ';'])
-            .next()
-            .and_then(|text| text.parse().ok())
-            .expect("a number");
+        let moved = moved(&chosen.why);
         assert!((moved / part - 1.0).abs() < 0.1, "{moved} of {part}");
         let is_beam = matches!(packaged.bodies[0], Body::Beam(_));
         assert_eq!(is_beam, element == "beam");
@@ -485,16 +486,7 @@ fn bodies_that_shear_are_told_from_those_that_do_not() {
         thin.why
     );
     assert!(thick.element() == "beam", "{}", thick.why);
-    let moved = thick
-        .why
-        .split("line.tip.position by ")
-        .nth(1)
-        .expect("an output");
-    let moved: f64 = moved
-        .split(',')
-        .next()
-        .and_then(|text| text.parse().ok())
-        .expect("a number");
+    let moved = moved(&thick.why);
     assert!((moved / part - 1.0).abs() < 0.1, "{moved} of {part}");
     let kinds = packaged
         .bodies

@@ -12,7 +12,7 @@ const BAD: [(&str, &str, &str); 28] = [
     (
         "/dimension",
         "2.0",
-        "dimension: expected zero or a positive integer, found 2.0",
+        "dimension: expected 2 (the plane) or 3 (space), found 2.0",
     ),
     (
         "/experiment",

@@ -137,10 +137,7 @@ pub(super) fn value<const D: usize, N: Number>(
         Position(id, axis) => on(id).position(&values.x)[axis],
         Velocity(id, axis) => on(id).position(&values.v)[axis],
         Acceleration(id, axis) => on(id).position(&values.acceleration)[axis],
-        Deflection(id, from, axis) => {
-            let from = from.map(at);
-            values.deflection(system, &assembled.nodes, at(id), from)[axis]
-        }
+        Deflection(id, from, axis) => deflected(values, assembled, (id, from))[axis],
         Direction(id, axis) => on(id).direction(&values.x).normalize()[axis],
         Angle(angle) => values.angles[angle.index()],
         Orientation(id, ..)
@@ -191,6 +188,17 @@ pub(super) fn value<const D: usize, N: Number>(
         Resolution => resolution(values, assembled),
         Residual(of) => N::of(values.residuals(system)[of]),
     }
+}
+
+/// The deflection of a marker from the rigid body that another one carries, or the mean.
+fn deflected<const D: usize, N: Number>(
+    values: &Evaluation<D, N>,
+    assembled: &Assembled<D>,
+    (marker, from): (MarkerId, Option<MarkerId>),
+) -> [N; 3] {
+    let at = |id: MarkerId| assembled.marker(id);
+    let drawn = &assembled.nodes;
+    values.deflection(&assembled.system, drawn, at(marker), from.map(at))
 }
 
 /// The way along a joint, its rate or the rate of that.

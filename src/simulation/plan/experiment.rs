@@ -60,6 +60,8 @@ pub(super) struct Experiment {
     every: u64,
     /// Inputs that keep their start values, but for rates of others.
     pub held: Vec<String>,
+    /// These, then other components of their vectors: answers are measured by the largest of a vector's components.
+    asked: Vec<String>,
 }
 
 impl Experiment {
@@ -69,13 +71,15 @@ impl Experiment {
     /// A course of what is no input.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let steps = scene.experiment.steps() as u64;
+        let held = held(scene);
         Ok(Self {
             signals: courses(scene)?,
             steps,
             step: scene.experiment.step,
             stop: scene.experiment.stop_time,
             every: steps / POINTS + 1,
-            held: held(scene),
+            asked: asked(scene, &held),
+            held,
         })
     }
 
@@ -143,11 +147,20 @@ impl Experiment {
     }
 }
 
+impl Experiment {
+    /// Places among the inputs whose answers are known of the components of the vector of one that is held.
+    pub fn components(&self, held: usize) -> Vec<usize> {
+        let asked = self.asked.iter().enumerate();
+        let same = asked.filter(|(_, name)| vector(name) == vector(&self.held[held]));
+        same.map(|(index, _)| index).collect()
+    }
+}
+
 impl Run {
     /// At the start of a simulation that has been initialized.
     fn begun(experiment: &Experiment, simulation: &mut Simulation) -> Self {
         let (size, natural) = simulation.natural();
-        let places = experiment.held.iter().filter_map(|name| {
+        let places = experiment.asked.iter().filter_map(|name| {
             let variable = simulation.variables().iter().find(|v| v.name == *name);
             match variable.map(|variable| variable.source) {
                 Some(Source::Input(place)) => Some(place),
@@ -175,6 +188,24 @@ impl Run {
             method: "",
         }
     }
+}
+
+/// The vector that an input is a component of.
+fn vector(input: &str) -> &str {
+    input.split('[').next().unwrap_or(input)
+}
+
+/// Inputs, then other components of their vectors.
+fn asked(scene: &Scene, held: &[String]) -> Vec<String> {
+    let variables = variables(scene);
+    let inputs = variables.iter();
+    let inputs = inputs.filter(|variable| Causality::of(variable) == Causality::Input);
+    let names = inputs.map(|variable| &variable.name);
+    let others = names.filter(|name| {
+        let is_held = held.contains(name);
+        !is_held && held.iter().any(|held| vector(held) == vector(name))
+    });
+    held.iter().chain(others).cloned().collect()
 }
 
 /// Inputs that no course moves, but for the rates of driven motions.

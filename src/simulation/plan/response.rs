@@ -54,16 +54,26 @@ impl Responses {
         }
     }
 
-    /// What the answer to an input changes from one mesh to a finer one: the largest of the outputs that count, each relative to what it
-    /// is there, or to a thousandth of like ones of its body.
-    pub fn difference(&self, closer: &Self, input: usize, groups: &[Group]) -> f64 {
+    /// What the answer to an input changes from one mesh to a finer one: the largest of the outputs that count, each relative to the
+    /// largest that it is there by a component of the same vector, or to a thousandth of like ones of its body.
+    pub fn difference(
+        &self,
+        closer: &Self,
+        (input, components): (usize, &[usize]),
+        groups: &[Group],
+    ) -> f64 {
         let (Some(own), Some(fine)) = (self.inputs.get(input), closer.inputs.get(input)) else {
             return 0.0;
         };
         let values = |group: &Group, all: &[f64]| -> Vec<f64> {
             group.members.iter().map(|member| all[*member]).collect()
         };
-        let sizes: Vec<f64> = groups.iter().map(|g| norm(&values(g, fine))).collect();
+        let largest = |group: &Group| {
+            let answers = components.iter().filter_map(|k| closer.inputs.get(*k));
+            let sizes = answers.map(|answer| norm(&values(group, answer)));
+            sizes.fold(0.0, f64::max)
+        };
+        let sizes: Vec<f64> = groups.iter().map(largest).collect();
         let counting = groups.iter().enumerate().filter(|(_, group)| group.counts);
         let differences = counting.map(|(index, group)| {
             let size = like(groups, index, &sizes);

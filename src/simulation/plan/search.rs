@@ -215,6 +215,11 @@ impl<'a, 'p> Search<'a, 'p> {
         self.finished(place)
     }
 
+    /// Grants a part of the work of planning beside what is left.
+    pub fn grant(&mut self, part: f64) {
+        self.most_work = self.most_work.max(self.work) + part * self.most_work;
+    }
+
     fn make(&mut self, choice: &Choice) -> Result<Run, Unfinished> {
         let elements = choice.elements.iter().sum();
         (self.progress)(self.runs.len() + 1, elements, choice.tolerance);
@@ -262,7 +267,10 @@ impl<'a, 'p> Search<'a, 'p> {
             counting.map(|(index, group)| difference((group, index), run, closer, limit));
         let held = 0..self.experiment.held.len();
         let [own, fine] = [run, closer].map(|run| &run.responses);
-        let of_inputs = held.map(|input| own.difference(fine, input, &self.groups));
+        let of_inputs = held.map(|input| {
+            let components = self.experiment.components(input);
+            own.difference(fine, (input, &components), &self.groups)
+        });
         let of_frequencies = self.tunes().then(|| own.detuned(fine));
         let still = of_inputs.chain(of_frequencies).map(|largest| Difference {
             largest,
