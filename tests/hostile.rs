@@ -142,7 +142,8 @@ fn what_is_let_go_starts_stretched_and_springs_back() {
                         Ok(Ok([from, to])) if (from + 5.5).abs() < 1e-9 && to > from + 1e-3 => {}
                         // Of other joints than pins the end is held otherwise, or the scene is none.
                         Ok(_) if !["revolute", "spherical"].contains(&kind) => {}
-                        // In space an axis wants sections or a rigid body.
+                        // In space rods and beams between two balls are not stretched by the start, and cables have no axis.
+                        Ok(Err(_)) if dimension == 3 && element != "cable" => {}
                         Ok(Err(told)) if told.starts_with("scene: ") && kind == "revolute" => {}
                         Ok(found) => wrong.push(format!("{at}: {found:?}")),
                         Err(_) => wrong.push(format!("{at}: panic")),

@@ -47,11 +47,11 @@ enum Beside {
 impl<const D: usize> Newton<'_, '_, D> {
     /// Lets the system move, damped, until Newton's method finds an equilibrium beside its way.
     pub(super) fn swing(&mut self, state: &mut State) -> Result<Found, Failure> {
-        let size = self.model.system.scale();
-        let guard = match self.is_conservative {
-            true => Guard::Turns,
-            false => Guard::Transient,
-        };
+        // Forces that follow feed a motion: it would end far from where they were applied.
+        if !self.is_conservative {
+            return Err(Failure::Restless);
+        }
+        let (size, guard) = (self.model.system.scale(), Guard::Turns);
         let (mut why, mut failures) = (Failure::Restless, 0);
         let start = self.model.system.nodes_of(state, self.model.work);
         let (mut stops, mut is_due, mut waits, mut escapes) = (0_usize, false, 0, 0);
