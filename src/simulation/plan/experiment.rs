@@ -109,7 +109,7 @@ impl Experiment {
         let variables = simulation.variables().iter().enumerate();
         let computed = variables.filter(|(_, variable)| variable.is_computed());
         let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
-        let mut motion = Motion::new(simulation.scene(), &simulation);
+        let mut motion = Motion::new(&simulation);
         for number in 0..=self.steps {
             let until = (number as f64 * self.step).min(self.stop);
             let middle = (until - 0.5 * self.step).max(0.0);
@@ -145,9 +145,7 @@ impl Experiment {
         (run.moved, run.deformed) = (motion.moved, motion.deformed);
         Ok(run)
     }
-}
 
-impl Experiment {
     /// Places among the inputs whose answers are known of the components of the vector of one that is held.
     pub fn components(&self, held: usize) -> Vec<usize> {
         let asked = self.asked.iter().enumerate();

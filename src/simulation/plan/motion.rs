@@ -2,7 +2,6 @@
 
 use nalgebra::Vector3;
 
-use crate::scene::Scene;
 use crate::simulation::{Error, Simulation};
 
 /// Points of an element that its place is told by, and fewest and most points of a body.
@@ -28,11 +27,11 @@ fn parts(elements: usize) -> u32 {
 }
 
 impl Motion {
-    /// Of a simulation of a scene that has been initialized.
-    pub fn new(scene: &Scene, simulation: &Simulation) -> Self {
+    /// Of a simulation that has been initialized.
+    pub fn new(simulation: &Simulation) -> Self {
         let drawn = simulation.drawn_outlines(parts);
         let bodies = drawn.len();
-        let lines = scene.bodies.iter().enumerate();
+        let lines = simulation.scene().bodies.iter().enumerate();
         let lines = lines.filter(|(_, body)| body.cable().is_some());
         Self {
             drawn,

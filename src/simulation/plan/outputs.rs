@@ -281,8 +281,7 @@ pub(super) fn difference(
     found
 }
 
-/// Displacement that a run must resolve for an output to be believed, m, and by what part of the error wanted; nothing
-/// where it shows none.
+/// Displacement that an output follows from, and that a run must resolve to be believed, m; nothing where it shows none.
 pub(super) fn shown((group, index): (&Group, usize), run: &Run) -> Option<f64> {
     let of_bodies = |displacements: &[f64]| {
         let all = displacements.iter().enumerate();

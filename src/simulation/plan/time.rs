@@ -113,10 +113,13 @@ impl Search<'_, '_> {
             return;
         }
         for _ in 0..RESOLVED {
-            let Ok(run) = self.run(choice).cloned() else {
+            if self.run(choice).is_err() {
+                return;
+            }
+            let Some(run) = self.known(choice) else {
                 return;
             };
-            let believed = self.believed(&run);
+            let believed = self.believed(run);
             if choice.tolerance <= believed {
                 return;
             }
