@@ -84,10 +84,11 @@ impl Experiment {
     }
 
     /// Runs a scene with numbers of elements and a tolerance, with at most so much work, and until time is over; where it is halved, in
-    /// two steps from one communication point to the next.
+    /// two steps from one communication point to the next. Responses are those of the mesh, where they are known.
     pub fn run(
         &self,
         scene: Scene,
+        responses: Option<Responses>,
         is_halved: bool,
         (most_work, is_over): (f64, &dyn Fn() -> bool),
     ) -> Result<Run, Unfinished> {
@@ -105,7 +106,7 @@ impl Experiment {
         }
         let started = simulation.initialize(0.0).and_then(|()| simulation.start());
         started.map_err(|error| failed(error.to_string()))?;
-        let mut run = Run::begun(self, &mut simulation);
+        let mut run = Run::begun(self, &mut simulation, responses);
         let variables = simulation.variables().iter().enumerate();
         let computed = variables.filter(|(_, variable)| variable.is_computed());
         let computed: Vec<usize> = computed.map(|(index, _)| index).collect();
@@ -146,6 +147,22 @@ impl Experiment {
         Ok(run)
     }
 
+    /// What a simulation that has been initialized answers to inputs that are held.
+    fn responses(&self, simulation: &mut Simulation) -> Responses {
+        let places = self.asked.iter().filter_map(|name| {
+            let variable = simulation.variables().iter().find(|v| v.name == *name);
+            match variable.map(|variable| variable.source) {
+                Some(Source::Input(place)) => Some(place),
+                _ => None,
+            }
+        });
+        let places: Vec<usize> = places.collect();
+        match places.is_empty() {
+            true => Responses::default(),
+            false => Responses::new(simulation, &places, (self.stop, self.step)),
+        }
+    }
+
     /// Places among the inputs whose answers are known of the components of the vector of one that is held.
     pub fn components(&self, held: usize) -> Vec<usize> {
         let asked = self.asked.iter().enumerate();
@@ -156,21 +173,13 @@ impl Experiment {
 
 impl Run {
     /// At the start of a simulation that has been initialized.
-    fn begun(experiment: &Experiment, simulation: &mut Simulation) -> Self {
+    fn begun(
+        experiment: &Experiment,
+        simulation: &mut Simulation,
+        responses: Option<Responses>,
+    ) -> Self {
         let (size, natural) = simulation.natural();
-        let places = experiment.asked.iter().filter_map(|name| {
-            let variable = simulation.variables().iter().find(|v| v.name == *name);
-            match variable.map(|variable| variable.source) {
-                Some(Source::Input(place)) => Some(place),
-                _ => None,
-            }
-        });
-        let places: Vec<usize> = places.collect();
-        let times = (experiment.stop, experiment.step);
-        let responses = match places.is_empty() {
-            true => Responses::default(),
-            false => Responses::new(simulation, &places, times),
-        };
+        let responses = responses.unwrap_or_else(|| experiment.responses(simulation));
         Self {
             times: Vec::new(),
             rows: Vec::new(),

@@ -4,6 +4,7 @@ use super::experiment::{Experiment, Run, Unfinished};
 use super::ladder::{Choice, Ladder};
 use super::outputs::{Difference, Group, are_kept, difference, groups, scales};
 use super::report::Plan;
+use super::response::Responses;
 use super::shear::{Beam, Sheared};
 use super::{Budget, Progress};
 use crate::scene::{Accuracy, Axial, BodyReference, CableBody, Error, Model, Scene};
@@ -215,6 +216,18 @@ impl<'a, 'p> Search<'a, 'p> {
         self.finished(place)
     }
 
+    /// What inputs that are held would do with the mesh of a choice, where a run with another tolerance has told.
+    fn responses(&self, choice: &Choice) -> Option<Responses> {
+        let mesh = |of: &Choice| Choice {
+            tolerance: 0.0,
+            is_halved: false,
+            ..of.clone()
+        };
+        let mut made = self.runs.iter();
+        let same = made.find(|(made, run)| run.is_ok() && mesh(made) == mesh(choice));
+        same.and_then(|(_, run)| Some(run.as_ref().ok()?.responses.clone()))
+    }
+
     /// Grants a part of the work of planning beside what is left.
     pub fn grant(&mut self, part: f64) {
         self.most_work = self.most_work.max(self.work) + part * self.most_work;
@@ -229,9 +242,9 @@ impl<'a, 'p> Search<'a, 'p> {
             return Err(Unfinished::TooMuchWork);
         }
         let limits = (left, self.is_over);
-        let mut run = self
-            .experiment
-            .run(self.planned(choice), choice.is_halved, limits);
+        let scene = self.planned(choice);
+        let responses = self.responses(choice);
+        let mut run = (self.experiment).run(scene, responses, choice.is_halved, limits);
         self.is_cut |= matches!(run, Err(Unfinished::TooMuchWork));
         if let Ok(run) = &mut run {
             run.scales = scales(&self.groups, run);
