@@ -17,6 +17,8 @@ pub(super) struct FastFunctions {
 
 struct Wave {
     timed: Timed,
+    /// Periods in the step that is asked for.
+    periods: f64,
     /// Most periods in a step, and how long that was, s.
     found: Option<[f64; 2]>,
     is_told: bool,
@@ -52,6 +54,7 @@ impl FastFunctions {
         let waves = timed.into_iter().filter(Timed::is_periodic);
         let waves = waves.map(|timed| Wave {
             timed,
+            periods: 0.0,
             found: None,
             is_told: false,
         });
@@ -60,26 +63,27 @@ impl FastFunctions {
         }
     }
 
-    /// A communication step from one time to another begins, s.
-    pub(super) fn begin_step(&mut self, from: f64, until: f64) {
-        for wave in self.waves.iter_mut().filter(|wave| wave.found.is_none()) {
-            let periods = wave.timed.periods(from, until);
-            wave.found = (periods > PERIODS).then_some([periods, until - from]);
+    /// Why no sub-steps follow a communication step from one time to another, s.
+    pub(super) fn refusal(&mut self, from: f64, until: f64) -> Option<String> {
+        for wave in &mut self.waves {
+            wave.periods = wave.timed.periods(from, until);
         }
+        let mut waves = self.waves.iter();
+        let refused = waves.find(|wave| wave.periods > MOST)?;
+        let found = TooFast {
+            name: refused.timed.name(),
+            path: refused.timed.path(),
+            periods: refused.periods,
+            step: until - from,
+        };
+        Some(found.to_string())
     }
 
-    /// Why no sub-steps follow a communication step from one time to another, s.
-    pub(super) fn refusal(&self, from: f64, until: f64) -> Option<String> {
-        self.waves.iter().find_map(|Wave { timed, .. }| {
-            let periods = timed.periods(from, until);
-            let found = TooFast {
-                name: timed.name(),
-                path: timed.path(),
-                periods,
-                step: until - from,
-            };
-            (periods > MOST).then(|| found.to_string())
-        })
+    /// The step of this length (s) that was not refused begins.
+    pub(super) fn begin_step(&mut self, step: f64) {
+        for wave in self.waves.iter_mut().filter(|wave| wave.found.is_none()) {
+            wave.found = (wave.periods > PERIODS).then_some([wave.periods, step]);
+        }
     }
 
     /// The next one to tell of; each once.

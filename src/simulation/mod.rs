@@ -376,7 +376,7 @@ impl Simulation {
         let (moves, is_held) = self.inputs.begin_step();
         self.unset_rates.begin_step();
         self.state.dense.begin_point(is_held);
-        self.fast.begin_step(time, until);
+        self.fast.begin_step(until - time);
         let engine = self.engine.as_mut().ok_or_else(|| StepFailure {
             time,
             reason: "expected a simulation that has been initialized".into(),
