@@ -22,6 +22,16 @@ pub struct Within {
     pub strict: bool,
 }
 
+impl Within {
+    /// Refuses a plan that does not keep the error wanted, where that is asked for.
+    fn check(&self, plan: &Plan) -> Result<()> {
+        if self.strict && !plan.missed().is_empty() {
+            bail!("--strict: the plan does not keep the error wanted");
+        }
+        Ok(())
+    }
+}
+
 /// A positive number of seconds.
 fn seconds(text: &str) -> Result<f64, String> {
     let expected = || format!("expected a positive number of seconds, found \"{text}\"");
@@ -58,13 +68,10 @@ pub fn planned(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
         return Ok(found);
     };
     eprintln!("flexbody: {}", plan.in_a_line());
-    let missed = plan.missed();
-    for sentence in &missed {
+    for sentence in plan.missed() {
         eprintln!("flexbody: {sentence}");
     }
-    if within.strict && !missed.is_empty() {
-        bail!("--strict: the plan does not keep the error wanted");
-    }
+    within.check(plan)?;
     Ok(found)
 }
 
@@ -119,9 +126,7 @@ pub fn plan(arguments: &Planning) -> Result<()> {
     match numbers {
         Some(plan) => {
             print!("{}", in_words(plan));
-            if arguments.within.strict && !plan.missed().is_empty() {
-                bail!("--strict: the plan does not keep the error wanted");
-            }
+            arguments.within.check(plan)?;
         }
         None if !elements.is_empty() || !damping.is_empty() => (),
         None => println!("nothing to plan: the scene gives numbers of elements and a tolerance"),
@@ -247,8 +252,8 @@ fn in_words(plan: &Plan) -> String {
     for sentence in plan.measured_otherwise() {
         text += &format!("  {sentence}\n");
     }
-    if plan.is_cut {
-        text += "planning took all the work it may (`--budget`): this is the best plan so far\n";
+    if let Some(cut) = plan.cut() {
+        text += &format!("{cut}\n");
     }
     if let Some(settled) = &plan.settled {
         text += &format!("\nproposed\n  {}\n", settled.in_words());

@@ -2,6 +2,9 @@
 
 use super::outputs::RelativeTo;
 
+/// What is said of a plan that its budget ended.
+const CUT: &str = "planning took all the work it may (`--budget`): this is the best plan so far";
+
 /// Where the numbers of a planned scene come from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -132,6 +135,11 @@ impl Plan {
         )
     }
 
+    /// That planning took all the work it may, in words; nothing where it did not.
+    pub fn cut(&self) -> Option<&'static str> {
+        self.is_cut.then_some(CUT)
+    }
+
     /// What the plan does not keep, a sentence each.
     pub fn missed(&self) -> Vec<String> {
         let wanted = self.error;
@@ -152,8 +160,7 @@ impl Plan {
             let error = in_words(*error);
             format!("{name}: twice the mesh changes it by {error}, {wanted:e} is wanted")
         });
-        let cut = "planning took all the work it may (`--budget`): this is the best plan so far";
-        let cut = self.is_cut.then(|| cut.to_owned());
+        let cut = self.cut().map(str::to_owned);
         outputs.chain(answers).chain(cut).collect()
     }
 
