@@ -42,12 +42,13 @@ pub(super) fn listed(known: &[&str]) -> String {
 /// How alike two names are, from 0 to 1: by the letters that have to change, to which capitals do not count; or by how much of one
 /// the other is.
 fn likeness(name: &str, known: &str) -> f64 {
-    let [a, b] = [name, known].map(|name| name.to_lowercase().chars().collect::<Vec<char>>());
-    let (shorter, longer) = (a.len().min(b.len()), a.len().max(b.len()));
+    let [a, b] = [name, known].map(str::to_lowercase);
+    let letters = [&a, &b].map(|name| name.chars().count());
+    let (shorter, longer) = (letters[0].min(letters[1]), letters[0].max(letters[1]));
     if shorter == 0 || longer > LONG {
         return 0.0;
     }
-    let by_letters = 1.0 - distance(&a, &b) as f64 / longer as f64;
+    let by_letters = 1.0 - strsim::osa_distance(&a, &b) as f64 / longer as f64;
     // A name without that of its body, or without its index.
     let is_part = shorter >= 3 && (name.contains(known) || known.contains(name));
     let by_part = if is_part {
@@ -56,30 +57,6 @@ fn likeness(name: &str, known: &str) -> f64 {
         0.0
     };
     by_letters.max(by_part)
-}
-
-/// Letters that have to be put in, left out, replaced or exchanged with their neighbour.
-///
-/// Source: F. J. Damerau, A technique for computer detection and correction of spelling errors, Communications of the ACM 7
-/// (1964) 171-176.
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut rows = vec![vec![0; b.len() + 1]; a.len() + 1];
-    for i in 0..=a.len() {
-        for j in 0..=b.len() {
-            if i == 0 || j == 0 {
-                rows[i][j] = i + j;
-                continue;
-            }
-            let replaced = rows[i - 1][j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            let mut least = replaced.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
-            let is_exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if is_exchanged {
-                least = least.min(rows[i - 2][j - 2] + 1);
-            }
-            rows[i][j] = least;
-        }
-    }
-    rows[a.len()][b.len()]
 }
 
 #[cfg(test)]

@@ -181,7 +181,7 @@ const OWNERS: [(&str, &[&str]); 14] = [
     ("sha2", &["fmi/guid.rs", "fmi/state.rs"]),
     ("cpu_time", &["stopwatch.rs"]),
     ("clap", &["main.rs", "viewing.rs"]),
-    ("strsim", &["main.rs"]),
+    ("strsim", &["scene/alike.rs"]),
     ("indicatif", &["main.rs", "planning.rs", "viewing.rs"]),
 ];
 
