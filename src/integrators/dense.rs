@@ -60,7 +60,7 @@ pub(super) fn begin(
 }
 
 /// Goes on within the step under way, to `until` or to its end, whichever comes first. A state that constraints cannot
-/// be kept in is taken back to where the step began.
+/// be kept in, or that rods do not have, is taken back to where the step began.
 pub(super) fn follow(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,
@@ -76,7 +76,7 @@ pub(super) fn follow(
     state.dense.operations += POINT * pitch.points(state.time - before);
     match come_to_rest(method, dynamics, state, (state.time >= until, tolerance)) {
         Ok(true) => (),
-        Ok(false) | Err(Stop::Broken) => {
+        Ok(false) | Err(Stop::Broken | Stop::Overbent(..)) => {
             take_back(state);
             return Ok(());
         }

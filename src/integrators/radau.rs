@@ -31,6 +31,9 @@ const END: usize = 2;
 const ITERATIONS: i32 = 10;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
 const LARGEST_TURN: f64 = 1.5;
+/// The same beyond which an element that is bent or twisted too far is one, too: waves in a rod with hardly any mass have a root at
+/// every whole turn of its sections.
+const DOUBTED_TURN: f64 = 0.1;
 /// Rate of convergence below which the tangent is kept for the next step.
 const FAST: f64 = 1e-3;
 
@@ -224,18 +227,24 @@ impl Radau {
         self.filter(dynamics, h);
         let error = tolerance.norm(&self.error_q, &self.error_v);
         let is_doubted = self.rejected || self.last.is_none();
-        if error < 1.0 || !error.is_finite() || !is_doubted || !dynamics.is_damped() {
+        if error < 1.0 || !error.is_finite() || !is_doubted {
             return error;
         }
-        // After a rejection or at the start the estimate is filtered once more where vibrations die away: else what it filters is
-        // what the step would lose.
+        // After a rejection or at the start the estimate is filtered once more. Vibrations that do not die away still count by their
+        // displacements; by their velocities those would count that nobody sees.
+        let lost = if dynamics.is_damped() {
+            0.0
+        } else {
+            tolerance.norm(&self.error_q, &[])
+        };
         for i in 0..q.len() {
             self.stage_q[i] = q[i] + self.error_q[i];
             self.stage_v[i] = v[i] + self.error_v[i];
         }
         dynamics.acceleration(time, &self.stage_q, &self.stage_v, &mut self.f[0]);
         self.filter(dynamics, h);
-        tolerance.norm(&self.error_q, &self.error_v)
+        let filtered = tolerance.norm(&self.error_q, &self.error_v);
+        if filtered < lost { lost } else { filtered }
     }
 
     /// `(g/h - J)^-1 (f + sum_i e_i z_i / h)` with `f` in `stage_v`, `f[0]`.
@@ -395,7 +404,8 @@ impl Method for Radau {
             return fail(self, factor);
         }
         self.place(END, q, v);
-        if dynamics.largest_turn(q, &self.stage_q) > LARGEST_TURN {
+        let turn = dynamics.largest_turn(q, &self.stage_q);
+        if turn > LARGEST_TURN || (turn > DOUBTED_TURN && dynamics.is_overbent()) {
             return fail(self, 0.5);
         }
         let error = self.estimate(dynamics, state, h, tolerance);

@@ -202,7 +202,7 @@ fn values_out_of_range_are_refused() {
         /masses/1/mass | 0 | masses[1].mass: expected a positive number (kg)
         /masses/1/inertia | 1 | masses[1].inertia: expected 0 at a marker of a rigid body
         /masses/1/marker | "rod.mid" | masses[1].marker: expected a marker without a mass so far
-        /masses/1/marker | "rod.top" | masses[1].marker: expected a marker of this scene (rod.low,
+        /masses/1/marker | "rod.top" | masses[1].marker: expected a marker of this scene, found "rod.top"; did you mean `rod.tip`
     "#,
     );
 }
@@ -350,7 +350,7 @@ fn inputs_and_outputs_refer_to_what_has_them() {
         /outputs/0 | {"kind": "angle", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
         /outputs/0 | {"kind": "direction", "marker": "load.eye"} | outputs[0].marker: expected a marker that can turn
         /outputs/0 | {"kind": "angular_velocity", "marker": "crank.a", "axes": "body"} | outputs[0].axes: expected nothing in the plane, found axes of a body
-        /outputs/0 | {"kind": "direction", "joint": "knee"} | outputs[0].marker: expected a name
+        /outputs/0 | {"kind": "direction", "joint": "knee"} | outputs[0].joint: expected a key of the kind direction
         /outputs/0 | {"kind": "direction", "marker": "crank.a"} | accepted
         /outputs/0 | {"kind": "orientation", "marker": "crank.a"} | outputs[0].marker: expected nothing in the plane, where "angle" says how a body stands
         /outputs/0 | {"kind": "angle", "joint": "clamp"} | outputs[0].joint: expected a revolute joint or a hinge
@@ -380,7 +380,7 @@ fn ports_take_what_is_theirs_and_no_more() {
         /ports/0/name | "2nd" | ports[0].name: expected a letter or _, then
         /ports/0/kind | "flow" | ports[0].kind: expected "
         /ports/0/stiff | 1 | ports[0].stiff: expected one of the keys name, marker
-        /ports/0/marker | "rod.top" | ports[0].marker: expected a marker of this scene (rod.low,
+        /ports/0/marker | "rod.top" | ports[0].marker: expected a marker of this scene, found "rod.top"; did you mean `rod.tip`
         /ports/0/marker | "load.eye" | ports[0].marker: expected a marker that can turn
         /ports/0 | {"name": "plug", "marker": "load.eye", "kind": "force"} | accepted
         /ports/0/stiffness | 1 | ports[0].stiffness: expected a key of the kind

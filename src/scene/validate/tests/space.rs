@@ -91,7 +91,8 @@ fn what_a_particle_and_a_cable_do_not_have_is_refused() {
         /joints/1/kind | "orientation" | joints[1].markers: expected a rigid body or the ground beside a cable
         /joints/1/kind | "spherical" | accepted
         /joints/1/kind | "prismatic" | joints[1].direction: expected a direction [x, y, z], found nothing
-        /joints/1/direction | [0, 0, 1] | joints[1].markers[0]: expected a marker of a rigid body with inertia or of a rod, which has axes
+        /joints/1/direction | [0, 0, 1] | joints[1].direction: expected a key of the kind spherical
+        /joints/1 | {"name": "knot", "kind": "revolute", "markers": ["rod.tip", "rope.root"], "direction": [0, 0, 1]} | joints[1].markers[0]: expected a marker of a rigid body with inertia or of a rod, which has axes
         /joints/2/kind | "cylindrical" | joints[2].markers[1]: expected a marker of a rigid body with inertia
         /joints/2/kind | "planar" | joints[2].markers[1]: expected a marker of a rigid body with inertia
         /joints/1 | {"name": "h", "kind": "hinge", "markers": ["rod.tip", "rope.root"], "stiffness": 1} | joints[1].direction: expected a direction [x, y, z], found nothing
