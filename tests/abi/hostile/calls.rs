@@ -5,7 +5,7 @@ use std::ptr;
 
 use super::bytes::Bytes;
 use super::standard::Mode;
-use super::{ANY, DISCARD, ERROR, Master, Memory, OK, OK_OR_DISCARD, OK_OR_ERROR, Temper};
+use super::{ANY, DISCARD, ERROR, Master, Memory, OK, OK_OR_DISCARD, OK_OR_ERROR, Temper, WARNING};
 use crate::support::{CO_SIMULATION, Instance, Status, call};
 
 const LAST_SUCCESSFUL_TIME: c_int = 2;
@@ -305,9 +305,13 @@ impl Master<'_> {
         let count = usize::from(bytes.byte()) % 3;
         let names: Vec<_> = (0..count).map(|_| pick(bytes)).collect();
         let (on, null) = (!bytes.once_in(4), count > 0 && bytes.once_in(8));
-        let right = |name: &Option<&'static CStr>| name.is_some_and(|name| known.contains(&name));
-        let expected = match !null && names.iter().all(right) {
-            true => OK,
+        let is_text = |name: &Option<&'static CStr>| name.is_some_and(|name| name != c"\xff");
+        let right: Vec<_> = (names.iter().flatten().copied())
+            .filter(|name| known.contains(name))
+            .collect();
+        let expected = match !null && names.iter().all(is_text) {
+            true if right.len() == count => OK,
+            true => WARNING,
             false => ERROR,
         };
         let data: Vec<_> = names
@@ -318,10 +322,10 @@ impl Master<'_> {
         let status = self.call("fmi2SetDebugLogging", expected, |c| {
             call!(fmi2SetDebugLogging, c, c_int::from(on), count, categories)
         });
-        if status == Status::Ok {
-            let named = names.into_iter().flatten();
+        if status != Status::Error {
+            let named = right.into_iter();
             self.enabled = match (on, count) {
-                (false, _) => Vec::new(),
+                (false, _) => vec!["logStatusError".into()],
                 (true, 0) => self.declared.clone(),
                 _ => named.map(|n| n.to_string_lossy().into_owned()).collect(),
             };
