@@ -80,7 +80,12 @@ impl Moving {
             scene["method"] = serde_json::json!({"integrator": "dopri853"});
         }
         let scene = Scene::from_json(&scene.to_string()).expect("a valid scene");
-        let (mut scene, _) = plan(&scene, &Budget::default(), &mut |_, _, _| ()).expect("a plan");
+        // Any mesh does.
+        let budget = Budget {
+            seconds: 0.5,
+            ..Budget::default()
+        };
+        let (mut scene, _) = plan(&scene, &budget, &mut |_, _, _| ()).expect("a plan");
         scene.accuracy.relative_tolerance = Some(1e-10);
         // Soft enough for differences over a time that rounding does not notice.
         scene.initial = Initial::State(InitialState::AsShaped);

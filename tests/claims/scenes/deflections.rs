@@ -36,7 +36,7 @@ fn line(element: &str, [along, first, _]: [Vector3<f64>; 3], from: Vector3<f64>)
     let mut body = json!({"name": "line", "element": element, "elements": 8, "axial": "waves",
         "material": {"youngs_modulus": YOUNG, "density": 700.0}, "section": section,
         "shape": {"line": {"from": array(from), "to": array(from + along * LENGTH)}},
-        "markers": {"root": 0.0, "tip": 1.0}});
+        "markers": {"root": 0.0, "middle": 0.5, "tip": 1.0}});
     if element != "cable" {
         body["material"]["shear_modulus"] = json!(4.0e5);
         body["axis"] = json!(array(first));
