@@ -157,10 +157,14 @@ fn told(pointer: &str, value: Value) -> String {
     }
 }
 
-/// A scene with the numbers that it leaves to the planner.
+/// A scene with numbers for those that it leaves to the planner: the best that little time finds.
 fn planned(text: &str) -> Result<Scene, String> {
     let scene = Scene::from_json(text).map_err(|error| error.to_string())?;
-    let planned = plan(&scene, &Budget::default(), &mut |_, _, _| ());
+    let budget = Budget {
+        seconds: 2.0,
+        ..Budget::default()
+    };
+    let planned = plan(&scene, &budget, &mut |_, _, _| ());
     planned
         .map(|(scene, _)| scene)
         .map_err(|error| error.to_string())

@@ -1,5 +1,8 @@
 //! Keys that a kind does not take: told before anything is read, so that a value for another kind is no matter of its type.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use schemars::JsonSchema;
 use serde_json::Value;
 
@@ -48,17 +51,28 @@ fn own<K: Kind>(kind: &K) -> impl Iterator<Item = &'static str> {
         .copied()
 }
 
+/// A kind by its name, and the keys that it takes beside those that all of them have.
+type Taker = (String, Vec<&'static str>);
+
+/// All kinds of a part of a scene, which are found in its schema once.
+fn kinds<K: Kind + JsonSchema>() -> &'static [Taker] {
+    static KINDS: Mutex<BTreeMap<&str, &[Taker]>> = Mutex::new(BTreeMap::new());
+    let mut found = KINDS.lock().unwrap_or_else(PoisonError::into_inner);
+    found.entry(K::PART).or_insert_with(|| {
+        let schema = schemars::schema_for!(K);
+        let kinds = schema.as_value()["oneOf"].as_array().into_iter().flatten();
+        let kinds = kinds.filter_map(|known| {
+            let kind: K = serde_json::from_value(known["const"].clone()).ok()?;
+            Some((known["const"].as_str()?.to_owned(), own(&kind).collect()))
+        });
+        Vec::leak(kinds.collect())
+    })
+}
+
 /// What is said of a key that other kinds take and this one does not; nothing of one that none takes.
 fn strange<K: Kind + JsonSchema>(kind: &K, key: &str, name: &Value) -> Option<String> {
-    let schema = schemars::schema_for!(K);
-    let kinds = schema.as_value()["oneOf"].as_array();
-    let takers = kinds.into_iter().flatten().filter_map(|known| {
-        let of: K = serde_json::from_value(known["const"].clone()).ok()?;
-        own(&of)
-            .any(|own| own == key)
-            .then_some(known["const"].as_str()?)
-    });
-    let takers: Vec<&str> = takers.collect();
+    let takers = kinds::<K>().iter().filter(|(_, keys)| keys.contains(&key));
+    let takers: Vec<&str> = takers.map(|(name, _)| name.as_str()).collect();
     if takers.is_empty() {
         return None;
     }
