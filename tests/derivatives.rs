@@ -82,7 +82,7 @@ impl Moving {
         let scene = Scene::from_json(&scene.to_string()).expect("a valid scene");
         // Any mesh does.
         let budget = Budget {
-            seconds: 0.5,
+            seconds: 0.1,
             ..Budget::default()
         };
         let (mut scene, _) = plan(&scene, &budget, &mut |_, _, _| ()).expect("a plan");

@@ -161,7 +161,7 @@ fn told(pointer: &str, value: Value) -> String {
 fn planned(text: &str) -> Result<Scene, String> {
     let scene = Scene::from_json(text).map_err(|error| error.to_string())?;
     let budget = Budget {
-        seconds: 2.0,
+        seconds: 0.3,
         ..Budget::default()
     };
     let planned = plan(&scene, &budget, &mut |_, _, _| ());
