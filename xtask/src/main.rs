@@ -101,7 +101,11 @@ enum Command {
         output: Option<PathBuf>,
     },
     /// Runs every check: formatting, clippy, Rust tests, generated files, the FMUs under fmpy
-    Test,
+    Test {
+        /// Words of the names of the checks to run [default: all]
+        #[arg(value_name = "WORD")]
+        words: Vec<String>,
+    },
 }
 
 /// What is passed on as it is.
@@ -147,7 +151,7 @@ fn main() -> ExitCode {
         Command::ViewBundle => view_bundle::regenerate(&workspace),
         Command::Chart { charts, draw } => chart::chart(&workspace, &charts, !draw),
         Command::Partners { output } => partners::partners(&workspace, output.as_deref()),
-        Command::Test => test::test(&workspace),
+        Command::Test { words } => test::test(&workspace, &words),
     });
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use packing::{Platform, shown};
 
 use crate::cargo::{Workspace, release};
@@ -31,10 +31,22 @@ const STEPS: [Step; 12] = [
     ("fuzzing", fuzz::test),
 ];
 
-/// Runs every check and stops at the first that fails.
-pub fn test(workspace: &Workspace) -> Result<()> {
+/// Runs every check, or those whose names have one of some words, and stops at the first that fails.
+///
+/// # Errors
+/// What failed; no check has one of the words.
+pub fn test(workspace: &Workspace, words: &[String]) -> Result<()> {
     let started = Instant::now();
-    for (index, (name, step)) in STEPS.iter().enumerate() {
+    let is_meant = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word));
+    let steps = STEPS.iter().enumerate();
+    let steps: Vec<_> = steps.filter(|(_, (name, _))| is_meant(name)).collect();
+    let names = STEPS.map(|(name, _)| name).join(", ");
+    ensure!(
+        !steps.is_empty(),
+        "expected words of {names}, found {}",
+        words.join(", ")
+    );
+    for (index, (name, step)) in steps {
         let place = format!("[{}/{}] {name}", index + 1, STEPS.len());
         eprintln!("{place}");
         let step_started = Instant::now();
@@ -44,8 +56,9 @@ pub fn test(workspace: &Workspace) -> Result<()> {
             step_started.elapsed().as_secs_f64()
         );
     }
+    let which = if words.is_empty() { "all" } else { "these" };
     eprintln!(
-        "all checks passed in {:.1} s",
+        "{which} checks passed in {:.1} s",
         started.elapsed().as_secs_f64()
     );
     Ok(())
