@@ -32,6 +32,7 @@ FLAGS = {
 TOLERANCE = 1e-11
 # Communication steps to a state in motion.
 STEPS = 5
+COARSE = 8
 ERROR = 3
 LOADS = {"N", "N.m", "N/m"}
 
@@ -56,6 +57,10 @@ def moving(fmu):
 def started(instance, steps, step=None):
     """Initializes and steps; the time then, and the step."""
     step = step or 0.2 * float(instance.fmu.description.defaultExperiment.stepSize)
+    # The waves of fine meshes are too quick for differences.
+    for name in instance.fmu.names("parameter"):
+        if name.endswith(".elements"):
+            instance.set({name: min(COARSE, int(instance.fmu.variable(name).start))})
     instance.initialize({"relative_tolerance": TOLERANCE})
     for number in range(steps):
         instance.set({name: value + pushed(name, value) for name, value in starts(instance.fmu).items()})
@@ -190,6 +195,9 @@ def test_output_derivatives_are_those_of_differences(moving):
         rows = courses(instance, time + 2 * near, near, 5)
         told[near] = differences(rows, near)
         sizes = [max(map(abs, column)) for column in zip(*rows)]
+        # Rounding of one component of a vector is in the others too.
+        vectors = [name.split("[")[0] for name in outputs]
+        sizes = [max(size for size, other in zip(sizes, vectors) if other == vector) for vector in vectors]
     coarse, fine = told.values()
     instance.slave.setFMUstate(state)
     near = 0.01 * step

@@ -1,7 +1,6 @@
 //! Keys that a kind does not take: told before anything is read, so that a value for another kind is no matter of its type.
 
-use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::cell::LazyCell;
 
 use schemars::JsonSchema;
 use serde_json::Value;
@@ -28,6 +27,7 @@ pub fn check_keys(scene: &Value) -> Result<(), Error> {
 
 fn check<K: Kind + JsonSchema>(list: &Value, place: &str) -> Result<(), Error> {
     let parts = list.as_array().into_iter().flatten();
+    let others = LazyCell::new(takers::<K>);
     for (index, part) in parts.enumerate() {
         let Ok(kind) = serde_json::from_value::<K>(part["kind"].clone()) else {
             continue;
@@ -36,7 +36,8 @@ fn check<K: Kind + JsonSchema>(list: &Value, place: &str) -> Result<(), Error> {
         let keys = part.as_object().into_iter().flatten();
         let said = keys.filter(|(_, value)| !value.is_null() && **value != Value::Bool(false));
         let mut said = said.filter(|(key, _)| !own(&kind).any(|own| own == key.as_str()));
-        let strange = said.find_map(|(key, _)| Some((key, strange(&kind, key, &part["kind"])?)));
+        let strange =
+            said.find_map(|(key, _)| Some((key, strange(&kind, key, &part["kind"], &others)?)));
         if let Some((key, message)) = strange {
             return Err(Error::new(format!("{place}[{index}].{key}"), message));
         }
@@ -54,24 +55,20 @@ fn own<K: Kind>(kind: &K) -> impl Iterator<Item = &'static str> {
 /// A kind by its name, and the keys that it takes beside those that all of them have.
 type Taker = (String, Vec<&'static str>);
 
-/// All kinds of a part of a scene, which are found in its schema once.
-fn kinds<K: Kind + JsonSchema>() -> &'static [Taker] {
-    static KINDS: Mutex<BTreeMap<&str, &[Taker]>> = Mutex::new(BTreeMap::new());
-    let mut found = KINDS.lock().unwrap_or_else(PoisonError::into_inner);
-    found.entry(K::PART).or_insert_with(|| {
-        let schema = schemars::schema_for!(K);
-        let kinds = schema.as_value()["oneOf"].as_array().into_iter().flatten();
-        let kinds = kinds.filter_map(|known| {
-            let kind: K = serde_json::from_value(known["const"].clone()).ok()?;
-            Some((known["const"].as_str()?.to_owned(), own(&kind).collect()))
-        });
-        Vec::leak(kinds.collect())
-    })
+/// All kinds of a part of a scene, from its schema.
+fn takers<K: Kind + JsonSchema>() -> Vec<Taker> {
+    let schema = schemars::schema_for!(K);
+    let kinds = schema.as_value()["oneOf"].as_array().into_iter().flatten();
+    let takers = kinds.filter_map(|known| {
+        let kind: K = serde_json::from_value(known["const"].clone()).ok()?;
+        Some((known["const"].as_str()?.to_owned(), own(&kind).collect()))
+    });
+    takers.collect()
 }
 
-/// What is said of a key that other kinds take and this one does not; nothing of one that none takes.
-fn strange<K: Kind + JsonSchema>(kind: &K, key: &str, name: &Value) -> Option<String> {
-    let takers = kinds::<K>().iter().filter(|(_, keys)| keys.contains(&key));
+/// What is said of a key that `others` take and this kind does not; nothing of one that none takes.
+fn strange<K: Kind>(kind: &K, key: &str, name: &Value, others: &[Taker]) -> Option<String> {
+    let takers = others.iter().filter(|(_, keys)| keys.contains(&key));
     let takers: Vec<&str> = takers.map(|(name, _)| name.as_str()).collect();
     if takers.is_empty() {
         return None;
