@@ -10,7 +10,7 @@ from fmpy.fmi1 import FMICallException
 from instance import Instance
 
 CASES = ROOT / "tests" / "cases"
-DISCARD, ERROR = 2, 3
+DISCARD = 2
 LAST_SUCCESSFUL_TIME = 2
 # Communication steps before and after a state is saved.
 STEPS = 3
