@@ -40,6 +40,7 @@ handed_on! {
     fn initial_state([&mut] self, time: f64, inputs: &Inputs) -> Result<(State, Spectra), Error>;
     fn modes([&mut] self, state: &State, inputs: &[f64], count: usize) -> Result<Vec<Mode>, String>;
     fn damping_along([&mut] self, state: &State, inputs: &[f64], ways: &[Vec<f64>]) -> Vec<f64>;
+    fn way_to_rest([&mut] self, state: &State, inputs: &[f64], rate: f64) -> Option<f64>;
     fn slow_response([&mut] self, state: &State, asked: (&[f64], usize), rate: f64, of: &[Option<Quantity>]) -> Option<Vec<f64>>;
     fn remarks([&] self) -> &Remarks;
     fn redundant([&mut] self, state: &State) -> Redundant;

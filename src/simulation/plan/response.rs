@@ -13,6 +13,8 @@ use crate::system::{Model, State, slow_response};
 
 /// Most natural frequencies that are compared.
 const MODES: usize = 12;
+/// Root mean square displacement from rest, in sizes of the scene, within which modes about the start are those of the motion.
+const REST: f64 = 0.01;
 /// Root mean square displacement of the answers, in sizes of the scene, and change of an input that is tried first.
 const SMALL: f64 = 1e-5;
 const FIRST: f64 = 1e-6;
@@ -22,8 +24,11 @@ const FIRST: f64 = 1e-6;
 pub(super) struct Responses {
     /// For every input that is held, what every computed variable changes with it.
     pub inputs: Vec<Vec<f64>>,
-    /// Natural frequencies that the communication step resolves, rad/s, the lowest first.
+    /// Squares of natural frequencies that the communication step resolves, 1/s^2, the lowest first; negative where motion grows. None
+    /// where the scene starts far from rest: of what moves as a whole the runs tell more than modes about the start.
     pub frequencies: Vec<f64>,
+    /// The square of one over the length of the experiment, 1/s^2: what is slower is not seen.
+    slow: f64,
 }
 
 impl Responses {
@@ -46,11 +51,15 @@ impl Responses {
             found.unwrap_or_else(|| vec![0.0; quantities.len()])
         });
         let answers = answers.collect();
-        let frequencies = frequencies(engine, state, inputs, PI / step);
+        let frequencies = match engine.way_to_rest(state, inputs, 1.0 / stop) {
+            Some(way) if way <= REST => frequencies(engine, state, inputs, PI / step),
+            _ => Vec::new(),
+        };
         engine.forget();
         Self {
             inputs: answers,
             frequencies,
+            slow: stop.powi(-2),
         }
     }
 
@@ -92,18 +101,20 @@ impl Responses {
         let fine = closer.frequencies.iter().enumerate();
         let differences = fine.map(|(index, fine)| {
             let own = self.frequencies.get(index).copied().unwrap_or(0.0);
-            ((own - fine) / fine).abs().min(1.0)
+            // Of a frequency it is half of that of the square.
+            (0.5 * (own - fine) / (fine.abs() + closer.slow))
+                .abs()
+                .min(1.0)
         });
         differences.fold(0.0, f64::max)
     }
 }
 
-/// Natural frequencies below a limit, rad/s; none where there are none to be had.
+/// Squares of natural frequencies below a limit, rad/s; none where there are none to be had.
 fn frequencies(engine: &mut AnyEngine, state: &State, inputs: &[f64], limit: f64) -> Vec<f64> {
     let modes = engine.modes(state, inputs, MODES).unwrap_or_default();
     let squares = modes.into_iter().map(|mode| mode.square);
-    let swinging = squares.filter(|square| *square > 0.0);
-    let mut found: Vec<f64> = swinging.map(f64::sqrt).filter(|f| *f < limit).collect();
+    let mut found: Vec<f64> = squares.filter(|square| *square < limit * limit).collect();
     found.truncate(MODES);
     found
 }
@@ -116,6 +127,23 @@ fn still(state: &State) -> State {
 }
 
 impl<const D: usize> Engine<D> {
+    /// How far a state at rest is from where forces would let it be, as far as it gets at a rate (1/s): root mean square displacement
+    /// in sizes of the scene. Nothing where the linearized equations cannot be solved.
+    pub(in crate::simulation) fn way_to_rest(
+        &mut self,
+        state: &State,
+        inputs: &[f64],
+        rate: f64,
+    ) -> Option<f64> {
+        let system = &self.assembled.system;
+        let at = still(state);
+        let mut way = vec![0.0; state.coordinates.len()];
+        let mut model = Model::new(system, inputs, &mut self.work, &at);
+        model.accelerate(at.time, &at.coordinates, &at.rates, &mut way);
+        let solved = slow_response(system, inputs, &mut self.work, &at, rate, &mut way);
+        solved.then(|| norm(&way) / (system.size() * system.mass().sqrt()))
+    }
+
     /// What quantities change with an input, by its place among inputs with these values, that grows at a rate (1/s) from a state
     /// at rest; zero of what is none. Nothing where the linearized equations cannot be solved.
     pub(in crate::simulation) fn slow_response(
