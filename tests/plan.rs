@@ -230,6 +230,10 @@ fn what_cannot_be_asked_for_is_refused_with_its_place() {
             "accuracy.of[0]: expected the name of an output, without an index, found \"rod.tip.position\"",
         ),
         (
+            json!({"of": ["rod.natural_freqency"]}),
+            "accuracy.of[0]: expected the name of an output, without an index, found \"rod.natural_freqency\"; did you mean `natural_frequency`?",
+        ),
+        (
             json!({"for": [{"input": "wind", "from": 0, "to": 1}]}),
             "accuracy.for[0].input: expected the name of an input, found \"wind\"",
         ),

@@ -2,7 +2,7 @@
 
 use super::experiment::Run;
 use crate::math::vector::norm;
-use crate::scene::{Error, Scene};
+use crate::scene::{Error, Scene, did_you_mean};
 use crate::simulation::quantities::{self, Evaluated};
 use crate::simulation::{Quantity, Source, Unit, Variable};
 
@@ -119,8 +119,9 @@ pub(super) fn groups(scene: &Scene, variables: &[Variable]) -> Result<Vec<Group>
     }
     for (place, of) in wanted.iter().enumerate() {
         if !groups.iter().any(|group| group.name == *of) {
+            let meant = did_you_mean(of, groups.iter().map(|group| group.name.as_str()));
             let message =
-                format!("expected the name of an output, without an index, found \"{of}\"");
+                format!("expected the name of an output, without an index, found \"{of}\"{meant}");
             return Err(Error::new(format!("accuracy.of[{place}]"), message));
         }
     }
