@@ -23,6 +23,12 @@ pub trait Kind: DeserializeOwned {
     fn keys(&self) -> &'static [Keys];
 }
 
+/// The kinds that a definition in a schema lists, each with what it says of it.
+pub fn listed<K: Kind>(definition: &Value) -> impl Iterator<Item = (K, &Value)> {
+    let kinds = definition["oneOf"].as_array().into_iter().flatten();
+    kinds.filter_map(|told| Some((serde_json::from_value(told["const"].clone()).ok()?, told)))
+}
+
 /// Makes one titled variant for every kind of all parts, each with the keys that it takes.
 pub fn tell_apart(schema: &mut Schema) {
     tell::<JointKind>(schema);
@@ -36,8 +42,7 @@ pub fn tell_apart(schema: &mut Schema) {
 fn tell<K: Kind>(schema: &mut Schema) {
     let pointer = |name: &str| format!("/$defs/{name}");
     let kinds = schema.pointer(&pointer(&format!("{}Kind", K::PART)));
-    let kinds = kinds.and_then(|kinds| kinds["oneOf"].as_array().cloned());
-    let kinds = kinds.unwrap_or_default().into_iter();
+    let kinds = kinds.cloned().unwrap_or_default();
     // Unlike anything else in the schema: models made of it are named so.
     let title = |kind: &Value| {
         let name = camel_case(kind["const"].as_str().unwrap_or_default());
@@ -47,12 +52,8 @@ fn tell<K: Kind>(schema: &mut Schema) {
         }
     };
     // Names, what they mean and which keys they take.
-    let kinds: Vec<(Value, String, &[Keys])> = kinds
-        .filter_map(|kind| {
-            let parsed: K = serde_json::from_value(kind["const"].clone()).ok()?;
-            let title = title(&kind);
-            Some((kind, title, parsed.keys()))
-        })
+    let kinds: Vec<(&Value, String, &[Keys])> = listed::<K>(&kinds)
+        .map(|(kind, told)| (told, title(told), kind.keys()))
         .collect();
     let Some(part) = schema.pointer_mut(&pointer(K::PART)) else {
         return;

@@ -5,6 +5,7 @@ use std::cell::LazyCell;
 use schemars::JsonSchema;
 use serde_json::Value;
 
+use super::kinds::listed;
 use super::{InputKind, JointKind, Kind, LoadKind, MotionKind, OutputKind, PortKind};
 use crate::scene::Error;
 
@@ -58,10 +59,8 @@ type Taker = (String, Vec<&'static str>);
 /// All kinds of a part of a scene, from its schema.
 fn takers<K: Kind + JsonSchema>() -> Vec<Taker> {
     let schema = schemars::schema_for!(K);
-    let kinds = schema.as_value()["oneOf"].as_array().into_iter().flatten();
-    let takers = kinds.filter_map(|known| {
-        let kind: K = serde_json::from_value(known["const"].clone()).ok()?;
-        Some((known["const"].as_str()?.to_owned(), own(&kind).collect()))
+    let takers = listed::<K>(schema.as_value()).filter_map(|(kind, told)| {
+        Some((told["const"].as_str()?.to_owned(), own(&kind).collect()))
     });
     takers.collect()
 }
