@@ -59,8 +59,8 @@ pub(super) fn begin(
     method.keep(step);
 }
 
-/// Goes on within the step under way, to `until` or to its end, whichever comes first. A state that constraints cannot
-/// be kept in, or that rods do not have, is taken back to where the step began.
+/// Goes on within the step under way, to `until` or to its end, whichever comes first. Where constraints cannot be kept, or an element
+/// of a rod is bent or twisted too far, the state is taken back to where the step began, and shorter steps follow.
 pub(super) fn follow(
     method: &mut dyn Method,
     dynamics: &mut dyn Dynamics,

@@ -31,9 +31,6 @@ const END: usize = 2;
 const ITERATIONS: i32 = 10;
 /// Largest turn of a slope in one step, rad: beyond it Newton may land on a spurious root.
 const LARGEST_TURN: f64 = 1.5;
-/// The same beyond which an element that is bent or twisted too far is one, too: waves in a rod with hardly any mass have a root at
-/// every whole turn of its sections.
-const DOUBTED_TURN: f64 = 0.1;
 /// Rate of convergence below which the tangent is kept for the next step.
 const FAST: f64 = 1e-3;
 
@@ -230,8 +227,9 @@ impl Radau {
         if error < 1.0 || !error.is_finite() || !is_doubted {
             return error;
         }
-        // After a rejection or at the start the estimate is filtered once more. Vibrations that do not die away still count by their
-        // displacements; by their velocities those would count that nobody sees.
+        // After a rejection or at the start the estimate is filtered once more. Where nothing is damped, displacements of vibrations
+        // count as they were before: the second filter hides what the step loses of them. Their velocities do not count, since those
+        // of waves in light bodies are large where displacements are below the tolerance.
         let lost = if dynamics.is_damped() {
             0.0
         } else {
@@ -404,8 +402,7 @@ impl Method for Radau {
             return fail(self, factor);
         }
         self.place(END, q, v);
-        let turn = dynamics.largest_turn(q, &self.stage_q);
-        if turn > LARGEST_TURN || (turn > DOUBTED_TURN && dynamics.is_overbent()) {
+        if dynamics.largest_turn(q, &self.stage_q) > LARGEST_TURN {
             return fail(self, 0.5);
         }
         let error = self.estimate(dynamics, state, h, tolerance);

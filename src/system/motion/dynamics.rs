@@ -57,10 +57,6 @@ pub trait Dynamics {
     fn apply_damping(&mut self, x: &mut [f64]);
     /// Largest rotation of any direction, rad, and change of any stretch between two configurations.
     fn largest_turn(&mut self, from: &[f64], to: &[f64]) -> f64;
-    /// Whether an element of a rod is bent or twisted beyond what its frames hold where [`Dynamics::largest_turn`] last went to.
-    fn is_overbent(&mut self) -> bool {
-        false
-    }
     /// Before a step: a state whose rotations are large is put in terms of smaller ones. Whether it was; its coordinates,
     /// rates and accelerations are others then, the motion is the same.
     fn renew(&mut self, _state: &mut State) -> bool {
@@ -440,10 +436,6 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         self.work.other.copy_from_slice(&self.work.x);
         system.forward_kinematics(time, to, None, self.work);
         largest_turn(&self.work.other, &self.work.x)
-    }
-
-    fn is_overbent(&mut self) -> bool {
-        self.system.overbent(&self.work.x).is_some()
     }
 
     fn renew(&mut self, state: &mut State) -> bool {
