@@ -14,11 +14,9 @@ const STEPS: u32 = 30;
 /// Tolerance of the runs, as loose as plans have it, and of those that they are compared with.
 const TOLERANCE: f64 = 1e-2;
 const CLOSE: f64 = 1e-7;
-/// How many times the error with even steps, or the least one that counts where that is more, the error with uneven ones may be: what
-/// Newton's iteration leaves in a step adds up with their number, and errors of one run cancel otherwise than those of another. Another
-/// method makes it a hundred times.
-const LIMIT: f64 = 6.0;
-const LEAST: f64 = 1e-5;
+/// How many times the error with even steps the error with uneven ones may be, and what is no error: a tenth of what is wanted.
+const LIMIT: f64 = 3.0;
+const LEAST: f64 = 1e-4;
 /// A communication step that is next to nothing, s.
 const NOTHING: f64 = 1e-12;
 
@@ -133,7 +131,7 @@ fn uneven_steps_keep_the_error_of_even_ones() {
                     "{} {name} {parts:?}: {found:.1e} for {wanted:.1e} {ends:?}",
                     scene.name
                 );
-                if found > LIMIT * wanted.max(LEAST) {
+                if found > (LIMIT * wanted).max(LEAST) {
                     off.push(format!(
                         "{} {name} {parts:?}: {found:.1e} for {wanted:.1e}",
                         scene.name

@@ -277,7 +277,12 @@ fn advance_smoothly(
         let from = (state.time, &state.coordinates[..], &state.rates[..]);
         match bounded(method.attempt(dynamics, from, trial.h, tolerance), method) {
             Attempt::Done(error) if error <= 1.0 => {
-                state.step = controller.accept(trial, error, state.step);
+                // The first proposal is a guess, which no error has confirmed: a step that is cut short replaces it.
+                let judged = Trial {
+                    is_cut: trial.is_cut && is_settled,
+                    ..trial
+                };
+                state.step = controller.accept(judged, error, state.step);
                 is_settled = !trial.has_grown(state.step);
                 counts.steps += 1;
                 if is_beyond {
