@@ -110,4 +110,7 @@ def picture(path, panels):
     text = io.StringIO()
     with matplotlib.rc_context(STYLE):
         drawing(panels).savefig(text, format="svg", metadata={"Date": None, "Creator": None})
-    path.write_text(re.sub(r"(\d\.\d\d)\d+", r"\1", text.getvalue()), encoding="utf-8", newline="\n")
+    # Names of marks and clip paths follow from the last bits of numbers, which machines round otherwise.
+    numbers = {}
+    named = re.sub(r"\b[mp][0-9a-f]{10}\b", lambda name: f"{name[0][0]}{numbers.setdefault(name[0], len(numbers))}", text.getvalue())
+    path.write_text(re.sub(r"(\d\.\d\d)\d+", r"\1", named), encoding="utf-8", newline="\n")
