@@ -10,7 +10,7 @@ from fmpy.fmi1 import FMICallException
 from instance import Instance
 
 CASES = ROOT / "tests" / "cases"
-DISCARD = 2
+DISCARD, ERROR = 2, 3
 LAST_SUCCESSFUL_TIME = 2
 # Communication steps before and after a state is saved.
 STEPS = 3
@@ -121,6 +121,9 @@ def test_inputs_of_springs_and_hinges_work(edited):
         assert gained == pytest.approx(work, abs=1e-3)
 
 
+LOOP = ("pivot", "crank_pin", "rocker_pin", "rocker_pivot")
+
+
 def test_a_loop_that_cannot_close_names_its_joints(edited):
     def part(scene):
         (far,) = [joint for joint in scene["joints"] if joint["name"] == "rocker_pivot"]
@@ -130,7 +133,23 @@ def test_a_loop_that_cannot_close_names_its_joints(edited):
         edited(ROOT / "scenes" / "four_bar.json", part)
     message = str(failure.value)
     assert "fit together" in message
-    assert all(name in message for name in ("pivot", "crank_pin", "rocker_pin", "rocker_pivot"))
+    assert all(name in message for name in LOOP)
+
+
+def test_a_loop_that_an_input_opens_names_its_joints(edited):
+    def drive(scene):
+        scene["motions"] = [{"name": "drag", "kind": "position", "marker": "rocker.pin", "value": {"input": 0}}]
+        # Nothing is left to plan.
+        scene["bodies"][1]["elements"] = 4
+        scene["accuracy"] = {}
+
+    with Instance(edited(ROOT / "scenes" / "four_bar.json", drive)) as instance:
+        with pytest.raises(FMICallException) as failure:
+            instance.initialize({"drag.position[1]": 5.0, "drag.position[2]": 0.0})
+        message = "\n".join(instance.messages)
+    assert failure.value.status == ERROR
+    assert "fit together" in message
+    assert all(name in message for name in (*LOOP, "drag"))
 
 
 def test_a_motion_of_what_is_held_is_refused_with_its_place(edited):
