@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use flexbody::scene::{Axial, Body, Model, Scene};
-use flexbody::simulation::{Budget, Plan, Settles, Signals, Simulation, courses, plan};
+use flexbody::simulation::{Budget, Plan, Settles, Simulation, plan};
 use serde_json::{Value, json};
 
 /// A beam of one metre between two pins, on rollers at its end.
@@ -114,76 +114,6 @@ fn the_same_plan_every_time() {
         Ok((again.clone(), None)),
         "nothing is left to plan"
     );
-}
-
-#[test]
-fn an_input_moves_in_the_experiment_that_is_planned_for() {
-    let moved = |course: Option<&str>| {
-        edited(BEAM, |scene| {
-            scene["inputs"] = json!([{"kind": "force", "marker": "rod.middle"}]);
-            scene["outputs"] = json!([{"kind": "position", "marker": "rod.middle"}]);
-            scene["experiment"] = json!({"stop_time": 0.05, "step": 1e-3});
-            scene["accuracy"] = json!({"error": 1e-4});
-            if let Some(course) = course {
-                scene["accuracy"]["for"] = json!([{"input": "rod.middle.force[2]", "from": 0, "to": -100, "course": course}]);
-            }
-        })
-    };
-    let still = planned(&moved(None).expect("a scene"))
-        .expect("a plan")
-        .1
-        .expect("a plan");
-    assert_eq!(still.held, ["rod.middle.force[1]", "rod.middle.force[2]"]);
-    assert!(still.outputs[0].error < 1e-9, "nothing moves");
-    // What the force would do is known all the same.
-    let answer = &still.answers[1];
-    assert_eq!(answer.0, "answer to rod.middle.force[2]");
-    assert!(answer.1 <= 1e-4, "{:?}", still.answers);
-    for course in ["ramp", "step", "sine"] {
-        let (_, plan) = planned(&moved(Some(course)).expect("a scene")).expect("a plan");
-        let plan = plan.expect("a plan");
-        assert_eq!(plan.held, ["rod.middle.force[1]"]);
-        assert!(plan.outputs[0].error > 0.0, "{course} moves nothing");
-        assert!(plan.outputs[0].error < 1e-4, "{course}");
-    }
-}
-
-/// What the planner ran can be run again: the largest speed, which it measures speeds by, comes out to the bit.
-#[test]
-fn the_course_of_inputs_makes_the_planned_experiment_again() {
-    let scene = edited(BEAM, |scene| {
-        scene["inputs"] = json!([{"kind": "force", "marker": "rod.middle"}]);
-        scene["outputs"] = json!([{"kind": "velocity", "marker": "rod.middle"}]);
-        scene["experiment"] = json!({"stop_time": 0.02, "step": 1e-3});
-        let course =
-            json!({"input": "rod.middle.force[2]", "from": 0, "to": -100, "course": "step"});
-        scene["accuracy"] = json!({"error": 1e-2, "for": [course]});
-    });
-    let scene = scene.expect("a scene");
-    let (chosen, plan) = planned(&scene).expect("a plan");
-    let text = courses(&scene).expect("courses").expect("one that moves");
-    let mut simulation = Simulation::new(chosen);
-    let signals = Signals::from_csv(&text, simulation.variables()).expect("signals");
-    simulation.set_inputs(&signals).expect("inputs");
-    simulation.initialize(0.0).expect("a start");
-    simulation.start().expect("a start");
-    let names = ["rod.middle.velocity[1]", "rod.middle.velocity[2]"];
-    let indices = names.map(|name| {
-        let mut variables = simulation.variables().iter();
-        variables.position(|v| v.name == name).expect(name)
-    });
-    let mut largest = 0.0_f64;
-    for number in 1..=20 {
-        let until = (f64::from(number) * 1e-3).min(0.02);
-        while simulation.time() < until {
-            simulation.step_along(&signals, until).expect("a step");
-        }
-        let [x, y] = indices.map(|index| simulation.real(index).expect("a speed"));
-        largest = largest.max((x * x + y * y).sqrt());
-    }
-    let output = &plan.expect("a plan").outputs[0];
-    assert!(largest > 0.0 && !output.skips_start);
-    assert_eq!(output.scale, largest);
 }
 
 /// Two rigid pendulums in one, let go from high up: chaotic.

@@ -290,7 +290,7 @@ fn experiment(path: &std::path::Path) -> (u64, u64) {
     let (stop, step) = (proposed("stop_time"), proposed("step"));
     let courses = courses(&Scene::from_json(&text).expect("a scene")).expect("courses of inputs");
     let mut simulation = Simulation::new(planned(&text).expect("a scene"));
-    let signals = courses.map(|table| Signals::from_csv(&table, simulation.variables()));
+    let signals = courses.map(|table| table.signals(simulation.variables()));
     let signals = signals.transpose().expect("signals");
     if let Some(signals) = &signals {
         simulation.set_inputs(signals).expect("start values");

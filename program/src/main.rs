@@ -10,6 +10,7 @@ use flexbody::scene::Scene;
 mod describing;
 mod files;
 mod icon;
+mod inputs;
 mod merging;
 mod packaging;
 mod planning;

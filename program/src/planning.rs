@@ -6,10 +6,12 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
 use flexbody::scene::{Chosen, Scene, remarks};
-use flexbody::simulation::{self, Budget, Damped, Plan, Planned, Settles};
+use flexbody::simulation::{self, Budget, Damped, Given, Plan, Planned, Settles};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::inputs::{Inputs, signals};
 use crate::reading::{at, read};
+use crate::settings::assignments;
 
 /// What planning may cost, and what becomes of a plan that misses the error wanted.
 #[derive(Clone, clap::Args)]
@@ -55,15 +57,30 @@ pub struct Planning {
     /// JSON file for the plan: elements and fewest elements of bodies, tolerance, errors of outputs, runs.
     #[arg(long)]
     report: Option<PathBuf>,
-    /// CSV file for what inputs do meanwhile (`accuracy.for`), which `simulate --input` reads; not written where
-    /// none moves.
+    /// CSV file for what inputs do by `accuracy.for`, which `simulate --input` reads; not written where none moves.
     #[arg(long)]
-    inputs: Option<PathBuf>,
+    courses: Option<PathBuf>,
+    /// What inputs do in place of `accuracy.for`.
+    #[command(flatten)]
+    inputs: Inputs,
+    /// Value of a parameter or input that is planned for, e.g. `rod.density=7800`; may be repeated.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    set: Vec<String>,
 }
 
 /// Reads a scene, and plans it where it leaves elements or numbers to the planner.
 pub fn planned(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
-    let found = planned_quietly(path, within)?;
+    planned_for(path, &read(path)?, &Given::default(), within)
+}
+
+/// Plans a scene that was read from a file for given parameters and inputs, where it leaves something to the planner.
+pub fn planned_for(
+    path: &Path,
+    scene: &Scene,
+    given: &Given,
+    within: &Within,
+) -> Result<(Scene, Planned)> {
+    let found = planned_quietly(path, scene, given, within)?;
     let Some(plan) = &found.1.numbers else {
         return Ok(found);
     };
@@ -76,9 +93,13 @@ pub fn planned(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
 }
 
 /// The same, where the plan is told otherwise.
-fn planned_quietly(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
-    let scene = read(path)?;
-    tell_remarks(&scene);
+fn planned_quietly(
+    path: &Path,
+    scene: &Scene,
+    given: &Given,
+    within: &Within,
+) -> Result<(Scene, Planned)> {
+    tell_remarks(scene);
     let started = Instant::now();
     let budget = Budget {
         seconds: within.budget,
@@ -89,7 +110,7 @@ fn planned_quietly(path: &Path, within: &Within) -> Result<(Scene, Planned)> {
         bar.set_style(style);
     }
     bar.enable_steady_tick(Duration::from_millis(100));
-    let found = simulation::plan(&scene, &budget, &mut |run, elements, tolerance| {
+    let found = simulation::plan_for(scene, given, &budget, &mut |run, elements, tolerance| {
         bar.set_message(format!(
             "run {run}: {elements} elements, tolerance {tolerance:e}"
         ));
@@ -108,7 +129,18 @@ fn tell_remarks(scene: &Scene) {
 /// Plans a scene and prints the plan.
 pub fn plan(arguments: &Planning) -> Result<()> {
     let path = &arguments.scene;
-    let (scene, planned) = planned_quietly(path, &arguments.within)?;
+    let scene = read(path)?;
+    let table = arguments.inputs.table()?;
+    if let Some((table, path)) = &table {
+        let variables = simulation::variables(&scene);
+        signals((table, path), &variables, scene.experiment.stop_time)?;
+    }
+    let given = Given {
+        set: assignments(&scene, &arguments.set)?,
+        inputs: table.map(|(table, _)| table),
+    };
+    let courses = simulation::courses(&scene).map_err(|error| at(path, error))?;
+    let (scene, planned) = planned_quietly(path, &scene, &given, &arguments.within)?;
     let Planned {
         elements,
         damping,
@@ -117,9 +149,8 @@ pub fn plan(arguments: &Planning) -> Result<()> {
     if let (Some(file), Some(plan)) = (&arguments.report, numbers) {
         fs::write(file, json(plan)).map_err(|error| at(file, error))?;
     }
-    if let Some(file) = &arguments.inputs {
-        let courses = simulation::courses(&read(path)?).map_err(|error| at(path, error))?;
-        let written = courses.map_or(Ok(()), |text| fs::write(file, text));
+    if let Some(file) = &arguments.courses {
+        let written = courses.map_or(Ok(()), |table| fs::write(file, table.text));
         written.map_err(|error| at(file, error))?;
     }
     print!("{}{}", chosen_in_words(elements), damping_in_words(damping));

@@ -1,32 +1,48 @@
 //! Variables by name: those that are set, and those that were meant.
 
 use anyhow::{Result, anyhow};
-use flexbody::scene::did_you_mean;
-use flexbody::simulation::{Causality, Simulation};
+use flexbody::scene::{Scene, did_you_mean};
+use flexbody::simulation::{Causality, Simulation, Variable, variables};
 
-/// Sets what an option says, and returns the place of the variable.
-pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<usize> {
+/// The name and the value that an option says.
+fn parsed(assignment: &str) -> Result<(&str, f64)> {
     let wrong = |found: &str| anyhow!("--set {assignment}: {found}");
     let (name, value) = assignment
         .split_once('=')
         .ok_or_else(|| wrong("expected NAME=VALUE"))?;
-    let index = settable(simulation, name.trim()).map_err(|found| wrong(&found))?;
     let value = value.trim().parse();
     let value = value.map_err(|_| wrong("expected a number"))?;
+    Ok((name.trim(), value))
+}
+
+/// Sets what an option says, and returns the place of the variable.
+pub fn assign(simulation: &mut Simulation, assignment: &str) -> Result<usize> {
+    let wrong = |found: &str| anyhow!("--set {assignment}: {found}");
+    let (name, value) = parsed(assignment)?;
+    let index = settable(simulation.variables(), name).map_err(|found| wrong(&found))?;
     set(simulation, index, value).map_err(|found| wrong(&found))?;
     Ok(index)
 }
 
+/// Names and values that options say, each of a parameter or an input of a scene.
+pub fn assignments(scene: &Scene, options: &[String]) -> Result<Vec<(String, f64)>> {
+    let variables = variables(scene);
+    let checked = options.iter().map(|option| {
+        let (name, value) = parsed(option)?;
+        settable(&variables, name).map_err(|found| anyhow!("--set {option}: {found}"))?;
+        Ok((name.to_owned(), value))
+    });
+    checked.collect()
+}
+
 /// The parameter or input of a name; without one, what to say.
-pub fn settable(simulation: &Simulation, name: &str) -> Result<usize, String> {
-    let mut variables = simulation.variables().iter();
-    variables
-        .position(|variable| variable.name == name)
-        .ok_or_else(|| {
-            let kinds = |kind| matches!(kind, Causality::Parameter | Causality::Input);
-            let alike = did_you_mean(name, names(simulation, kinds));
-            format!("no variable of this name{alike}")
-        })
+pub fn settable(variables: &[Variable], name: &str) -> Result<usize, String> {
+    let place = variables.iter().position(|variable| variable.name == name);
+    place.ok_or_else(|| {
+        let kinds = |kind| matches!(kind, Causality::Parameter | Causality::Input);
+        let alike = did_you_mean(name, names(variables, kinds));
+        format!("no variable of this name{alike}")
+    })
 }
 
 /// Sets a variable, or says what is wrong.
@@ -51,8 +67,7 @@ pub fn outputs(simulation: &Simulation) -> Vec<usize> {
 }
 
 /// Names of the variables of some kinds.
-pub fn names(simulation: &Simulation, is_wanted: impl Fn(Causality) -> bool) -> Vec<&str> {
-    let variables = simulation.variables().iter();
-    let wanted = variables.filter(|variable| is_wanted(Causality::of(variable)));
+pub fn names(variables: &[Variable], is_wanted: impl Fn(Causality) -> bool) -> Vec<&str> {
+    let wanted = (variables.iter()).filter(|variable| is_wanted(Causality::of(variable)));
     wanted.map(|variable| variable.name.as_str()).collect()
 }

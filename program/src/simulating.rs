@@ -4,17 +4,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow, bail};
-use flexbody::scene::{Experiment, Interpolation, did_you_mean};
+use flexbody::scene::{Experiment, Interpolation};
 use flexbody::simulation::{
-    Causality, Doubtful, NEARLY, Redundant, Report, SignalError, Signals, Simulation, Singular,
+    Causality, Doubtful, Given, InputTable, NEARLY, Redundant, Report, Signals, Simulation,
+    Singular,
 };
 use indicatif::ProgressBar;
 use packing::bar;
 
 use crate::files::{Shapes, Sink, Table};
-use crate::planning::{Within, planned};
-use crate::reading::at;
-use crate::settings::{assign, names};
+use crate::inputs::{self, Inputs};
+use crate::planning::{Within, planned_for};
+use crate::reading::{at, read};
+use crate::settings::{assign, assignments};
 use crate::stopwatch::Stopwatch;
 
 #[derive(clap::Args)]
@@ -32,13 +34,8 @@ pub struct Simulate {
     /// Value of a parameter or input, e.g. `rod.density=7800`; may be repeated.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// CSV file of inputs that vary in time: a column `time` and one for every input, named like it; two rows of one time are
-    /// a jump. Rates of prescribed motions without a column are those of the curve through the values.
-    #[arg(long)]
-    input: Option<PathBuf>,
-    /// The curve through the rows of `--input`.
-    #[arg(long, value_enum, default_value_t = Curve::Linear)]
-    interpolation: Curve,
+    #[command(flatten)]
+    inputs: Inputs,
     /// CSV file; standard output if it is not given.
     #[arg(long)]
     output: Option<PathBuf>,
@@ -51,24 +48,6 @@ pub struct Simulate {
     /// communication point with the places of markers and, at some, of points along the bodies.
     #[arg(long)]
     shapes: Option<PathBuf>,
-}
-
-/// Curves through the rows of a table.
-#[derive(Clone, Copy, clap::ValueEnum)]
-pub enum Curve {
-    /// Straight lines: the rate of a prescribed motion jumps at every row, its acceleration is 0 between them.
-    Linear,
-    /// Cubic splines with continuous first and second derivatives.
-    Spline,
-}
-
-impl From<Curve> for Interpolation {
-    fn from(curve: Curve) -> Self {
-        match curve {
-            Curve::Linear => Self::Linear,
-            Curve::Spline => Self::Spline,
-        }
-    }
 }
 
 /// Communication points, about, that bodies are drawn at.
@@ -148,17 +127,28 @@ impl Cost {
 
 /// Simulates to a table.
 pub fn simulate(arguments: &Simulate) -> Result<()> {
-    let (scene, _) = planned(&arguments.scene, &arguments.within)?;
+    let path = &arguments.scene;
+    let mut scene = read(path)?;
     let stop_time = arguments.stop_time.unwrap_or(scene.experiment.stop_time);
     let step = arguments.step.unwrap_or(scene.experiment.step);
     let points = communication_points(stop_time, step)?;
+    if scene.is_to_be_planned() {
+        // Planned for what is run.
+        scene.experiment = Experiment { stop_time, step };
+    }
+    let table = arguments.inputs.table()?;
+    let given = Given {
+        set: assignments(&scene, &arguments.set)?,
+        inputs: table.as_ref().map(|(table, _)| table.clone()),
+    };
+    let given = given.without_planned(&scene);
+    let (scene, _) = planned_for(path, &scene, &given, &arguments.within)?;
     let mut simulation = Simulation::new(scene);
     let set = arguments.set.iter();
     let set = set.map(|assignment| Ok((&**assignment, assign(&mut simulation, assignment)?)));
     let set: Vec<(&str, usize)> = set.collect::<Result<_>>()?;
-    let input = arguments.input.as_deref();
-    let curve = arguments.interpolation;
-    let signals = input.map(|path| signals(&mut simulation, (path, curve), &set, stop_time));
+    let signals =
+        table.map(|(table, path)| signals(&mut simulation, (&table, path), &set, stop_time));
     let signals = signals.transpose()?;
     let started = simulation.initialize(0.0).and_then(|()| simulation.start());
     started.map_err(|error| at(&arguments.scene, error))?;
@@ -193,22 +183,11 @@ pub fn simulate(arguments: &Simulate) -> Result<()> {
 /// The inputs that vary in time, by a file, set to their values at the start; what is set beside them is none of them.
 fn signals(
     simulation: &mut Simulation,
-    (path, curve): (&Path, Curve),
+    (table, path): (&InputTable, &Path),
     set: &[(&str, usize)],
     stop_time: f64,
 ) -> Result<Signals> {
-    let text = fs::read_to_string(path).map_err(|error| at(path, error))?;
-    let found = Signals::from_csv(&text, simulation.variables()).and_then(|signals| {
-        signals.check_covers(0.0, stop_time)?;
-        signals.interpolated(curve.into())
-    });
-    let signals = found.map_err(|error| match &error {
-        SignalError::Unknown(name) => {
-            let inputs = names(simulation, |kind| kind == Causality::Input);
-            at(path, format!("{error}{}", did_you_mean(name, inputs)))
-        }
-        SignalError::Wrong(_) => at(path, error),
-    })?;
+    let signals = inputs::signals((table, path), simulation.variables(), stop_time)?;
     for &(assignment, index) in set {
         if signals.holds(index) {
             bail!("--set {assignment}: {} sets it already", path.display());
@@ -218,7 +197,7 @@ fn signals(
     set.map_err(|error| at(path, error))?;
     let variables = simulation.variables();
     let following: Vec<&str> = signals.following().map(|i| &*variables[i].name).collect();
-    if let (Curve::Linear, false) = (curve, following.is_empty()) {
+    if let (Interpolation::Linear, false) = (table.curve, following.is_empty()) {
         eprintln!(
             "flexbody: {}: {} follow the straight lines between rows; `--interpolation spline` makes the motion smooth",
             path.display(),

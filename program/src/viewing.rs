@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use flexbody::page;
 use flexbody::scene::Scene;
-use flexbody::simulation::courses;
+use flexbody::simulation::{Given, courses};
 use flexbody::view::{Limits, Recording, Table, gltf, vtk};
 
-use crate::planning::{Within, planned};
+use crate::inputs::Inputs;
+use crate::planning::{Within, planned_for};
 use crate::reading::{at, is_fmu, read};
 use crate::simulating::progress_bar;
 
@@ -26,9 +27,9 @@ pub struct View {
     /// Writes the page without opening it.
     #[arg(long)]
     no_open: bool,
-    /// CSV file of inputs that vary in time, as of `simulate`; what `accuracy.for` says of them if it is not given.
-    #[arg(long)]
-    input: Option<PathBuf>,
+    /// What inputs do, as of `simulate`; what `accuracy.for` says of them if no table is given.
+    #[command(flatten)]
+    inputs: Inputs,
     /// Folder for the surfaces of bodies in every frame as files of VTK, which ParaView opens (`motion.pvd`); no page is written unless it
     /// is named too.
     #[arg(long, value_name = "FOLDER")]
@@ -89,7 +90,7 @@ fn export(arguments: &View, recording: &Recording) -> Result<()> {
 
 fn page_of_table(arguments: &View) -> Result<String> {
     let given = [
-        arguments.input.is_some(),
+        arguments.inputs.input.is_some(),
         arguments.vtk.is_some(),
         arguments.gltf.is_some(),
     ];
@@ -106,26 +107,24 @@ fn page_of_table(arguments: &View) -> Result<String> {
 /// The scene, and its default experiment simulated.
 fn recorded(arguments: &View) -> Result<(Scene, Recording)> {
     let file = &arguments.file;
-    let (scene, given) = match is_fmu(file) {
-        true => (read(file)?, None),
+    let scene = read(file)?;
+    let inputs = arguments.inputs.table()?.map(|(table, _)| table);
+    let given = Given {
+        inputs: inputs.clone(),
+        ..Given::default()
+    };
+    let (scene, inputs) = match is_fmu(file) {
+        true => (scene, inputs),
         false => {
-            let given = courses(&read(file)?).map_err(|error| at(file, error))?;
-            (planned(file, &arguments.within)?.0, given)
+            let courses = courses(&scene).map_err(|error| at(file, error))?;
+            let (planned, _) = planned_for(file, &scene, &given, &arguments.within)?;
+            (planned, inputs.or(courses))
         }
     };
-    let inputs = match &arguments.input {
-        Some(path) => Some(fs::read_to_string(path).map_err(|error| at(path, error))?),
-        None => given,
-    };
     let bar = progress_bar(scene.experiment.steps() as u64);
-    let found = Recording::new(
-        &scene,
-        inputs.as_deref(),
-        &Limits::PAGE,
-        &mut |number, _| {
-            bar.set_position(number);
-        },
-    );
+    let found = Recording::new(&scene, inputs.as_ref(), &Limits::PAGE, &mut |number, _| {
+        bar.set_position(number);
+    });
     bar.finish_and_clear();
     let recording = found.map_err(|error| at(file, error))?;
     if let Some(reason) = recording.stopped() {
@@ -138,7 +137,7 @@ fn recorded(arguments: &View) -> Result<(Scene, Recording)> {
 pub fn motion(file: &Path, scene: &Scene) -> Result<String> {
     let inputs = courses(&read(file)?).map_err(|error| at(file, error))?;
     let bar = progress_bar(scene.experiment.steps() as u64);
-    let section = page::motion(scene, inputs.as_deref(), &mut |number, _| {
+    let section = page::motion(scene, inputs.as_ref(), &mut |number, _| {
         bar.set_position(number);
     });
     bar.finish_and_clear();

@@ -4,14 +4,15 @@ use super::canvas::escape;
 use super::drawing::drawing;
 use super::number::number;
 use crate::scene::Scene;
+use crate::simulation::InputTable;
 use crate::view::{Limits, Recording, Table, document, picture, picture_of_table};
 
 /// What a section of a run in motion stands between: it is that of the machine which made the page, the rest of the page is not.
 const AROUND: [&str; 2] = ["<!-- motion begins -->\n", "<!-- motion ends -->\n"];
 
-/// The default experiment in motion, as a section of a page; inputs follow a CSV file where one is given. Where it cannot be shown, or not
+/// The default experiment in motion, as a section of a page; inputs follow a table where one is given. Where it cannot be shown, or not
 /// to its end, a sentence says why. The same scene gives the same bytes on one machine.
-pub fn motion(scene: &Scene, inputs: Option<&str>, told: &mut dyn FnMut(u64, u64)) -> String {
+pub fn motion(scene: &Scene, inputs: Option<&InputTable>, told: &mut dyn FnMut(u64, u64)) -> String {
     let course = match inputs {
         Some(_) => "Inputs move meanwhile as the scene says for planning.",
         None => "Inputs keep their start values meanwhile.",

@@ -31,13 +31,13 @@ pub use dimension::check;
 pub use fast::TooFast;
 pub use mesh::Unresolved;
 pub use plan::{
-    Budget, Damped, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo,
-    Settled, Settles, courses, plan,
+    Budget, Damped, Given, Plan, Planned, PlannedBody, PlannedOutput, Price, Progress, RelativeTo,
+    Settled, Settles, courses, plan, plan_for,
 };
 pub use propeller::NoPropeller;
 pub use quantities::Quantity;
 pub use shapes::Pose;
-pub use signals::{SignalError, Signals};
+pub use signals::{InputTable, SignalError, Signals};
 pub use singular::{NEARLY, Redundant, Singular};
 pub use snapshot::{Snapshot, Spectra};
 pub use variables::{Causality, DrivePart, Parameter, Source, Unit, Variable, variables};

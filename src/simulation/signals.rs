@@ -24,6 +24,25 @@ pub struct Signals {
     pub(super) implied: Vec<Implied>,
 }
 
+/// A table of inputs as text, and the curve through its rows: what inputs do before the variables are known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InputTable {
+    /// CSV as [`Signals::from_csv`] reads it.
+    pub text: String,
+    /// The curve.
+    pub curve: Interpolation,
+}
+
+impl InputTable {
+    /// The signals of a scene with these variables.
+    ///
+    /// # Errors
+    /// As [`Signals::from_csv`] and [`Signals::interpolated`].
+    pub fn signals(&self, variables: &[Variable]) -> Result<Signals, SignalError> {
+        Signals::from_csv(&self.text, variables)?.interpolated(self.curve)
+    }
+}
+
 /// Why a table of inputs is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SignalError {

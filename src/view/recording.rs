@@ -2,7 +2,7 @@
 
 use super::actions::{Action, actions};
 use crate::scene::Scene;
-use crate::simulation::{Causality, Pose, Signals, Simulation};
+use crate::simulation::{Causality, InputTable, Pose, Signals, Simulation};
 
 /// How much of a run is kept, and how long it may take.
 #[derive(Clone, Copy, Debug)]
@@ -63,21 +63,21 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Simulates the default experiment of a scene, with inputs that follow a CSV file where one is given. After every step it is told how
+    /// Simulates the default experiment of a scene, with inputs that follow a table where one is given. After every step it is told how
     /// many were made, and of how many.
     ///
     /// # Errors
     /// There is no initial state, or it is too large for the limits; inputs that are none. A run that fails later is kept so far.
     pub fn new(
         scene: &Scene,
-        inputs: Option<&str>,
+        inputs: Option<&InputTable>,
         limits: &Limits,
         told: &mut dyn FnMut(u64, u64),
     ) -> Result<Self, String> {
         let mut simulation = Simulation::new(scene.clone());
         let scene = simulation.scene().clone();
         let resolved = scene.resolve().map_err(|error| error.to_string())?;
-        let signals = inputs.map(|text| Signals::from_csv(text, simulation.variables()));
+        let signals = inputs.map(|table| table.signals(simulation.variables()));
         let signals = signals.transpose().map_err(|error| error.to_string())?;
         if let Some(signals) = &signals {
             simulation

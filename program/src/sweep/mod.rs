@@ -182,7 +182,9 @@ impl Common {
             }
             fixed.push((index, name, simulation.setting(index)));
         }
-        let place = |name| settable(&simulation, name).map_err(|error| anyhow!("{name}: {error}"));
+        let place = |name| {
+            settable(simulation.variables(), name).map_err(|error| anyhow!("{name}: {error}"))
+        };
         let varied = axes.names().into_iter().map(place);
         let varied = varied.collect::<Result<_>>().context("--vary")?;
         let outputs = outputs(&simulation);

@@ -362,29 +362,6 @@ A load that the master sets.
 """
 
 
-class InputCourse(Part):
-    """
-    What an input does in the experiment that is planned for.
-    """
-
-    input: StrictStr
-    """
-    Name of the input, with its index where it is a component.
-    """
-    from_: StrictFloat
-    """
-    Value that it starts from.
-    """
-    to: StrictFloat
-    """
-    Value that it goes to.
-    """
-    course: Course = "ramp"
-    """
-    How it goes there.
-    """
-
-
 Integrator = TypeAliasType(
     "Integrator",
     Literal["auto", "radau", "rk4", "dopri853", "verlet", "rkn43", "rkn64"],
@@ -1748,39 +1725,6 @@ Components of a vector or a point: `[x, y]` in the plane, `[x, y, z]` in space.
 """
 
 
-class Accuracy(Part):
-    """
-    What accuracy is asked for: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
-    """
-
-    error: StrictFloat | None = None
-    """
-    Error wanted of every output over the default experiment, relative to its own largest change: of positions, angles and directions
-    from where the scene draws them, of all else from zero. What hardly changes is held to a thousandth of like outputs of its body.
-    By default 1e-3 where numbers of elements are left to the planner. Where nothing is left to it, what warnings and the output
-    `resolution` are measured by: ten times the tolerance where nothing is said.
-    """
-    for_: Annotated[list[InputCourse], Field(validate_default=True)] = []
-    """
-    What inputs do in the experiment that is planned for; those that are not named keep their start values.
-    """
-    notes: list[StrictStr] = []
-    """
-    What the planner could not keep and which inputs it held, in words: written by it, told by units when they are instantiated.
-    """
-    of: list[StrictStr] = []
-    """
-    Names of the outputs that count, without indices; by default all but energies, work and residuals.
-    """
-    relative_tolerance: StrictFloat | None = None
-    """
-    Error in time that a step may make, relative to the length of the body (root mean square
-    over its mass). By default 1e-4; 1e-7 in a scene without cables, which then keeps its energy to
-    0.1 % over a thousand swings or turns. Beside `error`, from which it follows, only where numbers of elements are
-    given.
-    """
-
-
 class InitialMotion(Part):
     """
     Rigid motion of a body at the start.
@@ -1799,6 +1743,39 @@ class InitialMotion(Part):
     velocity: Vector | None = None
     """
     Velocity of the first end of a cable or of the centre of mass of a rigid body, m/s; zero by default.
+    """
+
+
+class InputCourse(Part):
+    """
+    What an input does in the experiment that is planned for: `value`, or a way `from` one value `to` another.
+    """
+
+    input: StrictStr
+    """
+    Name of the input, with its index where it is a component.
+    """
+    course: Course | None = None
+    """
+    How it goes there: `ramp` where nothing is said.
+    """
+    duration: Annotated[StrictFloat | None, Field(gt=0.0)] = None
+    """
+    Time that a ramp takes from the start on, s; it then stays. Where nothing is said it takes a tenth of the experiment, and goes back
+    after half of it.
+    """
+    from_: StrictFloat | None = None
+    """
+    Value that it starts from.
+    """
+    to: StrictFloat | None = None
+    """
+    Value that it goes to.
+    """
+    value: Value | None = None
+    """
+    Its course in time, beside which no other key stands: a number, an expression in `t`, or a table, straight from point to point unless it
+    says `spline`. A driven motion has the rates of this course, where they are inputs without one.
     """
 
 
@@ -2524,6 +2501,39 @@ Surface = TypeAliasType(
 """
 Surface of the ground that is touched from outside; it stands still.
 """
+
+
+class Accuracy(Part):
+    """
+    What accuracy is asked for: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
+    """
+
+    error: StrictFloat | None = None
+    """
+    Error wanted of every output over the default experiment, relative to its own largest change: of positions, angles and directions
+    from where the scene draws them, of all else from zero. What hardly changes is held to a thousandth of like outputs of its body.
+    By default 1e-3 where numbers of elements are left to the planner. Where nothing is left to it, what warnings and the output
+    `resolution` are measured by: ten times the tolerance where nothing is said.
+    """
+    for_: Annotated[list[InputCourse], Field(validate_default=True)] = []
+    """
+    What inputs do in the experiment that is planned for; those that are not named keep their start values.
+    """
+    notes: list[StrictStr] = []
+    """
+    What the planner could not keep and which inputs it held, in words: written by it, told by units when they are instantiated.
+    """
+    of: list[StrictStr] = []
+    """
+    Names of the outputs that count, without indices; by default all but energies, work and residuals.
+    """
+    relative_tolerance: StrictFloat | None = None
+    """
+    Error in time that a step may make, relative to the length of the body (root mean square
+    over its mass). By default 1e-4; 1e-7 in a scene without cables, which then keeps its energy to
+    0.1 % over a thousand swings or turns. Beside `error`, from which it follows, only where numbers of elements are
+    given.
+    """
 
 
 class Cable(Part):

@@ -1,11 +1,10 @@
 //! What accuracy is asked for, and what is left to the planner.
 
+use super::strict::{Strict, typed};
+use super::value::Value;
 use schemars::JsonSchema;
 use serde::de::{Deserializer, Error as _};
 use serde::{Deserialize, Serialize, Serializer};
-use serde_json::Value;
-
-use super::strict::{Strict, typed};
 
 /// What accuracy is asked for: an error, from which meshes and the tolerance follow while packaging, or a tolerance.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,19 +33,30 @@ pub struct Accuracy {
     pub notes: Vec<String>,
 }
 
-/// What an input does in the experiment that is planned for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// What an input does in the experiment that is planned for: `value`, or a way `from` one value `to` another.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InputCourse {
     /// Name of the input, with its index where it is a component.
     pub input: String,
+    /// Its course in time, beside which no other key stands: a number, an expression in `t`, or a table, straight from point to point unless it
+    /// says `spline`. A driven motion has the rates of this course, where they are inputs without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<Value>,
     /// Value that it starts from.
-    pub from: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
     /// Value that it goes to.
-    pub to: f64,
-    /// How it goes there.
-    #[serde(default)]
-    pub course: Course,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// How it goes there: `ramp` where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub course: Option<Course>,
+    /// Time that a ramp takes from the start on, s; it then stays. Where nothing is said it takes a tenth of the experiment, and goes back
+    /// after half of it.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub duration: Option<f64>,
 }
 
 /// Ways from a value to another.
@@ -64,6 +74,8 @@ pub enum Course {
 
 /// A number of elements in JSON: an integer, or `"auto"`, which is none.
 pub(super) mod elements {
+    use serde_json::Value as Json;
+
     use super::*;
 
     /// A number of elements, or the word that leaves it to the planner.
@@ -95,8 +107,8 @@ pub(super) mod elements {
         deserializer: D,
     ) -> Result<Option<u32>, D::Error> {
         match Strict::deserialize(deserializer)?.0 {
-            Value::String(word) if word == "auto" => Ok(None),
-            Value::String(word) => Err(D::Error::custom(format!(
+            Json::String(word) if word == "auto" => Ok(None),
+            Json::String(word) => Err(D::Error::custom(format!(
                 "expected \"auto\" or a positive integer, found \"{word}\""
             ))),
             count => typed(count).map(Some),

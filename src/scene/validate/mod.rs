@@ -1,5 +1,6 @@
 //! Checks that a scene means something, and finds what its names refer to.
 
+mod accuracy;
 mod bodies;
 mod checks;
 mod coaxial;
@@ -35,9 +36,6 @@ pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
 const ALL_ELEMENTS: u64 = 1_000_000;
 /// Relative tolerances: below, the error of a step drowns in roundoff; above, it is none at all.
 pub const TOLERANCE: RangeInclusive<f64> = 1e-12..=0.1;
-/// Errors of outputs that can be asked for.
-const ERROR: RangeInclusive<f64> = 1e-8..=0.1;
-
 impl Scene {
     /// Checks every value of the scene and resolves every reference.
     ///
@@ -68,37 +66,15 @@ impl Scene {
         resolved.resolve_initial()?;
         resolved.check_releases()?;
         resolved.check_winches()?;
-        self.validate_accuracy()?;
         positive("experiment.stop_time", "s", self.experiment.stop_time)?;
         positive("experiment.step", "s", self.experiment.step)?;
+        self.validate_accuracy()?;
         positive(
             "method.work_limit",
             "evaluations times parts",
             self.method.work_limit,
         )?;
         Ok(resolved)
-    }
-
-    fn validate_accuracy(&self) -> Result<(), Error> {
-        let within = |key: &str, range: &RangeInclusive<f64>, value: f64| {
-            let wanted = format!("a number from {:e} to {:e}", range.start(), range.end());
-            match range.contains(&value) {
-                true => Ok(()),
-                false => Err(expected(&format!("accuracy.{key}"), &wanted, value)),
-            }
-        };
-        within("relative_tolerance", &TOLERANCE, self.relative_tolerance())?;
-        let Some(error) = self.accuracy.error else {
-            return Ok(());
-        };
-        within("error", &ERROR, error)?;
-        match self.accuracy.relative_tolerance {
-            Some(_) if self.is_to_be_planned() => {
-                let wanted = "nothing beside `relative_tolerance`, which follows from it with the numbers of elements";
-                Err(expected("accuracy.error", wanted, error))
-            }
-            _ => Ok(()),
-        }
     }
 
     /// The scene with its references resolved.

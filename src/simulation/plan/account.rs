@@ -4,6 +4,7 @@ use super::experiment::Run;
 use super::ladder::Choice;
 use super::outputs::{Difference, RelativeTo};
 use super::report::{Plan, PlannedBody, PlannedOutput, Price, Settles};
+use super::response::FREQUENCIES;
 use super::search::Search;
 
 impl Search<'_, '_> {
@@ -77,8 +78,9 @@ impl Search<'_, '_> {
     /// What doubling changes of the answers to inputs that are held, and of natural frequencies.
     fn answers(&self, in_space: &[Difference]) -> Vec<(String, f64)> {
         let still = self.outputs().len()..in_space.len();
-        still
-            .map(|index| (self.name(index), in_space[index].largest))
+        let told = still.map(|index| (self.name(index), in_space[index].largest));
+        // Nothing changes where no frequency was compared.
+        told.filter(|(name, change)| name != FREQUENCIES || *change > 0.0)
             .collect()
     }
 

@@ -1,17 +1,15 @@
 //! Runs of the default experiment.
 
-use std::f64::consts::PI;
-
+use super::courses::RATES;
+use super::given::Given;
 use super::motion::Motion;
 use super::outputs::RelativeTo;
 use super::response::Responses;
-use crate::scene::{Course, Error, InputCourse, Scene, did_you_mean};
-use crate::simulation::{Causality, Signals, Simulation, Source, Variable, variables};
+use crate::scene::{Error, Scene};
+use crate::simulation::{Causality, InputTable, Simulation, Source, variables};
 
 /// Communication points that are compared, about, where there are more.
-const POINTS: u64 = 10_000;
-/// Times that a cosine goes to and fro.
-const SWINGS: f64 = 3.0;
+pub(super) const POINTS: u64 = 10_000;
 
 /// A run: what is computed, at communication points.
 #[derive(Clone, Debug)]
@@ -50,8 +48,9 @@ pub(super) enum Unfinished {
 
 /// The experiment that is planned for.
 pub(super) struct Experiment {
-    /// Table of the inputs.
-    signals: Option<String>,
+    given: Given,
+    /// What inputs do.
+    moved: Option<InputTable>,
     /// Communication steps.
     pub steps: u64,
     step: f64,
@@ -69,11 +68,13 @@ impl Experiment {
     ///
     /// # Errors
     /// A course of what is no input.
-    pub fn new(scene: &Scene) -> Result<Self, Error> {
+    pub fn new(scene: &Scene, given: &Given) -> Result<Self, Error> {
         let steps = scene.experiment.steps() as u64;
-        let held = held(scene);
+        let moved = given.moved(scene)?;
+        let held = held(scene, moved.as_ref());
         Ok(Self {
-            signals: courses(scene)?,
+            given: given.clone(),
+            moved,
             steps,
             step: scene.experiment.step,
             stop: scene.experiment.stop_time,
@@ -94,9 +95,11 @@ impl Experiment {
     ) -> Result<Run, Unfinished> {
         let failed = |reason: String| Unfinished::Failed(reason);
         let mut simulation = Simulation::new(scene);
+        let set = self.given.set(&mut simulation);
+        set.map_err(|error| failed(error.to_string()))?;
         // Indices of inputs follow from what bodies are.
-        let signals = self.signals.as_deref();
-        let signals = signals.map(|text| Signals::from_csv(text, simulation.variables()));
+        let moved = self.moved.as_ref();
+        let signals = moved.map(|moved| moved.signals(simulation.variables()));
         let signals = signals
             .transpose()
             .map_err(|error| failed(error.to_string()))?;
@@ -215,144 +218,26 @@ fn asked(scene: &Scene, held: &[String]) -> Vec<String> {
     held.iter().chain(others).cloned().collect()
 }
 
-/// Inputs that no course moves, but for the rates of driven motions.
-fn held(scene: &Scene) -> Vec<String> {
+/// Inputs that keep their values, but for the rates of driven motions.
+fn held(scene: &Scene, moved: Option<&InputTable>) -> Vec<String> {
     let variables = variables(scene);
-    let inputs = variables.iter();
-    let inputs = inputs.filter(|variable| Causality::of(variable) == Causality::Input);
-    let names: Vec<&str> = inputs.map(|variable| &variable.name[..]).collect();
+    let signals = moved.and_then(|moved| moved.signals(&variables).ok());
+    let inputs = variables.iter().enumerate();
+    let inputs = inputs.filter(|(_, variable)| Causality::of(variable) == Causality::Input);
+    let inputs: Vec<(usize, &str)> = inputs
+        .map(|(place, input)| (place, &input.name[..]))
+        .collect();
     let is_rate = |name: &str| {
         let mut pairs = RATES.iter().flat_map(|[value, rates @ ..]| {
             let values = rates.iter().map(move |rate| (*rate, *value));
             values.filter(|(rate, _)| name.contains(rate))
         });
-        pairs.any(|(rate, value)| names.contains(&&*name.replace(rate, value)))
+        pairs.any(|(rate, value)| {
+            let of = name.replace(rate, value);
+            inputs.iter().any(|(_, name)| *name == of)
+        })
     };
-    let moved = columns(&scene.accuracy.courses, &variables);
-    let is_moved = |name: &str| moved.iter().any(|(moved, ..)| moved == name);
-    let held = names
-        .iter()
-        .filter(|name| !is_moved(name) && !is_rate(name));
-    held.map(|name| (*name).to_owned()).collect()
-}
-
-/// What inputs do while a scene is planned, as a CSV table with a row at every communication point; nothing where
-/// all keep their start values.
-///
-/// # Errors
-/// A course of what is no input.
-pub fn courses(scene: &Scene) -> Result<Option<String>, Error> {
-    let (courses, steps) = (&scene.accuracy.courses, scene.experiment.steps() as u64);
-    if courses.is_empty() {
-        return Ok(None);
-    }
-    let variables = variables(scene);
-    for (place, course) in courses.iter().enumerate() {
-        let is_input = variables
-            .iter()
-            .any(|v| v.name == course.input && Causality::of(v) == Causality::Input);
-        if !is_input {
-            let inputs = variables
-                .iter()
-                .filter(|v| Causality::of(v) == Causality::Input);
-            let meant = did_you_mean(&course.input, inputs.map(|v| v.name.as_str()));
-            let found = &course.input;
-            let message = format!("expected the name of an input, found \"{found}\"{meant}");
-            return Err(Error::new(format!("accuracy.for[{place}].input"), message));
-        }
-    }
-    let columns = columns(courses, &variables);
-    let names: Vec<&str> = columns.iter().map(|(name, ..)| name.as_str()).collect();
-    let mut text = format!("time,{}\n", names.join(","));
-    let stop = scene.experiment.stop_time;
-    let mut row = |time: f64, passed: [bool; 2]| {
-        let value = |(_, course, order): &(String, &InputCourse, u32)| {
-            format!("{:?}", derivative(course, (time, stop), passed, *order))
-        };
-        let cells: Vec<String> = columns.iter().map(value).collect();
-        text += &format!("{time:?},{}\n", cells.join(","));
-    };
-    let jumps = JUMPS.map(|part| (part * steps as f64).round() as u64);
-    let every = steps / POINTS + 1;
-    for number in 0..=steps {
-        if number % every != 0 && number != steps && !jumps.contains(&number) {
-            continue;
-        }
-        let time = (number as f64 * scene.experiment.step).min(stop);
-        row(time, jumps.map(|jump| number > jump));
-        // A jump is two rows of one time.
-        if jumps.contains(&number) && number < steps {
-            row(time, jumps.map(|jump| number >= jump));
-        }
-    }
-    match Signals::from_csv(&text, &variables) {
-        Ok(_) => Ok(Some(text)),
-        Err(error) => Err(Error::new("accuracy.for", error.to_string())),
-    }
-}
-
-/// Columns of the table: inputs with a course, and the rates of driven motions that follow from it: name, course, order.
-pub(super) fn columns<'a>(
-    courses: &'a [InputCourse],
-    variables: &[Variable],
-) -> Vec<(String, &'a InputCourse, u32)> {
-    let mut found: Vec<(String, &InputCourse, u32)> = Vec::new();
-    for course in courses {
-        found.push((course.input.clone(), course, 0));
-        for [value, rate, acceleration] in RATES {
-            for (name, order) in [(rate, 1), (acceleration, 2)] {
-                let name = course.input.replace(value, name);
-                let is_named = courses.iter().any(|other| other.input == name);
-                if !is_named && variables.iter().any(|variable| variable.name == name) {
-                    found.push((name, course, order));
-                }
-            }
-        }
-    }
-    found
-}
-
-/// Words for a driven coordinate and its derivatives in the names of inputs.
-const RATES: [[&str; 3]; 4] = [
-    [".position", ".velocity", ".acceleration"],
-    [".displacement", ".velocity", ".acceleration"],
-    [".travel", ".velocity", ".acceleration"],
-    [".angle", ".angular_velocity", ".angular_acceleration"],
-];
-
-/// Derivative of an order of a course at a time in an experiment, s; of one that jumps only its value.
-fn derivative(
-    course: &InputCourse,
-    (time, stop): (f64, f64),
-    passed: [bool; 2],
-    order: u32,
-) -> f64 {
-    let value = |time: f64| at(course, time / stop, passed);
-    let h = DIFFERENCE * stop;
-    match (order, course.course) {
-        (0, _) => value(time),
-        (_, Course::Step) => 0.0,
-        (1, _) => (value(time + h) - value(time - h)) / (2.0 * h),
-        _ => (value(time + h) - 2.0 * value(time) + value(time - h)) / (h * h),
-    }
-}
-
-/// Part of the experiment over which courses are differentiated.
-const DIFFERENCE: f64 = 1e-4;
-/// Parts of the experiment after which what jumps does, and ramps begin or end.
-const JUMPS: [f64; 2] = [0.1, 0.5];
-
-/// Value of an input after a part of the experiment, where those jumps have passed.
-fn at(course: &InputCourse, part: f64, passed: [bool; 2]) -> f64 {
-    let InputCourse { from, to, .. } = course;
-    let way = match course.course {
-        Course::Ramp => {
-            let up = (part / JUMPS[0]).clamp(0.0, 1.0);
-            let back = ((part - JUMPS[1]) / JUMPS[0]).clamp(0.0, 1.0);
-            0.5 * ((PI * back).cos() - (PI * up).cos())
-        }
-        Course::Step => f64::from(u8::from(passed[0] && !passed[1])),
-        Course::Sine => 0.5 - 0.5 * (2.0 * PI * SWINGS * part).cos(),
-    };
-    from + way * (to - from)
+    let is_moved = |place: usize| signals.as_ref().is_some_and(|signals| signals.holds(place));
+    let held = (inputs.iter()).filter(|(place, name)| !is_moved(*place) && !is_rate(name));
+    held.map(|(_, name)| (*name).to_owned()).collect()
 }

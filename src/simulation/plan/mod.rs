@@ -5,8 +5,10 @@
 
 mod account;
 mod belief;
+mod courses;
 mod damping;
 mod experiment;
+mod given;
 mod ladder;
 mod motion;
 mod outputs;
@@ -18,9 +20,10 @@ mod shear;
 mod start;
 mod time;
 
+pub use courses::courses;
 pub use damping::Damped;
 pub(super) use damping::damp;
-pub use experiment::courses;
+pub use given::Given;
 pub use outputs::RelativeTo;
 pub use report::{Plan, PlannedBody, PlannedOutput, Price, Settled, Settles};
 
@@ -83,6 +86,19 @@ pub fn plan(
     budget: &Budget<'_>,
     progress: Progress<'_>,
 ) -> Result<(Scene, Planned), Error> {
+    plan_for(scene, &Given::default(), budget, progress)
+}
+
+/// The same where parameters and inputs are given, as a run will have them. The planned scene keeps its own values.
+///
+/// # Errors
+/// As [`plan`]; what is given is not what the scene has, or is a number of elements or the tolerance.
+pub fn plan_for(
+    scene: &Scene,
+    given: &Given,
+    budget: &Budget<'_>,
+    progress: Progress<'_>,
+) -> Result<(Scene, Planned), Error> {
     let (scene, damping) = damp(scene)?;
     let mut elements = scene.choose_elements()?;
     let plain = scene.with_elements(&elements);
@@ -94,9 +110,10 @@ pub fn plan(
         };
         return Ok((plain, planned));
     }
-    start::check_start(&plain)?;
+    given.check(&plain)?;
+    start::check_start(&plain, given)?;
     let beams = Beam::all(&plain, &elements)?;
-    let mut search = Search::new(&plain, beams, budget, &mut *progress)?;
+    let mut search = Search::new(&plain, given, beams, budget, &mut *progress)?;
     let (mut planned, mut plan, sheared) = search.find()?;
     for of in sheared {
         of.judge(&mut elements, plan.error, scene.dimension);
@@ -105,7 +122,7 @@ pub fn plan(
     let sheared = scene.with_elements(&elements);
     if sheared != plain {
         let (runs, work) = (search.runs.len(), search.work);
-        let mut search = Search::new(&sheared, Vec::new(), budget, progress)?;
+        let mut search = Search::new(&sheared, given, Vec::new(), budget, progress)?;
         (planned, plan, _) = search.find()?;
         plan.runs += runs;
         plan.runs_cost *= 1.0 + work / search.work.max(f64::MIN_POSITIVE);

@@ -26,7 +26,7 @@ pub(super) struct Responses {
     pub inputs: Vec<Vec<f64>>,
     /// Squares of natural frequencies that the communication step resolves, 1/s^2, the lowest first; negative where motion grows. None
     /// where the scene starts far from rest: of what moves as a whole the runs tell more than modes about the start.
-    pub frequencies: Vec<f64>,
+    pub squares: Vec<f64>,
     /// The square of one over the length of the experiment, 1/s^2: what is slower is not seen.
     slow: f64,
 }
@@ -51,14 +51,14 @@ impl Responses {
             found.unwrap_or_else(|| vec![0.0; quantities.len()])
         });
         let answers = answers.collect();
-        let frequencies = match engine.way_to_rest(state, inputs, 1.0 / stop) {
-            Some(way) if way <= REST => frequencies(engine, state, inputs, PI / step),
+        let squares = match engine.way_to_rest(state, inputs, 1.0 / stop) {
+            Some(way) if way <= REST => squares(engine, state, inputs, PI / step),
             _ => Vec::new(),
         };
         engine.forget();
         Self {
             inputs: answers,
-            frequencies,
+            squares,
             slow: stop.powi(-2),
         }
     }
@@ -98,9 +98,9 @@ impl Responses {
 
     /// The largest relative change of a natural frequency from one mesh to a finer one: 1 of one that is missing.
     pub fn detuned(&self, closer: &Self) -> f64 {
-        let fine = closer.frequencies.iter().enumerate();
+        let fine = closer.squares.iter().enumerate();
         let differences = fine.map(|(index, fine)| {
-            let own = self.frequencies.get(index).copied().unwrap_or(0.0);
+            let own = self.squares.get(index).copied().unwrap_or(0.0);
             // Of a frequency it is half of that of the square.
             (0.5 * (own - fine) / (fine.abs() + closer.slow))
                 .abs()
@@ -111,7 +111,7 @@ impl Responses {
 }
 
 /// Squares of natural frequencies below a limit, rad/s; none where there are none to be had.
-fn frequencies(engine: &mut AnyEngine, state: &State, inputs: &[f64], limit: f64) -> Vec<f64> {
+fn squares(engine: &mut AnyEngine, state: &State, inputs: &[f64], limit: f64) -> Vec<f64> {
     let modes = engine.modes(state, inputs, MODES).unwrap_or_default();
     let squares = modes.into_iter().map(|mode| mode.square);
     let mut found: Vec<f64> = squares.filter(|square| *square < limit * limit).collect();

@@ -1,6 +1,7 @@
 //! The search for meshes and a tolerance.
 
 use super::experiment::{Experiment, Run, Unfinished};
+use super::given::Given;
 use super::ladder::{Choice, Ladder};
 use super::outputs::{Difference, Group, are_kept, difference, groups, scales};
 use super::report::Plan;
@@ -90,6 +91,7 @@ impl<'a, 'p> Search<'a, 'p> {
     /// A name in `accuracy` that the scene does not have; what is not valid.
     pub fn new(
         scene: &'a Scene,
+        given: &Given,
         beams: Vec<Beam>,
         budget: &Budget<'a>,
         progress: Progress<'p>,
@@ -99,7 +101,7 @@ impl<'a, 'p> Search<'a, 'p> {
             beams,
             counting: groups.iter().filter(|group| group.counts).count(),
             groups,
-            experiment: Experiment::new(scene)?,
+            experiment: Experiment::new(scene, given)?,
             error: scene.error(),
             scene,
             runs: Vec::new(),

@@ -1,9 +1,9 @@
 //! The start of a scene, tried with coarse meshes before anything is planned: what no mesh mends is told at once.
 
-use super::experiment::courses;
+use super::given::Given;
 use super::search::{cables, fewest};
 use crate::scene::{Accuracy, Error, Model, Scene};
-use crate::simulation::{Error as Reason, Signals, Simulation};
+use crate::simulation::{Error as Reason, InputTable, Simulation};
 
 /// How many times as fine as the coarsest a mesh is tried where the mesh is hardly the reason.
 const FINER: u32 = 4;
@@ -17,19 +17,19 @@ const TOLERANCE: f64 = 1e-4;
 ///
 /// # Errors
 /// The reason why it has none.
-pub(super) fn check_start(scene: &Scene) -> Result<(), Error> {
+pub(super) fn check_start(scene: &Scene, given: &Given) -> Result<(), Error> {
     let coarsest = fewest(scene)?;
     let is_free: Vec<bool> = cables(scene)
         .map(|(_, cable)| cable.elements.is_none() && cable.model != Model::Rigid)
         .collect();
     let most = ELEMENTS.max(FINER * coarsest.iter().sum::<u32>());
-    let inputs = courses(scene)?;
+    let moved = given.moved(scene)?;
     let mut finer = 1;
     loop {
         let elements: Vec<u32> = (coarsest.iter().zip(&is_free))
             .map(|(count, is_free)| if *is_free { finer * count } else { *count })
             .collect();
-        let Err(reason) = tried(scene, &elements, inputs.as_deref()) else {
+        let Err(reason) = tried(scene, &elements, (given, moved.as_ref())) else {
             return Ok(());
         };
         let may_be_the_mesh = matches!(reason, Reason::Equilibrium(_) | Reason::Overbent(_));
@@ -44,7 +44,11 @@ pub(super) fn check_start(scene: &Scene) -> Result<(), Error> {
 }
 
 /// Tries to find the start of a scene with these numbers of elements.
-fn tried(scene: &Scene, elements: &[u32], inputs: Option<&str>) -> Result<(), Reason> {
+fn tried(
+    scene: &Scene,
+    elements: &[u32],
+    (given, moved): (&Given, Option<&InputTable>),
+) -> Result<(), Reason> {
     // Spectra are outputs, and ask for finer meshes.
     let mut scene = scene.clone().without_outputs();
     let bodies: Vec<usize> = cables(&scene).map(|(body, _)| body).collect();
@@ -59,9 +63,10 @@ fn tried(scene: &Scene, elements: &[u32], inputs: Option<&str>) -> Result<(), Re
         ..Accuracy::default()
     };
     let mut simulation = Simulation::new(scene);
+    given.set(&mut simulation)?;
     let refused = |error: String| Reason::Scene(Error::new("accuracy.for", error));
-    if let Some(text) = inputs {
-        let signals = Signals::from_csv(text, simulation.variables());
+    if let Some(moved) = moved {
+        let signals = moved.signals(simulation.variables());
         let signals = signals.map_err(|error| refused(error.to_string()))?;
         let set = simulation.set_inputs(&signals);
         set.map_err(|error| refused(error.to_string()))?;
@@ -121,7 +126,7 @@ mod tests {
     /// A rigid link of one metre does not reach over two, whatever the mesh of a cable beside it.
     #[test]
     fn bodies_that_do_not_fit_are_told_before_any_run() {
-        assert_eq!(check_start(&cable(1.0, HELD)), Ok(()));
+        assert_eq!(check_start(&cable(1.0, HELD), &Given::default()), Ok(()));
         let scene = cable(2.0, HELD);
         let mut runs = 0;
         let found = plan(&scene, &Budget::default(), &mut |_, _, _| runs += 1);
@@ -160,7 +165,12 @@ mod tests {
             let text = fs::read_to_string(&path).expect("a text");
             let scene = Scene::from_json(&text).expect("a valid scene");
             if scene.is_to_be_planned() {
-                assert_eq!(check_start(&scene), Ok(()), "{}", path.display());
+                assert_eq!(
+                    check_start(&scene, &Given::default()),
+                    Ok(()),
+                    "{}",
+                    path.display()
+                );
             }
         }
     }

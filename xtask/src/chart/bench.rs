@@ -220,7 +220,7 @@ impl<'a> Bench<'a> {
         let mut command = Command::new(&self.program);
         command.arg("plan").arg(self.write(scene)?);
         command.arg("--report").arg(&report);
-        command.arg("--inputs").arg(&inputs);
+        command.arg("--courses").arg(&inputs);
         run_quietly(&mut command)?;
         Ok(Planned {
             report: read(&report)?,

@@ -1,0 +1,106 @@
+//! Tables of inputs and values that are set, as options of the program: what is planned is what will be run.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+/// A beam between two pins with a force at its middle, whose mesh is left to the planner.
+const SCENE: &str = r#"{
+    "name": "beam", "dimension": 2,
+    "bodies": [{"name": "rod", "element": "cable",
+        "material": {"youngs_modulus": 2.0e11, "density": 7800.0},
+        "section": {"area": 1.0e-4, "second_moment": 1.0e-9},
+        "shape": {"line": {"from": [0, 0], "to": [1, 0]}},
+        "markers": {"a": 0.0, "middle": 0.5, "b": 1.0}}],
+    "joints": [
+        {"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]},
+        {"name": "roller", "kind": "slider", "markers": ["ground", "rod.b"], "direction": [1, 0]}],
+    "inputs": [{"kind": "force", "marker": "rod.middle"}],
+    "outputs": [{"kind": "position", "marker": "rod.middle"}],
+    "experiment": {"stop_time": 0.02, "step": 1e-3},
+    "accuracy": {"error": 1e-3}
+}"#;
+const TABLE: &str = "time,rod.middle.force[2]\n0,0\n0.02,-10\n";
+/// What is said of inputs that were held.
+const HELD: &str = "inputs held at their start values: ";
+
+/// A folder that is removed at the end, with the scene and a table in it.
+struct Place(PathBuf);
+
+impl Place {
+    fn new(name: &str) -> Self {
+        let name = format!("flexbody-inputs-{name}-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&folder).expect("a writable temporary directory");
+        for (file, text) in [("scene.json", SCENE), ("table.csv", TABLE)] {
+            std::fs::write(folder.join(file), text).expect("a writable temporary directory");
+        }
+        Self(folder)
+    }
+
+    /// Whether a command succeeds, and all that it printed.
+    fn run(&self, options: &[&str]) -> (bool, String) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_flexbody"));
+        let run = command.args(options).current_dir(&self.0).output();
+        let run = run.expect("the program runs");
+        let printed = [run.stdout, run.stderr].concat();
+        let printed = String::from_utf8(printed).expect("UTF-8");
+        (run.status.success(), printed)
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The force that a table moves is not among those that are held; without the table both components are.
+#[test]
+fn a_plan_is_made_for_the_table_that_is_run() {
+    let place = Place::new("plan");
+    let both = format!("{HELD}rod.middle.force[1], rod.middle.force[2]");
+    let one = format!("{HELD}rod.middle.force[1]");
+    let table = ["--input", "table.csv"];
+    for command in ["plan", "simulate"] {
+        let (done, printed) = place.run(&[command, "scene.json"]);
+        assert!(done && printed.contains(&both), "{printed}");
+        let (done, printed) = place.run(&[&[command, "scene.json"][..], &table].concat());
+        assert!(
+            done && printed.contains(&one) && !printed.contains(&both),
+            "{printed}"
+        );
+    }
+    let view = ["view", "scene.json", "--output", "page.html", "--no-open"];
+    let spline = ["--interpolation", "spline"];
+    let (done, printed) = place.run(&[&view[..], &table, &spline].concat());
+    assert!(
+        done && printed.contains(&one) && !printed.contains(&both),
+        "{printed}"
+    );
+}
+
+#[test]
+fn what_cannot_be_planned_for_is_refused_by_name() {
+    let place = Place::new("refused");
+    for (option, expected) in [
+        ("rod.densty=1", "did you mean `rod.density`?"),
+        (
+            "rod.elements=4",
+            "rod.elements: expected a parameter that is not planned",
+        ),
+        ("rod.density", "expected NAME=VALUE"),
+    ] {
+        let (done, printed) = place.run(&["plan", "scene.json", "--set", option]);
+        assert!(!done && printed.contains(expected), "{printed}");
+    }
+    std::fs::write(
+        place.0.join("table.csv"),
+        "time,rod.midle.force[2]\n0,0\n1,0\n",
+    )
+    .expect("a table");
+    let (done, printed) = place.run(&["plan", "scene.json", "--input", "table.csv"]);
+    assert!(
+        !done && printed.contains("did you mean `rod.middle.force[2]`"),
+        "{printed}"
+    );
+}

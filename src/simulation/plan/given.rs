@@ -1,0 +1,83 @@
+//! Parameters and inputs that a plan is made for, in place of what the scene says.
+
+use super::courses::courses;
+use crate::scene::{Error, Scene, did_you_mean};
+use crate::simulation::{Causality, Error as Refusal, InputTable, Simulation, Variable, variables};
+
+/// The name of the tolerance among parameters.
+const TOLERANCE: &str = "relative_tolerance";
+
+/// What is given for the runs of a plan.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Given {
+    /// Values of parameters and inputs, by their names.
+    pub set: Vec<(String, f64)>,
+    /// What inputs do, in place of `accuracy.for`.
+    pub inputs: Option<InputTable>,
+}
+
+/// Whether a variable is what is planned: a number of elements, or the tolerance.
+fn is_planned(variable: &Variable) -> bool {
+    variable.is_integer() || variable.name == TOLERANCE
+}
+
+impl Given {
+    /// Refuses a name that is no parameter or input of a scene, and a number of elements or the tolerance, which are what is planned.
+    pub(super) fn check(&self, scene: &Scene) -> Result<(), Error> {
+        let variables = variables(scene);
+        let settable = || {
+            let is_settable = |kind| matches!(kind, Causality::Parameter | Causality::Input);
+            (variables.iter()).filter(move |variable| is_settable(Causality::of(variable)))
+        };
+        for (name, _) in &self.set {
+            let refused = |message: String| Err(Error::new(name.clone(), message));
+            match settable().find(|variable| variable.name == *name) {
+                Some(variable) if is_planned(variable) => {
+                    return refused("expected a parameter that is not planned".into());
+                }
+                Some(_) => (),
+                None => {
+                    let meant = did_you_mean(name, settable().map(|v| v.name.as_str()));
+                    return refused(format!("expected a parameter or an input{meant}"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The same but for numbers of elements and the tolerance, which a run may have other than planned.
+    #[must_use]
+    pub fn without_planned(mut self, scene: &Scene) -> Self {
+        let variables = variables(scene);
+        let planned: Vec<&str> = (variables.iter().filter(|variable| is_planned(variable)))
+            .map(|variable| &*variable.name)
+            .collect();
+        self.set.retain(|(name, _)| !planned.contains(&&**name));
+        self
+    }
+
+    /// Sets parameters and inputs. What a body has not as what it became is left out: parameters without effect.
+    pub(super) fn set(&self, simulation: &mut Simulation) -> Result<(), Refusal> {
+        for (name, value) in &self.set {
+            let place = simulation.variables().iter().position(|v| v.name == *name);
+            if let Some(place) = place {
+                simulation.set_real(place, *value)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What inputs do in a scene: as given, or by `accuracy.for`; nothing where all keep their values.
+    pub(super) fn moved(&self, scene: &Scene) -> Result<Option<InputTable>, Error> {
+        let (table, place) = match &self.inputs {
+            Some(table) => (Some(table.clone()), "input"),
+            None => (courses(scene)?, "accuracy.for"),
+        };
+        if let Some(table) = &table {
+            let signals = table.signals(&variables(scene));
+            let covers = signals.and_then(|s| s.check_covers(0.0, scene.experiment.stop_time));
+            covers.map_err(|error| Error::new(place, error.to_string()))?;
+        }
+        Ok(table)
+    }
+}
