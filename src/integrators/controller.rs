@@ -104,6 +104,15 @@ impl Trial {
         }
     }
 
+    /// The same where steps have found their length or not: the first proposal is a guess, which no error has confirmed, so that a step
+    /// that is cut short replaces it.
+    pub fn among_settled(self, is_settled: bool) -> Self {
+        Self {
+            is_cut: self.is_cut && is_settled,
+            ..self
+        }
+    }
+
     /// Whether the step to propose next (s) is so much longer that steps have not found their length yet.
     pub fn has_grown(&self, next: f64) -> bool {
         !self.is_cut && next > GROWING * self.h

@@ -277,11 +277,7 @@ fn advance_smoothly(
         let from = (state.time, &state.coordinates[..], &state.rates[..]);
         match bounded(method.attempt(dynamics, from, trial.h, tolerance), method) {
             Attempt::Done(error) if error <= 1.0 => {
-                // The first proposal is a guess, which no error has confirmed: a step that is cut short replaces it.
-                let judged = Trial {
-                    is_cut: trial.is_cut && is_settled,
-                    ..trial
-                };
+                let judged = trial.among_settled(is_settled);
                 state.step = controller.accept(judged, error, state.step);
                 is_settled = !trial.has_grown(state.step);
                 counts.steps += 1;

@@ -12,7 +12,11 @@ const AROUND: [&str; 2] = ["<!-- motion begins -->\n", "<!-- motion ends -->\n"]
 
 /// The default experiment in motion, as a section of a page; inputs follow a table where one is given. Where it cannot be shown, or not
 /// to its end, a sentence says why. The same scene gives the same bytes on one machine.
-pub fn motion(scene: &Scene, inputs: Option<&InputTable>, told: &mut dyn FnMut(u64, u64)) -> String {
+pub fn motion(
+    scene: &Scene,
+    inputs: Option<&InputTable>,
+    told: &mut dyn FnMut(u64, u64),
+) -> String {
     let course = match inputs {
         Some(_) => "Inputs move meanwhile as the scene says for planning.",
         None => "Inputs keep their start values meanwhile.",
