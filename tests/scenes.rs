@@ -1,7 +1,7 @@
 //! What a scene may not say, and how it is told: the place, what was expected, what was found.
 
 use flexbody::scene::Scene;
-use flexbody::simulation::{Budget, Redundant, Signals, Simulation, courses, plan};
+use flexbody::simulation::{Budget, Redundant, Simulation, courses, plan};
 use serde_json::{Value, json};
 
 const SCENE: &str = include_str!("../scenes/cantilever.json");

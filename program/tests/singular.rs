@@ -183,3 +183,56 @@ fn a_singular_position_on_the_way_is_printed_and_reported() {
         assert_eq!(report[key], json!([]), "{report}");
     }
 }
+
+/// Two links that are stretched straight between two pins cannot move, though to first order constraints let their common pin fall: its velocity
+/// grew by `g t`, with kinetic energy from nothing.
+#[test]
+fn what_is_held_at_a_dead_point_has_no_velocity() {
+    for dimension in [2, 3] {
+        let flat = |x: f64| match dimension {
+            2 => json!([x, 0.0]),
+            _ => json!([x, 0.0, 0.0]),
+        };
+        let (gravity, inertia, kind) = match dimension {
+            2 => (json!([0.0, -9.81]), json!(0.1), "revolute"),
+            _ => (
+                json!([0.0, 0.0, -9.81]),
+                json!([0.1, 0.1, 0.1]),
+                "spherical",
+            ),
+        };
+        let body = |name: &str, x: f64| {
+            json!({"name": name, "element": "rigid", "mass": 1.0, "inertia": inertia, "position": flat(x),
+                   "markers": {"i": flat(-0.5), "o": flat(0.5)}})
+        };
+        let joint = |name: &str, markers: [&str; 2]| json!({"name": name, "kind": kind, "markers": markers});
+        let mut last = joint("last", ["ground", "m.o"]);
+        last["point"] = flat(2.0);
+        let mut simulation = started(&json!({
+            "name": "dead_point", "dimension": dimension, "gravity": gravity,
+            "bodies": [body("l", 0.5), body("m", 1.5)],
+            "joints": [joint("first", ["ground", "l.i"]), joint("middle", ["l.o", "m.i"]), last],
+            "outputs": [{"kind": "velocity", "marker": "l.o"}, {"kind": "energy"}],
+            "experiment": {"stop_time": 2.0, "step": 0.01}
+        }));
+        let index = |simulation: &Simulation, name: &str| {
+            let mut variables = simulation.variables().iter();
+            variables.position(|v| v.name == name).expect(name)
+        };
+        for step in 1..=200 {
+            simulation.step(f64::from(step) * 0.01).expect("a step");
+            for (name, most) in [
+                (format!("l.o.velocity[{dimension}]"), 1e-2),
+                ("energy.kinetic".into(), 1e-4),
+            ] {
+                let index = index(&simulation, &name);
+                let found = simulation.real(index).expect("a number");
+                assert!(
+                    found.abs() < most,
+                    "{dimension}: {name} {found} at step {step}"
+                );
+            }
+        }
+        assert!(simulation.next_singular().is_some());
+    }
+}

@@ -73,7 +73,7 @@ pub fn courses(scene: &Scene) -> Result<Option<InputTable>, Error> {
     let variables = variables(scene);
     check_inputs(given, &variables)?;
     let jumps = JUMPS.map(|part| {
-        let steps = (part * scene.experiment.steps() as f64).round();
+        let steps = (part * scene.experiment.steps()).round();
         steps * scene.experiment.step
     });
     let moves = given.iter().enumerate();

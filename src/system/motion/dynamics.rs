@@ -144,6 +144,7 @@ impl<'a, const D: usize> Model<'a, D> {
         state: &State,
     ) -> Self {
         work.resume(state);
+        work.rank.begin(state.time);
         work.release_at(state.time, inputs);
         work.stretch = None;
         work.inputs.clear();
@@ -446,10 +447,12 @@ impl<const D: usize> Dynamics for Model<'_, D> {
         if !self.system.is_projected() {
             return self.count(state);
         }
+        self.work.rank.reach(&state.coordinates);
         if !self.project(state) {
             return Accepted::Broken;
         }
         self.system.watch_rank(state.time, self.work);
+        self.system.stop_blocked(state, self.work);
         match self.count(state) {
             Accepted::AsIs => Accepted::Moved,
             other => other,

@@ -10,6 +10,13 @@ use crate::system::{State, System, Work};
 
 /// Part of a row of the Jacobian below which others give it exactly, but for the residuals of the state.
 const EXACT: f64 = 1e-6;
+/// Cosine of the angle between a velocity and what constraints take back of positions from which on it is blocked. In a motion that goes on
+/// they are at right angles, but for its curvature.
+const OPPOSED: f64 = 0.5;
+/// Part of the way of a velocity since the last state from which on it counts as taken back: of one that has grown from zero all is half.
+const TAKEN_BACK: f64 = 0.25;
+/// Part of the largest change of a coordinate below which others are not counted as taken back.
+const SMALL: f64 = 1e-3;
 
 /// Joints, motions and ports by their index, and bodies that joints keep rigid.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -51,6 +58,10 @@ pub struct RankWatch {
     most: usize,
     /// Scratch: a vector of free coordinates.
     rest: Vec<f64>,
+    /// Free coordinates that a step came to, before they were brought onto the constraints.
+    reached: Vec<f64>,
+    /// When the last state was accepted, s.
+    accepted: f64,
 }
 
 impl RankWatch {
@@ -62,7 +73,19 @@ impl RankWatch {
             counted: vec![false; constraints],
             most: 0,
             rest: vec![0.0; coordinates],
+            reached: vec![0.0; coordinates],
+            accepted: 0.0,
         }
+    }
+
+    /// Steps begin at a time, s.
+    pub fn begin(&mut self, time: f64) {
+        self.accepted = time;
+    }
+
+    /// A step came to coordinates that are not yet on the constraints.
+    pub fn reach(&mut self, coordinates: &[f64]) {
+        self.reached.copy_from_slice(coordinates);
     }
 
     /// Keeps which constraints count where most of them do, with those of joints that have let go. Whether these are as many.
@@ -106,6 +129,38 @@ impl<const D: usize> System<D> {
                 watch.time.get_or_insert(time);
             }
         }
+    }
+
+    /// Takes out of the velocities of a state that was just accepted what leads where constraints do not let bodies go. At a dead point such a
+    /// velocity satisfies all constraints to first order: it grows with the forces while positions are brought back after every
+    /// step.
+    pub(in crate::system) fn stop_blocked(&self, state: &mut State, work: &mut Work<D>) {
+        let watch = &mut work.rank;
+        let passed = state.time - watch.accepted;
+        watch.accepted = state.time;
+        if self.constraints.is_empty() || work.is_tree || work.jacobian.has_full_rank() {
+            return;
+        }
+        let back = &mut watch.reached;
+        let pairs = back.iter_mut().zip(&state.coordinates);
+        pairs.for_each(|(back, on)| *back = on - *back);
+        let largest = back
+            .iter()
+            .fold(0.0, |most: f64, back| most.max(back.abs()));
+        let [mut square, mut along, mut speed] = [0.0; 3];
+        let taken = back.iter().zip(&state.rates);
+        for (back, v) in taken.filter(|(back, _)| back.abs() > SMALL * largest) {
+            square += back * back;
+            along += back * v;
+            speed += v * v;
+        }
+        let is_opposed = along < -OPPOSED * (square * speed).sqrt();
+        if passed <= 0.0 || !is_opposed || square < -TAKEN_BACK * passed * along {
+            return;
+        }
+        let rates = state.rates.iter_mut().zip(&*back);
+        rates.for_each(|(v, back)| *v -= along / square * back);
+        self.project_velocities(&mut state.rates, work);
     }
 
     /// What did not count at accepted states since the last call, but for what was told before, and since when (s).
