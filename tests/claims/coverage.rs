@@ -44,7 +44,7 @@ const TOGETHER: [&str; 7] = [
     "bodies{beam}.stations.section.about[",
 ];
 /// Keys that change how results are found or whose they are, not what they are; their claims are in `own.rs`, those of
-/// what the planner reads in `tests/plan.rs`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
+/// what the planner reads in `tests/planner`, those of elements of rods are orders in `tests/cases/rod_statics`. What a body
 /// whose element is chosen says is what the element says that it becomes (`elements.rs`).
 const OWN: [&str; 11] = [
     "about.",

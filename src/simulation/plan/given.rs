@@ -49,10 +49,10 @@ impl Given {
     #[must_use]
     pub fn without_planned(mut self, scene: &Scene) -> Self {
         let variables = variables(scene);
-        let planned: Vec<&str> = (variables.iter().filter(|variable| is_planned(variable)))
-            .map(|variable| &*variable.name)
-            .collect();
-        self.set.retain(|(name, _)| !planned.contains(&&**name));
+        self.set.retain(|(name, _)| {
+            let variable = variables.iter().find(|variable| variable.name == *name);
+            !variable.is_some_and(is_planned)
+        });
         self
     }
 

@@ -6,27 +6,17 @@ use flexbody::scene::{Interpolation, Scene};
 use flexbody::simulation::{Budget, Given, InputTable, Plan, Simulation, courses, plan_for};
 use serde_json::{Value, json};
 
-/// A beam of one metre between two pins, on rollers at its end, and a force at its middle.
-const BEAM: &str = r#"{
-  "name": "beam", "dimension": 2,
-  "bodies": [{"name": "rod", "element": "cable",
-    "material": {"youngs_modulus": 2.0e11, "density": 7800.0},
-    "section": {"area": 1.0e-4, "second_moment": 1.0e-9},
-    "shape": {"line": {"from": [0, 0], "to": [1, 0]}},
-    "markers": {"a": 0.0, "middle": 0.5, "b": 1.0}}],
-  "joints": [
-    {"name": "pin", "kind": "revolute", "markers": ["ground", "rod.a"]},
-    {"name": "roller", "kind": "slider", "markers": ["ground", "rod.b"], "direction": [1, 0]}],
-  "inputs": [{"kind": "force", "marker": "rod.middle"}],
-  "outputs": [{"kind": "position", "marker": "rod.middle"}],
-  "experiment": {"stop_time": 0.05, "step": 1e-3},
-  "accuracy": {"error": 1e-4}
-}"#;
+use super::{BEAM, edited};
 
-fn edited(text: &str, edit: impl Fn(&mut Value)) -> Result<Scene, String> {
-    let mut scene: Value = serde_json::from_str(text).expect("JSON");
-    edit(&mut scene);
-    Scene::from_json(&scene.to_string()).map_err(|error| error.to_string())
+/// The beam with a force input at its middle, whose place is asked for, and further changes.
+fn pushed(edit: impl Fn(&mut Value)) -> Result<Scene, String> {
+    edited(BEAM, |scene| {
+        scene["inputs"] = json!([{"kind": "force", "marker": "rod.middle"}]);
+        scene["outputs"] = json!([{"kind": "position", "marker": "rod.middle"}]);
+        scene["experiment"] = json!({"stop_time": 0.05, "step": 1e-3});
+        scene["accuracy"] = json!({"error": 1e-4});
+        edit(scene);
+    })
 }
 
 fn planned_for(scene: &Scene, given: &Given) -> Result<(Scene, Plan), String> {
@@ -55,7 +45,7 @@ fn rows(scene: &Scene) -> (Vec<String>, Vec<Vec<f64>>) {
 #[test]
 fn an_input_moves_in_the_experiment_that_is_planned_for() {
     let moved = |course: Option<&str>, gravity: f64| {
-        edited(BEAM, |scene| {
+        pushed(|scene| {
             scene["gravity"] = json!([0.0, gravity]);
             if let Some(course) = course {
                 scene["accuracy"]["for"] = json!([{"input": "rod.middle.force[2]", "from": 0, "to": -100, "course": course}]);
@@ -85,7 +75,7 @@ fn an_input_moves_in_the_experiment_that_is_planned_for() {
 /// What the planner ran can be run again: the largest speed, which it measures speeds by, comes out to the bit.
 #[test]
 fn the_course_of_inputs_makes_the_planned_experiment_again() {
-    let scene = edited(BEAM, |scene| {
+    let scene = pushed(|scene| {
         scene["outputs"] = json!([{"kind": "velocity", "marker": "rod.middle"}]);
         scene["experiment"] = json!({"stop_time": 0.02, "step": 1e-3});
         let course =
@@ -123,7 +113,7 @@ fn the_course_of_inputs_makes_the_planned_experiment_again() {
 #[test]
 fn an_input_follows_a_course_of_its_own() {
     let course = |course: Value| {
-        let scene = edited(BEAM, |scene| scene["accuracy"]["for"] = json!([course]));
+        let scene = pushed(|scene| scene["accuracy"]["for"] = json!([course]));
         rows(&scene.expect("a scene")).1
     };
     let name = "rod.middle.force[2]";
@@ -156,7 +146,7 @@ fn an_input_follows_a_course_of_its_own() {
 /// The rates of a driven motion are those of its course.
 #[test]
 fn rates_of_a_driven_motion_follow_from_its_course() {
-    let scene = edited(BEAM, |scene| {
+    let scene = pushed(|scene| {
         scene["motions"] =
             json!([{"name": "lift", "kind": "position", "marker": "rod.a", "value": {"input": 2}}]);
         scene["joints"] = json!([scene["joints"][1]]);
@@ -185,7 +175,7 @@ fn rates_of_a_driven_motion_follow_from_its_course() {
 /// half of the force of a table is half of the deflection `F L^3 / (48 EI)`.
 #[test]
 fn a_plan_is_for_what_is_given() {
-    let heavy = edited(BEAM, |scene| {
+    let heavy = pushed(|scene| {
         scene["gravity"] = json!([0.0, -9.81]);
         scene["initial"] = json!("static_equilibrium");
     });
@@ -209,7 +199,7 @@ fn a_plan_is_for_what_is_given() {
             Some(2e11)
         );
     }
-    let still = edited(BEAM, |scene| scene["initial"] = json!("static_equilibrium"));
+    let still = pushed(|scene| scene["initial"] = json!("static_equilibrium"));
     let still = still.expect("a scene");
     for force in [-10.0, -20.0] {
         let text = format!("time,rod.middle.force[2]\n0,{force}\n0.05,{force}\n");
@@ -259,12 +249,12 @@ fn what_cannot_be_given_is_refused_with_its_place() {
             "accuracy.for[0].value: expected at most 100000 kinks and jumps",
         ),
     ] {
-        let scene = edited(BEAM, |scene| scene["accuracy"]["for"] = json!([course]));
+        let scene = pushed(|scene| scene["accuracy"]["for"] = json!([course]));
         let told = scene.and_then(|scene| courses(&scene).map_err(|error| error.to_string()));
         let told = told.expect_err(expected);
         assert!(told.starts_with(expected), "{told}");
     }
-    let scene = edited(BEAM, |_| ()).expect("a scene");
+    let scene = pushed(|_| ()).expect("a scene");
     let set = |name: &str| Given {
         set: vec![(name.to_owned(), 1.0)],
         inputs: None,
