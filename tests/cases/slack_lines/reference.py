@@ -15,6 +15,7 @@ LINES = {
     "inclined": (24.918, -14.605, 0.7, 30.0, 64, "line", False),
     "inclined_coarse": (0.63, -0.173, 4.2, 1.0, 24, "line", False),
     "winch": (0.798, 0.0, None, 1.0, 32, "line", True),
+    "winch_fine": (848.67, 250.0, None, 902.2, 384, "line", True),
     "level": (477.762, 0.0, None, 900.0, 32, "line", False),
 }
 

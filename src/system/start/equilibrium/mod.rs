@@ -12,6 +12,7 @@
 mod balance;
 mod motion;
 mod newton;
+mod predict;
 mod unsymmetric;
 
 use std::cell::Cell;
@@ -230,6 +231,17 @@ impl<const D: usize> System<D> {
     }
 }
 
+/// Which step of a way is tried.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Tries {
+    /// From where the way begins, as far as it may be.
+    First,
+    /// From an equilibrium on the way, with smaller ones left to try.
+    Between,
+    /// The smallest one.
+    Last,
+}
+
 /// A way through systems.
 struct Path<'a> {
     inputs: &'a [f64],
@@ -264,7 +276,12 @@ impl Path<'_> {
             let target = f64::min(1.0, reached + step);
             let next = way(target, work);
             let is_smallest = step < 2.0 * SMALLEST;
-            let mut outcome = self.attempt((&before, &next), is_smallest, work, (&from, state));
+            let tries = match (is_smallest, reached > 0.0) {
+                (true, _) => Tries::Last,
+                (false, true) => Tries::Between,
+                (false, false) => Tries::First,
+            };
+            let mut outcome = self.attempt((&before, &next), tries, work, (&from, state));
             // Far from the last equilibrium there may be another one, with a turn more.
             let mut model = Model::new(&next, self.inputs, work, &from);
             let turn = model.turn_between([&from, state]);
@@ -317,7 +334,7 @@ impl Path<'_> {
     fn attempt<const D: usize>(
         &self,
         (before, next): (&System<D>, &System<D>),
-        is_smallest: bool,
+        tries: Tries,
         work: &mut Work<D>,
         (from, state): (&State, &mut State),
     ) -> Result<Found, Failure> {
@@ -335,27 +352,18 @@ impl Path<'_> {
         for guard in guards {
             if outcome.is_err() {
                 start(work, state);
-                outcome = self.settle(next, work, state, guard);
+                let is_hasty = tries == Tries::Between;
+                outcome = self.with_newton(next, work, state, |newton, state| {
+                    newton.is_hasty = is_hasty;
+                    newton.settle(state, guard)
+                });
             }
         }
-        if outcome.is_err() && is_smallest && self.predicts && self.swings {
+        if outcome.is_err() && tries == Tries::Last && self.predicts && self.swings {
             start(work, state);
             outcome = self.with_newton(next, work, state, |newton, state| newton.swing(state));
         }
         outcome
-    }
-
-    /// Newton's method, and again from beside every equilibrium that is not stable.
-    fn settle<const D: usize>(
-        &self,
-        system: &System<D>,
-        work: &mut Work<D>,
-        state: &mut State,
-        guard: Guard,
-    ) -> Result<Found, Failure> {
-        self.with_newton(system, work, state, |newton, state| {
-            newton.settle(state, guard)
-        })
     }
 
     /// An iteration on a system within the work that is left.
@@ -374,7 +382,7 @@ impl Path<'_> {
         found
     }
 
-    /// Moves all nodes as the tangent asks for when those that joints hold move on to the next system.
+    /// Moves all nodes as the tangent asks for when those that joints hold move on to the next system, and onto the constraints of that one.
     fn predict<const D: usize>(
         &self,
         (before, next): (&System<D>, &System<D>),
@@ -384,6 +392,8 @@ impl Path<'_> {
         let least = smallest_shift(before, self.inputs, work, state);
         let mut model = Model::new(before, self.inputs, work, state);
         Newton::new(&mut model, least, 0.0).predict(state, next);
+        // Where this fails, so does Newton's method, which tells.
+        Model::new(next, self.inputs, work, state).accepted(state);
     }
 }
 
