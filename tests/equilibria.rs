@@ -66,3 +66,42 @@ fn the_search_obeys_the_work_limit_and_says_so() {
     );
     assert_eq!(self::told(&slack(1e8)), None);
 }
+
+/// A beam that an end moment winds to ten turns, beside a force: it is wound by little and little, and steps that do not succeed are given up
+/// before they take more than all the others. Moments and forces balance.
+#[test]
+fn a_beam_is_wound_to_ten_turns_within_little_work() {
+    const MOMENT: f64 = 200.0 * std::f64::consts::PI;
+    let scene = json!({"name": "wound", "dimension": 3,
+        "bodies": [{"name": "beam", "element": "beam", "elements": 40,
+                    "material": {"youngs_modulus": 1e4, "shear_modulus": 1e4, "density": 1.0},
+                    "section": {"area": 1.0, "second_moments": [0.01, 0.01], "torsion_constant": 0.01, "shear_factors": [1.0, 1.0]},
+                    "axis": [0.0, 1.0, 0.0], "shape": {"line": {"from": [0.0, 0.0, 0.0], "to": [10.0, 0.0, 0.0]}},
+                    "markers": {"root": 0.0, "tip": 1.0}}],
+        "joints": [{"name": "clamp", "kind": "weld", "markers": ["ground", "beam.root"]}],
+        "loads": [{"name": "turn", "kind": "moment", "marker": "beam.tip", "value": [0.0, 0.0, MOMENT]},
+                  {"name": "side", "kind": "force", "marker": "beam.tip", "value": [0.0, 0.0, 50.0]}],
+        "outputs": [{"kind": "reaction", "joint": "clamp"}, {"kind": "reaction_moment", "joint": "clamp"},
+                    {"kind": "position", "marker": "beam.tip"}],
+        "method": {"work_limit": 1.6e6}, "initial": "static_equilibrium"});
+    let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+    let mut simulation = Simulation::new(scene);
+    simulation.initialize(0.0).expect("an equilibrium");
+    let variables = simulation.variables().iter().enumerate();
+    let outputs = variables.filter(|(_, it)| it.start.is_none() && it.name != "time");
+    let outputs: Vec<usize> = outputs.map(|(index, _)| index).collect();
+    let values = outputs.into_iter().map(|index| simulation.real(index));
+    let values: Vec<f64> = values.map(|value| value.expect("a number")).collect();
+    let [x, y, _] = [values[6], values[7], values[8]];
+    let right = [0.0, 0.0, 50.0, 50.0 * y, -50.0 * x, MOMENT];
+    for (value, right) in values.iter().zip(right) {
+        assert!(
+            (value.abs() - right.abs()).abs() < 1e-6,
+            "{values:?}, {right}"
+        );
+    }
+    assert!(
+        x.abs().max(y.abs()) < 0.1,
+        "ten turns end near their beginning: {values:?}"
+    );
+}
