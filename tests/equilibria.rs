@@ -1,7 +1,7 @@
 //! Equilibria that are not there, not stable, or too far for the work that is allowed: none is answered in silence.
 
 use flexbody::scene::Scene;
-use flexbody::simulation::Simulation;
+use flexbody::simulation::{Budget, Simulation, plan};
 use serde_json::{Value, json};
 
 /// What is told when a scene is to start; nothing where it starts from a stable equilibrium.
@@ -103,5 +103,26 @@ fn a_beam_is_wound_to_ten_turns_within_little_work() {
     assert!(
         x.abs().max(y.abs()) < 0.1,
         "ten turns end near their beginning: {values:?}"
+    );
+}
+
+/// A mesh that is too fine to be started within the work limit does not end a plan: the best of those before is taken, and that it does not
+/// keep the error is told.
+#[test]
+fn a_mesh_without_a_start_does_not_end_a_plan() {
+    let mut scene = slack(3e3);
+    let line = scene["bodies"][0].as_object_mut().expect("a body");
+    line.remove("elements");
+    line["markers"]["m"] = json!(0.37);
+    scene["outputs"] = json!([{"kind": "position", "marker": "line.m"}]);
+    scene["accuracy"] = json!({"error": 1e-8});
+    scene["experiment"] = json!({"stop_time": 0.01, "step": 0.01});
+    let scene = Scene::from_json(&scene.to_string()).expect("a scene");
+    let planned = plan(&scene, &Budget::default(), &mut |_, _, _| ());
+    let (_, planned) = planned.expect("a plan of the meshes that start");
+    let told = planned.numbers.expect("numbers of elements").missed();
+    assert!(
+        told.iter().any(|told| told.contains("line.m.position")),
+        "{told:?}"
     );
 }

@@ -350,8 +350,11 @@ impl<'a, 'p> Search<'a, 'p> {
                 Err(Unfinished::TooMuchWork) => break,
                 Err(Unfinished::Failed(reason)) => {
                     let mut next = closer.clone();
-                    if !self.refine(&mut next) {
-                        return Err(Error::new("experiment", reason));
+                    match (self.refine(&mut next), ladder.rungs.is_empty()) {
+                        (true, _) => {}
+                        // What coarser meshes have shown counts, and that it does not settle is told.
+                        (false, false) => break,
+                        (false, true) => return Err(Error::new("experiment", reason)),
                     }
                 }
             }
