@@ -348,15 +348,14 @@ impl<'a, 'p> Search<'a, 'p> {
             match self.compare(&tried, &closer, self.error) {
                 Ok(found) => ladder.add(&tried, found),
                 Err(Unfinished::TooMuchWork) => break,
-                Err(Unfinished::Failed(reason)) => {
-                    let mut next = closer.clone();
-                    match (self.refine(&mut next), ladder.rungs.is_empty()) {
-                        (true, _) => {}
-                        // What coarser meshes have shown counts, and that it does not settle is told.
-                        (false, false) => break,
-                        (false, true) => return Err(Error::new("experiment", reason)),
+                Err(Unfinished::Failed(reason)) if !self.refine(&mut closer.clone()) => {
+                    if ladder.rungs.is_empty() {
+                        return Err(Error::new("experiment", reason));
                     }
+                    // What coarser meshes have shown counts, and that it does not settle is told.
+                    break;
                 }
+                Err(Unfinished::Failed(_)) => {}
             }
             if ladder.is_climbed() || self.is_enough(&ladder, in_time) {
                 break;

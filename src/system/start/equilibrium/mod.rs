@@ -242,6 +242,16 @@ enum Tries {
     Last,
 }
 
+impl Tries {
+    fn of(step: f64, reached: f64) -> Self {
+        match (step < 2.0 * SMALLEST, reached > 0.0) {
+            (true, _) => Self::Last,
+            (false, true) => Self::Between,
+            (false, false) => Self::First,
+        }
+    }
+}
+
 /// A way through systems.
 struct Path<'a> {
     inputs: &'a [f64],
@@ -275,12 +285,7 @@ impl Path<'_> {
             }
             let target = f64::min(1.0, reached + step);
             let next = way(target, work);
-            let is_smallest = step < 2.0 * SMALLEST;
-            let tries = match (is_smallest, reached > 0.0) {
-                (true, _) => Tries::Last,
-                (false, true) => Tries::Between,
-                (false, false) => Tries::First,
-            };
+            let tries = Tries::of(step, reached);
             let mut outcome = self.attempt((&before, &next), tries, work, (&from, state));
             // Far from the last equilibrium there may be another one, with a turn more.
             let mut model = Model::new(&next, self.inputs, work, &from);
