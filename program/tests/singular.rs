@@ -236,3 +236,28 @@ fn what_is_held_at_a_dead_point_has_no_velocity() {
         assert!(simulation.next_singular().is_some());
     }
 }
+
+/// A link without weight holds the end of a body along itself alone: the body begins to fall freely.
+#[test]
+fn a_link_of_hardly_any_mass_is_held_by_its_joints() {
+    for mass in [1e-6, 1e-9, 1e-12] {
+        let link = json!({"name": "link", "element": "rigid", "mass": mass, "inertia": vec![1e-2 * mass; 3],
+            "position": [0.5, 0, 0], "markers": {"i": [-0.5, 0, 0], "o": [0.5, 0, 0]}});
+        let bob = json!({"name": "bob", "element": "rigid", "mass": 1, "inertia": [0.1, 0.1, 0.1],
+            "position": [1.5, 0, 0], "markers": {"i": [-0.5, 0, 0], "c": [0, 0, 0]}});
+        let scene = json!({"name": "light", "dimension": 3, "gravity": [0, 0, -9.81], "bodies": [link, bob],
+            "joints": [
+                {"name": "j", "kind": "spherical", "markers": ["ground", "link.i"]},
+                {"name": "k", "kind": "spherical", "markers": ["link.o", "bob.i"]}],
+            "outputs": [{"kind": "position", "marker": "bob.c"}],
+            "experiment": {"stop_time": 0.05, "step": 0.05}});
+        let mut simulation = started(&scene);
+        assert_eq!(simulation.redundant(), Redundant::default(), "{mass}");
+        assert_eq!(told(&mut simulation, 0.05), [], "{mass}");
+        let mut variables = simulation.variables().iter();
+        let height = variables.position(|v| v.name == "bob.c.position[3]");
+        let height = simulation.real(height.expect("a height")).expect("a value");
+        let fallen = -0.5 * 9.81 * 0.05_f64.powi(2);
+        assert!((height / fallen - 1.0).abs() < 1e-4, "{mass}: {height}");
+    }
+}

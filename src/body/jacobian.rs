@@ -16,6 +16,11 @@ use super::elimination::Elimination;
 use crate::math::sparse::{Matrix, Pattern, Reach};
 use crate::math::vector::short_dot;
 
+/// Part of the square of a row that the heaviest body has of it, which a pivot is below where the row is dependent.
+const OF_HEAVIEST: f64 = 1e-3;
+/// Part of the square of a row below which a pivot is roundoff.
+const ROUNDOFF: f64 = 1e-13;
+
 /// Sparse rows over `q`.
 #[derive(Clone, Debug)]
 pub struct SparseRows {
@@ -124,8 +129,12 @@ pub struct Jacobian {
     place: Vec<usize>,
     /// Where rows meet themselves.
     corners: Vec<usize>,
-    /// Squares of rows, what those before leave of them (the pivots), and whether each counts, as `pattern` has them.
+    /// How heavy the lightest body of each row is beside the heaviest one that rows connect it with.
+    evenness: Vec<f64>,
+    /// Squares of rows, what those before leave of them (the pivots) and at least must where a row counts, and whether each does, as
+    /// `pattern` has them.
     squares: Vec<f64>,
+    bounds: Vec<f64>,
     pivots: Vec<f64>,
     counts: Vec<bool>,
     /// The bound that `factors` were made with; nothing where rows have changed since.
@@ -137,11 +146,12 @@ pub struct Jacobian {
 }
 
 impl Jacobian {
-    /// Storage for some of the constraints of an assembly, and whether their rows are the same in every
-    /// configuration.
+    /// Storage for some of the constraints of an assembly, with how heavy the lightest body of each is beside the heaviest one that they
+    /// connect it with, and whether their rows are the same in every configuration.
     pub fn new<const D: usize>(
         elimination: &Elimination<D>,
         constraints: &[usize],
+        evenness: Vec<f64>,
         is_constant: impl Fn(usize) -> bool,
     ) -> Self {
         let constant: Vec<bool> = (0..constraints.len()).map(is_constant).collect();
@@ -177,7 +187,9 @@ impl Jacobian {
                 .collect(),
             corners: (0..rows.count()).map(|i| entry(i, i)).collect(),
             factors: Matrix::zeros(&pattern),
+            evenness,
             squares: vec![0.0; rows.count()],
+            bounds: vec![0.0; rows.count()],
             pivots: vec![0.0; rows.count()],
             counts: vec![false; rows.count()],
             factored: None,
@@ -252,7 +264,9 @@ impl Jacobian {
         }
     }
 
-    /// Factors `J J^T`. A row of which others leave less than `least`, relative to its size, does not count.
+    /// Factors `J J^T`. A row of which others leave less than `least`, relative to its size, does not count. The square of a row of a light
+    /// body is one over its mass. Where other rows hold that body too, what they leave is one over the mass of heavier bodies. That is
+    /// no sign of dependence, so a small part of what the heaviest body has of the row is enough.
     pub fn factor(&mut self, least: f64) {
         if self.factored.replace(least) == Some(least) {
             return;
@@ -263,12 +277,15 @@ impl Jacobian {
         }
         self.factors.values.copy_from_slice(&self.base.values);
         add_products(&self.moving, &self.rows.values, &mut self.factors.values);
-        for (place, corner) in self.place.iter().zip(&self.corners) {
-            self.squares[*place] = self.factors.values[*corner];
+        let least = least * least;
+        let rows = self.place.iter().zip(&self.corners);
+        for ((place, corner), evenness) in rows.zip(&self.evenness) {
+            let square = self.factors.values[*corner];
+            self.squares[*place] = square;
+            self.bounds[*place] = least.min(OF_HEAVIEST * evenness).max(ROUNDOFF) * square;
         }
-        let (factors, least) = (&mut self.factors, least * least);
         let found = (&mut self.counts[..], &mut self.pivots[..]);
-        factors.factor_semidefinite(&self.pattern, (least, &self.squares), found);
+        (self.factors).factor_semidefinite(&self.pattern, &self.bounds, found);
     }
 
     /// Changes `q` by the least that makes `J q = right` as far as rows count. Two passes do so to roundoff; one is

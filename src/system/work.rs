@@ -131,9 +131,9 @@ impl<const D: usize> Work<D> {
     pub fn new(system: &System<D>) -> Self {
         let nodes = vec![no_node(); system.reference.len()];
         let ([elastic, still], sections) = moving(system);
-        let jacobian = Jacobian::new(&system.elimination, &system.multipliers, |row| {
-            system.constraints[row].is_linear()
-        });
+        let is_linear = |row: usize| system.constraints[row].is_linear();
+        let (elimination, multipliers) = (&system.elimination, &system.multipliers);
+        let jacobian = Jacobian::new(elimination, multipliers, system.evenness(), is_linear);
         let lambda = vec![0.0; system.constraints.len()];
         let rank = RankWatch::new(lambda.len(), system.coordinates());
         let turns = vec![Turn::default(); system.frames.list().len()];

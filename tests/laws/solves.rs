@@ -304,7 +304,7 @@ fn the_dense_stiffness_for_frequencies_is_the_tangent() {
         let mut tangent: Tangent<2> = Tangent::new(
             elimination,
             body.is_damped(),
-            &Jacobian::new(elimination, &[], |_| false),
+            &Jacobian::new(elimination, &[], Vec::new(), |_| false),
             &[],
             ([&elastic, &vec![false; elastic.len()]], &[]),
         );

@@ -161,7 +161,7 @@ impl Case {
         let mut tangent: Tangent<3> = Tangent::new(
             &self.elimination,
             false,
-            &Jacobian::new(&self.elimination, &[], |_| false),
+            &Jacobian::new(&self.elimination, &[], Vec::new(), |_| false),
             &[],
             ([&elastic, &vec![false; elastic.len()]], &[]),
         );

@@ -126,16 +126,16 @@ impl<T: Number> Matrix<T> {
 }
 
 impl Matrix<f64> {
-    /// Factors a positive semidefinite matrix in place. A row whose pivot is less than `least` times its square drops
-    /// out: what solves say of it is zero. `counts` tells of every row whether it stays, and `pivots` what its pivot is.
+    /// Factors a positive semidefinite matrix in place. A row whose pivot is not above its bound drops out: what solves say of it is
+    /// zero. `counts` tells of every row whether it stays, and `pivots` what its pivot is.
     pub fn factor_semidefinite(
         &mut self,
         pattern: &Pattern,
-        (least, squares): (f64, &[f64]),
+        bounds: &[f64],
         (counts, pivots): (&mut [bool], &mut [f64]),
     ) {
         let mut pivots = |row: usize, pivot: f64| {
-            let stays = pivot.is_finite() && pivot > least * squares[row];
+            let stays = pivot.is_finite() && pivot > bounds[row];
             (counts[row], pivots[row]) = (stays, pivot);
             Some(if stays { 1.0 / pivot } else { 0.0 })
         };

@@ -466,7 +466,11 @@ fn rows_with_little_pivots_drop_out() {
             squares[at] = dot(row, row);
             b[at] = (0..3).map(|k| rows[row][k] * x[k]).sum();
         }
-        a.factor_semidefinite(&pattern, (1e-8, &squares), (&mut counts, &mut pivots));
+        a.factor_semidefinite(
+            &pattern,
+            &squares.map(|square| 1e-8 * square),
+            (&mut counts, &mut pivots),
+        );
         assert_eq!(
             counts.iter().filter(|stays| **stays).count(),
             3,

@@ -3,9 +3,9 @@
 //! for at the start and at every state that a step is accepted at.
 
 use super::multipliers::RANK;
-use crate::body::Jacobian;
+use crate::body::{Jacobian, no_node};
 use crate::math::vector::dot;
-use crate::system::joints::ConstraintKind;
+use crate::system::joints::{Constraint, ConstraintKind};
 use crate::system::{State, System, Work};
 
 /// Part of a row of the Jacobian below which others give it exactly, but for the residuals of the state.
@@ -100,7 +100,72 @@ impl RankWatch {
     }
 }
 
+/// Nodes in parts that nothing joins, each with a link towards the one that stands for its part.
+struct Parts(Vec<usize>);
+
+impl Parts {
+    /// The node that stands for the part of a node.
+    fn of(&mut self, mut node: usize) -> usize {
+        while self.0[node] != node {
+            self.0[node] = self.0[self.0[node]];
+            node = self.0[node];
+        }
+        node
+    }
+
+    /// Makes one part of those of two nodes.
+    fn join(&mut self, one: usize, other: usize) {
+        let (one, other) = (self.of(one), self.of(other));
+        self.0[other] = one;
+    }
+}
+
 impl<const D: usize> System<D> {
+    /// How heavy the lightest body of each constraint is beside the heaviest one that constraints connect it with: the least inertia over
+    /// the largest, of displacements or of directions, whichever differ more.
+    pub(in crate::system) fn evenness(&self) -> Vec<f64> {
+        let ends = |constraint: &Constraint<D>| {
+            let ends = constraint.ends().into_iter();
+            let nodes: Vec<usize> = ends.filter_map(|end| end.nodes().next()).collect();
+            nodes
+        };
+        let joined: Vec<Vec<usize>> = self.constraints.iter().map(ends).collect();
+        let mut parts = Parts((0..self.reference.len()).collect());
+        for body in &self.bodies {
+            body.clone().for_each(|node| parts.join(body.start, node));
+        }
+        for nodes in &joined {
+            nodes.iter().for_each(|node| parts.join(nodes[0], *node));
+        }
+        let mut y = vec![0.0; self.elimination.scratch()];
+        let mut mobility = |node: usize, vector: usize| {
+            let mut unit = no_node();
+            unit[vector][0] = 1.0;
+            let moved = self.elimination.reduce_node(node, &unit, &mut y);
+            moved.iter().map(|(_, part)| part * part).sum::<f64>()
+        };
+        let mut evenness = vec![1.0_f64; joined.len()];
+        for vector in 0..2 {
+            let mut least = vec![f64::INFINITY; self.reference.len()];
+            let mut largest = vec![0.0_f64; joined.len()];
+            for (nodes, largest) in joined.iter().zip(&mut largest) {
+                for node in nodes {
+                    let found = mobility(*node, vector);
+                    let part = parts.of(*node);
+                    if found > 0.0 {
+                        (*largest, least[part]) = (largest.max(found), least[part].min(found));
+                    }
+                }
+            }
+            for ((nodes, largest), evenness) in joined.iter().zip(largest).zip(&mut evenness) {
+                if largest > 0.0 {
+                    *evenness = evenness.min(least[parts.of(nodes[0])] / largest);
+                }
+            }
+        }
+        evenness
+    }
+
     /// Looks for constraints that do not count at an accepted state, at the configuration in `work`. Those that others give
     /// exactly are none of them: where as many constraints count as anywhere, and others leave nothing of the rest.
     pub(in crate::system) fn watch_rank(&self, time: f64, work: &mut Work<D>) {
