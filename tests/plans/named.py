@@ -5,7 +5,7 @@ import shutil
 from pathlib import Path
 
 import numpy as np
-from judge import Verdict, columns, invoke, read, who_told
+from judge import BUDGET, Verdict, columns, invoke, read, who_told
 
 FOLDER = Path(__file__).parent / "reports"
 
@@ -37,7 +37,7 @@ def judge_named(report, folder, program, seconds=60):
     """Verdicts for the outputs of a report."""
     folder = Path(shutil.copytree(FOLDER / report["name"], folder, dirs_exist_ok=True))
     scene_file, inputs, table = folder / "scene.json", folder / "input.csv", folder / "outputs.csv"
-    options = [*report.get("options", []), *(["--input", inputs] if inputs.exists() else [])]
+    options = ["--budget", BUDGET, *report.get("options", []), *(["--input", inputs] if inputs.exists() else [])]
     text, trouble = invoke(program, "simulate", scene_file, "--output", table, *options, seconds=seconds)
     if text is None:
         return [Verdict(name, report["wanted"], np.inf, "no answer", trouble) for name in report["right"]]

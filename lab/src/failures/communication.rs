@@ -206,12 +206,12 @@ pub fn tolerance() -> Outcome<Row> {
             )
         }
     };
-    scene["accuracy"]["relative_tolerance"] = json!(1e-13);
+    scene["accuracy"]["relative_tolerance"] = json!(1e-15);
     let refused = match Product::start(&scene) {
-        Ok(_) => return Err("expected a tolerance of 1e-13 to be refused".into()),
+        Ok(_) => return Err("expected a tolerance of 1e-15 to be refused".into()),
         Err(message) => message,
     };
-    scene["accuracy"]["relative_tolerance"] = json!(1e-12);
+    scene["accuracy"]["relative_tolerance"] = json!(1e-14);
     scene["bodies"][0]["elements"] = json!(1);
     let mut product = Product::start(&scene)?;
     product.step(1e-3).map_err(|e| e.to_string())?;
@@ -225,7 +225,7 @@ pub fn tolerance() -> Outcome<Row> {
         product: figure(
             first.abs(),
             format!(
-                "refuses: {refused}; at 1e-12 keeps energy to {} J",
+                "refuses: {refused}; at 1e-14 keeps energy to {} J",
                 short(first)
             ),
         ),

@@ -34,8 +34,8 @@ use checks::{expected, name, positive, scene_name, sentence, spin, vector};
 pub const ELEMENTS: RangeInclusive<u32> = 1..=100_000;
 /// Elements of all bodies together: what a computer of today holds.
 const ALL_ELEMENTS: u64 = 1_000_000;
-/// Relative tolerances: below, the error of a step drowns in roundoff; above, it is none at all.
-pub const TOLERANCE: RangeInclusive<f64> = 1e-12..=0.1;
+/// Relative tolerances. Below, the error of a step drowns in roundoff whatever moves. Above, it is none at all.
+pub const TOLERANCE: RangeInclusive<f64> = 1e-14..=0.1;
 impl Scene {
     /// Checks every value of the scene and resolves every reference.
     ///

@@ -1,13 +1,17 @@
 //! What is compared between runs, and which tolerance a run needs to be believed.
 
 use super::experiment::Run;
-use super::outputs::{Group, RelativeTo, shown};
+use super::outputs::{Group, Measure, RelativeTo, shown};
 use super::response;
 use super::search::{Search, TIGHTEST};
 
 /// Part of the error wanted that the tolerance is where inputs rest and nothing moves: motions of a thousandth of the size are
 /// resolved when they act.
 const STILL: f64 = 1e-3;
+/// Part of what doubling changes that the next doubling changes at least, where that is foreseen: of displacements, whose errors fall
+/// with the fourth power of the length of elements, and of strains and forces, where they fall with the second.
+const OF_DISPLACEMENTS: f64 = 1.0 / 16.0;
+const OF_FORCES: f64 = 1.0 / 4.0;
 
 impl Search<'_, '_> {
     /// Whether natural frequencies are compared: of scenes with inputs that are held.
@@ -46,6 +50,23 @@ impl Search<'_, '_> {
             false => f64::INFINITY,
         };
         by_motion.min(at_rest).max(TIGHTEST)
+    }
+
+    /// The part of what doubling changes that the next one changes at least, of all that is compared. Of a cable without bending stiffness
+    /// nothing is foreseen: its curvature jumps, so that its errors depend on where nodes are.
+    pub fn foreseen_at_least(&self) -> Vec<f64> {
+        let is_limp = |body: &usize| {
+            let cable = self.scene.bodies[*body].cable();
+            cable.is_some_and(|cable| cable.bending_stiffness() == 0.0)
+        };
+        let of_output = |group: &Group| match group.measure {
+            _ if group.bodies.iter().any(is_limp) => f64::INFINITY,
+            Measure::Elastic => OF_FORCES,
+            _ => OF_DISPLACEMENTS,
+        };
+        let mut least: Vec<f64> = self.outputs().iter().map(of_output).collect();
+        least.resize(self.compared(), OF_DISPLACEMENTS);
+        least
     }
 
     /// Whether inputs are held while an output that counts does not change.

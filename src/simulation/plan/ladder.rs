@@ -60,13 +60,13 @@ impl Ladder {
     }
 
     /// What the next rung would change, where all outputs converge regularly; `least` is the part that it leaves at least of
-    /// what the last one changed. Nothing where that is more than may be.
-    pub fn foreseen(&self, least: f64) -> Option<Vec<Difference>> {
+    /// what the last one changed, of each output. Nothing where that is more than may be.
+    pub fn foreseen(&self, least: &[f64]) -> Option<Vec<Difference>> {
         let groups = self.limits.iter().enumerate().map(|(group, limit)| {
             let now = self.rungs.last()?.1[group].largest;
             let largest = match now <= QUIET * limit {
                 true => now,
-                false => now * self.rate(group)?.max(least),
+                false => now * self.rate(group)?.max(least[group]),
             };
             (largest <= *limit).then_some(Difference {
                 largest,

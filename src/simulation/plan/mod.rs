@@ -17,6 +17,7 @@ mod response;
 mod search;
 mod settled;
 mod shear;
+mod space;
 mod start;
 mod time;
 

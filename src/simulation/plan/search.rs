@@ -2,8 +2,8 @@
 
 use super::experiment::{Experiment, Run, Unfinished};
 use super::given::Given;
-use super::ladder::{Choice, Ladder};
-use super::outputs::{Difference, Group, are_kept, difference, groups, scales};
+use super::ladder::Choice;
+use super::outputs::{Difference, Group, difference, groups, scales};
 use super::report::Plan;
 use super::response::Responses;
 use super::shear::{Beam, Sheared};
@@ -15,12 +15,10 @@ use crate::simulation::{check, variables};
 pub(super) const OF_SPACE: f64 = 2.0 / 3.0;
 /// Part of the error wanted that all doublings to come and the tolerance may change together, where they converge regularly.
 pub(super) const SHARED: f64 = 0.9;
-/// Part of what doubling changes that the next one changes at least, where that is foreseen.
-const LEAST: f64 = 1.0 / 16.0;
-/// The tightest tolerance: below it roundoff makes the steps.
-pub(super) const TIGHTEST: f64 = 1e-11;
-/// Most cables of which single ones are tried with fewer elements.
-const MOST_SINGLE: usize = 4;
+/// The tightest tolerance: below it roundoff makes the steps of motions of any size.
+pub(super) const TIGHTEST: f64 = 1e-13;
+/// Part of the work of planning that one run of the coarsest mesh may take, where finer ones are to be tried.
+const OF_ONE: f64 = 0.25;
 /// Most elements of a cable, and runs; of a fuzzer few, so that it gets on.
 const MOST_ELEMENTS: u32 = if cfg!(fuzzing) { 8 } else { 1024 };
 const MOST_RUNS: usize = if cfg!(fuzzing) { 4 } else { 40 };
@@ -45,8 +43,9 @@ pub(super) struct Search<'a, 'p> {
     pub(super) beams: Vec<Beam>,
     /// The loosest tolerance that may be chosen.
     pub(super) loosest: f64,
-    /// Most work of all runs, and whether planning has taken the time that it may: clocks decide only where counts do not.
+    /// Most work of all runs, what one of them may take of it, and whether planning has taken the time that it may: clocks decide only where counts do not.
     most_work: f64,
+    share: f64,
     is_over: &'a dyn Fn() -> bool,
     /// Whether either has ended the search.
     pub(super) is_cut: bool,
@@ -109,6 +108,7 @@ impl<'a, 'p> Search<'a, 'p> {
             fewest: fewest(scene)?,
             loosest: f64::INFINITY,
             most_work: budget.work(),
+            share: 1.0,
             is_over: budget.is_over,
             is_cut: false,
             progress,
@@ -127,13 +127,19 @@ impl<'a, 'p> Search<'a, 'p> {
         };
         // What contradicts itself is told with its place.
         check(&self.planned(&choice))?;
+        // Runs that converge slowly in time leave work for meshes.
+        self.share = if self.is_any_free() { OF_ONE } else { 1.0 };
         let in_time = self.find_tolerance(&mut choice)?;
+        self.share = 1.0;
         let in_space = self.find_elements(&mut choice, &in_time)?;
         let found_with = choice.tolerance;
         let verified = self.verify_tolerance(&mut choice, &in_space, &in_time);
         let in_time = verified.unwrap_or(in_time);
         let in_space = match choice.tolerance < found_with {
-            true => self.coarsen(&mut choice, in_space),
+            true => match self.refine_resolved(&mut choice, &in_space) {
+                Some(found) => found,
+                None => self.coarsen(&mut choice, in_space),
+            },
             false => in_space,
         };
         let sheared = self.shear(&choice);
@@ -147,7 +153,7 @@ impl<'a, 'p> Search<'a, 'p> {
     }
 
     /// A mesh with all cables rigid that may be.
-    fn stiffest(&self, elements: &[u32]) -> Vec<u32> {
+    pub(super) fn stiffest(&self, elements: &[u32]) -> Vec<u32> {
         let cables = cables(self.scene).zip(elements);
         let least = cables.map(|((body, cable), count)| {
             // What has no bending stiffness does not push.
@@ -165,6 +171,11 @@ impl<'a, 'p> Search<'a, 'p> {
     pub fn is_free(&self, cable: usize) -> bool {
         let body = cables(self.scene).nth(cable);
         body.is_some_and(|(_, body)| body.elements.is_none() && body.model != Model::Rigid)
+    }
+
+    /// Whether that of any is.
+    pub(super) fn is_any_free(&self) -> bool {
+        (0..self.fewest.len()).any(|cable| self.is_free(cable))
     }
 
     fn planned(&self, choice: &Choice) -> Scene {
@@ -243,17 +254,19 @@ impl<'a, 'p> Search<'a, 'p> {
             self.is_cut = true;
             return Err(Unfinished::TooMuchWork);
         }
-        let limits = (left, self.is_over);
+        let most = left.min(self.share * self.most_work);
+        let limits = (most, self.is_over);
         let scene = self.planned(choice);
         let responses = self.responses(choice);
         let mut run = (self.experiment).run(scene, responses, choice.is_halved, limits);
-        self.is_cut |= matches!(run, Err(Unfinished::TooMuchWork));
+        let is_last = most == left || (self.is_over)();
+        self.is_cut |= matches!(run, Err(Unfinished::TooMuchWork)) && is_last;
         if let Ok(run) = &mut run {
             run.scales = scales(&self.groups, run);
         }
         self.work += match &run {
             Ok(run) => run.work,
-            Err(Unfinished::TooMuchWork) => left,
+            Err(Unfinished::TooMuchWork) => most,
             Err(Unfinished::Failed(_)) => 0.0,
         };
         run
@@ -318,159 +331,5 @@ impl<'a, 'p> Search<'a, 'p> {
     /// The same part of the error wanted for every output.
     pub fn equal(&self, part: f64) -> Vec<f64> {
         vec![part * self.error; self.compared()]
-    }
-
-    /// The coarsest mesh that doubling changes by no more than may be, and what it changes.
-    fn find_elements(
-        &mut self,
-        choice: &mut Choice,
-        in_time: &[Difference],
-    ) -> Result<Vec<Difference>, Error> {
-        let mut ladder = Ladder::new(self.equal(OF_SPACE));
-        let mut tried = Choice {
-            elements: self.stiffest(&choice.elements),
-            ..choice.clone()
-        };
-        loop {
-            let mut closer = tried.clone();
-            if !self.refine(&mut closer) {
-                break;
-            }
-            if let Some(found) = ladder.foreseen(LEAST) {
-                ladder.add(&tried, found);
-                break;
-            }
-            let lets_bend = tried.elements.contains(&0);
-            match lets_bend {
-                true => self.resolve(&mut closer),
-                false => self.tighten(&tried, &mut closer),
-            }
-            match self.compare(&tried, &closer, self.error) {
-                Ok(found) => ladder.add(&tried, found),
-                Err(Unfinished::TooMuchWork) => break,
-                Err(Unfinished::Failed(reason)) if !self.refine(&mut closer.clone()) => {
-                    if ladder.rungs.is_empty() {
-                        return Err(Error::new("experiment", reason));
-                    }
-                    // What coarser meshes have shown counts, and that it does not settle is told.
-                    break;
-                }
-                Err(Unfinished::Failed(_)) => {}
-            }
-            if ladder.is_climbed() || self.is_enough(&ladder, in_time) {
-                break;
-            }
-            if lets_bend {
-                closer.tolerance = choice.tolerance;
-            }
-            tried = closer;
-        }
-        let Some((best, found)) = ladder.best() else {
-            let is_free = (0..choice.elements.len()).any(|cable| self.is_free(cable));
-            let nothing = vec![Difference::NONE; self.compared()];
-            return Ok(if is_free { self.unknown() } else { nothing });
-        };
-        *choice = best;
-        let mut closer = choice.clone();
-        self.refine(&mut closer);
-        // Where doubling was foreseen it has not been run.
-        if self.known(&closer).is_none() {
-            closer.clone_from(choice);
-        }
-        self.coarsen_one_by_one(choice, &closer, &found);
-        let last = match closer == *choice {
-            true => Vec::new(),
-            false => self
-                .compare(choice, &closer, self.error)
-                .unwrap_or_default(),
-        };
-        let worst = |(a, b): (&Difference, &Difference)| a.worst(*b);
-        Ok(match last.is_empty() {
-            true => found,
-            false => found.iter().zip(&last).map(worst).collect(),
-        })
-    }
-
-    /// Whether what the last rung changed and all doublings to come would leaves enough to the tolerance.
-    fn is_enough(&self, ladder: &Ladder, in_time: &[Difference]) -> bool {
-        let Some((_, last)) = ladder.rungs.last() else {
-            return false;
-        };
-        last.iter()
-            .zip(in_time)
-            .enumerate()
-            .all(|(group, (found, time))| {
-                let rate = ladder.rate(group).map(|rate| rate.max(LEAST));
-                let to_come = match rate {
-                    Some(rate) => found.largest / (1.0 - rate),
-                    None => found.largest / OF_SPACE,
-                };
-                to_come + time.largest <= SHARED * self.error
-            })
-    }
-
-    /// Halves the numbers of elements of single cables while that changes no more than may be.
-    fn coarsen_one_by_one(&mut self, choice: &mut Choice, closer: &Choice, found: &[Difference]) {
-        let least = self.stiffest(&self.fewest);
-        let cables: Vec<usize> = (0..choice.elements.len())
-            .filter(|i| self.is_free(*i))
-            .collect();
-        if !(2..=MOST_SINGLE).contains(&cables.len()) {
-            return;
-        }
-        let limits = self.equal(OF_SPACE);
-        // What bends is compared with what does not, so its vibrations must be there.
-        let mut resolved = closer.clone();
-        for cable in cables {
-            let mut tried = choice.clone();
-            tried.elements[cable] /= 2;
-            if tried.elements[cable] < self.fewest[cable] {
-                tried.elements[cable] = 0;
-            }
-            if tried.elements[cable] < least[cable] || tried.elements == choice.elements {
-                continue;
-            }
-            let lets_bend = tried.elements[cable] == 0;
-            if lets_bend {
-                self.resolve(&mut resolved);
-            }
-            let closer = if lets_bend { &resolved } else { closer };
-            let changed = self.compare(&tried, closer, self.error);
-            if changed.is_ok_and(|changed| are_kept(&changed, found, &limits)) {
-                *choice = tried;
-            }
-        }
-    }
-
-    /// Halves all numbers of elements while that changes no more than may be: errors in time had a part in what doubling
-    /// changed before. What doubling changes.
-    fn coarsen(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
-        let (mut found, limits) = (found, self.equal(OF_SPACE));
-        loop {
-            let half = self.half(choice);
-            if half.elements == choice.elements {
-                return found;
-            }
-            let Ok(now) = self.compare(&half, choice, self.error) else {
-                return found;
-            };
-            if !are_kept(&now, &found, &limits) {
-                return found;
-            }
-            (*choice, found) = (half, now);
-        }
-    }
-
-    /// A choice with half as many elements where that can be.
-    pub fn half(&self, choice: &Choice) -> Choice {
-        let halves = choice.elements.iter().zip(&self.fewest);
-        let half = |(count, least): (&u32, &u32)| match count {
-            0 => 0,
-            count => (count / 2).max(*least),
-        };
-        Choice {
-            elements: halves.map(half).collect(),
-            ..choice.clone()
-        }
     }
 }

@@ -35,7 +35,7 @@ const LITTLE: f64 = 0.05;
 const LOOSEST: f64 = 1e-2;
 const LAST: f64 = 1e-3;
 /// Times that a tolerance is tightened at most until a run resolves what it shows.
-const RESOLVED: usize = 4;
+const RESOLVED: usize = 8;
 
 impl Search<'_, '_> {
     /// The first tolerance that is tried: the one given, or the loosest.
@@ -76,12 +76,11 @@ impl Search<'_, '_> {
         };
         choice.tolerance = decade(10.0 * resolved.tolerance).min(self.loosest);
         let mut found = self.loosest(choice, &limits)?;
-        // The tightest one that was run says what looser ones miss.
-        let reference = Choice {
-            tolerance: tenth(choice.tolerance),
-            ..choice.clone()
+        // The one that it was compared with says what looser ones miss.
+        let Some(reference) = self.closest(choice) else {
+            return Ok(found);
         };
-        while decade(10.0 * choice.tolerance) <= self.loosest && self.known(&reference).is_some() {
+        while decade(10.0 * choice.tolerance) <= self.loosest {
             let looser = Choice {
                 tolerance: decade(10.0 * choice.tolerance),
                 ..choice.clone()
@@ -123,7 +122,11 @@ impl Search<'_, '_> {
             if choice.tolerance <= believed {
                 return;
             }
-            choice.tolerance = decade_below(believed);
+            // What is damped away hides what it would show: half the way tells it for less work.
+            let half = decade_below((choice.tolerance * believed).sqrt());
+            choice.tolerance = half
+                .min(tenth(choice.tolerance))
+                .max(decade_below(believed));
         }
     }
 
@@ -145,9 +148,10 @@ impl Search<'_, '_> {
     ) -> Result<Vec<Difference>, Unfinished> {
         let is_given = self.scene.accuracy.relative_tolerance.is_some();
         let mut ladder = Ladder::new(limits.to_vec());
+        let least = vec![LEAST; limits.len()];
         let mut tried = choice.clone();
         loop {
-            if let Some(found) = ladder.foreseen(LEAST) {
+            if let Some(found) = ladder.foreseen(&least) {
                 ladder.add(&tried, found);
                 break;
             }
@@ -168,6 +172,20 @@ impl Search<'_, '_> {
         let (best, found) = ladder.best().unwrap_or_default();
         choice.tolerance = best.tolerance;
         Ok(found)
+    }
+
+    /// What a choice was compared with in time: halves of its steps, or a tenth of its tolerance.
+    fn closest(&self, choice: &Choice) -> Option<Choice> {
+        let all = [(true, true), (true, false), (false, true)];
+        let mut all = all.into_iter().map(|(is_halved, is_tenth)| Choice {
+            tolerance: match is_tenth {
+                true => tenth(choice.tolerance),
+                false => choice.tolerance,
+            },
+            is_halved,
+            ..choice.clone()
+        });
+        all.find(|closer| self.known(closer).is_some())
     }
 
     /// What a tenth of the tolerance changes; where that takes the same steps, since communication points end them, what
@@ -218,8 +236,8 @@ impl Search<'_, '_> {
         in_time: &[Difference],
     ) -> Option<Vec<Difference>> {
         let mut half = self.half(choice);
-        // Another integrator makes other errors.
-        if !self.end_alike([&half, choice]) {
+        // Another integrator makes other errors, and so does a mesh that moves otherwise.
+        if !self.end_alike([&half, choice]) || self.are_far([&half, choice]) {
             half.elements.clone_from(&choice.elements);
         }
         let limits = self.left(in_space, half.elements == choice.elements);
@@ -279,6 +297,19 @@ impl Search<'_, '_> {
         left.collect()
     }
 
+    /// Whether two meshes move so differently that errors in time of one say nothing of those of the other.
+    fn are_far(&mut self, [half, choice]: [&Choice; 2]) -> bool {
+        let found = self.compare(half, choice, self.error).unwrap_or_default();
+        found.iter().any(|found| found.largest > NEAR * self.error)
+    }
+
+    /// Whether communication points end the steps of two runs: what they differ by says nothing of errors in time.
+    fn take_same_steps(&self, looser: &Choice, tighter: &Choice) -> bool {
+        let steps = |choice: &Choice| self.known(choice).map(|run| run.steps as f64);
+        let pair = steps(looser).zip(steps(tighter));
+        pair.is_some_and(|(looser, tighter)| tighter < ALIKE * looser)
+    }
+
     /// The loosest tolerance that is good enough by what ten times as much changes, and what a tenth of it would.
     fn by_looser(&mut self, best: &Choice, limits: &[f64]) -> Option<(f64, Vec<Difference>)> {
         let is_given = self.scene.accuracy.relative_tolerance.is_some();
@@ -295,6 +326,9 @@ impl Search<'_, '_> {
                 break;
             }
             let now = self.doubted(&looser, best).ok()?;
+            if self.take_same_steps(&looser, best) {
+                break;
+            }
             let doubt = doubt(looser.tolerance);
             let tail = (TAIL / doubt).max(1.0);
             let mut pairs = now.iter().zip(limits);
