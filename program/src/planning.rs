@@ -262,6 +262,8 @@ fn in_words(plan: &Plan) -> String {
             "inputs held at their start values: {}\n",
             plan.held.join(", ")
         );
+    }
+    if !plan.answers.is_empty() {
         let heads = [
             "linear answers and frequencies",
             "changed by twice the mesh",

@@ -159,7 +159,7 @@ impl<const D: usize> System<D> {
             return longest;
         }
         longest.max(match self.has_no_frames() {
-            true => start::gaps::extent(&self.reference),
+            true => self.extent(&self.reference),
             false => self.reach,
         })
     }

@@ -152,3 +152,46 @@ fn a_free_beam_keeps_energy_and_momenta() {
         }
     }
 }
+
+/// How the tip of two beams that are welded to each other moves, over their length: lengths and times `scale` as large, `away` from the
+/// origin, m.
+fn welded(scale: f64, away: f64) -> Vec<f64> {
+    let at = |x: f64, y: f64| json!([away + scale * x, scale * y]);
+    let beam = |name: &str, from: Value, to: Value| {
+        json!({"name": name, "element": "beam", "elements": 2,
+            "material": {"youngs_modulus": 1e9, "shear_modulus": 4e8, "density": 1000.0},
+            "section": {"area": 1e-4 * scale.powi(2), "second_moment": 1e-9 * scale.powi(4), "shear_factor": 0.8},
+            "shape": {"line": {"from": from, "to": to}}, "markers": {"root": 0.0, "tip": 1.0}})
+    };
+    let scene = json!({"name": "welded", "dimension": 2,
+        "bodies": [beam("mast", at(0.0, 0.0), at(0.0, 1.0)), beam("arm", at(0.0, 1.0), at(-1.0, 1.5))],
+        "joints": [{"name": "foot", "kind": "weld", "markers": ["ground", "mast.root"]},
+                   {"name": "knee", "kind": "weld", "markers": ["mast.tip", "arm.root"]}],
+        "loads": [{"name": "pull", "kind": "force", "marker": "arm.tip", "value": [0.0, 0.02 * scale.powi(2)]}],
+        "outputs": [{"kind": "position", "marker": "arm.tip"}], "accuracy": {"relative_tolerance": 1e-3}});
+    let mut simulation = simulation(&scene);
+    let mut places = Vec::new();
+    for part in 1..=4 {
+        simulation
+            .step(0.25 * scale * f64::from(part))
+            .expect("a step");
+        let place = values(&mut simulation, "arm.tip.position");
+        places.extend([(place[0] - away) / scale + 1.0, place[1] / scale - 1.5]);
+    }
+    places
+}
+
+/// Errors of steps are relative to the size of a scene, which is neither where it stands nor an angle of its sections.
+#[test]
+fn steps_are_the_same_at_any_size_and_place() {
+    let right = welded(1.0, 0.0);
+    let largest = right.iter().fold(0.0_f64, |most, way| most.max(way.abs()));
+    for (scale, away) in [(1e-3, 0.0), (1.0, 100.0)] {
+        for (found, right) in welded(scale, away).iter().zip(&right) {
+            assert!(
+                (found - right).abs() < 1e-4 * largest,
+                "{scale}, {away}: {found} for {right}"
+            );
+        }
+    }
+}

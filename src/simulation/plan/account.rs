@@ -75,8 +75,11 @@ impl Search<'_, '_> {
         })
     }
 
-    /// What doubling changes of the answers to inputs that are held, and of natural frequencies.
+    /// What doubling changes of the answers to inputs that are held, and of natural frequencies; nothing of meshes that are given.
     fn answers(&self, in_space: &[Difference]) -> Vec<(String, f64)> {
+        if !self.is_any_free() {
+            return Vec::new();
+        }
         let still = self.outputs().len()..in_space.len();
         let told = still.map(|index| (self.name(index), in_space[index].largest));
         // Nothing changes where no frequency was compared.

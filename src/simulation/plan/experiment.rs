@@ -84,13 +84,12 @@ impl Experiment {
         })
     }
 
-    /// Runs a scene with numbers of elements and a tolerance, with at most so much work, and until time is over; where it is halved, in
-    /// two steps from one communication point to the next. Responses are those of the mesh, where they are known.
+    /// Runs a scene with numbers of elements and a tolerance, with at most so much work, and until time is over. Responses are those of
+    /// the mesh, where they are known.
     pub fn run(
         &self,
         scene: Scene,
         responses: Option<Responses>,
-        is_halved: bool,
         (most_work, is_over): (f64, &dyn Fn() -> bool),
     ) -> Result<Run, Unfinished> {
         let failed = |reason: String| Unfinished::Failed(reason);
@@ -116,12 +115,7 @@ impl Experiment {
         let mut motion = Motion::new(&simulation);
         for number in 0..=self.steps {
             let until = (number as f64 * self.step).min(self.stop);
-            let middle = (until - 0.5 * self.step).max(0.0);
             while simulation.time() < until {
-                let until = match is_halved && simulation.time() < middle {
-                    true => middle,
-                    false => until,
-                };
                 match &signals {
                     Some(signals) => simulation.step_along(signals, until).map_err(failed)?,
                     None => simulation

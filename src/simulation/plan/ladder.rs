@@ -21,7 +21,7 @@ pub(super) struct Choice {
     /// Elements of every cable, in the order of the bodies.
     pub elements: Vec<u32>,
     pub tolerance: f64,
-    /// Whether communication steps are taken in two halves.
+    /// Whether steps are at most half as long as those between communication points, where these end them.
     pub is_halved: bool,
     /// Whether axial waves of all cables settle.
     pub is_settled: bool,

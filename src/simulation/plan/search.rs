@@ -199,6 +199,9 @@ impl<'a, 'p> Search<'a, 'p> {
             relative_tolerance: Some(choice.tolerance),
             ..Accuracy::default()
         };
+        if choice.is_halved {
+            scene.experiment.step *= 0.5;
+        }
         scene
     }
 
@@ -258,7 +261,7 @@ impl<'a, 'p> Search<'a, 'p> {
         let limits = (most, self.is_over);
         let scene = self.planned(choice);
         let responses = self.responses(choice);
-        let mut run = (self.experiment).run(scene, responses, choice.is_halved, limits);
+        let mut run = (self.experiment).run(scene, responses, limits);
         let is_last = most == left || (self.is_over)();
         self.is_cut |= matches!(run, Err(Unfinished::TooMuchWork)) && is_last;
         if let Ok(run) = &mut run {

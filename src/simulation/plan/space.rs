@@ -31,8 +31,7 @@ impl Search<'_, '_> {
                 ladder.add(&tried, found);
                 break;
             }
-            let lets_bend = tried.elements.contains(&0);
-            match lets_bend {
+            match tried.elements.contains(&0) {
                 true => self.resolve(&mut closer),
                 false => self.tighten(&tried, &mut closer),
             }
@@ -51,19 +50,23 @@ impl Search<'_, '_> {
             if ladder.is_climbed() || self.is_enough(&ladder, in_time) {
                 break;
             }
-            if lets_bend {
+            if tried.elements.contains(&0) {
                 closer.tolerance = choice.tolerance;
             }
             tried = closer;
         }
         let Some((best, found)) = ladder.best() else {
-            let nothing = vec![Difference::NONE; self.compared()];
             return Ok(match self.is_any_free() {
                 true => self.unknown(),
-                false => nothing,
+                false => vec![Difference::NONE; self.compared()],
             });
         };
         *choice = best;
+        Ok(self.coarsen_singly(choice, found))
+    }
+
+    /// Halves single cables where that costs nothing. What doubling all changes then.
+    fn coarsen_singly(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
         let mut closer = choice.clone();
         self.refine(&mut closer);
         // Where doubling was foreseen it has not been run.
@@ -78,10 +81,10 @@ impl Search<'_, '_> {
                 .unwrap_or_default(),
         };
         let worst = |(a, b): (&Difference, &Difference)| a.worst(*b);
-        Ok(match last.is_empty() {
+        match last.is_empty() {
             true => found,
             false => found.iter().zip(&last).map(worst).collect(),
-        })
+        }
     }
 
     /// Whether what the last rung changed and all doublings to come would leaves enough to the tolerance.
@@ -125,7 +128,7 @@ impl Search<'_, '_> {
                 continue;
             }
             let lets_bend = tried.elements[cable] == 0;
-            if lets_bend {
+            if tried.elements.contains(&0) {
                 self.resolve(&mut resolved);
             }
             let closer = if lets_bend { &resolved } else { closer };

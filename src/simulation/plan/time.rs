@@ -174,18 +174,32 @@ impl Search<'_, '_> {
         Ok(found)
     }
 
-    /// What a choice was compared with in time: halves of its steps, or a tenth of its tolerance.
+    /// The run of the same mesh that is closest to the truth in time: that of most steps with no looser tolerance.
     fn closest(&self, choice: &Choice) -> Option<Choice> {
-        let all = [(true, true), (true, false), (false, true)];
-        let mut all = all.into_iter().map(|(is_halved, is_tenth)| Choice {
-            tolerance: match is_tenth {
-                true => tenth(choice.tolerance),
-                false => choice.tolerance,
-            },
-            is_halved,
-            ..choice.clone()
+        let of_mesh = |made: &Choice| Choice {
+            tolerance: choice.tolerance,
+            is_halved: choice.is_halved,
+            ..made.clone()
+        };
+        let same = self.runs.iter().filter(|(made, _)| {
+            made != choice && made.tolerance <= choice.tolerance && of_mesh(made) == *choice
         });
-        all.find(|closer| self.known(closer).is_some())
+        let finished = same.filter_map(|(made, run)| Some((made, run.as_ref().ok()?.steps)));
+        let best = finished.max_by_key(|(_, steps)| *steps);
+        best.map(|(made, _)| made.clone())
+    }
+
+    /// Makes a run that is to be closer take other steps than that of a choice: halves, then with tighter tolerances.
+    fn set_apart(&mut self, choice: &Choice, closer: &mut Choice) -> Result<(), Unfinished> {
+        self.run(closer)?;
+        while self.take_same_steps(choice, closer) && closer.tolerance > TIGHTEST {
+            match closer.is_halved {
+                true => closer.tolerance = tenth(closer.tolerance),
+                false => closer.is_halved = true,
+            }
+            self.run(closer)?;
+        }
+        Ok(())
     }
 
     /// What a tenth of the tolerance changes; where that takes the same steps, since communication points end them, what
@@ -201,12 +215,12 @@ impl Search<'_, '_> {
             is_halved: true,
             ..choice.clone()
         };
-        if self.known(&halves).is_some() {
-            closer = halves;
-        } else {
-            closer.is_halved = steps < SAME * self.experiment.steps as f64
-                || (self.run(&closer)?.steps as f64) < ALIKE * steps;
+        if self.known(&halves).is_some() && !self.take_same_steps(choice, &halves) {
+            return self.doubted(choice, &halves);
         }
+        let points = self.experiment.steps as f64;
+        closer.is_halved = (points..SAME * points).contains(&steps);
+        self.set_apart(choice, &mut closer)?;
         self.doubted(choice, &closer)
     }
 
@@ -270,7 +284,9 @@ impl Search<'_, '_> {
         resolved: &Choice,
         limits: &[f64],
     ) -> Option<(f64, Vec<Difference>)> {
-        let found = self.doubted(tried, resolved).ok()?;
+        let mut closer = resolved.clone();
+        self.set_apart(tried, &mut closer).ok()?;
+        let found = self.doubted(tried, &closer).ok()?;
         if found
             .iter()
             .zip(limits)

@@ -19,8 +19,11 @@ impl<const D: usize> System<D> {
     }
 
     /// Largest distance from the first node, m; 1 where there is none.
-    pub(super) fn extent(&self, x: &[Node<D>]) -> f64 {
-        extent_of(x[0][0].into(), self.points(x))
+    pub(in crate::system) fn extent(&self, x: &[Node<D>]) -> f64 {
+        let first = Vector::from(x[0][0]);
+        let far = self.points(x).map(|point| (point - first).norm());
+        let largest = far.fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
     }
 
     /// What a body is turned about: the mean of its nodes, m.
@@ -223,14 +226,4 @@ fn constraint_size<const D: usize>(constraint: &Constraint<D>, size: f64) -> f64
         | ConstraintKind::Perpendicular(_)
         | ConstraintKind::Related(_) => size,
     }
-}
-
-/// Largest distance from the first node, m; 1 where there is none.
-pub(in crate::system) fn extent<const D: usize>(x: &[Node<D>]) -> f64 {
-    extent_of(x[0][0].into(), x.iter().map(|node| node[0].into()))
-}
-
-fn extent_of<const D: usize>(first: Vector<D>, points: impl Iterator<Item = Vector<D>>) -> f64 {
-    let largest = points.map(|p| (p - first).norm()).fold(0.0, f64::max);
-    if largest > 0.0 { largest } else { 1.0 }
 }
