@@ -201,3 +201,63 @@ fn change(state: &mut State, reached: f64) {
     (pace.time, pace.operations, pace.cost) = (0.0, 0.0, 0.0);
     std::mem::swap(&mut state.step, &mut pace.step);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FREE: Rival = Rival {
+        at_most: f64::INFINITY,
+    };
+
+    /// The method in use after the last step of a trial of the second one, which got so many times further with an operation than the
+    /// first did.
+    fn after_trial(further: f64) -> f64 {
+        let pace = Pace {
+            method: 1.0,
+            trial: 1.0,
+            other: 1.0,
+            ..Pace::default()
+        };
+        let mut state = State {
+            step: further,
+            pace,
+            ..State::default()
+        };
+        FREE.takes_over(&mut state, (Trial::whole(further), 1.0, true));
+        assert_eq!(state.pace.trial, 0.0, "the trial is over");
+        state.pace.method
+    }
+
+    #[test]
+    fn a_method_is_exchanged_for_one_that_gets_a_tenth_further() {
+        assert_eq!([1.08, 1.12].map(after_trial), [0.0, 1.0]);
+    }
+
+    /// The method in use after one step that gets 1 s an operation, where the other got so much when it was in use, and may get at most
+    /// so much; operations enough for that have gone by, not for a trial in turn.
+    fn after_fall(other: f64, at_most: f64) -> f64 {
+        let pace = Pace {
+            other,
+            cost: 0.5 * WINDOW,
+            pause: 2.0 * WINDOW,
+            ..Pace::default()
+        };
+        let mut state = State {
+            step: 1.0,
+            pace,
+            ..State::default()
+        };
+        Rival { at_most }.takes_over(&mut state, (Trial::whole(1.0), 1.0, true));
+        state.pace.method
+    }
+
+    #[test]
+    fn the_other_method_is_tried_at_once_where_it_got_twice_as_far() {
+        assert_eq!([1.9, 2.1].map(|other| after_fall(other, 10.0)), [0.0, 1.0]);
+        assert_eq!(
+            [1.08, 1.12].map(|at_most| after_fall(3.0, at_most)),
+            [0.0, 1.0]
+        );
+    }
+}

@@ -21,6 +21,8 @@ def off(rows, drawn, right):
         return abs(np.abs(rows[1:]).max() / right["largest"] - 1)
     if "above" in right:
         return 0.0 if np.abs(rows).max() > right["above"] else np.inf
+    if "at_end" in right:
+        return np.linalg.norm(rows[-1] - right["at_end"]) / np.linalg.norm(right["at_end"])
     last = np.array(right["last"])
     return np.linalg.norm(rows[-1] - last) / np.linalg.norm(last - drawn)
 

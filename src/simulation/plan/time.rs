@@ -192,12 +192,17 @@ impl Search<'_, '_> {
     /// Makes a run that is to be closer take other steps than that of a choice: halves, then with tighter tolerances.
     fn set_apart(&mut self, choice: &Choice, closer: &mut Choice) -> Result<(), Unfinished> {
         self.run(closer)?;
-        while self.take_same_steps(choice, closer) && closer.tolerance > TIGHTEST {
-            match closer.is_halved {
-                true => closer.tolerance = tenth(closer.tolerance),
-                false => closer.is_halved = true,
+        let mut tried = closer.clone();
+        while self.take_same_steps(choice, closer) && tried.tolerance > TIGHTEST {
+            match tried.is_halved {
+                true => tried.tolerance = tenth(tried.tolerance),
+                false => tried.is_halved = true,
             }
-            self.run(closer)?;
+            // What fails when it is asked for more says nothing of what is asked for.
+            if self.run(&tried).is_err() {
+                break;
+            }
+            closer.clone_from(&tried);
         }
         Ok(())
     }
