@@ -18,6 +18,7 @@ mod tests;
 
 pub use cholesky::{Cholesky, Reach};
 pub use general::{Factors, General};
+pub use order::{graph, parts};
 pub use pattern::{Component, Pattern, Slot};
 
 use std::ops::{Add, Div, Mul, Sub};

@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
 /// The vertices of every connected part, lowest first vertices first.
-pub(super) fn parts(graph: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
+pub fn parts(graph: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
     let mut seen = vec![false; graph.len()];
     let mut parts = Vec::new();
     for first in 0..graph.len() {
@@ -31,7 +31,7 @@ pub(super) fn parts(graph: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
 }
 
 /// The neighbours of every vertex.
-pub(super) fn graph(sizes: &[usize], edges: &[(usize, usize)]) -> Vec<BTreeSet<usize>> {
+pub fn graph(sizes: &[usize], edges: &[(usize, usize)]) -> Vec<BTreeSet<usize>> {
     let mut graph = vec![BTreeSet::new(); sizes.len()];
     for &(v, w) in edges {
         if v != w && sizes[v] > 0 && sizes[w] > 0 {

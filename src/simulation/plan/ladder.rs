@@ -34,13 +34,16 @@ pub(super) struct Ladder {
     pub rungs: Vec<(Choice, Vec<Difference>)>,
     /// What every output may change.
     limits: Vec<f64>,
+    /// The part of what a rung changed that the next one changes at least, of every output; infinite where nothing is foreseen.
+    least: Vec<f64>,
 }
 
 impl Ladder {
-    pub fn new(limits: Vec<f64>) -> Self {
+    pub fn new(limits: Vec<f64>, least: Vec<f64>) -> Self {
         Self {
             rungs: Vec::new(),
             limits,
+            least,
         }
     }
 
@@ -59,14 +62,13 @@ impl Ladder {
         !last.iter().enumerate().any(is_open)
     }
 
-    /// What the next rung would change, where all outputs converge regularly; `least` is the part that it leaves at least of
-    /// what the last one changed, of each output. Nothing where that is more than may be.
-    pub fn foreseen(&self, least: &[f64]) -> Option<Vec<Difference>> {
+    /// What the next rung would change, where all outputs converge regularly. Nothing where that is more than may be.
+    pub fn foreseen(&self) -> Option<Vec<Difference>> {
         let groups = self.limits.iter().enumerate().map(|(group, limit)| {
             let now = self.rungs.last()?.1[group].largest;
             let largest = match now <= QUIET * limit {
                 true => now,
-                false => now * self.rate(group)?.max(least[group]),
+                false => now * self.rate(group)?,
             };
             (largest <= *limit).then_some(Difference {
                 largest,
@@ -76,7 +78,7 @@ impl Ladder {
         groups.collect()
     }
 
-    /// What the last rung left of what the one before changed, where that says what the next one will leave.
+    /// The part of what the last rung changed that the next one will change, as far as the one before tells.
     pub fn rate(&self, group: usize) -> Option<f64> {
         // Letting rigid bodies bend is no doubling.
         let rigid = |choice: &Choice| choice.elements.iter().filter(|count| **count == 0).count();
@@ -89,7 +91,11 @@ impl Ladder {
         let mut changes = alike.map(|(_, all)| all[group].largest);
         let [last, before] = [changes.next()?, changes.next()?];
         let is_new = changes.next().is_some_and(|first| before > BEFORE * first);
-        (last <= REGULAR * before && !is_new).then(|| last / before.max(f64::MIN_POSITIVE))
+        if last > REGULAR * before || is_new || self.least[group].is_infinite() {
+            return None;
+        }
+        let rate = last / before.max(f64::MIN_POSITIVE);
+        Some(rate.max(self.least[group]))
     }
 
     /// Whether an output has stopped coming closer.

@@ -43,7 +43,8 @@ pub(super) struct Search<'a, 'p> {
     pub(super) beams: Vec<Beam>,
     /// The loosest tolerance that may be chosen.
     pub(super) loosest: f64,
-    /// Most work of all runs, what one of them may take of it, and whether planning has taken the time that it may: clocks decide only where counts do not.
+    /// Most work of all runs, the part of it that one run may take, and whether planning has taken the time that it may: clocks decide
+    /// only where counts do not.
     most_work: f64,
     share: f64,
     is_over: &'a dyn Fn() -> bool,
@@ -173,7 +174,7 @@ impl<'a, 'p> Search<'a, 'p> {
         body.is_some_and(|(_, body)| body.elements.is_none() && body.model != Model::Rigid)
     }
 
-    /// Whether that of any is.
+    /// Whether the number of elements of any cable is left to the planner.
     pub(super) fn is_any_free(&self) -> bool {
         (0..self.fewest.len()).any(|cable| self.is_free(cable))
     }

@@ -16,8 +16,7 @@ impl Search<'_, '_> {
         choice: &mut Choice,
         in_time: &[Difference],
     ) -> Result<Vec<Difference>, Error> {
-        let mut ladder = Ladder::new(self.equal(OF_SPACE));
-        let foreseen = self.foreseen_at_least();
+        let mut ladder = Ladder::new(self.equal(OF_SPACE), self.foreseen_at_least());
         let mut tried = Choice {
             elements: self.stiffest(&choice.elements),
             ..choice.clone()
@@ -27,7 +26,7 @@ impl Search<'_, '_> {
             if !self.refine(&mut closer) {
                 break;
             }
-            if let Some(found) = ladder.foreseen(&foreseen) {
+            if let Some(found) = ladder.foreseen() {
                 ladder.add(&tried, found);
                 break;
             }
@@ -62,11 +61,11 @@ impl Search<'_, '_> {
             });
         };
         *choice = best;
-        Ok(self.coarsen_singly(choice, found))
+        Ok(self.economize(choice, found))
     }
 
     /// Halves single cables where that costs nothing. What doubling all changes then.
-    fn coarsen_singly(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
+    fn economize(&mut self, choice: &mut Choice, found: Vec<Difference>) -> Vec<Difference> {
         let mut closer = choice.clone();
         self.refine(&mut closer);
         // Where doubling was foreseen it has not been run.
@@ -92,15 +91,13 @@ impl Search<'_, '_> {
         let Some((_, last)) = ladder.rungs.last() else {
             return false;
         };
-        let least = self.foreseen_at_least();
         last.iter()
             .zip(in_time)
             .enumerate()
             .all(|(group, (found, time))| {
-                let rate = ladder.rate(group).map(|rate| rate.max(least[group]));
-                let to_come = match rate {
-                    Some(rate) if rate < 1.0 => found.largest / (1.0 - rate),
-                    _ => found.largest / OF_SPACE,
+                let to_come = match ladder.rate(group) {
+                    Some(rate) => found.largest / (1.0 - rate),
+                    None => found.largest / OF_SPACE,
                 };
                 to_come + time.largest <= SHARED * self.error
             })
@@ -128,7 +125,7 @@ impl Search<'_, '_> {
                 continue;
             }
             let lets_bend = tried.elements[cable] == 0;
-            if tried.elements.contains(&0) {
+            if lets_bend {
                 self.resolve(&mut resolved);
             }
             let closer = if lets_bend { &resolved } else { closer };

@@ -147,11 +147,10 @@ impl Search<'_, '_> {
         limits: &[f64],
     ) -> Result<Vec<Difference>, Unfinished> {
         let is_given = self.scene.accuracy.relative_tolerance.is_some();
-        let mut ladder = Ladder::new(limits.to_vec());
-        let least = vec![LEAST; limits.len()];
+        let mut ladder = Ladder::new(limits.to_vec(), vec![LEAST; limits.len()]);
         let mut tried = choice.clone();
         loop {
-            if let Some(found) = ladder.foreseen(&least) {
+            if let Some(found) = ladder.foreseen() {
                 ladder.add(&tried, found);
                 break;
             }

@@ -4,6 +4,7 @@
 
 use super::multipliers::RANK;
 use crate::body::{Jacobian, no_node};
+use crate::math::sparse::{graph, parts};
 use crate::math::vector::dot;
 use crate::system::joints::{Constraint, ConstraintKind};
 use crate::system::{State, System, Work};
@@ -100,26 +101,6 @@ impl RankWatch {
     }
 }
 
-/// Nodes in parts that nothing joins, each with a link towards the one that stands for its part.
-struct Parts(Vec<usize>);
-
-impl Parts {
-    /// The node that stands for the part of a node.
-    fn of(&mut self, mut node: usize) -> usize {
-        while self.0[node] != node {
-            self.0[node] = self.0[self.0[node]];
-            node = self.0[node];
-        }
-        node
-    }
-
-    /// Makes one part of those of two nodes.
-    fn join(&mut self, one: usize, other: usize) {
-        let (one, other) = (self.of(one), self.of(other));
-        self.0[other] = one;
-    }
-}
-
 impl<const D: usize> System<D> {
     /// How heavy the lightest body of each constraint is beside the heaviest one that constraints connect it with: the least inertia over
     /// the largest, of displacements or of directions, whichever differ more.
@@ -130,40 +111,56 @@ impl<const D: usize> System<D> {
             nodes
         };
         let joined: Vec<Vec<usize>> = self.constraints.iter().map(ends).collect();
-        let mut parts = Parts((0..self.reference.len()).collect());
-        for body in &self.bodies {
-            body.clone().for_each(|node| parts.join(body.start, node));
-        }
-        for nodes in &joined {
-            nodes.iter().for_each(|node| parts.join(nodes[0], *node));
-        }
         let mut y = vec![0.0; self.elimination.scratch()];
-        let mut mobility = |node: usize, vector: usize| {
-            let mut unit = no_node();
-            unit[vector][0] = 1.0;
-            let moved = self.elimination.reduce_node(node, &unit, &mut y);
-            moved.iter().map(|(_, part)| part * part).sum::<f64>()
-        };
+        let mut mobilities = vec![None; self.reference.len()];
+        for node in joined.iter().flatten() {
+            mobilities[*node]
+                .get_or_insert_with(|| [0, 1].map(|vector| self.mobility(*node, vector, &mut y)));
+        }
         let mut evenness = vec![1.0_f64; joined.len()];
+        let part = self.connected(&joined);
         for vector in 0..2 {
+            let of = |node: &usize| mobilities[*node].map_or(0.0, |found| found[vector]);
             let mut least = vec![f64::INFINITY; self.reference.len()];
-            let mut largest = vec![0.0_f64; joined.len()];
-            for (nodes, largest) in joined.iter().zip(&mut largest) {
-                for node in nodes {
-                    let found = mobility(*node, vector);
-                    let part = parts.of(*node);
-                    if found > 0.0 {
-                        (*largest, least[part]) = (largest.max(found), least[part].min(found));
-                    }
-                }
+            for node in joined.iter().flatten().filter(|node| of(node) > 0.0) {
+                least[part[*node]] = least[part[*node]].min(of(node));
             }
-            for ((nodes, largest), evenness) in joined.iter().zip(largest).zip(&mut evenness) {
+            for (nodes, evenness) in joined.iter().zip(&mut evenness) {
+                let largest = nodes.iter().map(of).fold(0.0, f64::max);
                 if largest > 0.0 {
-                    *evenness = evenness.min(least[parts.of(nodes[0])] / largest);
+                    *evenness = evenness.min(least[part[nodes[0]]] / largest);
                 }
             }
         }
         evenness
+    }
+
+    /// What a unit force on the position of a node (0), 1/kg, or a unit moment on its direction (1), 1/(kg m^2), accelerates it by.
+    fn mobility(&self, node: usize, vector: usize, y: &mut [f64]) -> f64 {
+        let mut unit = no_node();
+        unit[vector][0] = 1.0;
+        let moved = self.elimination.reduce_node(node, &unit, y);
+        moved.iter().map(|(_, part)| part * part).sum()
+    }
+
+    /// For every node the part of the system that bodies and constraints, each with some nodes, connect it with.
+    fn connected(&self, joined: &[Vec<usize>]) -> Vec<usize> {
+        let of_bodies = self
+            .bodies
+            .iter()
+            .flat_map(|body| body.clone().map(|node| (body.start, node)));
+        let of_constraints = joined
+            .iter()
+            .flat_map(|nodes| nodes.iter().map(|node| (nodes[0], *node)));
+        let edges: Vec<(usize, usize)> = of_bodies.chain(of_constraints).collect();
+        let mut part = vec![0; self.reference.len()];
+        for (index, nodes) in parts(&graph(&vec![1; part.len()], &edges))
+            .iter()
+            .enumerate()
+        {
+            nodes.iter().for_each(|node| part[*node] = index);
+        }
+        part
     }
 
     /// Looks for constraints that do not count at an accepted state, at the configuration in `work`. Those that others give
