@@ -47,6 +47,11 @@ impl Function {
         Self::of(Expression::along(text, s)?).map_err(|told| format!("{told} at s = {s}"))
     }
 
+    /// Whether it is the same at all times.
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+
     /// Whether a text is an expression in `s`, with or without `t`, and not one in `t` alone.
     pub fn is_along(text: &str) -> bool {
         Expression::new(text).is_err() && Expression::along(text, 0.5).is_ok()

@@ -1,6 +1,6 @@
 //! Functions of time of a scene, and where they have no value.
 
-use super::{Error, Scene, Value};
+use super::{Error, InitialState, Scene, Value};
 use crate::math::function::Function;
 use crate::math::quadrature::GAUSS_5;
 use crate::math::switches::grain;
@@ -69,6 +69,17 @@ impl Scene {
             }
         }
         timed
+    }
+
+    /// Whether a valid scene starts in an equilibrium that nothing but its inputs disturbs: no function of time changes, nothing
+    /// is released, and no body is given a velocity.
+    pub fn rests(&self) -> bool {
+        let is_found = self.initial.state() == InitialState::StaticEquilibrium;
+        let is_kept = self.initial.loads().is_empty()
+            && self.joints.iter().all(|joint| joint.release_time.is_none())
+            && self.bodies.iter().all(|body| body.motion().is_none());
+        let mut timed = self.timed().into_iter();
+        is_found && is_kept && timed.all(|timed| timed.function.is_constant())
     }
 }
 

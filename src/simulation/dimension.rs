@@ -45,6 +45,7 @@ handed_on! {
     fn remarks([&] self) -> &Remarks;
     fn redundant([&mut] self, state: &State) -> Redundant;
     fn step([&mut] self, state: &mut State, inputs: &mut Inputs, until: f64) -> Stepped;
+    fn limit_work([&mut] self, most: f64);
     fn size([&] self) -> f64;
     fn natural([&] self, quantity: Quantity) -> Option<f64>;
     fn next_doubtful([&mut] self) -> Option<Doubtful>;

@@ -1,7 +1,7 @@
-//! Why a step was not finished, in words: what was reached, what was expected, what to do.
+//! What ends a step, and why it was not finished in words: what was reached, what was expected, what to do.
 
 use super::engine::Engine;
-use super::{Report, StepFailure};
+use super::{Report, Simulation, StepFailure};
 use crate::integrators::{Counts, Stop};
 use crate::scene::finite_near;
 use crate::system::State;
@@ -9,7 +9,21 @@ use crate::system::State;
 /// Part of a communication step below which a sub-step comes to nothing.
 const CRAWL: f64 = 1e-5;
 
+impl Simulation {
+    /// Bounds the work of each step (evaluations times parts) where that is less than the scene allows.
+    pub(super) fn limit_work(&mut self, most: f64) {
+        if let Some(engine) = &mut self.engine {
+            engine.limit_work(most);
+        }
+    }
+}
+
 impl<const D: usize> Engine<D> {
+    /// Bounds the work of each step (evaluations times parts) where that is less than it may be by now.
+    pub(super) fn limit_work(&mut self, most: f64) {
+        self.most_work = self.most_work.min(most);
+    }
+
     /// What is said of a rod or beam with an element that is bent or twisted too far, and `place`, of where that is seen.
     pub(super) fn overbent(&self, (body, element): (usize, usize), place: &str) -> String {
         format!(

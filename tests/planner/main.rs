@@ -422,3 +422,52 @@ fn settled_waves_are_proposed_where_forces_ring_and_never_chosen() {
     let (_, plan) = planned(&pulled("settled").expect("a scene")).expect("a plan");
     assert_eq!(plan.expect("a plan").settled, None, "settled already");
 }
+
+/// What starts in equilibrium and is left alone makes no errors in time, however little it sags: no tolerance is searched for.
+#[test]
+fn nothing_that_rests_is_resolved_in_time() {
+    let (load, stiffness) = (-1e-4, 2.0e11 * 1.0e-9_f64);
+    let scene = edited(BEAM, |scene| {
+        scene["joints"] =
+            json!([{"name": "clamp", "kind": "weld", "markers": ["ground", "rod.a"]}]);
+        scene["loads"] =
+            json!([{"name": "snow", "kind": "distributed", "body": "rod", "value": [0, load]}]);
+        scene["outputs"] = json!([{"kind": "position", "marker": "rod.b"}]);
+        scene["initial"] = json!("static_equilibrium");
+        scene["accuracy"] = json!({"error": 1e-3});
+    });
+    let (chosen, plan) = planned(&scene.expect("a scene")).expect("a plan");
+    let plan = plan.expect("a plan");
+    assert!(plan.runs <= 8, "{} runs", plan.runs);
+    let mut simulation = Simulation::new(chosen);
+    simulation.initialize(0.0).expect("a start");
+    let names = simulation.variables().iter();
+    let place = names
+        .map(|v| &v.name)
+        .position(|name| name == "rod.b.position[2]");
+    let found = simulation
+        .real(place.expect("the tip"))
+        .expect("a position");
+    let exact = load / (8.0 * stiffness);
+    assert!((found / exact - 1.0).abs() < 1e-3, "{found:e} of {exact:e}");
+}
+
+/// A run that is one long step ends with the budget, not with what the scene allows a step.
+#[test]
+fn one_long_step_ends_with_the_budget() {
+    let scene = edited(BEAM, |scene| {
+        scene["method"] = json!({"integrator": "rk4", "work_limit": 1e300});
+        scene["joints"].as_array_mut().expect("a list").pop();
+        scene["gravity"] = json!([0, -9.81]);
+        scene["outputs"] = json!([{"kind": "position", "marker": "rod.b"}]);
+        scene["experiment"] = json!({"stop_time": 1e6, "step": 1e6});
+        scene["accuracy"] = json!({"error": 1e-3});
+    });
+    let budget = Budget {
+        seconds: 0.3,
+        ..Budget::default()
+    };
+    let planned = plan(&scene.expect("a scene"), &budget, &mut |_, _, _| ());
+    let plan = planned.expect("a plan").1.numbers.expect("a plan");
+    assert!(plan.is_cut);
+}

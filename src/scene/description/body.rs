@@ -277,6 +277,14 @@ pub struct InitialMotion {
     pub deformation: Option<Vec<String>>,
 }
 
+impl InitialMotion {
+    /// Whether all of it is zero.
+    pub fn is_none(&self) -> bool {
+        let mut rates = self.velocity.full().into_iter().chain(self.spin.full());
+        rates.all(|rate| rate == 0.0) && self.deformation.is_none()
+    }
+}
+
 /// A mass lumped at a marker.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -44,7 +44,10 @@ impl Search<'_, '_> {
         let counting = self.outputs().iter().enumerate();
         let shown = counting.filter_map(|(index, group)| shown((group, index), run));
         let least = shown.fold(f64::INFINITY, f64::min);
-        let by_motion = self.error * least / run.size.max(f64::MIN_POSITIVE);
+        let by_motion = match run.rests {
+            true => f64::INFINITY,
+            false => self.error * least / run.size.max(f64::MIN_POSITIVE),
+        };
         let at_rest = match self.is_at_rest(run) {
             true => STILL * self.error,
             false => f64::INFINITY,

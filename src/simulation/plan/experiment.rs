@@ -10,6 +10,8 @@ use crate::simulation::{Causality, InputTable, Simulation, Source, variables};
 
 /// Communication points that are compared, about, where there are more.
 pub(super) const POINTS: u64 = 10_000;
+/// Part of the most work of a run that a step which ran out of it has done at least.
+const SPENT: f64 = 0.999;
 
 /// A run: what is computed, at communication points.
 #[derive(Clone, Debug)]
@@ -35,6 +37,8 @@ pub(super) struct Run {
     pub steps: u64,
     /// Integrator at the end.
     pub method: &'static str,
+    /// Whether nothing leaves the equilibrium that it starts in: steps make no errors.
+    pub rests: bool,
 }
 
 /// Why a run was not finished.
@@ -116,13 +120,21 @@ impl Experiment {
         for number in 0..=self.steps {
             let until = (number as f64 * self.step).min(self.stop);
             while simulation.time() < until {
-                match &signals {
-                    Some(signals) => simulation.step_along(signals, until).map_err(failed)?,
+                // One step of communication may take longer than a run.
+                simulation.limit_work(most_work - run.work);
+                let taken = match &signals {
+                    Some(signals) => simulation.step_along(signals, until),
                     None => simulation
                         .step(until)
-                        .map_err(|failure| failed(failure.to_string()))?,
-                }
+                        .map_err(|failure| failure.to_string()),
+                };
                 let report = simulation.report();
+                if let Err(reason) = taken {
+                    return Err(match run.work + report.work < SPENT * most_work {
+                        true => failed(reason),
+                        false => Unfinished::TooMuchWork,
+                    });
+                }
                 run.work += report.work;
                 run.steps += report.steps;
                 run.method = report.method;
@@ -190,6 +202,7 @@ impl Run {
             work: 0.0,
             steps: 0,
             method: "",
+            rests: experiment.moved.is_none() && simulation.scene().rests(),
         }
     }
 }

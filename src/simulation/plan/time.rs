@@ -325,9 +325,10 @@ impl Search<'_, '_> {
 
     /// Whether communication points end the steps of two runs: what they differ by says nothing of errors in time.
     fn take_same_steps(&self, looser: &Choice, tighter: &Choice) -> bool {
-        let steps = |choice: &Choice| self.known(choice).map(|run| run.steps as f64);
-        let pair = steps(looser).zip(steps(tighter));
-        pair.is_some_and(|(looser, tighter)| tighter < ALIKE * looser)
+        let pair = self.known(looser).zip(self.known(tighter));
+        pair.is_some_and(|(looser, tighter)| {
+            !looser.rests && (tighter.steps as f64) < ALIKE * looser.steps as f64
+        })
     }
 
     /// The loosest tolerance that is good enough by what ten times as much changes, and what a tenth of it would.
