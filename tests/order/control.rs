@@ -3,7 +3,7 @@
 use flexbody::integrators::{
     Attempt, Method, Methods, RK4, Radau, RungeKutta, Stop, Tolerance, advance,
 };
-use flexbody::system::{Dynamics, State};
+use flexbody::system::{DenseStep, Dynamics, State};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::problem::Problem;
@@ -262,4 +262,75 @@ fn what_one_of_two_methods_cannot_do_the_other_does() {
     let (_, result) = methods.advance(&mut problem, &mut state, 5.0, &tolerance);
     assert_eq!(result, Err(Stop::StepTooSmall));
     assert!((3.0..3.5).contains(&state.time), "{}", state.time);
+}
+
+/// A method whose stage equations cannot be solved for steps longer than this, s.
+struct Short(Radau, f64);
+
+impl Method for Short {
+    fn name(&self) -> &'static str {
+        "short"
+    }
+
+    fn longest_step(&self) -> f64 {
+        self.0.longest_step()
+    }
+
+    fn attempt(
+        &mut self,
+        dynamics: &mut dyn Dynamics,
+        state: (f64, &[f64], &[f64]),
+        h: f64,
+        tolerance: &Tolerance,
+    ) -> Attempt {
+        match h <= self.1 {
+            true => self.0.attempt(dynamics, state, h, tolerance),
+            false => Attempt::Failed(0.5),
+        }
+    }
+
+    fn accept(&mut self, q: &mut [f64], v: &mut [f64]) {
+        self.0.accept(q, v);
+    }
+
+    fn refresh(&mut self, dynamics: &mut dyn Dynamics, time: f64, q: &[f64], v: &[f64]) {
+        self.0.refresh(dynamics, time, q, v);
+    }
+
+    fn is_dense(&self) -> bool {
+        true
+    }
+
+    fn keep(&mut self, step: &mut DenseStep) {
+        self.0.keep(step);
+    }
+
+    fn acceleration(&self) -> &[f64] {
+        self.0.acceleration()
+    }
+}
+
+/// Steps for which equations cannot be solved are tried as rarely where each leads beyond communication points, and the next
+/// begins anew, as where one run takes them all.
+#[test]
+fn a_step_beyond_communication_points_knows_which_failed_before_it() {
+    let rejected = |points: u32| {
+        let mut problem = Problem::new(|_, _, _| Vector2::zeros(), |_, _| [Matrix2::zeros(); 2]);
+        problem.is_smooth = true;
+        let (mut method, mut state) = (Short(Radau::new(2), 0.3), started());
+        state.dense = DenseStep::blank(2);
+        let mut rejected = 0;
+        for point in 1..=points {
+            state.dense.begin_point(true);
+            let until = 60.0 * f64::from(point) / f64::from(points);
+            let (counts, result) = advance(&mut method, &mut problem, &mut state, until, &TIGHT);
+            assert_eq!((result, state.time), (Ok(()), until));
+            rejected += counts.rejected;
+        }
+        rejected
+    };
+    let (once, often) = (rejected(1), rejected(2000));
+    println!("{once} steps failed in one run, {often} across communication points");
+    assert!(once > 10, "{once}");
+    assert!(often <= 2 * once, "{often} for {once}");
 }

@@ -23,6 +23,8 @@ pub struct Problem {
     power: [f64; 2],
     /// Times that no step may lead across.
     pub breaks: Vec<f64>,
+    /// Whether steps may lead beyond communication points.
+    pub is_smooth: bool,
     /// What becomes of accepted states.
     pub settle: fn(&mut State) -> Accepted,
 }
@@ -45,6 +47,7 @@ impl Problem {
             powers: |_, _| [0.0; 2],
             power: [0.0; 2],
             breaks: Vec::new(),
+            is_smooth: false,
             settle: |_| Accepted::AsIs,
         }
     }
@@ -122,6 +125,10 @@ impl Dynamics for Problem {
     fn accepted(&mut self, state: &mut State) -> Accepted {
         self.steps += 1;
         (self.settle)(state)
+    }
+
+    fn unchanged_until(&self, from: f64, to: f64) -> f64 {
+        if self.is_smooth { to } else { from }
     }
 
     fn is_exhausted(&self) -> bool {
