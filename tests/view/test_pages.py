@@ -2,6 +2,7 @@
 
 import io
 import json
+import math
 from time import monotonic, sleep
 
 import pytest
@@ -158,6 +159,20 @@ def test_arrows_are_as_long_as_forces_are_large(browser, pages):
     browser.run("document.querySelector('.shown .reactions').click()")
     drawn = browser.run("return flexbody.marks.arrows.map(({ parts }) => parts[0]?.getTotalLength() ?? 0)")
     assert max(drawn) > 30
+
+
+def test_loads_are_drawn_as_they_are_at_their_time(browser, pages):
+    browser.load(pages("helical_spring"))
+    script = """
+    const { motion } = flexbody;
+    const number = motion.actions.findIndex((action) => action.name === "push");
+    return [...motion.times].map((time) => {
+      motion.seek(time);
+      return [time, motion.vectors(number)[0].vector.toArray()];
+    });
+    """
+    for time, force in browser.run(script):
+        assert force == pytest.approx([0, 0.1 * math.sin(7 * time), -math.sin(10 * time)], abs=1e-4)
 
 
 def test_a_browser_that_cannot_draw_says_so_and_shows_the_scene(blind_browser, pages):
