@@ -1,6 +1,8 @@
-//! Bytes as calls of a hostile master, each answer checked against the lifecycle of the standard.
+//! Bytes as calls of a hostile master.
 #![no_main]
 
+#[path = "../inputs/calls.rs"]
+mod calls;
 #[path = "../../tests/abi/hostile/mod.rs"]
 #[allow(
     dead_code,
@@ -12,9 +14,4 @@ mod hostile;
 #[allow(dead_code, reason = "shared with the tests of the C interface")]
 mod support;
 
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|data: &[u8]| {
-    let (unit, foreign) = (support::Unit::new(), hostile::foreign_unit());
-    hostile::Master::new(&unit, &foreign, true).run(data);
-});
+libfuzzer_sys::fuzz_target!(|data: &[u8]| calls::put_through(data));

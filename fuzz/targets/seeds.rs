@@ -1,6 +1,7 @@
 //! Writes states of every scene, saved along its life, into the folder that is named: what fuzzing saved states starts from,
 //! in the format of the day.
 
+#[path = "../inputs/saved.rs"]
 mod saved;
 #[path = "../../tests/abi/support.rs"]
 #[allow(

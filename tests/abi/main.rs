@@ -1,5 +1,6 @@
 //! The C interface, called the way a master calls it.
 
+mod corpus;
 mod guest;
 mod hostile;
 mod instantiation;
@@ -9,6 +10,8 @@ mod parallelogram;
 mod random;
 mod resources;
 mod runs;
+#[path = "../../fuzz/inputs/saved.rs"]
+mod saved;
 mod states;
 mod steps;
 mod support;

