@@ -4,11 +4,9 @@
 //!
 //! `FLEXBODY_CASE=name` checks only the cases whose folder has `name` in its name.
 
-mod cases_runner;
-
 use std::path::Path;
 
-use cases_runner::{Case, Step, Verdict, check_all, table};
+use crate::cases_runner::{Case, Step, Verdict, check_all, table};
 use flexbody::simulation::Simulation;
 
 /// The product takes the steps.
@@ -22,8 +20,8 @@ fn product(_: &Path, _: &Simulation) -> Result<Step, String> {
 #[test]
 fn every_claim_of_every_case_holds() {
     let filter = std::env::var("FLEXBODY_CASE").unwrap_or_default();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
-    let cases = cases_runner::find(&root, &filter).expect("readable cases");
+    let root = crate::root().join("tests/cases");
+    let cases = crate::cases_runner::find(&root, &filter).expect("readable cases");
     assert!(
         !cases.is_empty(),
         "expected a case in tests/cases with \"{filter}\" in its name, found none"
@@ -122,7 +120,8 @@ fn a_claim_nobody_checks_is_refused() {
 
 #[test]
 fn claims_are_measured_and_not_believed() {
-    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/abi/scene.json");
+    let scene = crate::root().join("tests/abi/scene.json");
+    let scene = scene.display();
     for (claim, message) in [
         (
             r#""kind": "values", "values": {"rod.tip.position[1]": 1.2}, "relative": 1e-12"#,

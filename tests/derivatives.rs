@@ -16,7 +16,7 @@ const NEAR: f64 = 2e-5;
 
 /// Every ready scene, and those of the tests with every kind of input and output.
 fn scenes() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = crate::root();
     let listed = std::fs::read_dir(root.join("scenes")).expect("the ready scenes");
     let mut found: Vec<PathBuf> = listed
         .map(|entry| entry.expect("a file").path())

@@ -324,7 +324,7 @@ fn experiment(path: &std::path::Path) -> (u64, u64) {
 
 #[test]
 fn shipped_scenes_run_without_a_struggle() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+    let folder = crate::root().join("scenes");
     let mut count = 0;
     for entry in std::fs::read_dir(folder).expect("scenes") {
         let path = entry.expect("a file").path();

@@ -25,7 +25,7 @@ type Row = Vec<Vec<f64>>;
 
 /// The ready scenes, with a mesh that costs little and a tolerance, as if they were planned for their step.
 fn scenes(tolerance: f64) -> Vec<Scene> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let folder = crate::root().join("scenes");
     let files = fs::read_dir(folder).expect("ready scenes");
     let mut files: Vec<PathBuf> = files.map(|entry| entry.expect("a file").path()).collect();
     files.retain(|path| !path.to_string_lossy().ends_with(".schema.json"));

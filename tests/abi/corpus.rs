@@ -1,7 +1,5 @@
 //! What fuzzing has kept, put through the same checks without sanitizers.
 
-use std::path::Path;
-
 #[path = "../../fuzz/inputs/calls.rs"]
 mod calls;
 #[path = "../../fuzz/inputs/scene.rs"]
@@ -11,7 +9,7 @@ mod state;
 
 /// Puts every stored input of a kind through, in the order of their names.
 fn replayed(kind: &str, put_through: fn(&[u8])) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(kind);
+    let folder = crate::root().join("fuzz/corpus").join(kind);
     let entries = std::fs::read_dir(folder).expect("a folder of inputs");
     let mut files: Vec<_> = entries.map(|entry| entry.expect("a file").path()).collect();
     files.sort();

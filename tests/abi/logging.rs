@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_char};
 use std::ptr;
 
-use crate::parallelogram::{NEAR, flat, four_bars, three_cranks};
+use crate::abi::parallelogram::{NEAR, flat, four_bars, three_cranks};
 use crate::support::{Instance, Line, SCENE, Status, Unit, call};
 
 fn enable(instance: &Instance<'_>, on: bool, categories: &[&CStr]) -> Status {

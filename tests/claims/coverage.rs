@@ -6,10 +6,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde_json::Value;
 
-use crate::mutate::{changes, clash, plants, without};
-use crate::scenes;
-use crate::schema::{Place, Schema, Sort};
-use crate::specimen::{Outcome, Specimen, units};
+use crate::claims::mutate::{changes, clash, plants, without};
+use crate::claims::scenes;
+use crate::claims::schema::{Place, Schema, Sort};
+use crate::claims::specimen::{Outcome, Specimen, units};
 
 /// Keys of which one value only is accepted: the others are refused, and say so.
 const SINGLE: [&str; 4] = [

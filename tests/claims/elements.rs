@@ -6,8 +6,8 @@ use flexbody::scene::Scene;
 use flexbody::simulation::{Budget, plan};
 use serde_json::{Value, json};
 
-use crate::scenes;
-use crate::schema::Schema;
+use crate::claims::scenes;
+use crate::claims::schema::Schema;
 
 const LINES: [&str; 3] = ["cable", "rod", "beam"];
 

@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use crate::schema::{Place, Sort};
+use crate::claims::schema::{Place, Sort};
 
 /// Share by which numbers change.
 const SHIFT: f64 = 0.05;

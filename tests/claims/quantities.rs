@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use flexbody::scene::{Along, Scene};
 use flexbody::simulation::{Quantity, Simulation, Source};
 
-use crate::scenes;
-use crate::specimen::{Expected, Specimen};
+use crate::claims::scenes;
+use crate::claims::specimen::{Expected, Specimen};
 
 /// Names all variants of an enumeration by patterns.
 macro_rules! named {

@@ -8,9 +8,9 @@ use flexbody::scene::Scene;
 use flexbody::simulation::{Parameter, Simulation, Source};
 use serde_json::{Value, json};
 
-use crate::coverage::for_each_specimen;
-use crate::mutate::with;
-use crate::specimen::{Outcome, Specimen, limits, units};
+use crate::claims::coverage::for_each_specimen;
+use crate::claims::mutate::with;
+use crate::claims::specimen::{Outcome, Specimen, limits, units};
 
 /// Names all parameters, with the list and the key of the scene that they stand for and their units.
 macro_rules! keys {

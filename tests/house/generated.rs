@@ -9,7 +9,7 @@ use flexbody::simulation::{Budget, plan};
 use flexbody::view;
 use sha2::{Digest, Sha256};
 
-use crate::source::{files, name, no_complaints, root};
+use crate::house::source::{files, name, no_complaints, root};
 
 fn scene(path: &Path) -> Result<Scene, String> {
     let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", name(path)))?;

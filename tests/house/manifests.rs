@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::source::{files, name, no_complaints, root};
+use crate::house::source::{files, name, no_complaints, root};
 
 /// Lines of a manifest without comments, with the section that each stands in.
 fn lines(path: &str) -> Vec<(String, String)> {

@@ -1,6 +1,6 @@
 //! What may know what.
 
-use crate::source::{Source, no_complaints, sources, words};
+use crate::house::source::{Source, no_complaints, sources, words};
 
 /// Rooms from the ground up; a file imports lower floors or its own room.
 const FLOORS: [&str; 11] = [
@@ -418,7 +418,7 @@ fn every_element_and_integrator_names_its_source() {
 
 #[test]
 fn every_integrator_has_its_row_in_the_test_of_order() {
-    let order = Source::read("tests/order/main.rs").text;
+    let order = Source::read("tests/order/mod.rs").text;
     let methods = sources(&["src/integrators"]).into_iter();
     for source in methods.filter(|source| source.text.contains("Method for ")) {
         let file = source.path.rsplit('/').next().unwrap_or_default();
@@ -431,7 +431,7 @@ fn every_integrator_has_its_row_in_the_test_of_order() {
             let row = format!("name: \"{name}\"");
             assert!(
                 order.contains(&row),
-                "{name}: no row in tests/order/main.rs"
+                "{name}: no row in tests/order/mod.rs"
             );
         }
     }

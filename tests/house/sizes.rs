@@ -1,6 +1,6 @@
 //! Sizes and looks of files and functions.
 
-use crate::source::{Source, no_complaints, sources, words};
+use crate::house::source::{Source, no_complaints, sources, words};
 
 /// A file stays under this many lines.
 const FILE: usize = 500;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// The root of the project.
 pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    crate::root()
 }
 
 /// A source file.

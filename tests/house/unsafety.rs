@@ -1,6 +1,6 @@
 //! Unsafe code stands in four files of the product, and every exported function passes one guard.
 
-use crate::source::{Source, no_complaints, sources, words};
+use crate::house::source::{Source, no_complaints, sources, words};
 
 const ABI: &str = "src/fmi2/abi.rs";
 /// What every C interface borrows, and the guard.

@@ -6,8 +6,8 @@ use flexbody::integrators::{
 use flexbody::system::{DenseStep, Dynamics, State};
 use nalgebra::{Matrix2, Vector2};
 
-use crate::problem::Problem;
-use crate::{ROWS, TIGHT, exact};
+use crate::order::problem::Problem;
+use crate::order::{ROWS, TIGHT, exact};
 
 fn started() -> State {
     let [x, v] = exact(0.0);

@@ -4,8 +4,8 @@ use flexbody::integrators::{Stop, Tolerance, advance};
 use flexbody::system::{Accepted, State};
 use nalgebra::{Matrix2, Vector2};
 
-use crate::problem::Problem;
-use crate::{ROWS, TIGHT};
+use crate::order::problem::Problem;
+use crate::order::{ROWS, TIGHT};
 
 /// `q'' = -q` from `q = 0`, `v = 1`, with the power `v cos t` coming in and `v^2` dissipated.
 fn oscillator() -> Problem {

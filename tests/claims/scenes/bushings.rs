@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::space::vector;
 use super::space_joints::body;
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::space::{array, vector};
 use super::{cross, dot, extra, resting, sum, times, turned};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![

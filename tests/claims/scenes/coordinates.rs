@@ -7,7 +7,7 @@ use super::space::{array, vector};
 use super::space_bodies::Body;
 use super::space_joints::{AXIS, axis, body};
 use super::{extra, times};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 const FORCE: Vector3<f64> = Vector3::new(1.9, -0.8, 2.7);
 const MOMENT: Vector3<f64> = Vector3::new(0.6, 1.3, -0.9);

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::space::array;
 use super::tapers::{LENGTH, SHEAR, YOUNG, body, hung};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 /// Those of rods, which are those of beams too.
 pub fn all() -> Vec<Specimen> {

@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 
 use super::clamp;
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 use super::space::array;
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     let mut all: Vec<Specimen> = ["cable", "rod", "beam"].map(loaded).into();

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use serde_json::{Value, json};
 
 use super::{dot, sum, times};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 /// Time of the start, s.
 const T: f64 = 0.3;

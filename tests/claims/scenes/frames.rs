@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::space::{array, vector};
 use super::{cross, dot, left, sum, times, turned};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![turning(), turning_in_space(), line(), arc()]

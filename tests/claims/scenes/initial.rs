@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 
 use super::{cross, sum, times, turned as turned_by};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 /// Time of the start, s.
 const T: f64 = 0.3;

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{cross, extra, times, turned};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![started(), unset(), set_later(), rest_lengths()]

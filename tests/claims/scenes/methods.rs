@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::times;
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     let mut all: Vec<Specimen> = ["radau", "rk4", "dopri853", "verlet", "rkn43", "rkn64"]

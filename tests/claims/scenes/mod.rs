@@ -42,7 +42,7 @@ mod winches;
 
 use serde_json::{Value, json};
 
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 /// All of them.
 pub fn all() -> Vec<Specimen> {

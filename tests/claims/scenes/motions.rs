@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{sum, times, turned};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 /// Time of the start, s.
 const T: f64 = 0.3;

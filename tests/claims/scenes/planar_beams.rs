@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 use super::space_beams::moved_tip;
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     let mut all: Vec<Specimen> = [false, true].map(sheared).into();

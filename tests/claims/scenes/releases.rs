@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{extra, sum, times, turned};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![

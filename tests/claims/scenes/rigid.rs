@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::{cross, dot, extra, left, sum, times, turned};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![flight(), lumped(), plain(), disc()]

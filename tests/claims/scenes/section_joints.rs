@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde_json::{Value, json};
 
 use super::space::{array, vector};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![

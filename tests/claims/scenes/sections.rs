@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::initial::{AXIAL, LENGTH, bar};
 use super::{clamp, left, times};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![drawn(), stiff(), turned_bar(), at_rest_outside()]

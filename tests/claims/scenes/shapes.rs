@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::space::{array, vector};
 use super::space_bodies::{ARM, Body};
 use super::{cross, sum, times, turned};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![in_space(), in_the_plane()]

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn array(v: Vector3<f64>) -> [f64; 3] {
     v.into()

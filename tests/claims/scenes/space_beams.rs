@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::space::{array, vector};
 use super::{space_rods, tapers};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     let rods = space_rods::statics().into_iter().chain(tapers::rods());

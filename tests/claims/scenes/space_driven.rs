@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::space::{array, vector};
 use super::space_bodies::{Body, rotation};
 use super::space_ports::{moving, quaternion, set};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![by_port(), by_master(), by_time(), by_table()]

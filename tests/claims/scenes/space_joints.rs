@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::space::{array, vector};
 use super::space_bodies::{ARM, Body, about, rotation};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 /// Force at the centre of mass, and moment, on bodies that joints hold.
 const FORCE: Vector3<f64> = Vector3::new(1.9, -0.8, 2.7);

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::space::array;
 use super::space_joints::{AXIS, axis, body};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![torsion(), swinging(), damped(), moored()]

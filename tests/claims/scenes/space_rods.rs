@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 
 use super::space::{array, vector};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![

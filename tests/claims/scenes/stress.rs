@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::space::array;
 use super::{cross, dot, sum, times, turned};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     vec![plane(), solids("rod"), solids("beam"), stepped()]

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::coupled;
 use super::space::vector;
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 pub fn all() -> Vec<Specimen> {
     let mut all = of(false);

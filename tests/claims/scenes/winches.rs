@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::motions::{METRES, MOVES, ends};
 use super::{dot, sum, times};
-use crate::specimen::Specimen;
+use crate::claims::specimen::Specimen;
 
 const GRAVITY: [f64; 2] = [0.3, -2.0];
 const VELOCITY: [f64; 2] = [0.5, 0.4];

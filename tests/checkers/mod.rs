@@ -57,7 +57,7 @@ fn nothing_is_wrong_with_any_scene() {
     let mut paths = Vec::new();
     for folder in ["scenes", "tests/cases", "tests/fmpy"] {
         scenes(
-            &Path::new(env!("CARGO_MANIFEST_DIR")).join(folder),
+            &crate::root().join(folder),
             &mut paths,
         );
     }
